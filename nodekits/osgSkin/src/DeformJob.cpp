@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/DeformJob>
+
+#include "Chain.h"
+
+namespace osgSkin {
+
+const char* DeformJob::validate() const noexcept {
+    if (!model) return "no model";
+    if (!pose) return "no pose";
+    if (pose->size() != model->joints().size()) return "the pose is not one of the model's joints";
+    if (!positions) return "no output for positions";
+    if (positionCount != model->vertexCount()) return "as many positions as vertices are needed";
+    if (normals && normalCount != model->vertexCount())
+        return "as many normals as vertices are needed";
+    return nullptr;
+}
+
+bool DeformJob::run() const noexcept {
+    if (validate()) return false;
+    for (const SkinModel::Group& group : model->groups()) {
+        const Chain chain(*model, group, *pose);
+        const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;
+        const std::uint32_t* order = model->order().data() + group.firstVertex;
+        for (std::uint32_t i = 0; i < group.vertexCount; ++i, ratios += group.partialCount) {
+            const std::uint32_t v = order[i];
+            glm::vec3 position = model->positions()[v];
+            glm::vec3 normal = model->normals()[v];
+            chain.apply(ratios, position, normals ? &normal : nullptr);
+            positions[v] = position;
+            if (normals) normals[v] = normal;
+        }
+    }
+    return true;
+}
+
+} // namespace osgSkin

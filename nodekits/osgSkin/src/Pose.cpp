@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/Pose>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+/// The rotation in a 3 x 3 matrix that may also scale; false where there is none to be found.
+bool rotationOf(const glm::dmat3& m, glm::dquat& rotation) noexcept {
+    glm::dvec3 x = m[0];
+    glm::dvec3 y = m[1];
+    const double lx = glm::length(x);
+    if (!std::isfinite(lx) || !(lx > 0.0)) return false;
+    x /= lx;
+    y -= x * glm::dot(x, y);
+    const double ly = glm::length(y);
+    if (!std::isfinite(ly) || !(ly > 1e-12 * lx)) return false;
+    y /= ly;
+    rotation = glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y))));
+    return true;
+}
+
+bool isFinite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+} // namespace
+
+Pose::Pose(const std::vector<BoundJoint>& joints)
+    : _frames(joints.size(), Frame{{1.0, 0.0, 0.0, 0.0}, glm::dvec3(0.0)}), _turns(joints.size()) {
+    _rest.reserve(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        _rest.push_back({joints[j].parent, joints[j].centre, joints[j].twistAxis});
+        trySplitBendTwist(_turns[j].rotation, joints[j].twistAxis, _turns[j].split);
+    }
+}
+
+bool Pose::set(const glm::dmat4* skinning, std::size_t count) noexcept {
+    if (count != _turns.size()) return false;
+    for (std::size_t j = 0; j < count; ++j) {
+        Frame frame;
+        if (!rotationOf(glm::dmat3(skinning[j]), frame.rotation)) return false;
+        // The joint centre goes where the whole matrix, scale included, puts it.
+        const glm::dvec3 centre = _rest[j].centre;
+        frame.offset = glm::dvec3(skinning[j] * glm::dvec4(centre, 1.0)) - frame.rotation * centre;
+        if (!isFinite(frame.offset)) return false;
+        _frames[j] = frame;
+    }
+    for (std::size_t j = 0; j < count; ++j) {
+        // D_j = G_parent^-1 G_j; the root has no parent.
+        const Rest& rest = _rest[j];
+        const Frame& frame = _frames[j];
+        Turn& turn = _turns[j];
+        if (rest.parent < 0) {
+            turn.rotation = frame.rotation;
+            turn.offset = frame.offset;
+            turn.translation = frame.offset;
+        } else {
+            const Frame& parent = _frames[static_cast<std::size_t>(rest.parent)];
+            const glm::dquat back = glm::conjugate(parent.rotation);
+            turn.rotation = back * frame.rotation;
+            turn.offset = back * (frame.offset - parent.offset);
+            turn.translation = turn.offset + turn.rotation * rest.centre - rest.centre;
+        }
+        trySplitBendTwist(turn.rotation, rest.twistAxis, turn.split);
+    }
+    return true;
+}
+
+} // namespace osgSkin
