@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "BodyParts.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+
+namespace mannequin {
+namespace {
+
+/// Frame of the hand: origin at the wrist, x to the fingers, y to the thumb, z out of the palm.
+class HandFrame {
+public:
+    HandFrame() : _wrist(jointCentre("LeftHand")) {
+        const glm::dvec3 distal = glm::normalize(jointCentre("LeftFingerBase") - _wrist);
+        const glm::dvec3 thumb =
+            glm::normalize(glm::dvec3(0, 0, 1) - distal * glm::dot(glm::dvec3(0, 0, 1), distal));
+        _axes = glm::dmat3(distal, thumb, glm::cross(distal, thumb));
+    }
+    glm::dvec3 world(const glm::dvec3& local) const { return _wrist + _axes * local; }
+    const glm::dmat3& axes() const { return _axes; }
+
+private:
+    glm::dvec3 _wrist;
+    glm::dmat3 _axes;
+};
+
+/// A finger: its knuckle, how far it is spread toward the thumb and how its three joints are bent
+/// (degrees), lengths of its phalanges and its radii from knuckle to tip.
+struct Finger {
+    glm::dvec3 knuckle;
+    double spread;
+    double bend[3];
+    double length[3];
+    double radius[4];
+};
+
+const Finger kFingers[] = {
+    {{0.093, 0.0230, -0.001}, 6, {8, 16, 10}, {0.041, 0.026, 0.018}, {.0098, .0090, .0082, .0072}},
+    {{0.095, 0.0005, -0.003}, 0, {6, 18, 12}, {0.045, 0.029, 0.019}, {.0100, .0092, .0084, .0074}},
+    {{0.091, -0.0215, -0.001},
+     -6,
+     {9, 20, 13},
+     {0.042, 0.027, 0.019},
+     {.0096, .0088, .0080, .0071}},
+    {{0.084, -0.0410, 0.003},
+     -13,
+     {12, 20, 12},
+     {0.033, 0.021, 0.017},
+     {.0086, .0080, .0073, .0066}},
+};
+
+void sculptFinger(Sculpture& hand, const HandFrame& frame, const Finger& finger) {
+    const double spread = glm::radians(finger.spread);
+    const glm::dvec3 level(std::cos(spread), std::sin(spread), 0);
+    glm::dvec3 from = finger.knuckle;
+    double bend = 0;
+    for (int i = 0; i < 3; ++i) {
+        bend += glm::radians(finger.bend[i]);
+        const glm::dvec3 to =
+            from + (level * std::cos(bend) + glm::dvec3(0, 0, std::sin(bend))) * finger.length[i];
+        hand.add(
+            RoundCone{frame.world(from), frame.world(to), finger.radius[i], finger.radius[i + 1]},
+            0.004);
+        from = to;
+    }
+}
+
+void sculptPalm(Sculpture& hand, const HandFrame& frame) {
+    const auto cone = [&](glm::dvec3 from, glm::dvec3 to, double fromRadius, double toRadius) {
+        hand.add(RoundCone{frame.world(from), frame.world(to), fromRadius, toRadius}, 0.016);
+    };
+    cone({0.000, 0.011, 0}, {0.097, 0.0225, 0.002}, 0.0175, 0.0110);
+    cone({0.000, 0.004, 0}, {0.100, 0.0005, 0.000}, 0.0175, 0.0112);
+    cone({0.000, -0.004, 0}, {0.097, -0.0210, 0.002}, 0.0175, 0.0108);
+    cone({0.000, -0.011, 0}, {0.088, -0.0390, 0.005}, 0.0175, 0.0098);
+    // Hypothenar and thenar eminences.
+    cone({0.025, -0.020, 0.006}, {0.060, -0.034, 0.008}, 0.0130, 0.0120);
+    cone({0.022, 0.016, 0.008}, {0.050, 0.032, 0.010}, 0.0150, 0.0150);
+}
+
+void sculptThumb(Sculpture& hand, const HandFrame& frame) {
+    const glm::dvec3 joints[] = {
+        {0.018, 0.018, 0.006}, {0.054, 0.040, 0.010}, {0.084, 0.056, 0.013}, {0.103, 0.064, 0.017}};
+    const double radii[] = {0.0150, 0.0125, 0.0110, 0.0085};
+    for (int i = 0; i < 3; ++i)
+        hand.add(
+            RoundCone{frame.world(joints[i]), frame.world(joints[i + 1]), radii[i], radii[i + 1]},
+            i == 0 ? 0.012 : 0.005);
+    // The fold of skin between thumb and forefinger.
+    hand.add(RoundCone{frame.world({0.045, 0.030, 0.003}), frame.world({0.070, 0.026, 0.002}),
+                       0.0110, 0.0090},
+             0.014);
+}
+
+} // namespace
+
+void sculptHand(Sculpture& arm) {
+    const HandFrame frame;
+    sculptPalm(arm, frame);
+    sculptThumb(arm, frame);
+    for (const Finger& finger : kFingers) sculptFinger(arm, frame, finger);
+}
+
+} // namespace mannequin

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "BodyParts.h"
+
+namespace mannequin {
+namespace {
+
+/// A level section of the trunk: half its breadth, and where its outline lies along z.
+struct Level {
+    double y, halfBreadth, back, widest, front, power;
+};
+
+const Level kLevels[] = {
+    {0.862, 0.055, -0.070, -0.010, 0.045, 2.0}, // perineum
+    {0.880, 0.100, -0.100, -0.010, 0.070, 2.1},
+    {0.910, 0.145, -0.118, -0.010, 0.090, 2.3}, // trochanters
+    {0.950, 0.162, -0.122, -0.010, 0.098, 2.3},
+    {1.000, 0.160, -0.112, -0.008, 0.100, 2.3}, // iliac crests
+    {1.050, 0.153, -0.100, -0.006, 0.102, 2.3},
+    {1.090, 0.148, -0.094, -0.005, 0.102, 2.4}, // waist
+    {1.140, 0.146, -0.094, -0.005, 0.103, 2.4},
+    {1.200, 0.151, -0.104, -0.010, 0.107, 2.4}, // lowest ribs
+    {1.260, 0.160, -0.117, -0.015, 0.112, 2.4},
+    {1.320, 0.167, -0.129, -0.020, 0.113, 2.5}, // nipples
+    {1.380, 0.164, -0.133, -0.030, 0.102, 2.5},
+    {1.420, 0.150, -0.130, -0.035, 0.082, 2.4},
+    {1.455, 0.122, -0.118, -0.040, 0.052, 2.2}, // clavicles
+    {1.490, 0.080, -0.102, -0.042, 0.020, 2.0},
+    {1.520, 0.055, -0.090, -0.042, 0.005, 2.0},
+};
+
+Loft core() {
+    std::vector<LoftSection> sections;
+    for (const Level& l : kLevels)
+        sections.push_back({l.y, 0, -l.widest, l.halfBreadth, l.halfBreadth, l.widest - l.back,
+                            l.front - l.widest, l.power});
+    return {LoftFrame::make({0, 0, 0}, {0, 1, 0}, {1, 0, 0}), sections}; // v points backward
+}
+
+void sculptFront(Sculpture& trunk) {
+    // Pectorals: a plate, and the fan that runs to the upper arm.
+    trunk.addPair(Ellipsoid{{0.078, 1.335, 0.078}, {0.078, 0.055, 0.036}, rotation(-8, 18, 8)},
+                  0.030);
+    trunk.addPair(RoundCone{{0.085, 1.350, 0.070}, {0.165, 1.410, 0.012}, 0.036, 0.034}, 0.040);
+    trunk.addPair(RoundCone{{0.018, 1.462, 0.022}, {0.160, 1.480, -0.020}, 0.010, 0.013}, 0.025);
+    // Rectus abdominis, and the hollow between the two halves and below the ribs.
+    trunk.addPair(RoundCone{{0.038, 1.230, 0.078}, {0.032, 1.020, 0.078}, 0.030, 0.026}, 0.030);
+    trunk.carve(RoundCone{{0, 1.290, 0.128}, {0, 1.090, 0.116}, 0.007, 0.007}, 0.020);
+}
+
+void sculptBack(Sculpture& trunk) {
+    // Latissimus dorsi, scapula, erector spinae, furrow of the spine.
+    trunk.addPair(RoundCone{{0.132, 1.350, -0.055}, {0.106, 1.190, -0.035}, 0.056, 0.044}, 0.040);
+    trunk.addPair(Ellipsoid{{0.088, 1.375, -0.105}, {0.052, 0.075, 0.030}, rotation(0, -20, 8)},
+                  0.035);
+    trunk.addPair(RoundCone{{0.034, 1.020, -0.070}, {0.034, 1.260, -0.092}, 0.030, 0.030}, 0.030);
+    trunk.carve(RoundCone{{0, 1.030, -0.122}, {0, 1.400, -0.158}, 0.012, 0.012}, 0.040);
+    // Gluteals.
+    trunk.addPair(Ellipsoid{{0.078, 0.925, -0.078}, {0.080, 0.085, 0.068}, rotation(12, -12, -8)},
+                  0.030);
+    trunk.addPair(Ellipsoid{{0.112, 0.945, -0.030}, {0.058, 0.090, 0.080}, rotation(0, 0, 0)},
+                  0.050);
+}
+
+void sculptShoulderGirdle(Sculpture& trunk) {
+    // Trapezius, from the neck to the acromion.
+    trunk.addPair(RoundCone{{0.030, 1.540, -0.055}, {0.165, 1.458, -0.046}, 0.036, 0.030}, 0.040);
+    trunk.addPair(RoundCone{{0.040, 1.480, -0.070}, {0.130, 1.440, -0.070}, 0.045, 0.040}, 0.040);
+}
+
+} // namespace
+
+Sculpture sculptTrunk() {
+    Sculpture trunk;
+    trunk.add(core(), 0);
+    sculptFront(trunk);
+    sculptBack(trunk);
+    sculptShoulderGirdle(trunk);
+    return trunk;
+}
+
+} // namespace mannequin

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "SkinMesh.h"
+
+#include <iosfwd>
+#include <string>
+
+namespace mannequin {
+
+/// Writes a mesh as a Wavefront OBJ with smooth normals, weighted by the faces' areas.
+void writeObj(std::ostream& out, const SkinMesh& mesh, const std::string& name);
+
+} // namespace mannequin

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Remesher.h"
+
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <type_traits>
+#include <vector>
+
+namespace mannequin {
+namespace {
+
+double angleAt(const glm::dvec3& apex, const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 u = a - apex, v = b - apex;
+    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
+}
+
+/// The elements as they are now: the loops below change the mesh as they go.
+template <class Range>
+auto listed(const Range& range) {
+    return std::vector<std::decay_t<decltype(*range.begin())>>(range.begin(), range.end());
+}
+
+} // namespace
+
+Remesher::Remesher(const ImplicitBody& body, const DetailMap& detail, SkinMesh& mesh)
+    : _body(body), _detail(detail), _mesh(mesh),
+      _normal(mesh.add_property_map<Vertex, glm::dvec3>("v:implicit normal").first) {
+    for (const Vertex v : _mesh.vertices()) _normal[v] = _body.normal(at(v));
+}
+
+double Remesher::expectedVertices(double scale) const {
+    double count = 0;
+    for (const auto face : _mesh.faces()) {
+        const Halfedge h = _mesh.halfedge(face);
+        const glm::dvec3 a = at(_mesh.source(h)), b = at(_mesh.target(h)),
+                         c = at(_mesh.target(_mesh.next(h)));
+        const double length = _detail.edgeLength((a + b + c) / 3.0) * scale;
+        // Of equilateral triangles, two to a vertex.
+        count += glm::length(glm::cross(b - a, c - a)) / 2 / (std::sqrt(3.0) / 2 * length * length);
+    }
+    return count;
+}
+
+void Remesher::run(double scale, int rounds) {
+    _scale = scale;
+    for (int i = 0; i < rounds; ++i) {
+        splitLong();
+        collapseShort();
+        flipForValence();
+        relax();
+    }
+    _mesh.collect_garbage();
+}
+
+void Remesher::polish(int rounds) {
+    for (int i = 0; i < rounds; ++i) {
+        flipForAngle();
+        relax();
+    }
+    flipForAngle();
+}
+
+void Remesher::settle(Vertex v, const glm::dvec3& point) {
+    const glm::dvec3 skin = _body.projected(point);
+    _mesh.point(v) = toCgal(skin);
+    _normal[v] = _body.normal(skin);
+}
+
+void Remesher::splitLong() {
+    for (const Edge e : listed(_mesh.edges())) {
+        const Halfedge h = _mesh.halfedge(e);
+        const glm::dvec3 a = at(_mesh.source(h)), b = at(_mesh.target(h)), middle = (a + b) / 2.0;
+        if (glm::distance(a, b) < 4.0 / 3 * wanted(middle)) continue;
+        const Halfedge in = CGAL::Euler::split_edge(h, _mesh); // ends in the new vertex
+        settle(_mesh.target(in), middle);
+        CGAL::Euler::split_face(in, _mesh.next(_mesh.next(in)), _mesh);
+        const Halfedge back = _mesh.prev(_mesh.opposite(in));
+        CGAL::Euler::split_face(back, _mesh.next(_mesh.next(back)), _mesh);
+    }
+}
+
+bool Remesher::facesOutward(Vertex a, Vertex b, Vertex c) const {
+    const glm::dvec3 cross = glm::cross(at(b) - at(a), at(c) - at(a));
+    const double length = glm::length(cross);
+    if (length < 1e-12) return false;
+    for (const Vertex v : {a, b, c})
+        if (glm::dot(cross, _normal[v]) < 0.2 * length) return false;
+    return true;
+}
+
+bool Remesher::mayCollapse(Halfedge h) const {
+    if (!CGAL::Euler::does_satisfy_link_condition(_mesh.edge(h), _mesh)) return false;
+    const Vertex gone = _mesh.source(h), kept = _mesh.target(h);
+    const glm::dvec3 place = at(kept);
+    for (const Halfedge spoke : CGAL::halfedges_around_source(gone, _mesh)) {
+        const Vertex v = _mesh.target(spoke);
+        if (v == kept) continue;
+        if (glm::distance(at(v), place) > 4.0 / 3 * wanted((at(v) + place) / 2.0)) return false;
+        const Vertex next = _mesh.target(_mesh.next(spoke));
+        if (next != kept && !facesOutward(kept, v, next)) return false;
+    }
+    return true;
+}
+
+void Remesher::collapseShort() {
+    for (const Edge e : listed(_mesh.edges())) {
+        if (_mesh.is_removed(e)) continue;
+        const Halfedge h = _mesh.halfedge(e);
+        const glm::dvec3 a = at(_mesh.source(h)), b = at(_mesh.target(h));
+        if (glm::distance(a, b) > 4.0 / 5 * wanted((a + b) / 2.0)) continue;
+        for (const Halfedge way : {h, _mesh.opposite(h)}) {
+            if (!mayCollapse(way)) continue;
+            const Vertex kept = _mesh.target(way);
+            const Kernel::Point_3 place = _mesh.point(kept);
+            const glm::dvec3 normal = _normal[kept];
+            const Vertex left = CGAL::Euler::collapse_edge(e, _mesh);
+            _mesh.point(left) = place;
+            _normal[left] = normal;
+            break;
+        }
+    }
+}
+
+bool Remesher::mayFlip(Edge e) const {
+    const Halfedge h = _mesh.halfedge(e), o = _mesh.opposite(h);
+    const Vertex a = _mesh.source(h), b = _mesh.target(h);
+    const Vertex c = _mesh.target(_mesh.next(h)), d = _mesh.target(_mesh.next(o));
+    if (_mesh.halfedge(c, d).is_valid()) return false;
+    return _mesh.degree(a) > 3 && _mesh.degree(b) > 3 && facesOutward(c, d, b) &&
+           facesOutward(d, c, a);
+}
+
+void Remesher::flipForValence() {
+    const auto excess = [this](Vertex v, int change) {
+        return std::abs(static_cast<int>(_mesh.degree(v)) + change - 6);
+    };
+    for (const Edge e : listed(_mesh.edges())) {
+        const Halfedge h = _mesh.halfedge(e), o = _mesh.opposite(h);
+        const Vertex a = _mesh.source(h), b = _mesh.target(h);
+        const Vertex c = _mesh.target(_mesh.next(h)), d = _mesh.target(_mesh.next(o));
+        const int before = excess(a, 0) + excess(b, 0) + excess(c, 0) + excess(d, 0);
+        const int after = excess(a, -1) + excess(b, -1) + excess(c, 1) + excess(d, 1);
+        if (after >= before || !mayFlip(e)) continue;
+        if (std::min(smallestAngle(c, d, b), smallestAngle(d, c, a)) < 0.3) continue;
+        CGAL::Euler::flip_edge(h, _mesh);
+    }
+}
+
+double Remesher::smallestAngle(Vertex a, Vertex b, Vertex c) const {
+    const glm::dvec3 pa = at(a), pb = at(b), pc = at(c);
+    return std::min({angleAt(pa, pb, pc), angleAt(pb, pc, pa), angleAt(pc, pa, pb)});
+}
+
+void Remesher::flipForAngle() {
+    for (const Edge e : listed(_mesh.edges())) {
+        const Halfedge h = _mesh.halfedge(e), o = _mesh.opposite(h);
+        const Vertex a = _mesh.source(h), b = _mesh.target(h);
+        const Vertex c = _mesh.target(_mesh.next(h)), d = _mesh.target(_mesh.next(o));
+        const double before = std::min(smallestAngle(a, b, c), smallestAngle(b, a, d));
+        const double after = std::min(smallestAngle(c, d, b), smallestAngle(d, c, a));
+        if (after > before + 1e-3 && mayFlip(e)) CGAL::Euler::flip_edge(h, _mesh);
+    }
+}
+
+void Remesher::relax() {
+    for (const Vertex v : _mesh.vertices()) {
+        const glm::dvec3 place = at(v);
+        glm::dvec3 sum(0);
+        double weights = 0;
+        for (const Halfedge spoke : CGAL::halfedges_around_source(v, _mesh)) {
+            const glm::dvec3 a = at(_mesh.target(spoke));
+            const glm::dvec3 b = at(_mesh.target(_mesh.next(spoke)));
+            const glm::dvec3 middle = (place + a + b) / 3.0;
+            const double length = wanted(middle);
+            const double weight = glm::length(glm::cross(a - place, b - place)) / (length * length);
+            sum += middle * weight;
+            weights += weight;
+        }
+        glm::dvec3 move = sum / weights - place;
+        move -= _normal[v] * glm::dot(move, _normal[v]);
+        settle(v, place + move);
+    }
+}
+
+} // namespace mannequin

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "DetailMap.h"
+#include "ImplicitBody.h"
+#include "SkinMesh.h"
+
+namespace mannequin {
+
+/// Remeshes the skin in place to near-equilateral triangles of the wanted, varying edge length.
+///
+/// Incremental remeshing after Botsch & Kobbelt, *A remeshing approach to multiresolution modeling*
+/// (SGP 2004): split long edges, collapse short ones, flip, relax along the surface, and project,
+/// here onto the implicit body itself. CGAL 5.5's own isotropic_remeshing knows one length only.
+class Remesher {
+public:
+    Remesher(const ImplicitBody& body, const DetailMap& detail, SkinMesh& mesh);
+
+    /// Number of vertices that the wanted lengths, times `scale`, would give.
+    double expectedVertices(double scale) const;
+
+    void run(double scale, int rounds);
+
+    /// Without changing the number of vertices, raises the smallest angles.
+    void polish(int rounds);
+
+private:
+    using Vertex = SkinMesh::Vertex_index;
+    using Edge = SkinMesh::Edge_index;
+    using Halfedge = SkinMesh::Halfedge_index;
+
+    void splitLong();
+    void collapseShort();
+    void flipForValence();
+    void flipForAngle();
+    void relax();
+
+    double wanted(const glm::dvec3& point) const { return _detail.edgeLength(point) * _scale; }
+    glm::dvec3 at(Vertex v) const { return toGlm(_mesh.point(v)); }
+    void settle(Vertex v, const glm::dvec3& point); ///< moves to the skin near a point
+    bool facesOutward(Vertex a, Vertex b, Vertex c) const;
+    bool mayCollapse(Halfedge h) const; ///< source into target
+    bool mayFlip(Edge e) const;
+    double smallestAngle(Vertex a, Vertex b, Vertex c) const;
+
+    const ImplicitBody& _body;
+    const DetailMap& _detail;
+    SkinMesh& _mesh;
+    SkinMesh::Property_map<Vertex, glm::dvec3> _normal;
+    double _scale = 1;
+};
+
+} // namespace mannequin
