@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinBind/Bind>
+
+#include "CheckOptions.h"
+#include "JointPlan.h"
+#include "NearestPoint.h"
+#include "PackInfluences.h"
+#include "RatioFields.h"
+#include "Regions.h"
+#include "WeldedMesh.h"
+
+#include <chrono>
+
+namespace osgSkin {
+namespace {
+
+/// Vertices that no face uses do as the nearest vertex of the skin does.
+std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
+    std::vector<std::uint32_t> result(mesh.vertexCount()), used;
+    for (std::uint32_t v = 0; v < result.size(); ++v) {
+        result[v] = v;
+        if (mesh.shellOf[v] != WeldedMesh::kNoShell) used.push_back(v);
+    }
+    if (used.empty() || used.size() == result.size()) return result;
+    const NearestPoint nearest(mesh.positions, used);
+    for (std::uint32_t v = 0; v < result.size(); ++v)
+        if (mesh.shellOf[v] == WeldedMesh::kNoShell) result[v] = nearest.find(mesh.positions[v]);
+    return result;
+}
+
+std::vector<BoundJoint> boundJoints(const RestSkeleton& skeleton,
+                                    const std::vector<PlannedJoint>& joints) {
+    std::vector<BoundJoint> result;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        result.push_back({skeleton.joints[j].name, joints[j].parent, joints[j].centre,
+                          joints[j].boneAxis, joints[j].twistAxis});
+    return result;
+}
+
+void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                   const Regions& regions, BindReport& report) {
+    std::vector<BindReport::Region> all(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        // A rigid joint's region takes in what its descendants seed.
+        const std::size_t owner =
+            joints[j].rigid >= 0 ? static_cast<std::size_t>(joints[j].rigid) : j;
+        all[owner].seeds += regions.seeds[j];
+    }
+    for (const std::uint32_t joint : regions.jointOf) ++all[joint].vertices;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        if (!joints[j].holdsRegion && all[j].vertices == 0) continue;
+        all[j].joint = skeleton.joints[j].name;
+        report.regions.push_back(all[j]);
+        if (all[j].vertices == 0)
+            report.notes.push_back("region of joint \"" + all[j].joint + "\" is empty");
+    }
+    report.rejectedEdges = regions.rejectedEdges;
+}
+
+} // namespace
+
+Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptions& options,
+             BindReport* report) {
+    const auto start = std::chrono::steady_clock::now();
+    mesh.validate();
+    skeleton.validate();
+    checkOptions(skeleton, options);
+
+    BindReport found;
+    const WeldedMesh skin(mesh);
+    const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
+    const Regions regions = findRegions(skin, joints); // section 1
+    const JointFields bend =
+        bendFields(skin, skeleton, joints, regions.jointOf, options); // section 3
+    const JointFields twist = twistFields(skin, skeleton, joints, bend, options);
+
+    const std::vector<std::uint32_t> shown = representatives(skin);
+    Binding binding;
+    binding.joints = boundJoints(skeleton, joints);
+    binding.firstInfluence.push_back(0);
+    std::size_t partial = 0;
+    for (const std::uint32_t welded : skin.weldedOf) {
+        const std::uint32_t v = shown[welded];
+        binding.regions.push_back(regions.jointOf[v]);
+        if (packInfluences(joints, bend, twist, v, binding.influences)) ++found.cappedVertices;
+        for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
+            if (isPartial(binding.influences[i])) ++partial;
+        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+    binding.validate();
+
+    found.vertices = mesh.positions.size();
+    found.weldedVertices = skin.vertexCount();
+    found.shells = skin.shells;
+    found.openEdges = skin.openEdges;
+    found.influencesPerVertex = static_cast<double>(partial) / static_cast<double>(found.vertices);
+    reportRegions(skeleton, joints, regions, found);
+    found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (report) *report = found;
+    return binding;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinBind/BindReport>
+
+#include <iomanip>
+#include <sstream>
+
+namespace osgSkin {
+
+std::string BindReport::text() const {
+    std::ostringstream out;
+    out << "vertices " << vertices << ", welded " << weldedVertices << ", shells " << shells
+        << ", open edges " << openEdges << "\n"
+        << "regions " << regions.size() << ", rejected Delaunay edges " << rejectedEdges
+        << ", unassigned vertices " << unassigned << "\n"
+        << std::fixed << std::setprecision(2) << "influences a vertex " << influencesPerVertex
+        << ", capped vertices " << cappedVertices << ", " << std::setprecision(3) << seconds
+        << " s\n";
+    for (const Region& region : regions)
+        out << "region " << region.joint << ": " << region.vertices << " vertices, " << region.seeds
+            << " seeds\n";
+    for (const std::string& note : notes) out << "note: " << note << "\n";
+    return out.str();
+}
+
+} // namespace osgSkin

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_PACKINFLUENCES_H
+#define OSGSKINBIND_PACKINFLUENCES_H
+
+#include "JointPlan.h"
+#include "RatioFields.h"
+
+#include <osgSkin/Binding>
+
+#include <cstddef>
+#include <vector>
+
+namespace osgSkin {
+
+/// Joints that may lie strictly between 0 and 1 at one vertex: what the runtime has room for.
+constexpr std::size_t kMaxPartialJoints = 4;
+
+/// One vertex's influences out of the fields, in joint order, at most kMaxPartialJoints of them
+/// partial: the ones nearest to 0 or 1 are rounded, with what stands above or below them, so that
+/// no joint exceeds its parent. Returns whether any had to be rounded.
+bool packInfluences(const std::vector<PlannedJoint>& joints, const JointFields& bend,
+                    const JointFields& twist, std::size_t vertex,
+                    std::vector<Influence>& influences);
+
+bool isPartial(const Influence& influence);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "PartSubset.h"
+
+#include <osg/TriangleIndexFunctor>
+
+#include <cstring>
+
+namespace osgSkin {
+namespace {
+
+constexpr std::uint32_t kUnused = 0xffffffffu;
+
+struct CollectTriangles {
+    std::vector<std::uint32_t> corners;
+    void operator()(unsigned int a, unsigned int b, unsigned int c) {
+        corners.insert(corners.end(), {a, b, c});
+    }
+};
+
+/// The elements of a per-vertex array at `indices`, as a new array of the same kind.
+osg::ref_ptr<osg::Array> gather(const osg::Array& source,
+                                const std::vector<std::uint32_t>& indices) {
+    osg::ref_ptr<osg::Array> result = static_cast<osg::Array*>(source.cloneType());
+    result->setBinding(source.getBinding());
+    result->setNormalize(source.getNormalize());
+    result->resizeArray(static_cast<unsigned int>(indices.size()));
+    if (indices.empty()) return result;
+    auto* to = static_cast<char*>(const_cast<GLvoid*>(result->getDataPointer()));
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        std::memcpy(to + i * source.getElementSize(), source.getDataPointer(indices[i]),
+                    source.getElementSize());
+    return result;
+}
+
+osg::Array* subset(osg::Array* source, std::size_t vertices,
+                   const std::vector<std::uint32_t>& indices,
+                   std::vector<osg::ref_ptr<osg::Array>>& keepAlive) {
+    if (!source || source->getNumElements() != vertices) return source; // an overall binding
+    keepAlive.push_back(gather(*source, indices));
+    return keepAlive.back();
+}
+
+} // namespace
+
+MeshPart partSubset(const MeshPart& part, const std::vector<bool>& keep) {
+    const osg::Geometry& source = *part.geometry;
+    const std::size_t vertices = part.sourceVertex.size();
+    osg::TriangleIndexFunctor<CollectTriangles> triangles;
+    source.accept(triangles);
+
+    std::vector<std::uint32_t> newIndex(vertices, kUnused);
+    for (std::size_t c = 0; c < triangles.corners.size(); ++c)
+        if (keep[c / 3]) newIndex[triangles.corners[c]] = 0;
+    std::vector<std::uint32_t> oldIndex;
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+        if (newIndex[v] == kUnused) continue;
+        newIndex[v] = static_cast<std::uint32_t>(oldIndex.size());
+        oldIndex.push_back(v);
+    }
+
+    MeshPart result;
+    result.geometry = new osg::Geometry;
+    osg::Geometry& geometry = *result.geometry;
+    geometry.setName(source.getName());
+    geometry.setStateSet(const_cast<osg::StateSet*>(source.getStateSet()));
+    geometry.setUseDisplayList(false);
+    geometry.setUseVertexBufferObjects(true);
+
+    std::vector<osg::ref_ptr<osg::Array>> arrays;
+    const auto take = [&](const osg::Array* array) {
+        return subset(const_cast<osg::Array*>(array), vertices, oldIndex, arrays);
+    };
+    geometry.setVertexArray(take(source.getVertexArray()));
+    geometry.setNormalArray(take(source.getNormalArray()));
+    geometry.setColorArray(take(source.getColorArray()));
+    geometry.setSecondaryColorArray(take(source.getSecondaryColorArray()));
+    for (unsigned int unit = 0; unit < source.getNumTexCoordArrays(); ++unit)
+        geometry.setTexCoordArray(unit, take(source.getTexCoordArray(unit)));
+    for (unsigned int i = 0; i < source.getNumVertexAttribArrays(); ++i)
+        geometry.setVertexAttribArray(i, take(source.getVertexAttribArray(i)));
+
+    const osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (std::size_t c = 0; c < triangles.corners.size(); ++c) {
+        if (!keep[c / 3]) continue;
+        elements->push_back(newIndex[triangles.corners[c]]);
+        if (c % 3 == 0) result.sourceFace.push_back(part.sourceFace[c / 3]);
+    }
+    geometry.addPrimitiveSet(elements);
+    for (const std::uint32_t v : oldIndex) result.sourceVertex.push_back(part.sourceVertex[v]);
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Regions.h"
+
+namespace osgSkin {
+
+Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints) {
+    Regions regions = seedRegions(mesh, joints);
+    std::vector<bool> isSeed(mesh.vertexCount());
+    for (std::size_t v = 0; v < isSeed.size(); ++v)
+        isSeed[v] = regions.jointOf[v] != Regions::kNone;
+
+    floodRegions(mesh, regions.jointOf);
+    assignUnreached(mesh, joints, regions.jointOf);
+    // What moves with a rigid joint is one region, the rigid joint's.
+    for (std::uint32_t& joint : regions.jointOf)
+        if (joints[joint].rigid >= 0) joint = static_cast<std::uint32_t>(joints[joint].rigid);
+    removeIslands(mesh, isSeed, regions.jointOf);
+    return regions;
+}
+
+} // namespace osgSkin

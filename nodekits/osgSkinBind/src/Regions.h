@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_REGIONS_H
+#define OSGSKINBIND_REGIONS_H
+
+#include "JointPlan.h"
+#include "WeldedMesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace osgSkin {
+
+/// Every welded vertex's region (paper, section 1).
+struct Regions {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    std::vector<std::uint32_t> jointOf; ///< joint index of each welded vertex
+    std::vector<std::size_t> seeds;     ///< for each joint, vertices labelled by the Delaunay step
+    std::size_t rejectedEdges = 0;      ///< by normal filtering
+};
+
+/// Delaunay step, flooding step, and what real meshes need beside them: shells that no Delaunay
+/// edge reaches and islands.
+Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints);
+
+/// The Delaunay step alone: seeds labelled, all other vertices kNone.
+Regions seedRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints);
+
+/// The flooding step: labels each kNone vertex like the labelled vertex that is nearest along the
+/// edges of the mesh. Vertices of a shell without any label stay kNone.
+void floodRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf);
+
+/// Joins each region's islands to the regions around them: of a region's connected patches on one
+/// shell the one with most seeds (then most vertices) stays.
+void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
+                   std::vector<std::uint32_t>& jointOf);
+
+/// Labels what flooding cannot reach: vertices like the nearest labelled vertex; where no vertex
+/// has a label, like the nearest bone.
+void assignUnreached(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                     std::vector<std::uint32_t>& jointOf);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinBind/RigidSplit>
+
+#include <osgSkin/Error>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+int findJoint(const Binding& binding, const std::string& name) {
+    for (std::size_t j = 0; j < binding.joints.size(); ++j)
+        if (binding.joints[j].name == name) return static_cast<int>(j);
+    throw Error("rigid parts: \"" + name +
+                "\" is not a joint of the binding, expected one of its joints");
+}
+
+/// The rigid joint that the vertex moves with, or kSkin: its influences must be that joint and all
+/// joints above it, each with both ratios 1, and no other.
+std::uint32_t rigidJointOf(const Binding& binding, const std::vector<bool>& rigid,
+                           std::size_t vertex) {
+    const std::uint32_t first = binding.firstInfluence[vertex];
+    const std::uint32_t end = binding.firstInfluence[vertex + 1];
+    for (std::uint32_t i = first; i < end; ++i)
+        if (binding.influences[i].bend != 1.0f || binding.influences[i].twist != 1.0f)
+            return RigidSplit::kSkin;
+    // Parents come before children: the last is the lowest, and its chain must be all there is.
+    const std::uint32_t lowest = binding.influences[end - 1].joint;
+    std::uint32_t depth = 0;
+    for (int j = static_cast<int>(lowest); j >= 0;
+         j = binding.joints[static_cast<std::size_t>(j)].parent) {
+        const bool listed = std::any_of(
+            binding.influences.begin() + first, binding.influences.begin() + end,
+            [j](const Influence& influence) { return static_cast<int>(influence.joint) == j; });
+        if (!listed) return RigidSplit::kSkin;
+        ++depth;
+    }
+    return rigid[lowest] && depth == end - first ? lowest : RigidSplit::kSkin;
+}
+
+} // namespace
+
+RigidSplit splitRigid(const SkinMesh& mesh, const Binding& binding,
+                      const std::vector<std::string>& rigid) {
+    if (mesh.positions.size() != binding.vertexCount())
+        throw Error("rigid parts: the mesh has " + std::to_string(mesh.positions.size()) +
+                    " vertices, expected the binding's " + std::to_string(binding.vertexCount()));
+    std::vector<bool> isRigid(binding.joints.size(), false);
+    for (const std::string& name : rigid)
+        isRigid[static_cast<std::size_t>(findJoint(binding, name))] = true;
+
+    std::vector<std::uint32_t> jointOf(binding.vertexCount());
+    for (std::size_t v = 0; v < jointOf.size(); ++v) jointOf[v] = rigidJointOf(binding, isRigid, v);
+
+    RigidSplit split;
+    std::size_t corner = 0;
+    for (const std::uint32_t size : mesh.faceSizes) {
+        std::uint32_t joint = jointOf[mesh.faceVertices[corner]];
+        for (std::uint32_t k = 1; k < size; ++k)
+            if (jointOf[mesh.faceVertices[corner + k]] != joint) joint = RigidSplit::kSkin;
+        split.faceJoint.push_back(joint);
+        corner += size;
+    }
+    return split;
+}
+
+} // namespace osgSkin

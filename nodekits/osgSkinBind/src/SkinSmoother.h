@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_SKINSMOOTHER_H
+#define OSGSKINBIND_SKINSMOOTHER_H
+
+#include "WeldedMesh.h"
+
+#include <memory>
+#include <vector>
+
+namespace osgSkin {
+
+/// Spreads a field over the skin like heat: implicit Euler steps of (M + tau L) a' = M a with the
+/// cotangent Laplacian L and the lumped mass M.
+///
+/// Values never leave the range of the input: weights that degenerate or obtuse triangles would
+/// make negative or huge are clamped.
+class SkinSmoother {
+public:
+    explicit SkinSmoother(const WeldedMesh& mesh);
+    ~SkinSmoother();
+
+    /// \param width square root of the heat's total time; an edge of the field becomes about as
+    /// wide
+    void smooth(std::vector<double>& field, double width) const;
+
+private:
+    struct System;
+    std::unique_ptr<System> _system;
+};
+
+} // namespace osgSkin
+
+#endif
