@@ -48,8 +48,7 @@ glm::dquat turn(const glm::dvec3& unitAxis, double angle) {
 
 bool trySplitBendTwist(const glm::dquat& q, const glm::dvec3& pole, BendTwist& out) noexcept {
     if (!isFinite(pole) || std::abs(glm::dot(pole, pole) - 1.0) > 1e-6) return false;
-    const double largest =
-        std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+    const double largest = std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     if (!std::isfinite(q.w) || !isFinite({q.x, q.y, q.z}) || !(largest > 0.0)) return false;
 
     const glm::dvec3 w = glm::normalize(pole);
@@ -60,8 +59,8 @@ bool trySplitBendTwist(const glm::dquat& q, const glm::dvec3& pole, BendTwist& o
     c /= norm;
     xyz /= norm;
 
-    double s = glm::dot(xyz, w);       // c + s w is the twist, unnormalised
-    glm::dvec3 u = xyz - w * s;        // what is perpendicular to the bone
+    double s = glm::dot(xyz, w); // c + s w is the twist, unnormalised
+    glm::dvec3 u = xyz - w * s;  // what is perpendicular to the bone
     if (isNegative(c, s, u)) {
         c = -c;
         s = -s;
@@ -89,7 +88,8 @@ bool trySplitBendTwist(const glm::dquat& q, const glm::dvec3& pole, BendTwist& o
 BendTwist splitBendTwist(const glm::dquat& q, const glm::dvec3& pole) {
     BendTwist result;
     if (!trySplitBendTwist(q, pole, result))
-        throw Error("splitBendTwist: expected a finite quaternion that is not zero and a unit pole");
+        throw Error(
+            "splitBendTwist: expected a finite quaternion that is not zero and a unit pole");
     return result;
 }
 

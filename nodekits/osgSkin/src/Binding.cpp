@@ -9,15 +9,20 @@
 namespace osgSkin {
 namespace {
 
-bool isUnit(const glm::dvec3& v) { return std::abs(glm::dot(v, v) - 1.0) < 1e-9; }
-bool isRatio(float r) { return r >= 0.0f && r <= 1.0f; } // false for NaN too
+bool isUnit(const glm::dvec3& v) {
+    return std::abs(glm::dot(v, v) - 1.0) < 1e-9;
+}
+bool isRatio(float r) {
+    return r >= 0.0f && r <= 1.0f;
+} // false for NaN too
 
 void validateJoints(const std::vector<BoundJoint>& joints) {
     if (joints.empty()) throw Error("binding: no joint");
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const std::string place = "binding: joint \"" + joints[j].name + "\"";
-        const bool parentFits = j == 0 ? joints[j].parent == -1
-                                       : joints[j].parent >= 0 && joints[j].parent < static_cast<int>(j);
+        const bool parentFits =
+            j == 0 ? joints[j].parent == -1
+                   : joints[j].parent >= 0 && joints[j].parent < static_cast<int>(j);
         if (!parentFits) throw Error(place + " does not come after its parent");
         if (!isUnit(joints[j].boneAxis) || !isUnit(joints[j].twistAxis))
             throw Error(place + " has an axis that is not a unit vector");
@@ -44,7 +49,8 @@ void Binding::validate() const {
             throw Error(place + " does not follow the root with ratio 1");
         for (std::uint32_t i = firstInfluence[v]; i < firstInfluence[v + 1]; ++i) {
             const Influence& influence = influences[i];
-            if (influence.joint >= joints.size()) throw Error(place + " names a joint that is not there");
+            if (influence.joint >= joints.size())
+                throw Error(place + " names a joint that is not there");
             if (i > firstInfluence[v] && influence.joint <= influences[i - 1].joint)
                 throw Error(place + " lists its joints out of order");
             if (!isRatio(influence.bend) || !isRatio(influence.twist))

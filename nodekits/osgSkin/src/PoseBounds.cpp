@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t kMax = SkinModel::kMaxPartial;
 
-/// Cells per unit of ratio and per extent of the skin: finer cells give tighter bounds and cost more.
+/// Cells per unit of ratio and per extent of the skin: finer cells give tighter bounds and cost
+/// more.
 constexpr float kRatioCells = 5.0f;
 constexpr float kSpaceCells = 12.0f;
 

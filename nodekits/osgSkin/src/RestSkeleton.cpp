@@ -30,7 +30,8 @@ void RestSkeleton::validate() const {
     std::set<std::string> names;
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const RestJoint& joint = joints[j];
-        const std::string place = "skeleton: joint " + std::to_string(j) + " \"" + joint.name + "\"";
+        const std::string place =
+            "skeleton: joint " + std::to_string(j) + " \"" + joint.name + "\"";
         if (j == 0 && joint.parent != -1)
             throw Error(place + " comes first but has a parent, expected the root");
         if (j > 0 && (joint.parent < 0 || joint.parent >= static_cast<int>(j)))

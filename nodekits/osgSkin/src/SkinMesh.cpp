@@ -15,13 +15,15 @@ void SkinMesh::validate() const {
     for (std::size_t v = 0; v < positions.size(); ++v) {
         const glm::dvec3& p = positions[v];
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw Error("mesh: vertex " + std::to_string(v) + " has a coordinate that is not finite");
+            throw Error("mesh: vertex " + std::to_string(v) +
+                        " has a coordinate that is not finite");
     }
     std::size_t corner = 0;
     for (std::size_t f = 0; f < faceSizes.size(); ++f) {
         const std::string place = "mesh: face " + std::to_string(f);
         if (faceSizes[f] < 3)
-            throw Error(place + " has " + std::to_string(faceSizes[f]) + " corners, expected 3 or more");
+            throw Error(place + " has " + std::to_string(faceSizes[f]) +
+                        " corners, expected 3 or more");
         if (faceSizes[f] > faceVertices.size() - corner)
             throw Error(place + " has more corners than the mesh lists");
         for (std::uint32_t k = 0; k < faceSizes[f]; ++k, ++corner)

@@ -8,7 +8,9 @@
 namespace osgSkin {
 namespace {
 
-bool isPartial(float ratio) { return ratio > 0.0f && ratio < 1.0f; }
+bool isPartial(float ratio) {
+    return ratio > 0.0f && ratio < 1.0f;
+}
 
 /// A joint with one ratio 0 and the other 1 is no rigid turn either: it goes through the split.
 bool isPartial(const Influence& influence) {

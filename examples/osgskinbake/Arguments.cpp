@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <iostream>
+#include <regex>
+
+namespace bake {
+namespace {
+
+constexpr char kDefaultOut[] = "frame_%04d.obj";
+
+const char kFooter[] =
+    "Frames are the motion file's own samples, counted from 0 after `skipFrames`; the last one of "
+    "a\n"
+    "range is included. A pose is that sample, not a blend. Meshes have the input mesh's own\n"
+    "vertices and faces, in its order, rigid parts included.\n"
+    "Without --rest, --binding and --pose, frames are written to frame_%04d.obj; with one of "
+    "them,\n"
+    "frames are written only where --out asks for them. `--rest` without a file writes the bind\n"
+    "pose to --out in place of the frames.\n"
+    "Exit status: 0 done, 1 bad input, 2 bad usage.";
+
+/// The one place for a number in a frame pattern; a pattern is never handed to printf as it is.
+const std::regex& numberPattern() {
+    static const std::regex pattern("%(0?)([0-9]?)d");
+    return pattern;
+}
+
+std::size_t parseNumber(const std::string& text, const std::string& range) {
+    std::size_t number = 0;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
+        throw UsageError{"--frames: expected A, A:B or A:B:STEP in whole numbers, found \"" +
+                         range + "\""};
+    return number;
+}
+
+FrameRange parseRange(const std::string& text) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == ':')
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    FrameRange range;
+    range.first = parseNumber(parts[0], text);
+    range.last = parts.size() > 1 ? parseNumber(parts[1], text) : range.first;
+    range.step = parts.size() > 2 ? parseNumber(parts[2], text) : 1;
+    if (parts.size() > 3 || range.step == 0 || range.last < range.first)
+        throw UsageError{"--frames: expected A <= B and a step of 1 or more, found \"" + text +
+                         "\""};
+    return range;
+}
+
+void checkPattern(const std::string& out) {
+    const std::string rest = std::regex_replace(out, numberPattern(), "");
+    const auto numbers = std::distance(
+        std::sregex_iterator(out.begin(), out.end(), numberPattern()), std::sregex_iterator());
+    if (numbers > 1 || rest.find('%') != std::string::npos)
+        throw UsageError{"--out: expected one %d (or %04d) at most, found \"" + out + "\""};
+}
+
+/// `--rest` may stand alone, and then takes the place of the frames in --out; and a file name that
+/// follows it may turn out to be the character.
+void settleRest(const CLI::Option& rest, Arguments& arguments) {
+    if (rest.count() == 0) return;
+    if (arguments.character.empty()) std::swap(arguments.character, arguments.rest);
+    if (!arguments.rest.empty()) return;
+    arguments.rest = arguments.out.empty() ? "rest.obj" : arguments.out;
+    if (hasNumber(arguments.rest)) {
+        arguments.rest = arguments.frames
+                             ? std::regex_replace(arguments.rest, numberPattern(), "rest")
+                             : frameName(arguments.rest, 0);
+    }
+    if (!arguments.frames) arguments.out.clear();
+}
+
+} // namespace
+
+bool hasNumber(const std::string& pattern) {
+    return std::regex_search(pattern, numberPattern());
+}
+
+std::string frameName(const std::string& pattern, std::size_t frame) {
+    std::smatch match;
+    if (!std::regex_search(pattern, match, numberPattern())) return pattern;
+    std::string number = std::to_string(frame);
+    const std::size_t width =
+        match[2].length() ? static_cast<std::size_t>(match.str(2)[0] - '0') : 0;
+    const char fill = match[1].length() ? '0' : ' ';
+    if (number.size() < width) number.insert(0, width - number.size(), fill);
+    return match.prefix().str() + number + match.suffix().str();
+}
+
+std::optional<Arguments> parseArguments(int argc, char** argv) {
+    CLI::App app("Writes a character's skin, posed by its motion, as meshes.", "osgskinbake");
+    app.footer(kFooter);
+    Arguments arguments;
+    std::string frames;
+    app.add_option("CHARACTER", arguments.character, "a .skin file");
+    app.add_option("--motion", arguments.motion, "a motion's name; the first one by default");
+    app.add_option("--frames", frames, "A, A:B or A:B:STEP; all by default");
+    app.add_option("--out", arguments.out, "the frames' OBJ files, like frame_%04d.obj");
+    CLI::Option* rest =
+        app.add_option("--rest", arguments.rest, "write the bind pose")->expected(0, 1);
+    app.add_option("--binding", arguments.binding, "write joints, regions and ratios (JSON)");
+    app.add_option("--pose", arguments.pose, "write the joints' turns of the frames (JSON)");
+    app.add_flag("--quiet", arguments.quiet, "no progress and no summary");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        std::cout << app.help();
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        throw UsageError{error.what()};
+    }
+    if (!frames.empty()) arguments.frames = parseRange(frames);
+    checkPattern(arguments.out);
+    settleRest(*rest, arguments);
+    if (arguments.character.empty()) throw UsageError{"expected a CHARACTER, a .skin file"};
+    const bool other = rest->count() > 0 || !arguments.binding.empty() || !arguments.pose.empty();
+    if (arguments.out.empty() && !other) arguments.out = kDefaultOut;
+    return arguments;
+}
+
+} // namespace bake

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "PosedMesh.h"
+
+#include <osgSkin/BoneReader>
+#include <osgSkin/DeformJob>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/UpdateDeformableSkin>
+
+#include <glm/geometric.hpp>
+
+namespace bake {
+namespace {
+
+using osgSkin::toGlm;
+
+/// Gathers the drawn copies of each vertex.
+class Collector {
+public:
+    explicit Collector(std::size_t vertices)
+        : _mesh{std::vector<glm::dvec3>(vertices), std::vector<glm::dvec3>(vertices)},
+          _seen(vertices, false) {}
+
+    void add(std::size_t vertex, const glm::dvec3& position, const glm::dvec3& normal) {
+        if (_seen[vertex])
+            _mesh.seamGap =
+                std::max(_mesh.seamGap, glm::length(position - _mesh.positions[vertex]));
+        else
+            _mesh.positions[vertex] = position;
+        _mesh.normals[vertex] += normal;
+        _seen[vertex] = true;
+    }
+
+    void add(const osg::Geometry& geometry, const std::vector<std::uint32_t>& source,
+             const osg::Matrixd& matrix) {
+        const auto& vertices = static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
+        const auto& normals = static_cast<const osg::Vec3Array&>(*geometry.getNormalArray());
+        for (std::size_t i = 0; i < source.size(); ++i)
+            add(source[i], toGlm(osg::Vec3d(vertices[i]) * matrix),
+                toGlm(osg::Matrixd::transform3x3(osg::Vec3d(normals[i]), matrix)));
+    }
+
+    /// Vertices that no face uses are drawn by nobody, but belong to the mesh all the same.
+    void addUndrawn(const osgSkin::Character& character) {
+        std::vector<std::uint32_t> source;
+        std::vector<glm::vec3> rest;
+        for (std::uint32_t v = 0; v < _seen.size(); ++v) {
+            if (_seen[v]) continue;
+            source.push_back(v);
+            rest.emplace_back(character.body.mesh.positions[v]);
+        }
+        if (source.empty()) return;
+        const std::vector<glm::vec3> up(source.size(), glm::vec3(0.0f, 1.0f, 0.0f));
+        const auto model = osgSkin::SkinModel::create(character.binding, rest, up, source);
+        const osgSkin::Pose pose = currentPose(character);
+        osgSkin::DeformJob job;
+        job.model = model.get();
+        job.pose = &pose;
+        job.positions = rest.data();
+        job.positionCount = rest.size();
+        job.run();
+        for (std::size_t i = 0; i < source.size(); ++i)
+            add(source[i], glm::dvec3(rest[i]), glm::dvec3(0.0, 1.0, 0.0));
+    }
+
+    PosedMesh finish() {
+        for (glm::dvec3& normal : _mesh.normals) {
+            const double length = glm::length(normal);
+            normal = length > 0.0 ? normal / length : glm::dvec3(0.0, 1.0, 0.0);
+        }
+        return std::move(_mesh);
+    }
+
+private:
+    PosedMesh _mesh;
+    std::vector<bool> _seen;
+};
+
+} // namespace
+
+osgSkin::Pose currentPose(const osgSkin::Character& character) {
+    osgSkin::BoneReader reader(character.binding.joints, *character.skeleton);
+    const std::vector<glm::dmat4>& skinning = reader.read();
+    osgSkin::Pose pose(character.binding.joints);
+    pose.set(skinning.data(), skinning.size());
+    return pose;
+}
+
+PosedMesh PosedMesh::read(const osgSkin::Character& character) {
+    Collector collector(character.body.mesh.positions.size());
+    for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins) {
+        dynamic_cast<osgSkin::UpdateDeformableSkin&>(*skin.drawable->getUpdateCallback())
+            .pose(*skin.drawable, *character.skeleton);
+        collector.add(*skin.drawable->getDeformedGeometry(), skin.part.sourceVertex, {});
+    }
+    for (const osgSkin::AttachedSkin::Rigid& rigid : character.skin.rigids)
+        collector.add(*rigid.part.geometry, rigid.part.sourceVertex,
+                      rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace());
+    collector.addUndrawn(character);
+    return collector.finish();
+}
+
+} // namespace bake

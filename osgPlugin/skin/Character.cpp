@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Character.h"
+
+#include "ClipBounds.h"
+#include "Props.h"
+
+#include <osgSkin/Error>
+#include <osgSkinBind/Bind>
+
+#include <osg/MatrixTransform>
+#include <osg/Notify>
+#include <osgDB/FileNameUtils>
+
+namespace osgSkin {
+namespace {
+
+/// Bind errors know the mesh's vertices and the skeleton's joints, but not where they came from.
+template <typename Step>
+auto inFile(const std::string& file, const Step& step) {
+    try {
+        return step();
+    } catch (const Error& error) {
+        const std::string what = error.what();
+        if (what.rfind(file, 0) == 0) throw;
+        throw Error(file + ": " + what);
+    }
+}
+
+void loadMotions(Character& character) {
+    for (const SkinFile::Motion& entry : character.file.motions) {
+        osgSkin::Motion motion = importMotion(entry.file, entry.skipFrames);
+        motion.name = entry.name;
+        RetargetOptions options;
+        options.joints = entry.joints;
+        character.motions.push_back(inFile(entry.file, [&] {
+            Character::Motion loaded;
+            loaded.clip = retarget(motion, character.rig, options, &loaded.report);
+            return loaded;
+        }));
+    }
+}
+
+/// OSG's world has Z up; most characters' files have Y up and face +Z, so they come to face -Y,
+/// towards osgviewer's camera.
+osg::ref_ptr<osg::MatrixTransform> makeUpright(bool zUp) {
+    osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(
+        zUp ? osg::Matrix() : osg::Matrix::rotate(osg::PI_2, osg::Vec3(1, 0, 0)));
+    upright->setName("upright");
+    // Bones below are rewritten every frame: nothing here may be flattened into them.
+    upright->setDataVariance(osg::Object::DYNAMIC);
+    return upright;
+}
+
+void buildScene(Character& character, const osgDB::Options* options) {
+    character.skeleton = makeSkeleton(character.rig);
+    character.skin = attachSkin(
+        *character.skeleton, character.body.mesh, character.body.parts, character.binding,
+        splitRigid(character.body.mesh, character.binding,
+                   character.file.bind.rigid ? *character.file.bind.rigid
+                                             : automaticRigidJoints(character.rig)));
+    character.manager = new osgAnimation::BasicAnimationManager;
+    const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character.file.zUp);
+    upright->addChild(character.skeleton);
+    for (const Character::Motion& motion : character.motions) {
+        const osg::ref_ptr<osgAnimation::Animation> animation =
+            makeAnimation(motion.clip, character.rig);
+        addProps(character.file, motion, *upright, *animation, options);
+        character.manager->registerAnimation(animation);
+    }
+    character.root = new osg::Group;
+    character.root->setName(osgDB::getStrippedName(character.file.file));
+    character.root->addChild(upright);
+    if (character.motions.empty()) return;
+    character.root->setUpdateCallback(character.manager);
+    character.manager->playAnimation(character.manager->getAnimationList().front());
+    // A viewer places its camera before the first frame: tell it where the figure will get to.
+    character.root->setInitialBound(clipBounds(character.motions.front().clip, character.rig,
+                                               character.binding, character.body.mesh,
+                                               upright->getMatrix()));
+}
+
+} // namespace
+
+Character Character::load(const std::string& file, const osgDB::Options* options) {
+    Character character;
+    character.file = SkinFile::read(file);
+    character.body = importMesh(character.file.mesh, options);
+    character.rig = importSkeleton(character.file.skeleton);
+    character.binding = inFile(file, [&] {
+        return bind(character.body.mesh, character.rig, character.file.bind, &character.report);
+    });
+    OSG_INFO << file << ":\n" << character.report.text();
+    loadMotions(character);
+    inFile(file, [&] {
+        buildScene(character, options);
+        return 0;
+    });
+    return character;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "SkinFile.h"
+
+#include <osgSkin/Binding>
+#include <osgSkinBind/AttachSkin>
+#include <osgSkinBind/BindReport>
+#include <osgSkinImport/Clip>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/Retarget>
+
+#include <osg/Group>
+#include <osgAnimation/BasicAnimationManager>
+#include <osgDB/Options>
+
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+
+/// A character read from a `.skin` file: what its files hold and the scene made of them.
+struct Character {
+    /// A motion carried over to the rig.
+    struct Motion {
+        Clip clip;
+        RetargetReport report;
+    };
+
+    SkinFile file;
+    ImportedMesh body;
+    RestSkeleton rig;
+    std::vector<Motion> motions;
+    Binding binding;
+    BindReport report;
+
+    osg::ref_ptr<osg::Group> root; ///< Z up; its animation manager plays the first motion
+    osg::ref_ptr<osgAnimation::Skeleton> skeleton; ///< rest space below it
+    osg::ref_ptr<osgAnimation::BasicAnimationManager> manager;
+    AttachedSkin skin;
+
+    /// Reads, binds and builds. \throw Error with file, place and what was expected
+    static Character load(const std::string& file, const osgDB::Options* options = nullptr);
+};
+
+} // namespace osgSkin
