@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "SkeletonTree.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <vector>
+
+namespace osgSkin {
+
+/// The turns A that take the rig's rest bones to the motion's zero-pose bones, one a rig joint.
+///
+/// Trunk joints are not aligned. A limb joint whose bone has no direction in either skeleton takes
+/// its parent's turn, so that it does not turn against the limb.
+/// \param motionJoint for each rig joint, the motion joint that drives it, or -1
+std::vector<glm::dquat> alignBones(const SkeletonTree& rig, const SkeletonTree& motion,
+                                   const std::vector<int>& motionJoint);
+
+/// The shortest turn that takes the direction `from` to `to`; neither is zero.
+glm::dquat shortestTurn(const glm::dvec3& from, const glm::dvec3& to);
+
+} // namespace osgSkin

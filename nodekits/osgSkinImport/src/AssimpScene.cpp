@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "AssimpScene.h"
+
+#include "FileText.h"
+
+#include <assimp/config.h>
+
+#include <exception>
+
+namespace osgSkin {
+
+const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path) {
+    // Assimp would add a mesh of its own to a file that holds a skeleton only.
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    const aiScene* scene = nullptr;
+    std::string reason;
+    try {
+        scene = importer.ReadFile(path, 0);
+        if (scene == nullptr) reason = importer.GetErrorString();
+    } catch (const std::exception& error) {
+        reason = error.what();
+    }
+    if (scene == nullptr || scene->mRootNode == nullptr)
+        failFile(path, reason.empty() ? "cannot be read" : reason);
+    return *scene;
+}
+
+glm::dvec3 toGlm(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::dquat toGlm(const aiQuaternion& q) {
+    return {q.w, q.x, q.y, q.z};
+}
+
+glm::dmat4 toGlm(const aiMatrix4x4& m) {
+    glm::dmat4 result; // columns
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            result[column][row] = static_cast<double>(m[static_cast<unsigned>(row)][column]);
+    return result;
+}
+
+} // namespace osgSkin

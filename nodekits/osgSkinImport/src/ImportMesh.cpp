@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "FileText.h"
+#include "MeshParts.h"
+#include "MeshReaders.h"
+
+#include <osgSkin/Error>
+#include <osgSkinImport/ImportMesh>
+
+#include <osgDB/FileNameUtils>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace osgSkin {
+namespace {
+
+CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
+    // Assimp's and OSG's OBJ readers reorder the vertices.
+    if (osgDB::getLowerCaseFileExtension(path) == "obj") return readObjMesh(path, options);
+    if (!assimpReads(path)) return readOsgMesh(path, options);
+    requireReadable(path);
+    return readAssimpMesh(path, options);
+}
+
+/// Makes all normals unit vectors; false where some are missing.
+bool normalise(std::vector<glm::vec3>& normals) {
+    for (glm::vec3& n : normals) {
+        const double length = glm::length(glm::dvec3(n));
+        if (!std::isfinite(length) || !(length > 0.0)) return false;
+        n = glm::vec3(glm::dvec3(n) / length);
+    }
+    return true;
+}
+
+} // namespace
+
+ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) {
+    CornerMesh read = readMesh(path, options);
+    if (read.mesh.faceSizes.empty()) failFile(path, "no face, expected at least one");
+    try {
+        read.mesh.validate();
+    } catch (const Error& error) {
+        failFile(path, error.what());
+    }
+    if (!normalise(read.normals)) read.normals = smoothNormals(read.mesh);
+    for (glm::vec2& t : read.texCoords)
+        if (!std::isfinite(t.x) || !std::isfinite(t.y)) t = glm::vec2(0.0f);
+
+    ImportedMesh result;
+    result.parts = makeMeshParts(read);
+    result.mesh = std::move(read.mesh);
+    return result;
+}
+
+} // namespace osgSkin

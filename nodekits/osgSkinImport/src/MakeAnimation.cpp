@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "ClipCheck.h"
+
+#include <osgSkin/GlmOsg>
+#include <osgSkinImport/Clip>
+
+#include <osgAnimation/Channel>
+#include <osgAnimation/Sampler>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+/// Calls `add(sample, time)` for each key. A single sample gives two, because osgAnimation divides
+/// by an animation's duration.
+template <typename Add>
+void forEachKey(const Clip& clip, const Add& add) {
+    for (std::size_t f = 0; f < std::max<std::size_t>(clip.frames, 2); ++f)
+        add(std::min(f, clip.frames - 1), static_cast<double>(f) * clip.frameTime);
+}
+
+osg::ref_ptr<osgAnimation::Channel> rotationChannel(const Clip& clip, std::size_t joint) {
+    osg::ref_ptr<osgAnimation::QuatSphericalLinearChannel> channel =
+        new osgAnimation::QuatSphericalLinearChannel;
+    channel->setName("quaternion");
+    auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
+    glm::dquat previous(1.0, 0.0, 0.0, 0.0);
+    forEachKey(clip, [&](std::size_t sample, double time) {
+        // q and -q are the same turn; the nearer one makes the interpolation take the short way.
+        glm::dquat q = clip.rotations[sample * clip.joints + joint];
+        if (glm::dot(previous, q) < 0.0) q = -q;
+        keys->push_back(osgAnimation::QuatKeyframe(time, toOsg(q)));
+        previous = q;
+    });
+    return channel;
+}
+
+osg::ref_ptr<osgAnimation::Channel> rootChannel(const Clip& clip) {
+    osg::ref_ptr<osgAnimation::Vec3LinearChannel> channel = new osgAnimation::Vec3LinearChannel;
+    channel->setName("translate");
+    auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
+    forEachKey(clip, [&](std::size_t sample, double time) {
+        keys->push_back(
+            osgAnimation::Vec3Keyframe(time, osg::Vec3(toOsg(clip.rootPositions[sample]))));
+    });
+    return channel;
+}
+
+} // namespace
+
+osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const RestSkeleton& rig) {
+    requireFits(clip, rig);
+    osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+    animation->setName(clip.name);
+    animation->setPlayMode(osgAnimation::Animation::LOOP);
+
+    osg::ref_ptr<osgAnimation::Channel> root = rootChannel(clip);
+    root->setTargetName(rig.joints[0].name);
+    animation->addChannel(root);
+    for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+        osg::ref_ptr<osgAnimation::Channel> channel = rotationChannel(clip, j);
+        channel->setTargetName(rig.joints[j].name);
+        animation->addChannel(channel);
+    }
+    animation->computeDuration();
+    return animation;
+}
+
+} // namespace osgSkin

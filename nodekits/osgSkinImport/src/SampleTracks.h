@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "SceneSkeleton.h"
+
+#include <osgSkinImport/Motion>
+
+#include <assimp/anim.h>
+
+#include <string>
+
+namespace osgSkin {
+
+/// Samples an animation at equal steps, as many as its longest track has keys; for BVH these are
+/// the file's own samples. Turns are brought into frames that are aligned with the world at rest.
+///
+/// Only the root moves from its place; moves of other joints are left out, with a notice.
+/// \throw osgSkin::Error with `path` where no track has a key, or the keys' times make no sense.
+Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
+                    const std::string& path);
+
+} // namespace osgSkin
