@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "BvhWriter.h"
+#include "ThrowMotion.h"
+
+#include <vector>
+
+namespace mannequin {
+
+/// The ball's rows, one a frame: in the hand up to the release frame, then free.
+///
+/// It leaves with the hand's velocity, falls under gravity without drag, and bounces off the floor
+/// y = 0; in the loop's last frame it is in the hand again.
+std::vector<BvhRow> ballRows(const Skeleton& skeleton, const ThrowMotion& motion);
+
+} // namespace mannequin
