@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "Snapshots.h"
+
+#include <osgDB/FileUtils>
+#include <osgDB/WriteFile>
+#include <osgViewer/Viewer>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace example {
+namespace {
+
+/// Reads the picture back at the end of a draw, while the context is current.
+struct ReadBack : osg::Camera::DrawCallback {
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    void operator()(osg::RenderInfo& info) const override {
+        const osg::Viewport& viewport = *info.getCurrentCamera()->getViewport();
+        image->readPixels(0, 0, static_cast<int>(viewport.width()),
+                          static_cast<int>(viewport.height()), GL_RGB, GL_UNSIGNED_BYTE);
+    }
+};
+
+} // namespace
+
+struct Snapshots::Impl {
+    osgViewer::Viewer viewer;
+    osg::ref_ptr<ReadBack> readBack = new ReadBack;
+};
+
+Snapshots::Snapshots(osg::Node* scene, const View& view, int width, int height)
+    : _impl(std::make_unique<Impl>()) {
+    osgViewer::Viewer& viewer = _impl->viewer;
+    viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
+    const osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+    traits->readDISPLAY();
+    traits->setUndefinedScreenDetailsToDefaultScreen();
+    traits->width = width;
+    traits->height = height;
+    traits->windowDecoration = false;
+    traits->doubleBuffer = true;
+    traits->samples = 4;
+    osg::ref_ptr<osg::GraphicsContext> context =
+        osg::GraphicsContext::createGraphicsContext(traits);
+    if (!context) throw std::runtime_error("no window can be opened; is DISPLAY set?");
+    osg::Camera& camera = *viewer.getCamera();
+    camera.setGraphicsContext(context);
+    camera.setViewport(0, 0, width, height);
+    camera.setClearColor(osg::Vec4(0.13f, 0.145f, 0.16f, 1.0f));
+    camera.setProjectionMatrixAsPerspective(view.fieldOfView, double(width) / height, 0.1, 1000.0);
+    camera.setViewMatrixAsLookAt(view.eye, view.centre, view.up);
+    camera.setFinalDrawCallback(_impl->readBack);
+    viewer.setSceneData(scene);
+    viewer.realize();
+}
+
+Snapshots::~Snapshots() = default;
+
+osg::ref_ptr<osg::Image> Snapshots::take(double time) {
+    // The second frame of the same time shows what the first one set going, on every driver.
+    _impl->viewer.frame(time);
+    _impl->viewer.frame(time);
+    return new osg::Image(*_impl->readBack->image, osg::CopyOp::DEEP_COPY_ALL);
+}
+
+void Snapshots::write(double time, const std::string& file) {
+    const osg::ref_ptr<osg::Image> image = take(time);
+    osgDB::makeDirectoryForFile(file);
+    if (!osgDB::writeImageFile(*image, file))
+        throw std::runtime_error(file + ": cannot be written");
+}
+
+std::string pictureName(const std::string& folder, const std::string& prefix, unsigned int index) {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%02u.png", index);
+    return folder + "/" + prefix + number;
+}
+
+} // namespace example

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Image>
+#include <osg/Node>
+#include <osg/Vec3d>
+#include <osg/ref_ptr>
+
+#include <memory>
+#include <string>
+
+namespace example {
+
+/// Where the camera of a picture stands.
+struct View {
+    osg::Vec3d eye;
+    osg::Vec3d centre;
+    osg::Vec3d up{0, 0, 1};
+    double fieldOfView = 30.0; ///< degrees, of the picture's height
+};
+
+/// Takes pictures of a scene at given times of its own clock, so that they do not depend on how fast
+/// the machine draws. Needs an X display (Xvfb will do).
+class Snapshots {
+public:
+    /// \throw std::runtime_error where no window can be opened
+    Snapshots(osg::Node* scene, const View& view, int width, int height);
+    ~Snapshots();
+    Snapshots(const Snapshots&) = delete;
+    Snapshots& operator=(const Snapshots&) = delete;
+
+    /// The scene at `time`, in seconds; times must not go back.
+    osg::ref_ptr<osg::Image> take(double time);
+
+    /// The same, written to a file. \throw std::runtime_error where it cannot be written
+    void write(double time, const std::string& file);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> _impl;
+};
+
+/// PREFIX_00.png, PREFIX_01.png, ... in `folder`, which is made if need be.
+std::string pictureName(const std::string& folder, const std::string& prefix, unsigned int index);
+
+} // namespace example

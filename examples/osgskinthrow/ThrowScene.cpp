@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "ThrowScene.h"
+
+#include <osgSkinBind/AttachSkin>
+#include <osgSkinBind/Bind>
+#include <osgSkinImport/Clip>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/Motion>
+#include <osgSkinImport/Prop>
+#include <osgSkinImport/Retarget>
+
+#include <osg/MatrixTransform>
+#include <osgAnimation/BasicAnimationManager>
+
+osg::ref_ptr<osg::Group> makeThrowScene(const std::string& folder, double* seconds) {
+    // [readme] A body, a skeleton, and the skin that follows it.
+    const osgSkin::ImportedMesh body = osgSkin::importMesh(folder + "/thrower.obj");
+    const osgSkin::RestSkeleton rig = osgSkin::importSkeleton(folder + "/thrower.bvh");
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(rig);
+    osgSkin::attachSkin(*skeleton, body.mesh, body.parts, osgSkin::bind(body.mesh, rig));
+
+    // A motion for this skeleton, played by osgAnimation's own manager.
+    const osgSkin::Motion motion = osgSkin::importMotion(folder + "/throw.bvh");
+    osgSkin::RetargetReport report;
+    const osgSkin::Clip clip = osgSkin::retarget(motion, rig, {}, &report);
+    const osg::ref_ptr<osgAnimation::Animation> animation = osgSkin::makeAnimation(clip, rig);
+    const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
+        new osgAnimation::BasicAnimationManager;
+    manager->registerAnimation(animation);
+    manager->playAnimation(animation);
+    // [readme]
+    if (seconds) *seconds = clip.frameTime * static_cast<double>(clip.frames);
+
+    // The files have Y up and face +Z; OSG's world has Z up.
+    const osg::ref_ptr<osg::MatrixTransform> upright =
+        new osg::MatrixTransform(osg::Matrix::rotate(osg::PI_2, osg::Vec3(1, 0, 0)));
+    upright->setDataVariance(osg::Object::DYNAMIC);
+    upright->addChild(skeleton);
+    upright->addChild(osgSkin::makeProp("ball", osgSkin::importMesh(folder + "/ball.obj").parts,
+                                        osgSkin::importMotion(folder + "/ball.bvh"), report,
+                                        *animation));
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setUpdateCallback(manager);
+    scene->addChild(upright);
+    return scene;
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "Ground.h"
+#include "Snapshots.h"
+#include "ThrowScene.h"
+
+#include <osgGA/StateSetManipulator>
+#include <osgGA/TrackballManipulator>
+#include <osgViewer/Viewer>
+#include <osgViewer/ViewerEventHandlers>
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+
+namespace {
+
+const example::View kView{{1.2, -6.4, 1.75}, {0.45, 0.0, 0.95}};
+
+void takePictures(osg::Node* scene, double seconds, unsigned int count, const std::string& folder) {
+    example::Snapshots snapshots(scene, kView, 800, 800);
+    for (unsigned int i = 0; i < count; ++i)
+        snapshots.write(seconds * i / count, example::pictureName(folder, "throw", i));
+    std::cout << count << " pictures of the throw in " << folder << std::endl;
+}
+
+int show(osg::Node* scene) {
+    osgViewer::Viewer viewer;
+    viewer.setUpViewInWindow(100, 100, 1000, 800);
+    viewer.setSceneData(scene);
+    viewer.addEventHandler(new osgViewer::StatsHandler);
+    viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getStateSet()));
+    const osg::ref_ptr<osgGA::TrackballManipulator> camera = new osgGA::TrackballManipulator;
+    camera->setHomePosition(kView.eye, kView.centre, kView.up);
+    viewer.setCameraManipulator(camera);
+    return viewer.run();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("A figure throws a ball: a scene built from the public API.", "osgskinthrow");
+    std::string data = OSGSKIN_DATA;
+    std::string pictures;
+    unsigned int count = 12;
+    app.add_option("--data", data, "folder of thrower.obj, thrower.bvh and throw.bvh");
+    app.add_option("--pictures", pictures, "write pictures to this folder; no window to look at");
+    app.add_option("--count", count, "how many pictures")->check(CLI::Range(1u, 99u));
+    CLI11_PARSE(app, argc, argv);
+    try {
+        double seconds = 0.0;
+        const osg::ref_ptr<osg::Group> scene = example::withShadow(makeThrowScene(data, &seconds));
+        scene->addChild(example::makeFloor(8.0f));
+        if (pictures.empty()) return show(scene);
+        takePictures(scene, seconds, count, pictures);
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "osgskinthrow: " << error.what() << std::endl;
+        return 1;
+    }
+}
