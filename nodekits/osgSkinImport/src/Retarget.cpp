@@ -90,6 +90,7 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     if (report != nullptr) {
         fillReport(*report, motion, rig, motionJoint, alignment);
         report->scale = root.scale();
+        report->offset = root.offset();
     }
     return clip;
 }

@@ -29,6 +29,9 @@ public:
     void add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
              const std::vector<glm::dquat>& rigWorld);
 
+    /// What is added to the scaled way, after finish(): hips = scale * motion's hips + offset.
+    const glm::dvec3& offset() const { return _offset; }
+
     /// The rig root's place in each sample.
     std::vector<glm::dvec3> finish();
 
@@ -39,7 +42,9 @@ private:
     const SkeletonTree& _motion;
     int _rigHips = 0;
     int _motionHips = 0;
+    double _rigHeight = 0.0; ///< of the hips
     double _scale = 1.0;
+    glm::dvec3 _offset{0.0};
     BodyParts _rigParts;
     std::vector<glm::dvec3> _roots;
     std::vector<double> _feet;       ///< height of the lowest foot above its rest height, [sample]
