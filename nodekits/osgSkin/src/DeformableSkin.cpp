@@ -83,7 +83,7 @@ void DeformableSkin::makeBuffers() {
 }
 
 bool DeformableSkin::setPose(const glm::dmat4* skinning, std::size_t count) {
-    if (!_pose.set(skinning, count)) return false;
+    if (!_model || !_pose.set(skinning, count)) return false;
     poseChanged();
     return true;
 }

@@ -19,7 +19,7 @@ constexpr std::size_t kMax = SkinModel::kMaxPartial;
 
 /// Cells per unit of ratio and per extent of the skin: finer cells give tighter bounds and cost
 /// more.
-constexpr float kRatioCells = 5.0f;
+constexpr float kRatioCells = 8.0f;
 constexpr float kSpaceCells = 12.0f;
 
 using Cell = std::array<int, 3 + 2 * kMax>;

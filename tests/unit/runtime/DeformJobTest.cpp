@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/DeformJob>
+#include <osgSkin/Error>
+
+#include "Tube.h"
+#include "Turns.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using osgSkin::DeformJob;
+using osgSkin::Pose;
+
+namespace {
+
+/// The deformation in double precision, vertex by vertex and joint by joint, as DESIGN's formula has
+/// it: no groups, no folding.
+glm::dvec3 reference(const osgSkin::Binding& binding, std::uint32_t vertex, glm::dvec3 x,
+                     const std::vector<glm::dmat4>& skinning) {
+    for (std::uint32_t i = binding.firstInfluence[vertex + 1]; i-- > binding.firstInfluence[vertex];) {
+        const osgSkin::Influence& influence = binding.influences[i];
+        const osgSkin::BoundJoint& joint = binding.joints[influence.joint];
+        if (joint.parent < 0) return glm::dvec3(skinning[0] * glm::dvec4(x, 1.0));
+        const glm::dmat4 local =
+            glm::inverse(skinning[static_cast<std::size_t>(joint.parent)]) * skinning[influence.joint];
+        const osgSkin::BendTwist split =
+            osgSkin::splitBendTwist(glm::quat_cast(glm::dmat3(local)), joint.twistAxis);
+        x = joint.centre + osgSkin::partialTurn(split, joint.twistAxis, double(influence.bend),
+                                                double(influence.twist)) *
+                               (x - joint.centre);
+    }
+    return x;
+}
+
+struct Deformed {
+    explicit Deformed(const test::Tube& tube)
+        : model(tube.model()), pose(model->joints()), positions(tube.positions.size()),
+          normals(tube.positions.size()) {
+        job.model = model.get();
+        job.pose = &pose;
+        job.positions = positions.data();
+        job.positionCount = positions.size();
+        job.normals = normals.data();
+        job.normalCount = normals.size();
+    }
+    Deformed(const Deformed&) = delete;
+
+    std::shared_ptr<const osgSkin::SkinModel> model;
+    Pose pose;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    DeformJob job;
+};
+
+} // namespace
+
+TEST(DeformJob, DefaultIsInvalid) {
+    const DeformJob job;
+    EXPECT_STREQ(job.validate(), "no model");
+    EXPECT_FALSE(job.run());
+}
+
+TEST(DeformJob, SaysWhatIsMissing) {
+    const test::Tube tube;
+    const Deformed good(tube);
+    ASSERT_EQ(good.job.validate(), nullptr);
+    const Pose other;
+    struct Case {
+        const char* name;
+        void (*spoil)(DeformJob&, const Pose&);
+    };
+    const Case cases[] = {
+        {"no pose", [](DeformJob& job, const Pose&) { job.pose = nullptr; }},
+        {"foreign pose", [](DeformJob& job, const Pose& pose) { job.pose = &pose; }},
+        {"no positions", [](DeformJob& job, const Pose&) { job.positions = nullptr; }},
+        {"too few positions", [](DeformJob& job, const Pose&) { --job.positionCount; }},
+        {"too few normals", [](DeformJob& job, const Pose&) { --job.normalCount; }},
+    };
+    for (const Case& c : cases) {
+        DeformJob job = good.job;
+        c.spoil(job, other);
+        EXPECT_NE(job.validate(), nullptr) << c.name;
+        EXPECT_FALSE(job.run()) << c.name;
+    }
+}
+
+TEST(DeformJob, RestPoseIsTheRestSkin) {
+    const test::Tube tube;
+    Deformed deformed(tube);
+    ASSERT_TRUE(deformed.job.run());
+    EXPECT_EQ(deformed.positions, tube.positions);
+    EXPECT_EQ(deformed.normals, tube.normals);
+}
+
+TEST(DeformJob, AgreesWithTheReferenceInDoublePrecision) {
+    const test::Tube tube;
+    Deformed deformed(tube);
+    std::mt19937_64 random(5);
+    for (int i = 0; i < 200; ++i) {
+        const std::vector<glm::dquat> turns = {test::randomRotation(random),
+                                               test::randomRotation(random),
+                                               test::randomRotation(random)};
+        const auto skinning =
+            test::skinningFrom(deformed.model->joints(), turns, test::randomUnit(random));
+        ASSERT_TRUE(deformed.pose.set(skinning.data(), skinning.size()));
+        ASSERT_TRUE(deformed.job.run());
+        for (std::uint32_t v = 0; v < tube.positions.size(); ++v) {
+            const glm::dvec3 at = glm::dvec3(tube.positions[v]);
+            const glm::dvec3 expected = reference(tube.binding, v, at, skinning);
+            ASSERT_LE(glm::distance(glm::dvec3(deformed.positions[v]), expected), 6.0 * 1e-6);
+            const glm::dvec3 tip =
+                reference(tube.binding, v, at + glm::dvec3(tube.normals[v]), skinning);
+            ASSERT_LE(glm::distance(glm::dvec3(deformed.normals[v]), tip - expected), 1e-5);
+        }
+    }
+}
+
+TEST(DeformJob, NormalsAreOptional) {
+    const test::Tube tube;
+    Deformed deformed(tube);
+    deformed.job.normals = nullptr;
+    deformed.job.normalCount = 0;
+    EXPECT_TRUE(deformed.job.run());
+    EXPECT_EQ(deformed.positions, tube.positions);
+}
+
+TEST(Pose, RefusesWhatCannotBeUsedAndKeepsThePose) {
+    const test::Tube tube(3, 3);
+    Pose pose(tube.binding.joints);
+    std::vector<glm::dmat4> skinning(3, glm::dmat4(1.0));
+    skinning[1] = glm::mat4_cast(glm::angleAxis(0.5, glm::dvec3(1, 0, 0)));
+    ASSERT_TRUE(pose.set(skinning.data(), 3));
+    const glm::dquat before = pose.turn(1).rotation;
+
+    EXPECT_FALSE(pose.set(skinning.data(), 2));
+    auto spoilt = skinning;
+    spoilt[1][3][0] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(pose.set(spoilt.data(), 3));
+    spoilt = skinning;
+    spoilt[2] = glm::dmat4(0.0);
+    EXPECT_FALSE(pose.set(spoilt.data(), 3));
+    EXPECT_EQ(pose.turn(1).rotation, before);
+}
+
+TEST(Pose, LeavesScaleOut) {
+    const test::Tube tube(3, 3);
+    Pose pose(tube.binding.joints);
+    const glm::dquat turn = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)));
+    const std::vector<glm::dmat4> skinning(
+        3, glm::mat4_cast(turn) * glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
+    ASSERT_TRUE(pose.set(skinning.data(), 3));
+    EXPECT_NEAR(std::abs(glm::dot(pose.turn(0).rotation, turn)), 1.0, 1e-12);
+    EXPECT_NEAR(std::abs(pose.turn(1).rotation.w), 1.0, 1e-12);
+}
+
+TEST(SkinModel, RefusesWhatDoesNotFit) {
+    const test::Tube tube(3, 3);
+    using osgSkin::SkinModel;
+    auto shortNormals = tube.normals;
+    shortNormals.pop_back();
+    EXPECT_THROW(SkinModel::create(tube.binding, tube.positions, shortNormals, tube.source),
+                 osgSkin::Error);
+    auto badSource = tube.source;
+    badSource[0] = 1000;
+    EXPECT_THROW(SkinModel::create(tube.binding, tube.positions, tube.normals, badSource),
+                 osgSkin::Error);
+    osgSkin::Binding badRatio = tube.binding;
+    badRatio.influences.back().bend = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(SkinModel::create(badRatio, tube.positions, tube.normals, tube.source),
+                 osgSkin::Error);
+}
+
+TEST(SkinModel, HoldsEveryVertexOnce) {
+    const test::Tube tube;
+    const auto model = tube.model();
+    std::vector<int> seen(tube.positions.size(), 0);
+    for (const std::uint32_t v : model->order()) ++seen[v];
+    EXPECT_EQ(seen, std::vector<int>(tube.positions.size(), 1));
+    std::size_t vertices = 0;
+    for (const auto& group : model->groups()) vertices += group.vertexCount;
+    EXPECT_EQ(vertices, tube.positions.size());
+}

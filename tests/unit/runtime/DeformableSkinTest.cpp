@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/DeformableSkin>
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/UpdateDeformableSkin>
+
+#include "Tube.h"
+#include "Turns.h"
+
+#include <osg/TriangleFunctor>
+#include <osgAnimation/Bone>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/LineSegmentIntersector>
+#include <osgUtil/Optimizer>
+#include <osgUtil/UpdateVisitor>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+osg::ref_ptr<osg::Geometry> makeGeometry(const test::Tube& tube) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
+    for (std::size_t v = 0; v < tube.positions.size(); ++v) {
+        vertices->push_back({tube.positions[v].x, tube.positions[v].y, tube.positions[v].z});
+        normals->push_back({tube.normals[v].x, tube.normals[v].y, tube.normals[v].z});
+    }
+    geometry->setVertexArray(vertices);
+    geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
+    const unsigned int sides = 12;
+    const osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (unsigned int v = 0; v + sides < vertices->size(); ++v) {
+        const unsigned int next = v % sides == sides - 1 ? v + 1 - sides : v + 1;
+        for (const unsigned int corner : {v, v + sides, next, next, v + sides, next + sides})
+            elements->push_back(corner);
+    }
+    geometry->addPrimitiveSet(elements);
+    return geometry;
+}
+
+osg::ref_ptr<osgSkin::DeformableSkin> makeSkin() {
+    const test::Tube tube;
+    osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    skin->setSkin(makeGeometry(tube), tube.model());
+    return skin;
+}
+
+/// Bends the middle joint by `angle` about x, the end joint not at all.
+void bend(osgSkin::DeformableSkin& skin, double angle) {
+    const auto skinning = test::skinningFrom(
+        skin.getModel()->joints(),
+        {glm::dquat(1, 0, 0, 0), glm::angleAxis(angle, glm::dvec3(1, 0, 0)), glm::dquat(1, 0, 0, 0)});
+    ASSERT_TRUE(skin.setPose(skinning.data(), skinning.size()));
+}
+
+/// Bones for the tube's three joints, in the rest pose.
+osg::ref_ptr<osgAnimation::Skeleton> makeBones() {
+    osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    osg::Group* parent = skeleton;
+    double height = 0.0;
+    for (const char* name : {"root", "middle", "end"}) {
+        const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone(name);
+        bone->setMatrix(osg::Matrix::translate(0, height == 0.0 ? 0.0 : 2.0, 0));
+        bone->setMatrixInSkeletonSpace(osg::Matrix::translate(0, height, 0));
+        bone->setInvBindMatrixInSkeletonSpace(osg::Matrix::translate(0, -height, 0));
+        parent->addChild(bone);
+        parent = bone;
+        height += 2.0;
+    }
+    return skeleton;
+}
+
+struct Count {
+    unsigned int triangles = 0;
+    void operator()(const osg::Vec3&, const osg::Vec3&, const osg::Vec3&, bool = false) {
+        ++triangles;
+    }
+};
+
+/// One cull traversal over `node` with everything in view (or nothing).
+void cull(osg::Node& node, bool inView) {
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    const osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
+    const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+    visitor->setStateGraph(graph);
+    visitor->setRenderStage(stage);
+    visitor->pushViewport(new osg::Viewport(0, 0, 100, 100));
+    visitor->pushProjectionMatrix(new osg::RefMatrix(osg::Matrix::perspective(60, 1, 0.1, 1000)));
+    visitor->pushModelViewMatrix(
+        new osg::RefMatrix(osg::Matrix::lookAt(osg::Vec3d(0, 3, inView ? 30 : -30),
+                                               osg::Vec3d(0, 3, inView ? 0 : -60),
+                                               osg::Vec3d(0, 1, 0))),
+        osg::Transform::ABSOLUTE_RF);
+    node.accept(*visitor);
+}
+
+} // namespace
+
+TEST(DeformableSkin, DefaultIsEmptyAndHarmless) {
+    const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    EXPECT_EQ(skin->getDeformedGeometry(), nullptr);
+    EXPECT_FALSE(skin->setPose(nullptr, 0));
+    EXPECT_FALSE(skin->getBoundingBox().valid());
+    cull(*skin, true);
+    osg::TriangleFunctor<Count> count;
+    skin->accept(count);
+    EXPECT_EQ(count.triangles, 0u);
+}
+
+TEST(DeformableSkin, RefusesGeometryThatDoesNotFit) {
+    const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    EXPECT_THROW(skin->setSkin(nullptr, test::Tube().model()), osgSkin::Error);
+    EXPECT_THROW(skin->setSkin(makeGeometry(test::Tube()), nullptr), osgSkin::Error);
+    EXPECT_THROW(skin->setSkin(makeGeometry(test::Tube(9)), test::Tube().model()), osgSkin::Error);
+}
+
+TEST(DeformableSkin, DeformsOncePerPoseAndOnlyWhenSeen) {
+    const auto skin = makeSkin();
+    bend(*skin, 0.3);
+    EXPECT_EQ(skin->getDeformCount(), 0u);
+    cull(*skin, false);
+    EXPECT_EQ(skin->getDeformCount(), 0u);
+    cull(*skin, true);
+    cull(*skin, true);
+    cull(*skin, true);
+    EXPECT_EQ(skin->getDeformCount(), 1u);
+    bend(*skin, 0.4);
+    cull(*skin, true);
+    EXPECT_EQ(skin->getDeformCount(), 2u);
+}
+
+TEST(DeformableSkin, EagerDeformsAtOnce) {
+    const auto skin = makeSkin();
+    skin->setEager(true);
+    bend(*skin, 0.3);
+    EXPECT_EQ(skin->getDeformCount(), 1u);
+}
+
+TEST(DeformableSkin, AlternatesTwoBuffers) {
+    const auto skin = makeSkin();
+    bend(*skin, 0.3);
+    const osg::Geometry* first = skin->getDeformedGeometry();
+    bend(*skin, 0.6);
+    const osg::Geometry* second = skin->getDeformedGeometry();
+    bend(*skin, 0.9);
+    EXPECT_NE(first, second);
+    EXPECT_EQ(skin->getDeformedGeometry(), first);
+    EXPECT_NE(first->getVertexArray()->getVertexBufferObject(),
+              second->getVertexArray()->getVertexBufferObject());
+}
+
+TEST(DeformableSkin, PickingHitsThePosedSkin) {
+    const auto skin = makeSkin();
+    bend(*skin, osg::PI_2); // the upper part now points along +z
+    const auto hits = [&skin](const osg::Vec3d& from, const osg::Vec3d& to) {
+        const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
+            new osgUtil::LineSegmentIntersector(from, to);
+        osgUtil::IntersectionVisitor visitor(line);
+        skin->accept(visitor);
+        return line->containsIntersections();
+    };
+    EXPECT_TRUE(hits({-5, 2, 3}, {5, 2, 3}));
+    EXPECT_FALSE(hits({-5, 5, 0}, {5, 5, 0}));
+}
+
+TEST(DeformableSkin, BoundsFollowThePose) {
+    const auto skin = makeSkin();
+    EXPECT_TRUE(skin->getBoundingBox().contains({0, 5.9f, 0}));
+    bend(*skin, osg::PI_2);
+    EXPECT_FALSE(skin->getBoundingBox().contains({0, 5.9f, 0}));
+    EXPECT_TRUE(skin->getBoundingBox().contains({0, 2, 3.9f}));
+}
+
+TEST(DeformableSkin, CopiesShareTheModelAndOwnTheirPose) {
+    const auto skin = makeSkin();
+    bend(*skin, 0.5);
+    const osg::ref_ptr<osgSkin::DeformableSkin> copy =
+        osg::clone(skin.get(), osg::CopyOp::DEEP_COPY_ALL);
+    EXPECT_EQ(copy->getModel(), skin->getModel());
+    const osg::Vec3 before =
+        static_cast<const osg::Vec3Array*>(copy->getDeformedGeometry()->getVertexArray())->back();
+    bend(*skin, 1.0);
+    skin->getDeformedGeometry();
+    EXPECT_EQ(
+        static_cast<const osg::Vec3Array*>(copy->getDeformedGeometry()->getVertexArray())->back(),
+        before);
+}
+
+TEST(DeformableSkin, OptimizerLeavesItAlone) {
+    const osg::ref_ptr<osg::MatrixTransform> scene =
+        new osg::MatrixTransform(osg::Matrix::translate(10, 0, 0));
+    scene->setDataVariance(osg::Object::STATIC);
+    scene->addChild(makeSkin());
+    scene->addChild(makeSkin());
+    osgUtil::Optimizer().optimize(scene, osgUtil::Optimizer::ALL_OPTIMIZATIONS);
+    ASSERT_EQ(scene->getNumChildren(), 2u);
+    for (unsigned int i = 0; i < 2; ++i) {
+        const auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(scene->getChild(i));
+        ASSERT_NE(skin, nullptr);
+        const auto& rest = static_cast<const osg::Vec3Array&>(*skin->getRestGeometry()->getVertexArray());
+        EXPECT_EQ(rest.front(), osg::Vec3(1, 0, 0));
+    }
+}
+
+TEST(UpdateDeformableSkin, FollowsTheBonesOfTheSkeletonAbove) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
+    const auto skin = makeSkin();
+    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
+    skeleton->addChild(skin);
+    auto& root = static_cast<osgAnimation::Bone&>(*skeleton->getChild(0));
+    auto& middle = static_cast<osgAnimation::Bone&>(*root.getChild(0));
+    auto& end = static_cast<osgAnimation::Bone&>(*middle.getChild(0));
+    middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(osg::PI_2, osg::Vec3(1, 0, 0)) *
+                                    osg::Matrix::translate(0, 2, 0));
+    end.setMatrixInSkeletonSpace(osg::Matrix::translate(0, 2, 0) * middle.getMatrixInSkeletonSpace());
+
+    osgUtil::UpdateVisitor update;
+    update.setTraversalNumber(1);
+    skeleton->accept(update);
+    const auto& vertices =
+        static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
+    EXPECT_LE((vertices.back() - osg::Vec3(std::cos(float(osg::PI) / 6), 2.5f, 4)).length(), 1e-5);
+    EXPECT_NEAR(skin->getPose().turn(1).split.bendAngle, osg::PI_2, 1e-12);
+    EXPECT_NEAR(skin->getPose().turn(2).split.bendAngle, 0.0, 1e-12);
+}
+
+TEST(UpdateDeformableSkin, AJointWithoutABoneMovesWithItsParent) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
+    auto& root = static_cast<osgAnimation::Bone&>(*skeleton->getChild(0));
+    auto& middle = static_cast<osgAnimation::Bone&>(*root.getChild(0));
+    middle.removeChildren(0, middle.getNumChildren());
+    const auto skin = makeSkin();
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(1.0, osg::Vec3(1, 0, 0)) *
+                                    osg::Matrix::translate(0, 2, 0));
+    ASSERT_TRUE(update->pose(*skin, *skeleton));
+    EXPECT_NEAR(std::abs(skin->getPose().turn(2).rotation.w), 1.0, 1e-12);
+}

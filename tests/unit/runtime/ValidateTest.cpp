@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/Error>
+#include <osgSkin/RestSkeleton>
+#include <osgSkin/SkinMesh>
+
+#include "Tube.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// The message of the Error that validate() throws; empty where it throws none.
+template <typename T> std::string complaint(const T& value) {
+    try {
+        value.validate();
+        return "";
+    } catch (const osgSkin::Error& error) {
+        return error.what();
+    }
+}
+
+} // namespace
+
+TEST(RestSkeleton, DefaultIsInvalid) {
+    EXPECT_NE(complaint(osgSkin::RestSkeleton()), "");
+}
+
+TEST(RestSkeleton, ValidateNamesTheJoint) {
+    struct Case {
+        const char* name;
+        std::vector<osgSkin::RestJoint> joints;
+        const char* names;
+    };
+    const Case cases[] = {
+        {"first has a parent", {{"a", 0, {}, {}}}, "\"a\""},
+        {"two roots", {{"a", -1, {}, {}}, {"b", -1, {}, {}}}, "\"b\""},
+        {"cycle", {{"a", -1, {}, {}}, {"b", 2, {}, {}}, {"c", 1, {}, {}}}, "\"b\""},
+        {"own parent", {{"a", -1, {}, {}}, {"b", 1, {}, {}}}, "\"b\""},
+        {"one name twice", {{"a", -1, {}, {}}, {"a", 0, {}, {}}}, "joint 1 \"a\""},
+        {"not finite", {{"a", -1, {}, {}}, {"b", 0, {0, kNan, 0}, {}}}, "\"b\""},
+    };
+    for (const Case& c : cases)
+        EXPECT_NE(complaint(osgSkin::RestSkeleton{c.joints}).find(c.names), std::string::npos)
+            << c.name << ": " << complaint(osgSkin::RestSkeleton{c.joints});
+    EXPECT_EQ(complaint(osgSkin::RestSkeleton{{{"a", -1, {}, {}}, {"b", 0, {}, {}}}}), "");
+}
+
+TEST(RestSkeleton, KnowsItsTree) {
+    const osgSkin::RestSkeleton skeleton{
+        {{"a", -1, {}, {}}, {"b", 0, {}, {}}, {"c", 1, {}, {}}, {"d", 0, {}, {}}}};
+    EXPECT_EQ(skeleton.find("c"), 2);
+    EXPECT_EQ(skeleton.find("x"), -1);
+    EXPECT_EQ(skeleton.children(0), (std::vector<int>{1, 3}));
+    EXPECT_TRUE(skeleton.isInSubtree(2, 1));
+    EXPECT_TRUE(skeleton.isInSubtree(2, 2));
+    EXPECT_FALSE(skeleton.isInSubtree(3, 1));
+}
+
+TEST(SkinMesh, ValidateNamesThePlace) {
+    const std::vector<glm::dvec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    struct Case {
+        const char* name;
+        osgSkin::SkinMesh mesh;
+        const char* names;
+    };
+    const Case cases[] = {
+        {"empty", {}, "no vertex"},
+        {"no face", {points, {}, {}}, "no face"},
+        {"not finite", {{{0, 0, 0}, {1, kNan, 0}, {0, 1, 0}}, {3}, {0, 1, 2}}, "vertex 1"},
+        {"two corners", {points, {2}, {0, 1}}, "face 0"},
+        {"index beyond", {points, {3, 3}, {0, 1, 2, 0, 1, 3}}, "face 1"},
+        {"corners missing", {points, {3, 3}, {0, 1, 2, 0}}, "face 1"},
+        {"corners left over", {points, {3}, {0, 1, 2, 0}}, "beyond"},
+        {"huge face", {points, {0xffffffffu}, {0, 1, 2}}, "face 0"},
+    };
+    for (const Case& c : cases)
+        EXPECT_NE(complaint(c.mesh).find(c.names), std::string::npos)
+            << c.name << ": " << complaint(c.mesh);
+    EXPECT_EQ(complaint(osgSkin::SkinMesh{points, {3}, {0, 1, 2}}), "");
+}
+
+TEST(SkinMesh, FansPolygons) {
+    const osgSkin::SkinMesh mesh{std::vector<glm::dvec3>(5), {3, 4}, {0, 1, 2, 1, 2, 3, 4}};
+    EXPECT_EQ(mesh.triangles(), (std::vector<std::uint32_t>{0, 1, 2, 1, 2, 3, 1, 3, 4}));
+}
+
+TEST(Binding, ValidateNamesThePlace) {
+    const osgSkin::Binding good = test::Tube(3, 3).binding;
+    ASSERT_EQ(complaint(good), "");
+    EXPECT_NE(complaint(osgSkin::Binding()), "");
+    struct Case {
+        const char* name;
+        void (*spoil)(osgSkin::Binding&);
+        const char* names;
+    };
+    const Case cases[] = {
+        {"parent after child", [](osgSkin::Binding& b) { b.joints[1].parent = 2; }, "\"middle\""},
+        {"axis", [](osgSkin::Binding& b) { b.joints[2].twistAxis *= 2.0; }, "\"end\""},
+        {"region", [](osgSkin::Binding& b) { b.regions[4] = 9; }, "vertex 4"},
+        {"ratio", [](osgSkin::Binding& b) { b.influences.back().twist = 1.5f; }, "vertex 8"},
+        {"order", [](osgSkin::Binding& b) { b.influences.back().joint = 0; }, "vertex 8"},
+        {"root", [](osgSkin::Binding& b) { b.influences[0].bend = 0.5f; }, "vertex 0"},
+        {"offsets", [](osgSkin::Binding& b) { b.firstInfluence.back() = 3; }, "offsets"},
+    };
+    for (const Case& c : cases) {
+        osgSkin::Binding binding = good;
+        c.spoil(binding);
+        EXPECT_NE(complaint(binding).find(c.names), std::string::npos)
+            << c.name << ": " << complaint(binding);
+    }
+}
