@@ -36,8 +36,8 @@ double ImplicitBody::distance(const glm::dvec3& point) const {
     const double arms =
         std::min(bounded(_arm, point, kArmBounds), bounded(_arm, other, kArmBounds));
     double result = bounded(_trunk, point, kTrunkBounds);
-    result = smoothMin(result, bounded(_head, point, kHeadBounds), 0.030);
-    result = smoothMin(result, legs, 0.050);
+    result = smoothMin(result, bounded(_head, point, kHeadBounds), 0.038);
+    result = smoothMin(result, legs, 0.040);
     return smoothMin(result, arms, 0.035);
 }
 

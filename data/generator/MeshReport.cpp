@@ -2,6 +2,9 @@
 #include "MeshReport.h"
 #include "MannequinSkeleton.h"
 
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Side_of_triangle_mesh.h>
@@ -18,7 +21,8 @@
 namespace mannequin {
 namespace {
 
-constexpr double kSliver = 20; // degrees
+constexpr double kSliver = 20;      // degrees
+constexpr double kFarthest = 0.009; // metres; a lost fingertip or ear is farther
 
 double smallestAngle(const SkinMesh& mesh, SkinMesh::Face_index face) {
     double smallest = 180;
@@ -47,14 +51,27 @@ void inspectShape(const SkinMesh& mesh, MeshReport& report) {
     }
 }
 
+void inspectFidelity(const SkinMesh& mesh, const SkinMesh& model, MeshReport& report) {
+    using Primitive = CGAL::AABB_face_graph_triangle_primitive<SkinMesh>;
+    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(mesh.faces().begin(),
+                                                               mesh.faces().end(), mesh);
+    for (const auto v : model.vertices()) {
+        const double distance = std::sqrt(tree.squared_distance(model.point(v)));
+        if (distance <= report.deviation) continue;
+        report.deviation = distance;
+        report.worstPlace = toGlm(model.point(v));
+    }
+}
+
 } // namespace
 
 bool MeshReport::good() const {
     return vertices >= 3500 && vertices <= 4500 && eulerCharacteristic == 2 && closed &&
-           intersections == 0 && smallestAngle >= 15 && jointsOutside.empty();
+           intersections == 0 && smallestAngle >= 15 && deviation < kFarthest &&
+           jointsOutside.empty();
 }
 
-MeshReport inspect(const SkinMesh& mesh) {
+MeshReport inspect(const SkinMesh& mesh, const SkinMesh& model) {
     namespace PMP = CGAL::Polygon_mesh_processing;
     MeshReport report;
     report.vertices = mesh.number_of_vertices();
@@ -70,6 +87,7 @@ MeshReport inspect(const SkinMesh& mesh) {
     PMP::self_intersections(mesh, std::back_inserter(pairs));
     report.intersections = pairs.size();
     inspectShape(mesh, report);
+    inspectFidelity(mesh, model, report);
     if (report.closed) {
         const CGAL::Side_of_triangle_mesh<SkinMesh, Kernel> side(mesh);
         for (const RestJoint& joint : restSkeleton())
@@ -88,6 +106,8 @@ std::ostream& operator<<(std::ostream& out, const MeshReport& report) {
         << "smallest angle       " << report.smallestAngle << " degrees, " << report.smallAngles
         << " triangles below " << kSliver << '\n'
         << "height               " << report.lowest << " to " << report.highest << " m\n"
+        << "farthest from model  " << report.deviation << " m, at " << report.worstPlace.x << ' '
+        << report.worstPlace.y << ' ' << report.worstPlace.z << '\n'
         << "joints outside       " << report.jointsOutside.size();
     for (const std::string& name : report.jointsOutside) out << ' ' << name;
     return out << '\n';

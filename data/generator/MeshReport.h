@@ -19,13 +19,16 @@ struct MeshReport {
     double smallestAngle = 0;       ///< of any triangle, degrees
     std::size_t smallAngles = 0;    ///< triangles with an angle below 20 degrees
     double lowest = 0, highest = 0; ///< metres
+    double deviation = 0;           ///< farthest of the model's vertices from the mesh, metres
+    glm::dvec3 worstPlace{0};       ///< where that is
     std::vector<std::string> jointsOutside;
 
     /// True where every property holds that is asked of thrower.obj.
     bool good() const;
 };
 
-MeshReport inspect(const SkinMesh& mesh);
+/// `model` is a fine triangulation of the surface that the mesh approximates.
+MeshReport inspect(const SkinMesh& mesh, const SkinMesh& model);
 
 std::ostream& operator<<(std::ostream& out, const MeshReport& report);
 

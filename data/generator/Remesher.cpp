@@ -19,6 +19,10 @@ double angleAt(const glm::dvec3& apex, const glm::dvec3& a, const glm::dvec3& b)
     return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
 }
 
+/// How far the middle of an edge or a face may lie from the skin, in wanted edge lengths. Without
+/// this limit fingertips are eaten away.
+constexpr double kDeviation = 0.22;
+
 /// The elements as they are now: the loops below change the mesh as they go.
 template <class Range>
 auto listed(const Range& range) {
@@ -71,13 +75,32 @@ void Remesher::settle(Vertex v, const glm::dvec3& point) {
     _normal[v] = _body.normal(skin);
 }
 
+bool Remesher::mustSplit(double length, const glm::dvec3& middle) const {
+    const double goal = wanted(middle);
+    return length > 4.0 / 3 * goal ||
+           (length > 0.8 * goal && std::abs(_body.distance(middle)) > kDeviation * goal);
+}
+
+glm::dvec3 Remesher::faceNormal(Halfedge h) const {
+    const glm::dvec3 a = at(_mesh.source(h));
+    return glm::normalize(glm::cross(at(_mesh.target(h)) - a, at(_mesh.target(_mesh.next(h))) - a));
+}
+
+glm::dvec3 Remesher::lifted(glm::dvec3 point, const glm::dvec3& outward) const {
+    const double length = glm::length(outward);
+    if (length < 0.5) return point; // a sharp fold has no outside
+    for (int i = 0; i < 12; ++i) point -= outward * (_body.distance(point) / length);
+    return point;
+}
+
 void Remesher::splitLong() {
     for (const Edge e : listed(_mesh.edges())) {
         const Halfedge h = _mesh.halfedge(e);
         const glm::dvec3 a = at(_mesh.source(h)), b = at(_mesh.target(h)), middle = (a + b) / 2.0;
-        if (glm::distance(a, b) < 4.0 / 3 * wanted(middle)) continue;
+        if (!mustSplit(glm::distance(a, b), middle)) continue;
+        const glm::dvec3 outward = faceNormal(h) + faceNormal(_mesh.opposite(h));
         const Halfedge in = CGAL::Euler::split_edge(h, _mesh); // ends in the new vertex
-        settle(_mesh.target(in), middle);
+        settle(_mesh.target(in), lifted(middle, outward));
         CGAL::Euler::split_face(in, _mesh.next(_mesh.next(in)), _mesh);
         const Halfedge back = _mesh.prev(_mesh.opposite(in));
         CGAL::Euler::split_face(back, _mesh.next(_mesh.next(back)), _mesh);
@@ -93,6 +116,11 @@ bool Remesher::facesOutward(Vertex a, Vertex b, Vertex c) const {
     return true;
 }
 
+bool Remesher::strays(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const {
+    const glm::dvec3 middle = (a + b + c) / 3.0;
+    return std::abs(_body.distance(middle)) > kDeviation * wanted(middle);
+}
+
 bool Remesher::mayCollapse(Halfedge h) const {
     if (!CGAL::Euler::does_satisfy_link_condition(_mesh.edge(h), _mesh)) return false;
     const Vertex gone = _mesh.source(h), kept = _mesh.target(h);
@@ -102,7 +130,9 @@ bool Remesher::mayCollapse(Halfedge h) const {
         if (v == kept) continue;
         if (glm::distance(at(v), place) > 4.0 / 3 * wanted((at(v) + place) / 2.0)) return false;
         const Vertex next = _mesh.target(_mesh.next(spoke));
-        if (next != kept && !facesOutward(kept, v, next)) return false;
+        if (next == kept) continue;
+        if (!facesOutward(kept, v, next)) return false;
+        if (strays(place, at(v), at(next))) return false;
     }
     return true;
 }
@@ -132,7 +162,7 @@ bool Remesher::mayFlip(Edge e) const {
     const Vertex c = _mesh.target(_mesh.next(h)), d = _mesh.target(_mesh.next(o));
     if (_mesh.halfedge(c, d).is_valid()) return false;
     return _mesh.degree(a) > 3 && _mesh.degree(b) > 3 && facesOutward(c, d, b) &&
-           facesOutward(d, c, a);
+           facesOutward(d, c, a) && !strays(at(c), at(d), at(b)) && !strays(at(d), at(c), at(a));
 }
 
 void Remesher::flipForValence() {
@@ -167,6 +197,14 @@ void Remesher::flipForAngle() {
     }
 }
 
+bool Remesher::maySit(Vertex v) const {
+    for (const Halfedge spoke : CGAL::halfedges_around_source(v, _mesh)) {
+        const Vertex a = _mesh.target(spoke), b = _mesh.target(_mesh.next(spoke));
+        if (!facesOutward(v, a, b) || strays(at(v), at(a), at(b))) return false;
+    }
+    return true;
+}
+
 void Remesher::relax() {
     for (const Vertex v : _mesh.vertices()) {
         const glm::dvec3 place = at(v);
@@ -183,7 +221,12 @@ void Remesher::relax() {
         }
         glm::dvec3 move = sum / weights - place;
         move -= _normal[v] * glm::dot(move, _normal[v]);
+        const glm::dvec3 normal = _normal[v];
         settle(v, place + move);
+        if (!maySit(v)) { // stay
+            _mesh.point(v) = toCgal(place);
+            _normal[v] = normal;
+        }
     }
 }
 

@@ -39,7 +39,13 @@ private:
     glm::dvec3 at(Vertex v) const { return toGlm(_mesh.point(v)); }
     void settle(Vertex v, const glm::dvec3& point); ///< moves to the skin near a point
     bool facesOutward(Vertex a, Vertex b, Vertex c) const;
+    glm::dvec3 faceNormal(Halfedge h) const;
+    /// Moved across a cut-off tip to the skin, where the nearest skin is the side.
+    glm::dvec3 lifted(glm::dvec3 point, const glm::dvec3& outward) const;
+    bool mustSplit(double length, const glm::dvec3& middle) const;
     bool mayCollapse(Halfedge h) const; ///< source into target
+    bool strays(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const;
+    bool maySit(Vertex v) const; ///< its faces lie well
     bool mayFlip(Edge e) const;
     double smallestAngle(Vertex a, Vertex b, Vertex c) const;
 

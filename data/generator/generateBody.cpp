@@ -20,22 +20,21 @@ using namespace mannequin;
 namespace {
 
 constexpr double kGridSpacing = 0.005;   // metres; the gaps between the fingers are wider
-constexpr double kTargetVertices = 4250; // of 3,500 to 4,500
-constexpr double kBallRadius = 0.037;    // a baseball's
+constexpr double kTargetVertices = 4400; // of 3,500 to 4,500
+constexpr int kCorrections = 6;
+constexpr double kBallRadius = 0.037; // a baseball's
 
-SkinMesh makeSkin() {
-    const ImplicitBody body;
+/// `mesh` comes as a fine triangulation of the body's skin.
+void reduce(const ImplicitBody& body, SkinMesh& mesh) {
     const DetailMap detail;
-    SkinMesh mesh = isosurface(body, kGridSpacing);
     Remesher remesher(body, detail, mesh);
     double scale = std::sqrt(remesher.expectedVertices(1) / kTargetVertices);
     remesher.run(scale, 6);
-    for (int i = 0; i < 3; ++i) { // the estimate is rough: correct it by what came out
+    for (int i = 0; i < kCorrections; ++i) { // the estimate is rough: correct it by what came out
         scale *= std::sqrt(static_cast<double>(mesh.number_of_vertices()) / kTargetVertices);
-        remesher.run(scale, 6);
+        remesher.run(scale, 4);
     }
     remesher.polish(20);
-    return mesh;
 }
 
 void save(const SkinMesh& mesh, const std::string& directory, const std::string& name) {
@@ -47,10 +46,13 @@ void save(const SkinMesh& mesh, const std::string& directory, const std::string&
 }
 
 int generate(const std::string& directory, bool check) {
-    const SkinMesh skin = makeSkin();
+    const ImplicitBody body;
+    const SkinMesh model = isosurface(body, kGridSpacing);
+    SkinMesh skin = model;
+    reduce(body, skin);
     save(skin, directory, "thrower");
     save(icoSphere(kBallRadius), directory, "ball");
-    const MeshReport report = inspect(skin);
+    const MeshReport report = inspect(skin, model);
     std::cout << report;
     printMeasures(std::cout, measureBody(skin));
     return check && !report.good() ? 1 : 0;
