@@ -108,7 +108,9 @@ ArmAngles measureArm(const Skeleton& skeleton, Side side, const WorldPose& world
     const ArmAxes axes = armAxes(side, a.abduction, a.horizontal);
     a.external = degrees(std::atan2(glm::dot(fore, axes.right), glm::dot(fore, axes.zero)));
     if (a.external < -90) a.external += 360; // 180 is within the throwing shoulder's range
-    a.elbow = degrees(std::acos(glm::clamp(glm::dot(upper, fore), -1.0, 1.0)));
+    const std::size_t arm = skeleton.index(prefix + "Arm");
+    const glm::dvec3 hinge = toTrunk * (world.rotation[arm] * RestArm(skeleton, side).hinge);
+    a.elbow = degrees(std::atan2(glm::dot(glm::cross(upper, fore), hinge), glm::dot(upper, fore)));
     return a;
 }
 

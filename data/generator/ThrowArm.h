@@ -35,7 +35,7 @@ ArmAngles armAngles(const ArmKeys& keys, double time);
 void poseArm(const Skeleton& skeleton, Side side, const ArmAngles& angles, Pose& pose);
 
 /// Measures abduction, horizontal adduction, external rotation and elbow flexion from the
-/// positions of the joints alone; the other angles stay 0.
+/// positions of the joints; the other angles stay 0. The elbow is below 0 where it bends backward.
 ArmAngles measureArm(const Skeleton& skeleton, Side side, const WorldPose& world);
 
 /// Where a held ball's centre is in the rest pose.

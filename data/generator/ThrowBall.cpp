@@ -30,7 +30,7 @@ struct Flight {
 
 std::vector<BvhRow> ballRows(const Skeleton& skeleton, const ThrowMotion& motion) {
     const std::size_t hand = skeleton.index("RightHand");
-    const double release = frameTime(kReleaseFrame);
+    const double release = kRelease;
     Flight flight{motion.gripAt(release), motion.gripVelocityAt(release)};
     const glm::dquat held = worldPose(skeleton, motion.poseAt(release)).rotation[hand];
 

@@ -7,12 +7,11 @@ namespace mannequin {
 namespace {
 
 constexpr double kFoot = 0.03;
-constexpr double kKneeUp = frameTime(kKneeUpFrame);
-constexpr double kContact = frameTime(kContactFrame);
-constexpr double kRelease = frameTime(kReleaseFrame);
 
 } // namespace
 
+// Planted up to the contact, dragged on its toes up to the release, swung through to land beside
+// the lead foot, and stepped back to the set.
 FootKeys pivotFootKeys() {
     FootKeys k;
     k.x = {kFoot,
@@ -20,7 +19,7 @@ FootKeys pivotFootKeys() {
             {kContact, -0.19},
             {0.99, -0.09},
             {kRelease, 0.04},
-            {1.2, 0.20},
+            {1.2, 0.2},
             {1.4, 0.55},
             {1.6, 0.84},
             {1.86, 0.84},
@@ -29,7 +28,7 @@ FootKeys pivotFootKeys() {
            {{0, 0.125},
             {kContact, 0.125},
             {kRelease, 0.14},
-            {1.25, 0.30},
+            {1.25, 0.3},
             {1.4, 0.38},
             {1.6, 0.36},
             {1.86, 0.36},
@@ -37,12 +36,12 @@ FootKeys pivotFootKeys() {
             {2.22, 0.125}}};
     k.lift = {kFoot,
               {{0, 0},
-               {1.10, 0},
+               {1.1, 0},
                {1.28, 0.33},
                {1.42, 0.26},
                {1.62, 0},
                {1.86, 0},
-               {2.03, 0.10},
+               {2.03, 0.1},
                {2.22, 0}}};
     k.yaw = {kFoot,
              {{0, 0},
@@ -72,34 +71,38 @@ FootKeys pivotFootKeys() {
     return k;
 }
 
+// Lifted, set down on its heel about 65 % of the stature ahead of the pivot foot (a pitcher strides
+// 85 %, Fleisig et al. 1999; this is a throw on level ground), and stepped back after the pivot
+// foot.
 FootKeys leadFootKeys() {
     FootKeys k;
     k.x = {kFoot,
-           {{0, 0.19},
-            {0.10, 0.19},
-            {kKneeUp, -0.02},
-            {0.62, 0.12},
-            {0.87, 1.12},
+           {{0, .19},
+            {0.10, .19},
+            {0.475, -.02},
+            {0.56, .06},
+            {0.68, .42},
+            {0.885, 1.12},
             {2.24, 1.12},
-            {2.64, 0.19}}};
+            {2.64, .19}}};
     k.z = {kFoot,
            {{0, 0.125},
-            {0.10, 0.125},
+            {0.1, 0.125},
             {kKneeUp, 0.24},
-            {0.66, 0.20},
-            {0.87, 0.08},
+            {0.6, 0.23},
+            {0.885, 0.08},
             {2.24, 0.08},
             {2.64, 0.125}}};
     k.lift = {kFoot,
               {{0, 0},
-               {0.10, 0},
+               {0.1, 0},
                {kKneeUp, 0.46},
-               {0.62, 0.31},
-               {0.75, 0.12},
-               {0.85, 0.01},
-               {0.88, 0},
+               {0.6, 0.31},
+               {0.74, 0.12},
+               {0.85, 0.012},
+               {0.885, 0},
                {2.24, 0},
-               {2.44, 0.10},
+               {2.44, 0.1},
                {2.64, 0}}};
     k.yaw = {kFoot,
              {{0, 0}, {0.12, 0}, {kKneeUp, -20}, {0.65, 5}, {0.87, 66}, {2.24, 66}, {2.62, 0}}};
@@ -109,7 +112,7 @@ FootKeys leadFootKeys() {
                {0.2, 18},
                {kKneeUp, 30},
                {0.65, 10},
-               {0.80, -14},
+               {0.8, -14},
                {kContact, 0},
                {2.12, 0},
                {2.28, 32},

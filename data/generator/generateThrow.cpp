@@ -41,6 +41,7 @@ int run(const std::string& folder, bool check) {
     const Skeleton skeleton;
     const ThrowMotion motion(skeleton);
     std::vector<Pose> poses;
+    poses.reserve(kFrameCount);
     for (int frame = 0; frame < kFrameCount; ++frame)
         poses.push_back(motion.poseAt(frameTime(frame)));
 
@@ -52,7 +53,7 @@ int run(const std::string& folder, bool check) {
     writeFile(ballPath, [&](std::ostream& out) { writeBall(out, ballRows(skeleton, motion)); });
 
     printReport(std::cout, measureFrames(skeleton, poses),
-                launchOf(motion.gripVelocityAt(frameTime(kReleaseFrame))));
+                launchOf(motion.gripVelocityAt(kRelease)));
     if (!check) return 0;
     return checkThrow(std::cout, skeleton, readFile(bodyPath), readFile(ballPath)) ? 0 : 1;
 }
