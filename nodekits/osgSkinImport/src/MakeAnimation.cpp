@@ -12,11 +12,12 @@
 namespace osgSkin {
 namespace {
 
-/// Calls `add(sample, time)` for each key. A single sample gives two, because osgAnimation divides
-/// by an animation's duration.
+/// Calls `add(sample, time)` for each key. The last sample is held for its frame's time: every
+/// sample then has its share of the loop, none lies on the loop's end (where osgAnimation, with the
+/// duration as a float, shows the first), and a single sample has a duration too.
 template <typename Add>
 void forEachKey(const Clip& clip, const Add& add) {
-    for (std::size_t f = 0; f < std::max<std::size_t>(clip.frames, 2); ++f)
+    for (std::size_t f = 0; f <= clip.frames; ++f)
         add(std::min(f, clip.frames - 1), static_cast<double>(f) * clip.frameTime);
 }
 

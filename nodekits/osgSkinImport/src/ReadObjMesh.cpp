@@ -105,6 +105,7 @@ CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
                                        &materialReader, false);
     if (!read) failFile(path, error.empty() ? "cannot be parsed" : error);
     // A missing .mtl file is no failure: the body is drawn in the default colour.
+    while (!warning.empty() && warning.back() == '\n') warning.pop_back();
     if (!warning.empty()) OSG_NOTICE << path << ": " << warning << std::endl;
 
     CornerMesh result;

@@ -12,8 +12,8 @@ double hipHeight(const SkeletonTree& tree, int hips) {
     return tree.centre(hips).y - findBodyParts(tree).lowest;
 }
 
-/// How far above its lowest place, in hip heights, a foot still counts as standing: walking feet roll
-/// over heel and toes, and a motion's feet have another shape than the rig's.
+/// How far above its lowest place, in hip heights, a foot still counts as standing: walking feet
+/// roll over heel and toes, and a motion's feet have another shape than the rig's.
 constexpr double contactBand = 0.06;
 
 /// The middle height of the feet in the samples in which they stand. Samples in the air or on a
@@ -71,8 +71,7 @@ std::vector<glm::dvec3> RootMotion::finish() {
     if (_feet.empty()) return std::move(_roots);
     const double rise = floorHeight(_feet, contactBand * _rigHeight);
     _offset.y -= rise;
-    for (glm::dvec3& root : _roots)
-        root.y -= rise;
+    for (glm::dvec3& root : _roots) root.y -= rise;
     return std::move(_roots);
 }
 

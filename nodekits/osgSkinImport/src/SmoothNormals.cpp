@@ -27,14 +27,19 @@ std::vector<glm::vec3> smoothNormals(const SkinMesh& mesh) {
     const std::vector<std::size_t> welded = weld(mesh.positions);
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
     // Bodies come in any unit: scaled to size 1, squared lengths neither overflow nor vanish.
-    const double size = mesh.size();
-    const double scale = size > 0.0 ? 1.0 / size : 1.0;
-    const std::vector<std::uint32_t> triangles = mesh.triangles();
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-        const glm::dvec3& origin = mesh.positions[triangles[t]];
-        const glm::dvec3 normal = glm::cross((mesh.positions[triangles[t + 1]] - origin) * scale,
-                                             (mesh.positions[triangles[t + 2]] - origin) * scale);
-        for (std::size_t k = 0; k < 3; ++k) sums[welded[triangles[t + k]]] += normal;
+    const double extent = mesh.size();
+    const double scale = extent > 0.0 ? 1.0 / extent : 1.0;
+    // A polygon's normal is the sum of its triangles' (Newell), the same for all of its corners:
+    // the shading does not tell how it is cut into triangles.
+    const std::uint32_t* corners = mesh.faceVertices.data();
+    for (const std::uint32_t size : mesh.faceSizes) {
+        const glm::dvec3& origin = mesh.positions[corners[0]];
+        glm::dvec3 normal(0.0);
+        for (std::uint32_t k = 2; k < size; ++k)
+            normal += glm::cross((mesh.positions[corners[k - 1]] - origin) * scale,
+                                 (mesh.positions[corners[k]] - origin) * scale);
+        for (std::uint32_t k = 0; k < size; ++k) sums[welded[corners[k]]] += normal;
+        corners += size;
     }
     std::vector<glm::vec3> result;
     result.reserve(mesh.faceVertices.size());

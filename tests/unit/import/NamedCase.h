@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <string>
+
+/// A malformed file and what its error must say.
+struct BadFile {
+    const char* file;
+    const char* message;
+};
+
+/// A test's name from its file's.
+inline std::string nameOf(const testing::TestParamInfo<BadFile>& info) {
+    std::string name = info.param.file;
+    for (char& c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    return name;
+}

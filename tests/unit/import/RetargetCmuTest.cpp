@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "Figure.h"
+#include "Paths.h"
+
+#include <osgSkinImport/Retarget>
+
+#include <algorithm>
+
+namespace {
+
+using osgSkin::Clip;
+using osgSkin::Motion;
+using osgSkin::RestSkeleton;
+
+std::size_t index(const RestSkeleton& skeleton, const std::string& name) {
+    const int j = skeleton.find(name);
+    EXPECT_GE(j, 0) << name;
+    return static_cast<std::size_t>(j);
+}
+
+struct Bone {
+    const char* from;
+    const char* to;
+};
+
+constexpr Bone limbs[] = {{"Arm", "ForeArm"},
+                          {"ForeArm", "Hand"},
+                          {"UpLeg", "Leg"},
+                          {"Leg", "Foot"},
+                          {"Foot", "ToeBase"}};
+
+class CmuClip : public testing::TestWithParam<const char*> {
+protected:
+    void SetUp() override {
+        const std::string rigPath = sharedData("makehuman/rig/cmu_mb_neutral.bvh");
+        const std::string path = sharedData(std::string("cmu/mb/") + GetParam());
+        OSGSKIN_NEEDS(rigPath);
+        OSGSKIN_NEEDS(path);
+        rig = osgSkin::importSkeleton(rigPath);
+        motion = osgSkin::importMotion(path, 1);
+        clip = osgSkin::retarget(motion, rig, {}, &report);
+    }
+
+    RestSkeleton rig;
+    Motion motion;
+    Clip clip;
+    osgSkin::RetargetReport report;
+};
+
+TEST_P(CmuClip, LimbsPointWhereTheMotionsLimbsPoint) {
+    for (std::size_t f = 0; f < clip.frames; f += 7) {
+        const Placed ours = place(clip, rig, f);
+        const Placed theirs = place(motion, f);
+        for (const char* side : {"Left", "Right"})
+            for (const Bone& bone : limbs) {
+                const std::string from = std::string(side) + bone.from;
+                const std::string to = std::string(side) + bone.to;
+                const glm::dvec3 a = ours.places[index(rig, to)] - ours.places[index(rig, from)];
+                const glm::dvec3 b = theirs.places[index(motion.skeleton, to)] -
+                                     theirs.places[index(motion.skeleton, from)];
+                ASSERT_LT(angleBetween(a, b), 0.1) << from << ", frame " << f;
+            }
+    }
+}
+
+TEST_P(CmuClip, TrunkTurnsWithTheMotion) {
+    for (std::size_t f = 0; f < clip.frames; f += 7) {
+        const Placed ours = place(clip, rig, f);
+        const Placed theirs = place(motion, f);
+        for (const char* name : {"Hips", "Spine", "Spine1", "Neck", "Head", "LeftShoulder"})
+            ASSERT_LT(angleBetween(ours.turns[index(rig, name)],
+                                   theirs.turns[index(motion.skeleton, name)]),
+                      1e-3)
+                << name << ", frame " << f;
+    }
+}
+
+TEST_P(CmuClip, MapsEveryRigJoint) {
+    for (const osgSkin::RetargetReport::Entry& entry : report.entries)
+        EXPECT_FALSE(entry.motionJoint.empty()) << entry.rigJoint;
+    EXPECT_TRUE(report.unusedMotionJoints.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, CmuClip,
+                         testing::Values("12_01_walk_pybvh.bvh", "01_01.bvh",
+                                         "124_01_pitch_excerpt_120hz.bvh"),
+                         [](const auto& file) {
+                             return "clip" + std::string(file.param).substr(0, 5);
+                         });
+
+class CmuWalk : public CmuClip {};
+
+TEST_P(CmuWalk, FeetStandOnTheFloorOfTheRestPose) {
+    constexpr double bodyHeight = 16.4; // decimeters
+    const std::size_t feet[] = {index(rig, "LeftFoot"), index(rig, "RightFoot"),
+                                index(rig, "LeftToeBase"), index(rig, "RightToeBase")};
+    for (std::size_t f = 0; f < clip.frames; ++f) {
+        const Placed placed = place(clip, rig, f);
+        double lowest = 1e9;
+        for (const std::size_t j : feet)
+            lowest = std::min(lowest, placed.places[j].y - rig.joints[j].centre.y);
+        ASSERT_LT(std::abs(lowest), 0.03 * bodyHeight) << "frame " << f;
+    }
+}
+
+TEST_P(CmuWalk, HandsHangBelowTheShoulders) {
+    for (std::size_t f = 0; f < clip.frames; ++f) {
+        const Placed placed = place(clip, rig, f);
+        for (const char* side : {"Left", "Right"})
+            ASSERT_LT(placed.places[index(rig, std::string(side) + "Hand")].y,
+                      placed.places[index(rig, std::string(side) + "Arm")].y - 2.0)
+                << side << ", frame " << f;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, CmuWalk, testing::Values("12_01_walk_pybvh.bvh"));
+
+} // namespace

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "ExpectError.h"
+#include "Figure.h"
+
+#include <osgSkinImport/Retarget>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using osgSkin::Clip;
+using osgSkin::Motion;
+using osgSkin::RestSkeleton;
+using osgSkin::RetargetReport;
+
+std::size_t index(const RestSkeleton& skeleton, const char* name) {
+    const int j = skeleton.find(name);
+    EXPECT_GE(j, 0) << name;
+    return static_cast<std::size_t>(j);
+}
+
+/// Every joint turns, each by another angle; the root walks and hops.
+Motion wave(const RestSkeleton& figure, std::size_t frames) {
+    Motion motion = standStill(figure, frames);
+    for (std::size_t f = 0; f < frames; ++f) {
+        const double t = static_cast<double>(f);
+        for (std::size_t j = 0; j < figure.joints.size(); ++j)
+            motion.rotations[f * figure.joints.size() + j] =
+                turnDegrees(20.0 * std::sin(t + static_cast<double>(j)),
+                            {1.0, static_cast<double>(j % 3), 0.5});
+        motion.rootPositions[f] += glm::dvec3(0.3 * t, 0.5 * std::sin(t), -0.1 * t);
+    }
+    return motion;
+}
+
+TEST(Retarget, ToItsOwnSkeletonGivesTheMotionBack) {
+    const RestSkeleton figure = makeFigure(30.0);
+    const Motion motion = wave(figure, 40);
+    RetargetReport report;
+    const Clip clip = osgSkin::retarget(motion, figure, {}, &report);
+    ASSERT_EQ(clip.frames, 40u);
+    ASSERT_EQ(clip.joints, figure.joints.size());
+    EXPECT_EQ(clip.frameTime, motion.frameTime);
+    EXPECT_EQ(clip.name, motion.name);
+    EXPECT_DOUBLE_EQ(report.scale, 1.0);
+    for (std::size_t i = 0; i < clip.rotations.size(); ++i)
+        EXPECT_LT(angleBetween(clip.rotations[i], motion.rotations[i]), 1e-6);
+    for (std::size_t f = 0; f < clip.frames; ++f) {
+        const glm::dvec3 shift = clip.rootPositions[f] - motion.rootPositions[f];
+        EXPECT_LT(glm::length(shift - report.offset), 1e-9);
+        EXPECT_NEAR(shift.x, 0.0, 1e-12);
+        EXPECT_NEAR(shift.z, 0.0, 1e-12);
+    }
+}
+
+TEST(Retarget, RestPoseInItsOwnZeroPoseIsTheRestPose) {
+    const RestSkeleton figure = makeFigure(30.0);
+    const Clip clip = osgSkin::retarget(standStill(figure, 3), figure);
+    for (const glm::dquat& q : clip.rotations) EXPECT_LT(angleBetween(q, {1, 0, 0, 0}), 1e-9);
+    EXPECT_LT(glm::length(clip.rootPositions[2] - figure.joints[0].centre), 1e-9);
+}
+
+TEST(Retarget, AlignsLimbsAndNothingElse) {
+    const RestSkeleton rig = makeFigure(48.0);
+    RestSkeleton zeroPose = makeFigure(0.0);
+    zeroPose.joints[2].centre.z += 1.0; // a head that leans: the trunk is not aligned to it
+    zeroPose.joints[8].centre.x += 1.0; // broader hips, seen from a joint of zero length
+    zeroPose.joints[9].centre.x += 1.0;
+    zeroPose.joints[10].centre.x += 1.0;
+    RetargetReport report;
+    const Clip clip = osgSkin::retarget(standStill(zeroPose, 1), rig, {}, &report);
+    const Placed placed = place(clip, rig, 0);
+    struct Expected {
+        const char* joint;
+        double degrees;
+    };
+    for (const Expected& expected :
+         {Expected{"Hips", 0.0}, Expected{"Spine", 0.0}, Expected{"Head", 0.0},
+          Expected{"LeftShoulder", 0.0}, Expected{"LeftArm", 48.0}, Expected{"LeftForeArm", 48.0},
+          Expected{"LeftHand", 48.0}, Expected{"LHipJoint", 0.0}, Expected{"LeftUpLeg", 0.0}}) {
+        const std::size_t j = index(rig, expected.joint);
+        EXPECT_NEAR(report.entries[j].alignmentDegrees, expected.degrees, 1e-9) << expected.joint;
+        EXPECT_NEAR(angleBetween(placed.turns[j], {1, 0, 0, 0}), expected.degrees, 1e-9)
+            << expected.joint;
+    }
+    const glm::dvec3 forearm =
+        placed.places[index(rig, "LeftHand")] - placed.places[index(rig, "LeftForeArm")];
+    EXPECT_LT(angleBetween(forearm, {1, 0, 0}), 1e-9);
+}
+
+TEST(Retarget, JointsThatTheMotionLacksKeepTheirRestOnTheParent) {
+    RestSkeleton rig = makeFigure(48.0);
+    rig.joints[6].name = "LeftPaw";
+    const Clip clip = osgSkin::retarget(standStill(makeFigure(0.0), 1), rig);
+    EXPECT_LT(angleBetween(clip.rotations[6], {1, 0, 0, 0}), 1e-9);
+}
+
+TEST(Retarget, JointsWithoutADirectionFollowTheLimb) {
+    RestSkeleton rig = makeFigure(48.0);
+    RestSkeleton zeroPose = makeFigure(0.0);
+    zeroPose.joints[6].tip.reset(); // the motion's hand has no length
+    const Clip clip = osgSkin::retarget(standStill(zeroPose, 1), rig);
+    EXPECT_LT(angleBetween(clip.rotations[6], {1, 0, 0, 0}), 1e-9);
+}
+
+TEST(Retarget, HandsPointToTheFingersNotTheThumb) {
+    RestSkeleton rig = makeFigure(0.0);
+    const glm::dvec3 hand = rig.joints[6].centre;
+    rig.joints[6].tip.reset();
+    rig.joints.push_back({"LeftThumb", 6, hand + glm::dvec3(0.3, 0, 1), {}});
+    rig.joints.push_back({"LeftFingers", 6, hand + glm::dvec3(1, 0, 0), {}});
+    RestSkeleton zeroPose = rig;
+    zeroPose.joints[11].centre = hand + glm::dvec3(0, 0, 1);
+    RetargetReport report;
+    osgSkin::retarget(standStill(zeroPose, 1), rig, {}, &report);
+    EXPECT_NEAR(report.entries[6].alignmentDegrees, 0.0, 1e-9);
+}
+
+TEST(Retarget, MapsByTheCallersNamesThenEqualNamesThenAliases) {
+    RestSkeleton rig = makeFigure(0.0);
+    rig.joints[6].name = "LeftHandFinger1";
+    rig.joints[5].name = "Elbow";
+    RestSkeleton zeroPose = makeFigure(0.0);
+    zeroPose.joints[6].name = "LFingers";
+    Motion motion = standStill(zeroPose, 1);
+    motion.rotations[5] = turnDegrees(30, {0, 0, 1});
+    motion.rotations[6] = turnDegrees(20, {0, 0, 1});
+    RetargetReport report;
+    const Clip clip =
+        osgSkin::retarget(motion, rig, {{{"Elbow", "LeftForeArm"}, {"Head", ""}}}, &report);
+    EXPECT_EQ(report.entries[5].motionJoint, "LeftForeArm");
+    EXPECT_EQ(report.entries[6].motionJoint, "LFingers");
+    EXPECT_EQ(report.entries[2].motionJoint, "");
+    EXPECT_EQ(report.unusedMotionJoints, std::vector<std::string>{"Head"});
+    EXPECT_NEAR(angleBetween(clip.rotations[5], {1, 0, 0, 0}), 30.0, 1e-9);
+    EXPECT_NEAR(angleBetween(clip.rotations[6], {1, 0, 0, 0}), 20.0, 1e-9);
+}
+
+TEST(Retarget, ScalesTheWayByHipHeight) {
+    const RestSkeleton rig = makeFigure(0.0, 0.5);
+    Motion motion = standStill(makeFigure(0.0), 2);
+    motion.rootPositions[1] += glm::dvec3(4, 0, -2);
+    RetargetReport report;
+    const Clip clip = osgSkin::retarget(motion, rig, {}, &report);
+    EXPECT_NEAR(report.scale, 0.5, 1e-12);
+    EXPECT_LT(glm::length(clip.rootPositions[0] - glm::dvec3(0, 5, 0)), 1e-9);
+    EXPECT_LT(glm::length(clip.rootPositions[1] - glm::dvec3(2, 5, -1)), 1e-9);
+    EXPECT_LT(glm::length(clip.rootPositions[1] -
+                          (report.scale * motion.rootPositions[1] + report.offset)),
+              1e-9);
+}
+
+TEST(Retarget, StandsOnTheRestPosesFloorWhateverTheMotionsFloorIs) {
+    const RestSkeleton rig = makeFigure(0.0);
+    Motion motion = standStill(makeFigure(0.0), 100);
+    for (std::size_t f = 0; f < 100; ++f) {
+        motion.rootPositions[f].y += 7.0;              // the capture's own floor
+        if (f >= 60) motion.rootPositions[f].y += 5.0; // most of the time on a ladder
+    }
+    motion.rootPositions[10].y -= 3.0; // one bad sample
+    const Clip clip = osgSkin::retarget(motion, rig);
+    EXPECT_NEAR(clip.rootPositions[0].y, 10.0, 1e-9);
+    EXPECT_NEAR(clip.rootPositions[99].y, 15.0, 1e-9);
+}
+
+TEST(Retarget, RigMayHaveARootOfItsOwn) {
+    RestSkeleton rig;
+    rig.joints.push_back({"Ground", -1, {0, 0, 0}, {}});
+    for (osgSkin::RestJoint joint : makeFigure(0.0).joints) {
+        ++joint.parent;
+        rig.joints.push_back(joint);
+    }
+    Motion motion = standStill(makeFigure(0.0), 1);
+    motion.rotations[0] = turnDegrees(90, {0, 1, 0});
+    motion.rootPositions[0] += glm::dvec3(3, 0, 4);
+    const Clip clip = osgSkin::retarget(motion, rig);
+    const Placed placed = place(clip, rig, 0);
+    EXPECT_LT(glm::length(placed.places[1] - glm::dvec3(3, 10, 4)), 1e-9);
+    EXPECT_LT(angleBetween(clip.rotations[0], {1, 0, 0, 0}), 1e-9);
+    EXPECT_NEAR(angleBetween(placed.turns[1], {1, 0, 0, 0}), 90.0, 1e-9);
+}
+
+TEST(RetargetErrors, NameWhatDoesNotMatch) {
+    const RestSkeleton figure = makeFigure(0.0);
+    const Motion motion = standStill(figure, 1);
+    expectError(
+        [&] {
+            osgSkin::retarget(motion, figure, {{{"Tail", "Spine"}}});
+        },
+        "the map names the joint \"Tail\", which the rig does not have");
+    expectError(
+        [&] {
+            osgSkin::retarget(motion, figure, {{{"Spine", "Tail"}}});
+        },
+        "\"Tail\", which the motion does not have");
+    RestSkeleton stranger;
+    stranger.joints.push_back({"Trunk", -1, {}, {}});
+    expectError([&] { osgSkin::retarget(motion, stranger); }, "no joint of the rig has a joint");
+    expectError([&] { osgSkin::retarget(motion, {}); }, "skeleton: no joint");
+}
+
+} // namespace
