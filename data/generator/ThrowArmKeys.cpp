@@ -70,8 +70,8 @@ ArmKeys throwingArmKeys() {
                      {kRelease, -1},
                      {1.16, 15},
                      {1.25, 85},
-                     {1.4, 118},
-                     {1.6, 94},
+                     {1.4, 113},
+                     {1.6, 74},
                      {1.9, 44},
                      {2.4, 52}}};
     // Internal rotation is fastest just after the release, when the elbow is all but straight.
@@ -107,8 +107,8 @@ ArmKeys throwingArmKeys() {
                 {1.115, 14},
                 {1.17, 18},
                 {1.3, 36},
-                {1.5, 40},
-                {1.8, 44},
+                {1.5, 62},
+                {1.8, 58},
                 {2.3, 98},
                 {2.72, 108}}};
     // Every overhand throw ends in pronation, fastball and curve alike.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ThrowCheck.h"
 
+#include "ThrowClearance.h"
 #include "ThrowMotion.h"
 #include "ThrowReport.h"
 #include "ThrowTiming.h"
@@ -192,6 +193,11 @@ bool checkThrow(std::ostream& out, const Skeleton& skeleton, const std::vector<B
                 0, 180);
     find.within("greatest external rotation, deg", rangeOf(frames, &FrameMeasure::external).most,
                 160, 176);
+
+    Range clearance;
+    for (const Pose& pose : poses)
+        clearance.add(limbClearance(skeleton, worldPose(skeleton, pose)));
+    find.within("least gap between limbs, mm", 1000 * clearance.least, 0, 1000);
 
     const Sequence s = kinematicSequence(frames);
     find.within("upper trunk's peak after the pelvis's, frames", s.thorax - s.pelvis, 1, 40);

@@ -18,8 +18,8 @@ void line(std::ostream& out, const char* what, double value, const char* publish
 
 } // namespace
 
-// Published values, rounded: [F] Fleisig et al. 1999 (college and professional pitchers), [D] Dillman
-// al. 1993, [E] Escamilla et al. 1998. See data/README.md.
+// Published values, rounded: [F] Fleisig et al. 1999 (college and professional pitchers),
+// [D] Dillman et al. 1993, [E] Escamilla et al. 1998. See data/README.md.
 void printReport(std::ostream& out, const std::vector<FrameMeasure>& frames, const Launch& launch) {
     const FrameMeasure& contact = frames[kContactFrame];
     const FrameMeasure& cocked = frames[kMaxExternalFrame];
