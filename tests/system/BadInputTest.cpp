@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Each bad file is refused with one line that names the file and the place, by the plug-in and by
+// osgskinbake alike.
+#include "Command.h"
+
+#include <osg/Notify>
+#include <osgDB/ReadFile>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <sstream>
+
+namespace {
+
+struct BadFile {
+    const char* name;
+    const char* file;     ///< that the complaint must name
+    const char* place;    ///< in it
+    const char* expected; ///< some of what it says was expected
+};
+
+std::ostream& operator<<(std::ostream& out, const BadFile& bad) {
+    return out << bad.name;
+}
+
+const BadFile kBadFiles[] = {
+    {"missing_mesh", "nowhere.obj", "", "cannot open"},
+    {"mesh_without_faces", "no_faces.obj", "", "expected at least one"},
+    {"mesh_with_nan", "nan_vertex.obj", "line 2", "expected"},
+    {"missing_skeleton", "nowhere.bvh", "", "cannot open"},
+    {"empty_skeleton", "no_root.bvh", "line 2", "expected a ROOT"},
+    {"cyclic_skeleton", "cyclic.gltf", "nodes", "recursive"},
+    {"no_skeleton_named", "body.obj", "skeleton", "expected"},
+    {"truncated_motion", "truncated_motion.bvh", "line", "expected"},
+    {"missing_motion", "nowhere.bvh", "", "cannot open"},
+    {"foreign_motion", "root_only.bvh", "", "no joint"},
+    {"all_frames_skipped", "move.bvh", "4 frames", "expected"},
+    {"motion_name_twice", "motion_name_twice.skin", "motions[1]", "expected"},
+    {"motion_without_file", "motion_without_file.skin", "motions[0]", "expected"},
+    {"negative_skip", "negative_skip.skin", "motions[0].skipFrames", "expected a whole number"},
+    {"unknown_mapped_joint", "move.bvh", "\"nobody\"", "joint"},
+    {"unknown_joint", "unknown_joint.skin", "\"nobody\"", "expected"},
+    {"unknown_rigid", "unknown_rigid.skin", "\"nobody\"", "expected"},
+    {"unknown_method", "unknown_method.skin", "bind", "expected \"smooth\""},
+    {"unknown_pole", "unknown_pole.skin", "joints.arm.twist.along", "expected"},
+    {"crossed_boundaries", "crossed_boundaries.skin", "joints.arm.bend", "expected"},
+    {"unknown_up", "unknown_up.skin", "up", "expected"},
+    {"prop_without_motion", "prop_without_motion.skin", "props[0].motion", "expected"},
+    {"malformed", "malformed.skin", "line 3", "malformed JSON"},
+    {"empty_file", "empty_file.skin", "line 1", "malformed JSON"},
+    {"not_an_object", "not_an_object.skin", "", "expected an object"},
+    {"no_version", "no_version.skin", "osgskin", "expected"},
+    {"future_version", "future_version.skin", "osgskin", "version 2 is not supported, expected 1"},
+    {"version_as_text", "version_as_text.skin", "osgskin", "expected a whole number"},
+    {"mesh_as_number", "mesh_as_number.skin", "mesh", "expected a string"},
+    {"empty_mesh_name", "empty_mesh_name.skin", "mesh", "expected a file name"},
+    {"motions_as_object", "motions_as_object.skin", "motions", "expected a list"},
+    {"joints_as_list", "joints_as_list.skin", "joints", "expected an object"},
+    {"rigid_as_text", "rigid_as_text.skin", "rigid", "expected a list"},
+    {"skip_as_number", "skip_as_number.skin", "joints.arm.skip", "expected true or false"},
+    {"no_such_character", "no_such_character.skin", "", "cannot be opened"},
+};
+
+std::string path(const BadFile& bad) {
+    return std::string(OSGSKIN_TEST_DATA "/character/bad/") + bad.name + ".skin";
+}
+
+/// Keeps OSG's messages instead of printing them.
+class Messages : public osg::NotifyHandler {
+public:
+    void notify(osg::NotifySeverity, const char* message) override { text += message; }
+    std::string text;
+};
+
+class BadInput : public testing::TestWithParam<BadFile> {
+protected:
+    static void expectClear(const std::string& complaint) {
+        const BadFile& bad = GetParam();
+        for (const char* part : {bad.file, bad.place, bad.expected})
+            EXPECT_NE(complaint.find(part), std::string::npos)
+                << '"' << part << "\" in: " << complaint;
+    }
+};
+
+} // namespace
+
+TEST_P(BadInput, BakeExitsWithOneAndOneLine) {
+    const auto result =
+        test::runBake("'" + path(GetParam()) + "' --rest rest.obj", test::makeTestFolder());
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    expectClear(result.err);
+}
+
+TEST_P(BadInput, ReadNodeFileReturnsNull) {
+    const osg::ref_ptr<Messages> messages = new Messages;
+    osg::setNotifyHandler(messages);
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(path(GetParam()));
+    osg::setNotifyHandler(new osg::StandardNotifyHandler);
+    EXPECT_FALSE(node.valid());
+    if (std::string(GetParam().name) == "no_such_character") {
+        EXPECT_NE(messages->text.find("no_such_character.skin"), std::string::npos);
+        return; // osgDB finds out by itself, in its own words
+    }
+    expectClear(messages->text);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, BadInput, testing::ValuesIn(kBadFiles),
+                         [](const auto& c) { return std::string(c.param.name); });

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// osgskinbake from outside: its meshes agree with a reference that reads only what it writes.
+#include "CharacterFiles.h"
+#include "Command.h"
+#include "ReferenceSkin.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+using test::CharacterCase;
+using test::runBake;
+
+nlohmann::json readJson(const std::string& file) {
+    std::ifstream in(file);
+    return nlohmann::json::parse(in);
+}
+
+std::string frameFile(const std::string& folder, int frame) {
+    char name[32];
+    std::snprintf(name, sizeof name, "/frame_%04d.obj", frame);
+    return folder + name;
+}
+
+class BakedCharacter : public testing::TestWithParam<CharacterCase> {
+protected:
+    void SetUp() override {
+        std::string why;
+        if (!test::isAvailable(GetParam(), why)) GTEST_SKIP() << why;
+        folder = test::makeTestFolder();
+        const std::string skin = test::skinFile(GetParam(), folder);
+        const auto rest = runBake("'" + skin + "' --rest rest.obj --binding binding.json", folder);
+        ASSERT_EQ(rest.status, 0) << rest.err;
+        const auto frames = runBake("'" + skin + "' --frames " + GetParam().frames +
+                                        " --out frame_%04d.obj --pose pose.json",
+                                    folder);
+        ASSERT_EQ(frames.status, 0) << frames.err;
+    }
+    std::string folder;
+};
+
+} // namespace
+
+TEST_P(BakedCharacter, AgreesWithTheReference) {
+    const nlohmann::json binding = readJson(folder + "/binding.json");
+    const test::ReferenceSkin reference(binding, test::readObjVertices(folder + "/rest.obj"));
+    const nlohmann::json poses = readJson(folder + "/pose.json");
+    ASSERT_GE(poses.size(), 20u);
+    double worst = 0.0;
+    for (const nlohmann::json& pose : poses) {
+        const auto baked = test::readObjVertices(frameFile(folder, pose["frame"]));
+        const auto expected = reference.pose(pose);
+        ASSERT_EQ(baked.size(), expected.size());
+        for (std::size_t v = 0; v < baked.size(); ++v)
+            worst = std::max(worst, glm::distance(baked[v], expected[v]));
+    }
+    RecordProperty("worst", std::to_string(worst / reference.height()));
+    EXPECT_LE(worst, 1e-5 * reference.height());
+}
+
+TEST_P(BakedCharacter, EveryVertexIsBoundWithRatiosFromZeroToOne) {
+    const nlohmann::json binding = readJson(folder + "/binding.json");
+    const auto rest = test::readObjVertices(folder + "/rest.obj");
+    ASSERT_EQ(binding["vertices"].size(), rest.size());
+    std::vector<std::string> names;
+    for (const nlohmann::json& joint : binding["joints"]) names.push_back(joint["name"]);
+    std::size_t zeroOrOne = 0, all = 0;
+    for (const nlohmann::json& vertex : binding["vertices"]) {
+        ASSERT_NE(std::find(names.begin(), names.end(), vertex["region"]), names.end());
+        for (const nlohmann::json& ratio : vertex["ratios"])
+            for (const double share : {ratio[1].get<double>(), ratio[2].get<double>()}) {
+                ASSERT_GE(share, 0.0);
+                ASSERT_LE(share, 1.0);
+                ++all;
+                if (share == 0.0 || share == 1.0) ++zeroOrOne;
+            }
+    }
+    // Beyond a region's boundaries ratios are exactly 0 or 1: on a body that is most of them.
+    EXPECT_GT(double(zeroOrOne), 0.6 * double(all));
+}
+
+TEST_P(BakedCharacter, KeepsTheInputsVerticesAndFaces) {
+    const std::string input = GetParam().mesh
+                                  ? std::string(OSGSKIN_SHARED_DATA) + "/" + GetParam().mesh
+                                  : OSGSKIN_DATA "/thrower.obj";
+    const auto vertices = test::readObjVertices(input);
+    const auto rest = test::readObjVertices(folder + "/rest.obj");
+    ASSERT_EQ(rest.size(), vertices.size());
+    for (std::size_t v = 0; v < rest.size(); ++v)
+        ASSERT_LE(glm::distance(rest[v], vertices[v]), 1e-5) << v;
+    EXPECT_EQ(test::readObjFaces(folder + "/rest.obj"), test::readObjFaces(input));
+    EXPECT_EQ(test::readObjFaces(frameFile(folder, 0)), test::readObjFaces(input));
+}
+
+TEST_P(BakedCharacter, DoesNotTear) {
+    const auto rest = test::readObjVertices(folder + "/rest.obj");
+    const auto faces = test::readObjFaces(folder + "/rest.obj");
+    const nlohmann::json poses = readJson(folder + "/pose.json");
+    double longest = 0.0;
+    for (const nlohmann::json& pose : poses) {
+        const auto posed = test::readObjVertices(frameFile(folder, pose["frame"]));
+        for (const auto& face : faces)
+            for (std::size_t k = 0; k < face.size(); ++k) {
+                const auto a = static_cast<std::size_t>(face[k] - 1);
+                const auto b = static_cast<std::size_t>(face[(k + 1) % face.size()] - 1);
+                longest = std::max(longest, glm::distance(posed[a], posed[b]) /
+                                                glm::distance(rest[a], rest[b]));
+            }
+    }
+    RecordProperty("longest", std::to_string(longest));
+    // Painted weights with dual quaternions reach 11.5 on these bodies; a tear goes far beyond.
+    EXPECT_LE(longest, 5.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Characters, BakedCharacter, testing::ValuesIn(test::characterCases()),
+                         [](const auto& c) { return test::caseName(c.param); });
+
+TEST(Bake, FramesAreTheFilesOwnSamples) {
+    const std::string folder = test::makeTestFolder();
+    const std::string skin = OSGSKIN_TEST_DATA "/character/good.skin";
+    ASSERT_EQ(runBake("'" + skin + "' --pose all.json", folder).status, 0);
+    ASSERT_EQ(runBake("'" + skin + "' --motion later --pose later.json", folder).status, 0);
+    const nlohmann::json all = readJson(folder + "/all.json");
+    const nlohmann::json later = readJson(folder + "/later.json");
+    ASSERT_EQ(all.size(), 4u);
+    ASSERT_EQ(later.size(), 2u);
+    EXPECT_EQ(later[0]["frame"], 0);
+    // The arm turns about z by 0, 30, 60 and 90 degrees, with Y after it by 0, 0, 40 and 80.
+    for (std::size_t frame = 0; frame < 4; ++frame) {
+        const nlohmann::json& r = all[frame]["joints"]["arm"]["rotation"];
+        const double z[] = {0, 30, 60, 90}, y[] = {0, 0, 40, 80};
+        const auto half = [](double degrees) { return degrees * M_PI / 360; };
+        const glm::dquat expected =
+            glm::dquat(std::cos(half(z[frame])), 0, 0, std::sin(half(z[frame]))) *
+            glm::dquat(std::cos(half(y[frame])), 0, std::sin(half(y[frame])), 0);
+        const glm::dquat found(r[0].get<double>(), r[1].get<double>(), r[2].get<double>(),
+                               r[3].get<double>());
+        EXPECT_NEAR(std::abs(glm::dot(expected, found)), 1.0, 1e-9) << frame;
+    }
+}
+
+TEST(Bake, UsageErrorsExitWithTwo) {
+    const std::string folder = test::makeTestFolder();
+    const std::string skin = "'" OSGSKIN_TEST_DATA "/character/good.skin' ";
+    for (const char* arguments :
+         {"", "--nonsense", "--frames 3:1", "--frames 0:9", "--frames x", "--frames 0:1:0",
+          "--frames -1", "--motion nobody", "--out a%db%d.obj", "--out %s.obj", "--out one.obj"}) {
+        const bool none = std::string(arguments).empty();
+        const auto result = runBake((none ? "" : skin) + arguments, folder);
+        EXPECT_EQ(result.status, 2) << arguments;
+        EXPECT_FALSE(result.err.empty()) << arguments;
+    }
+    EXPECT_EQ(runBake("--help", folder).status, 0);
+    EXPECT_NE(runBake("--help", folder).out.find("--frames"), std::string::npos);
+}
+
+TEST(Bake, RestAloneTakesThePlaceOfTheFrames) {
+    const std::string folder = test::makeTestFolder();
+    const std::string skin = "'" OSGSKIN_TEST_DATA "/character/good.skin'";
+    ASSERT_EQ(runBake(skin + " --rest --out alone.obj", folder).status, 0);
+    ASSERT_EQ(runBake("--rest " + skin + " --out first.obj", folder).status, 0);
+    ASSERT_EQ(runBake(skin + " --rest named.obj", folder).status, 0);
+    for (const char* file : {"/alone.obj", "/first.obj", "/named.obj"})
+        EXPECT_EQ(test::readObjVertices(folder + file).size(), 56u) << file;
+    EXPECT_FALSE(std::filesystem::exists(folder + "/frame_0000.obj"));
+    ASSERT_EQ(runBake(skin, folder).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder + "/frame_0003.obj"));
+}
+
+TEST(Bake, UnwritableOutputIsBadInput) {
+    const std::string folder = test::makeTestFolder();
+    const auto result =
+        runBake("'" OSGSKIN_TEST_DATA "/character/good.skin' --rest nowhere/at/all.obj", folder);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find("nowhere/at/all.obj"), std::string::npos) << result.err;
+}

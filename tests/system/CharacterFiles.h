@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace test {
+
+/// A character and one of its motions, for tests that run over several.
+struct CharacterCase {
+    const char* name;
+    const char* mesh; ///< below OSGSKIN_SHARED_DATA; null: the project's own thrower
+    const char* skeleton;
+    const char* motion;
+    const char* frames; ///< of osgskinbake's --frames
+    std::size_t skipFrames;
+};
+
+/// Both third-party bodies under both clips, and the project's own thrower.
+const std::vector<CharacterCase>& characterCases();
+
+/// True where the case's files are there; otherwise the test is to skip with `why`.
+bool isAvailable(const CharacterCase& c, std::string& why);
+
+/// Path of a .skin file for the case; one is written to `folder` for third-party files.
+std::string skinFile(const CharacterCase& c, const std::string& folder);
+
+/// Prints a case's name in a test's name.
+std::string caseName(const CharacterCase& c);
+
+} // namespace test

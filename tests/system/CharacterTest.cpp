@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// The whole scene as the plug-in builds it: parts, seams, and a pose that a person could be in.
+#include "Character.h"
+#include "CharacterFiles.h"
+#include "Command.h"
+
+#include <osgSkin/GlmOsg>
+#include <osgSkin/UpdateDeformableSkin>
+
+#include <osg/TriangleIndexFunctor>
+#include <osgAnimation/BoneMapVisitor>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+namespace {
+
+using osgSkin::Character;
+using test::CharacterCase;
+
+struct Triangles {
+    std::vector<std::array<unsigned int, 3>> all;
+    void operator()(unsigned int a, unsigned int b, unsigned int c) { all.push_back({a, b, c}); }
+};
+
+/// A triangle as a cycle of source vertices that starts with its smallest.
+std::array<std::uint32_t, 3> cycle(std::array<std::uint32_t, 3> t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+}
+
+class LoadedCharacter : public testing::TestWithParam<CharacterCase> {
+protected:
+    void SetUp() override {
+        std::string why;
+        if (!test::isAvailable(GetParam(), why)) GTEST_SKIP() << why;
+        character = Character::load(test::skinFile(GetParam(), test::makeTestFolder()));
+    }
+
+    void setFrame(std::size_t frame) {
+        osgSkin::applyFrame(character.motions.front().clip, character.rig, frame,
+                            *character.skeleton);
+        for (const auto& skin : character.skin.skins)
+            ASSERT_TRUE(
+                dynamic_cast<osgSkin::UpdateDeformableSkin&>(*skin.drawable->getUpdateCallback())
+                    .pose(*skin.drawable, *character.skeleton));
+    }
+
+    osg::Vec3d joint(const std::string& name) const {
+        osgAnimation::BoneMapVisitor visitor;
+        character.skeleton->accept(visitor);
+        return visitor.getBoneMap().at(name)->getMatrixInSkeletonSpace().getTrans();
+    }
+
+    /// Calls visit(source vertex, posed place) for every drawn copy of every vertex.
+    template <typename Visit>
+    void forEachCopy(const Visit& visit) const {
+        for (const auto& skin : character.skin.skins) {
+            const auto& vertices = static_cast<const osg::Vec3Array&>(
+                *skin.drawable->getDeformedGeometry()->getVertexArray());
+            for (std::size_t i = 0; i < vertices.size(); ++i)
+                visit(skin.part.sourceVertex[i], osg::Vec3d(vertices[i]));
+        }
+        for (const auto& rigid : character.skin.rigids) {
+            const auto& vertices =
+                static_cast<const osg::Vec3Array&>(*rigid.part.geometry->getVertexArray());
+            const osg::Matrixd matrix =
+                rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace();
+            for (std::size_t i = 0; i < vertices.size(); ++i)
+                visit(rigid.part.sourceVertex[i], osg::Vec3d(vertices[i]) * matrix);
+        }
+    }
+
+    double height() const {
+        double low = 1e30, high = -1e30;
+        for (const glm::dvec3& p : character.body.mesh.positions) {
+            low = std::min(low, p.y);
+            high = std::max(high, p.y);
+        }
+        return high - low;
+    }
+
+    Character character;
+};
+
+} // namespace
+
+TEST_P(LoadedCharacter, SeamsStayClosedInEveryFrame) {
+    double gap = 0.0;
+    std::size_t seamVertices = 0;
+    for (std::size_t frame = 0; frame < character.motions.front().clip.frames; ++frame) {
+        setFrame(frame);
+        std::map<std::uint32_t, osg::Vec3d> first;
+        seamVertices = 0;
+        forEachCopy([&](std::uint32_t vertex, const osg::Vec3d& place) {
+            const auto inserted = first.emplace(vertex, place);
+            if (inserted.second) return;
+            ++seamVertices;
+            gap = std::max(gap, (place - inserted.first->second).length());
+        });
+    }
+    EXPECT_GT(seamVertices, 20u); // five seams
+    EXPECT_LE(gap, 1e-5 * height());
+}
+
+TEST_P(LoadedCharacter, PartsHoldEveryFaceOnce) {
+    ASSERT_EQ(character.skin.skins.size(), 1u);
+    EXPECT_EQ(character.skin.rigids.size(), 5u); // head, hands, feet
+    std::multiset<std::array<std::uint32_t, 3>> drawn;
+    std::set<std::uint32_t> vertices;
+    const auto collect = [&](const osgSkin::MeshPart& part) {
+        osg::TriangleIndexFunctor<Triangles> triangles;
+        part.geometry->accept(triangles);
+        for (const auto& t : triangles.all)
+            drawn.insert(
+                cycle({part.sourceVertex[t[0]], part.sourceVertex[t[1]], part.sourceVertex[t[2]]}));
+        vertices.insert(part.sourceVertex.begin(), part.sourceVertex.end());
+    };
+    for (const auto& skin : character.skin.skins) collect(skin.part);
+    for (const auto& rigid : character.skin.rigids) collect(rigid.part);
+
+    std::multiset<std::array<std::uint32_t, 3>> input;
+    const auto triangles = character.body.mesh.triangles();
+    for (std::size_t c = 0; c < triangles.size(); c += 3)
+        input.insert(cycle({triangles[c], triangles[c + 1], triangles[c + 2]}));
+    EXPECT_EQ(drawn, input);
+    EXPECT_EQ(vertices.size(), character.body.mesh.positions.size());
+}
+
+TEST_P(LoadedCharacter, RigidPartsAreMostOfHeadHandsAndFeet) {
+    for (const auto& rigid : character.skin.rigids)
+        EXPECT_GE(rigid.part.sourceFace.size(), 100u) << rigid.node->getName();
+}
+
+TEST_P(LoadedCharacter, FeetAreOnTheFloorOfTheRestPose) {
+    double floor = 1e30;
+    for (const glm::dvec3& p : character.body.mesh.positions) floor = std::min(floor, p.y);
+    const std::size_t frames = character.motions.front().clip.frames;
+    for (std::size_t frame = 0; frame < frames; frame += std::max<std::size_t>(1, frames / 50)) {
+        setFrame(frame);
+        double lowest = 1e30;
+        forEachCopy(
+            [&](std::uint32_t, const osg::Vec3d& place) { lowest = std::min(lowest, place.y()); });
+        EXPECT_NEAR(lowest, floor, 0.03 * height()) << "frame " << frame;
+    }
+}
+
+TEST_P(LoadedCharacter, ArmsAreWhereTheMotionHasThem) {
+    const std::string name = GetParam().name;
+    const bool pitch = name.find("pitch") != std::string::npos;
+    const bool walk = name.find("walk") != std::string::npos;
+    const std::size_t frames = character.motions.front().clip.frames;
+    bool above = false;
+    for (std::size_t frame = 0; frame < frames; frame += pitch ? 1 : 10) {
+        setFrame(frame);
+        for (const char* side : {"Left", "Right"}) {
+            const osg::Vec3d hand = joint(side + std::string("Hand"));
+            const osg::Vec3d shoulder = joint(side + std::string("Arm"));
+            if (hand.y() > shoulder.y()) above = true;
+        }
+    }
+    EXPECT_EQ(above, !walk); // a pitcher's hand goes over the shoulder, a walker's does not
+}
+
+TEST_P(LoadedCharacter, BoundsHoldTheSkinInEveryFrame) {
+    const std::size_t frames = character.motions.front().clip.frames;
+    for (std::size_t frame = 0; frame < frames; frame += std::max<std::size_t>(1, frames / 60)) {
+        setFrame(frame);
+        osg::BoundingBox tight;
+        const auto& skin = *character.skin.skins.front().drawable;
+        for (const osg::Vec3& v :
+             static_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray()))
+            tight.expandBy(v);
+        const osg::BoundingBox& box = skin.getBoundingBox();
+        for (unsigned int corner = 0; corner < 8; ++corner)
+            ASSERT_TRUE(box.contains(tight.corner(corner))) << frame;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Characters, LoadedCharacter, testing::ValuesIn(test::characterCases()),
+                         [](const auto& c) { return test::caseName(c.param); });

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "Command.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <sys/wait.h>
+
+namespace test {
+namespace {
+
+std::string readFile(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+} // namespace
+
+std::string makeTestFolder() {
+    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test.test_suite_name()) + "." + test.name();
+    for (char& c : name)
+        if (c == '/') c = '_';
+    const std::filesystem::path folder = std::filesystem::path(OSGSKIN_TEST_OUTPUT) / name;
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    return folder.string();
+}
+
+CommandResult runBake(const std::string& arguments, const std::string& folder) {
+    const std::string command = "cd '" + folder + "' && '" OSGSKIN_BAKE "' " + arguments +
+                                " >stdout.txt 2>stderr.txt </dev/null";
+    const int status = std::system(command.c_str()); // NOLINT(cert-env33-c): our own arguments
+    CommandResult result;
+    if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
+    result.out = readFile(folder + "/stdout.txt");
+    result.err = readFile(folder + "/stderr.txt");
+    return result;
+}
+
+} // namespace test

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace test {
+
+/// What a command left behind.
+struct CommandResult {
+    int status = -1; ///< exit status; -1 where a signal ended it
+    std::string out;
+    std::string err;
+};
+
+/// Runs osgskinbake with `arguments` (a shell would split them) in `folder`.
+CommandResult runBake(const std::string& arguments, const std::string& folder);
+
+/// A new empty folder, named for the running test.
+std::string makeTestFolder();
+
+} // namespace test
