@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "BendRegion.h"
+#include "LimbRadius.h"
 #include "RatioFields.h"
 #include "SkinSmoother.h"
 
@@ -14,6 +14,26 @@ constexpr double kRigidNarrowing = 0.6;
 /// Width, in limb radii, that makes a field with boundaries of its own continuous across regions.
 constexpr double kBoundedWidth = 0.25;
 
+std::vector<double> smoothField(const HardField& hard, const SkinSmoother& smoother,
+                                std::size_t joint, double radius, double smoothing) {
+    const PlannedJoint& planned = hard.joints[joint];
+    const double bending = bendingRadius(planned.boneLength, radius);
+    const double width = smoothing * bending;
+    std::vector<double> field;
+    if (planned.options.bendUpper || planned.options.bendLower) {
+        const double reach = width / std::max(planned.boneLength, 1e-9 * hard.mesh.size);
+        const double upper = planned.options.bendUpper.value_or(
+            std::min(-reach, planned.options.bendLower.value_or(reach) - reach));
+        const double lower = planned.options.bendLower.value_or(std::max(reach, upper + reach));
+        field = hard.bounded(joint, upper, lower);
+        smoother.smooth(field, kBoundedWidth * bending);
+        return field;
+    }
+    field = hard.divided(joint);
+    smoother.smooth(field, planned.rigid >= 0 ? kRigidNarrowing * width : width);
+    return field;
+}
+
 /// Stretches [cutOff, 1 - cutOff] to [0, 1]: beyond the bend region the ratios are exactly 0 and 1.
 void stretch(std::vector<double>& field, double cutOff) {
     for (double& a : field) a = std::clamp((a - cutOff) / (1.0 - 2.0 * cutOff), 0.0, 1.0);
@@ -25,29 +45,15 @@ void raise(std::vector<double>& field, const std::vector<double>& other) {
 
 } // namespace
 
-JointFields bendFields(const WeldedMesh& mesh, const RestSkeleton& skeleton,
-                       const std::vector<PlannedJoint>& joints,
-                       const std::vector<std::uint32_t>& regions, const BindOptions& options) {
-    const SkinSmoother smoother(mesh);
-    const BendRegion region{mesh, joints, regions};
-    JointFields fields(joints.size(), std::vector<double>(mesh.vertexCount(), 0.0));
-    fields[0].assign(mesh.vertexCount(), 1.0);
+JointFields bendFields(const HardField& hard, const std::vector<double>& radii,
+                       const BindOptions& options) {
+    const std::vector<PlannedJoint>& joints = hard.joints;
+    const SkinSmoother smoother(hard.mesh);
+    JointFields fields(joints.size(), std::vector<double>(hard.mesh.vertexCount(), 0.0));
+    fields[0].assign(hard.mesh.vertexCount(), 1.0);
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!joints[j].holdsRegion) continue;
-        const double radius = region.limbRadius(j);
-        const double width = options.smoothing * radius;
-        const auto found = options.joints.find(skeleton.joints[j].name);
-        const JointBindOptions own =
-            found == options.joints.end() ? JointBindOptions() : found->second;
-        if (own.bendUpper || own.bendLower) {
-            const double byDefault = width / std::max(joints[j].boneLength, 1e-9 * mesh.size);
-            fields[j] = region.boundedField(j, own.bendUpper.value_or(-byDefault),
-                                            own.bendLower.value_or(byDefault));
-            smoother.smooth(fields[j], kBoundedWidth * radius);
-        } else {
-            fields[j] = region.hardField(j);
-            smoother.smooth(fields[j], joints[j].rigid >= 0 ? kRigidNarrowing * width : width);
-        }
+        fields[j] = smoothField(hard, smoother, j, radii[j], options.smoothing);
         stretch(fields[j], options.cutOff);
     }
     // Along a chain no joint turns skin that its parent leaves behind. A joint without a region (of

@@ -3,6 +3,7 @@
 
 #include "CheckOptions.h"
 #include "JointPlan.h"
+#include "LimbRadius.h"
 #include "NearestPoint.h"
 #include "PackInfluences.h"
 #include "RatioFields.h"
@@ -70,9 +71,12 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     const WeldedMesh skin(mesh);
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
     const Regions regions = findRegions(skin, joints); // section 1
-    const JointFields bend =
-        bendFields(skin, skeleton, joints, regions.jointOf, options); // section 3
-    const JointFields twist = twistFields(skin, skeleton, joints, bend, options);
+
+    // Section 3: what share of each joint's turn each vertex takes.
+    const HardField hard{skin, joints, regions.jointOf};
+    const std::vector<double> radii = limbRadii(hard);
+    const JointFields bend = bendFields(hard, radii, options);
+    const JointFields twist = twistFields(skin, joints, radii, bend);
 
     const std::vector<std::uint32_t> shown = representatives(skin);
     Binding binding;

@@ -12,11 +12,11 @@ std::size_t at(int index) {
     return static_cast<std::size_t>(index);
 }
 
-/// The direction from the nearest ancestor that lies elsewhere; zero for the root.
-glm::dvec3 directionFromAbove(const RestSkeleton& skeleton, std::size_t joint, double tolerance) {
+/// The way from the nearest ancestor that lies elsewhere; zero for the root.
+glm::dvec3 wayFromAbove(const RestSkeleton& skeleton, std::size_t joint, double tolerance) {
     for (int p = skeleton.joints[joint].parent; p >= 0; p = skeleton.joints[at(p)].parent) {
         const glm::dvec3 d = skeleton.joints[joint].centre - skeleton.joints[at(p)].centre;
-        if (glm::length(d) > tolerance) return glm::normalize(d);
+        if (glm::length(d) > tolerance) return d;
     }
     return glm::dvec3(0.0);
 }
@@ -35,7 +35,7 @@ int mainChild(const RestSkeleton& skeleton, std::size_t joint,
               const std::vector<std::size_t>& sizes, const std::vector<PlannedJoint>& planned,
               double tolerance) {
     const std::vector<int> children = skeleton.children(static_cast<int>(joint));
-    const glm::dvec3 incoming = directionFromAbove(skeleton, joint, tolerance);
+    const glm::dvec3 incoming = wayFromAbove(skeleton, joint, tolerance);
     int best = -1;
     bool bestIsThumb = true;
     double bestScore = 0.0;
@@ -84,17 +84,11 @@ void setJointAxes(const RestSkeleton& skeleton, double tolerance,
             joint.boneAxis = (joint.boneEnd - joint.centre) / joint.boneLength;
         else
             joint.boneAxis = parent ? parent->boneAxis : glm::dvec3(0.0, 1.0, 0.0);
-        joint.comingFrom = directionFromAbove(skeleton, j, tolerance);
-        if (joint.comingFrom == glm::dvec3(0.0)) joint.comingFrom = joint.boneAxis;
-
-        joint.twistAxis = joint.boneAxis;
-        joint.poleLength = joint.boneLength;
-        if (!joint.poleIsParent) continue;
-        joint.twistAxis = joint.comingFrom;
-        joint.poleLength = 0.0;
-        for (int p = joint.parent; p >= 0 && joint.poleLength <= tolerance;
-             p = joints[at(p)].parent)
-            joint.poleLength = glm::distance(joint.centre, joints[at(p)].centre);
+        const glm::dvec3 above = wayFromAbove(skeleton, j, tolerance);
+        joint.lengthAbove = glm::length(above);
+        joint.comingFrom = joint.lengthAbove > 0.0 ? above / joint.lengthAbove : joint.boneAxis;
+        joint.twistAxis = joint.poleIsParent ? joint.comingFrom : joint.boneAxis;
+        joint.poleLength = joint.poleIsParent ? joint.lengthAbove : joint.boneLength;
     }
 }
 

@@ -16,12 +16,6 @@ namespace {
 /// Joint centres closer than this share of the mesh's size are one point.
 constexpr double kCentreTolerance = 1e-6;
 
-const JointBindOptions& optionsOf(const BindOptions& options, const std::string& name) {
-    static const JointBindOptions defaults;
-    const auto found = options.joints.find(name);
-    return found == options.joints.end() ? defaults : found->second;
-}
-
 bool hasParentPole(const JointBindOptions& options, const std::string& name) {
     if (options.twistPole == JointBindOptions::Pole::Automatic) return isHandName(name);
     return options.twistPole == JointBindOptions::Pole::Parent;
@@ -47,6 +41,13 @@ void giveRegionsToRigidJoints(std::vector<PlannedJoint>& joints) {
 
 } // namespace
 
+std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    int above = joints[joint].parent;
+    while (above > 0 && !joints[static_cast<std::size_t>(above)].holdsRegion)
+        above = joints[static_cast<std::size_t>(above)].parent;
+    return static_cast<std::size_t>(std::max(above, 0));
+}
+
 std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedMesh& mesh,
                                      const BindOptions& options, std::vector<std::string>& notes) {
     std::vector<PlannedJoint> joints(skeleton.joints.size());
@@ -55,16 +56,17 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const std::string& name = skeleton.joints[j].name;
         joints[j].rigid = rigid[j];
+        const auto found = options.joints.find(name);
+        if (found != options.joints.end()) joints[j].options = found->second;
         joints[j].poleIsParent =
-            skeleton.joints[j].parent >= 0 && hasParentPole(optionsOf(options, name), name);
+            skeleton.joints[j].parent >= 0 && hasParentPole(joints[j].options, name);
     }
     setJointAxes(skeleton, tolerance, joints);
 
     std::vector<std::size_t> outside;
     for (std::size_t j = 0; j < joints.size(); ++j) {
         PlannedJoint& joint = joints[j];
-        if (optionsOf(options, skeleton.joints[j].name).skip || coincides(joints, j, tolerance))
-            continue;
+        if (joint.options.skip || coincides(joints, j, tolerance)) continue;
         joint.seeds = joint.holdsRegion = true;
         if (!isInsideSkin(mesh, joint.centre)) outside.push_back(j);
     }

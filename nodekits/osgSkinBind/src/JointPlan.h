@@ -18,7 +18,8 @@ struct PlannedJoint {
     glm::dvec3 boneEnd{0.0};  ///< the child's centre or the tip; the centre where there is neither
     glm::dvec3 boneAxis{0.0}; ///< unit
     double boneLength = 0.0;  ///< from the centre to boneEnd
-    glm::dvec3 comingFrom{0.0}; ///< unit; direction in which the parent's bone arrives
+    glm::dvec3 comingFrom{0.0}; ///< unit; direction in which the bone above arrives
+    double lengthAbove = 0.0;   ///< of that bone; 0 for the root
     glm::dvec3 twistAxis{0.0};  ///< unit; the pole, w of eq. 1
     double poleLength = 0.0;    ///< length of the bone that the twist builds up along
     bool poleIsParent = false;
@@ -29,8 +30,13 @@ struct PlannedJoint {
     bool seeds = false;       ///< its centre takes part in the Delaunay step
     bool holdsRegion = false; ///< has a region, so its field is its own; else its children's
 
+    JointBindOptions options; ///< what the author said about it
+
     bool belowRigid(int index) const { return rigid >= 0 && rigid != index; }
 };
+
+/// The nearest joint above that has a region; the root where none has.
+std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint);
 
 /// Axes, poles and roles of the joints, in the skeleton's order. Lines about what is unusual
 /// (joints outside the skin, ...) are added to `notes`. \throw osgSkin::Error where an option names

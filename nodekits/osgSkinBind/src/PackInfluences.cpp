@@ -2,6 +2,7 @@
 #include "PackInfluences.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace osgSkin {
 namespace {
@@ -23,21 +24,21 @@ float partialness(const Influence& i) {
     return std::max(distanceToFull(i.bend), distanceToFull(i.twist));
 }
 
-/// Rounds the influence; what follows it (0) or leads to it (1) is rounded along.
-void roundOff(const std::vector<PlannedJoint>& joints, std::vector<Influence>& all,
-              std::size_t joint) {
-    const bool up = all[joint].bend + all[joint].twist > 1.0f;
-    if (up) {
-        for (int j = static_cast<int>(joint); j >= 0;
-             j = joints[static_cast<std::size_t>(j)].parent)
-            all[static_cast<std::size_t>(j)].bend = all[static_cast<std::size_t>(j)].twist = 1.0f;
-        return;
-    }
-    all[joint].bend = all[joint].twist = 0.0f;
-    for (std::size_t j = joint + 1; j < all.size(); ++j) {
-        const Influence& parent = all[static_cast<std::size_t>(joints[j].parent)];
-        if (parent.bend == 0.0f && parent.twist == 0.0f) all[j].bend = all[j].twist = 0.0f;
-    }
+/// Partialness of the joint that is one too many, 0 where there is none.
+float excess(const std::vector<Influence>& all) {
+    std::vector<float> partial;
+    for (const Influence& influence : all)
+        if (isPartial(influence)) partial.push_back(partialness(influence));
+    if (partial.size() <= kMaxPartialJoints) return 0.0f;
+    const auto extra = partial.begin() + kMaxPartialJoints;
+    std::nth_element(partial.begin(), extra, partial.end(), std::greater<>());
+    return *extra;
+}
+
+/// Stretches [margin, 1 - margin] to [0, 1] and clamps.
+float stretched(float a, float margin) {
+    if (margin >= 0.499f) return a < 0.5f ? 0.0f : 1.0f;
+    return std::clamp((a - margin) / (1.0f - 2.0f * margin), 0.0f, 1.0f);
 }
 
 } // namespace
@@ -53,20 +54,15 @@ bool packInfluences(const std::vector<PlannedJoint>& joints, const JointFields& 
     for (std::size_t j = 0; j < joints.size(); ++j)
         all[j] = {static_cast<std::uint32_t>(j), ratio(bend[j][vertex]), ratio(twist[j][vertex])};
 
-    bool capped = false;
-    while (static_cast<std::size_t>(std::count_if(all.begin(), all.end(), isPartial)) >
-           kMaxPartialJoints) {
-        capped = true;
-        std::size_t least = all.size();
-        for (std::size_t j = 0; j < all.size(); ++j)
-            if (isPartial(all[j]) &&
-                (least == all.size() || partialness(all[j]) < partialness(all[least])))
-                least = j;
-        roundOff(joints, all, least);
-    }
+    const float margin = excess(all);
+    if (margin > 0.0f)
+        for (Influence& influence : all) {
+            influence.bend = stretched(influence.bend, margin);
+            influence.twist = stretched(influence.twist, margin);
+        }
     for (const Influence& influence : all)
         if (influence.bend > 0.0f || influence.twist > 0.0f) influences.push_back(influence);
-    return capped;
+    return margin > 0.0f;
 }
 
 } // namespace osgSkin

@@ -16,8 +16,11 @@ namespace osgSkin {
 constexpr std::size_t kMaxPartialJoints = 4;
 
 /// One vertex's influences out of the fields, in joint order, at most kMaxPartialJoints of them
-/// partial: the ones nearest to 0 or 1 are rounded, with what stands above or below them, so that
-/// no joint exceeds its parent. Returns whether any had to be rounded.
+/// partial. Returns whether there were more.
+///
+/// Where there were, all ratios are stretched by as much as rounds the fifth to 0 or 1. That is as
+/// continuous over the skin as the fields are (rounding the extra ones alone would tear it), and
+/// keeps each joint's ratios below its parent's.
 bool packInfluences(const std::vector<PlannedJoint>& joints, const JointFields& bend,
                     const JointFields& twist, std::size_t vertex,
                     std::vector<Influence>& influences);

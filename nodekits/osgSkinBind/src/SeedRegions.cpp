@@ -9,8 +9,9 @@
 namespace osgSkin {
 namespace {
 
-/// An edge may leave a vertex at most this far from the inward normal: cosine of 80 degrees.
-constexpr double kInwardCosine = 0.17364817766693033;
+/// An edge may leave a vertex at most this far from the inward normal: the cosine of 53 degrees. A
+/// limb is seen by its own joint head-on, by a neighbour's slantwise.
+constexpr double kInwardCosine = 0.6;
 
 /// Normal filtering, after Amenta, Bern & Kamvysselis (1998): the edge from the skin to a joint
 /// that the skin belongs to runs inwards.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "BendRegion.h"
+#include "LimbRadius.h"
 #include "RatioFields.h"
 
 #include <glm/geometric.hpp>
@@ -7,31 +7,63 @@
 #include <algorithm>
 
 namespace osgSkin {
+namespace {
 
-JointFields twistFields(const WeldedMesh& mesh, const RestSkeleton& skeleton,
-                        const std::vector<PlannedJoint>& joints, const JointFields& bend,
-                        const BindOptions& options) {
+/// The paper's upper and lower boundary of a twist region, along the pole bone from the joint's
+/// centre in units of that bone's length.
+struct TwistRegion {
+    double upper, lower;
+};
+
+TwistRegion twistRegion(const PlannedJoint& joint, double radius) {
+    // A forearm turns with its hand one radius behind the wrist, where the hand's own bend ends
+    // too.
+    const double upper = joint.poleIsParent ? -1.0 : 0.0;
+    const double lower = joint.poleIsParent ? std::min(radius / joint.poleLength, 0.5) : 1.0;
+    TwistRegion region{joint.options.twistUpper.value_or(upper),
+                       joint.options.twistLower.value_or(lower)};
+    if (!(region.upper < region.lower)) { // one is given, beyond the other's default
+        if (joint.options.twistUpper)
+            region.lower = region.upper + (lower - upper);
+        else
+            region.upper = region.lower - (lower - upper);
+    }
+    return region;
+}
+
+/// True where the twist has a region of its own; elsewhere it goes with the bend. It builds up
+/// along limbs; the trunk's bones are shorter than they are thick.
+bool buildsUp(const PlannedJoint& joint, double radius) {
+    if (!(joint.poleLength > 0.0)) return false;
+    if (joint.options.twistUpper || joint.options.twistLower || joint.poleIsParent) return true;
+    return joint.rigid < 0 && joint.holdsRegion && isSlender(joint.boneLength, radius);
+}
+
+} // namespace
+
+JointFields twistFields(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                        const std::vector<double>& radii, const JointFields& bend) {
     JointFields twist = bend;
-    for (std::size_t j = 1; j < joints.size(); ++j) {
+    for (std::size_t j = joints.size(); j-- > 1;) {
         const PlannedJoint& joint = joints[j];
-        if (joint.belowRigid(static_cast<int>(j)) || !(joint.poleLength > 0.0)) continue;
-        const auto found = options.joints.find(skeleton.joints[j].name);
-        const JointBindOptions own =
-            found == options.joints.end() ? JointBindOptions() : found->second;
-        const bool asked = own.twistUpper || own.twistLower;
-        if (!joint.poleIsParent && !asked) continue;
-
-        // Section 3: skin near the end of the bone follows the twist more fully. The bone is the
-        // joint's own or, for a parent pole, the one above; its skin is what its joint bends.
-        const double upper = own.twistUpper.value_or(joint.poleIsParent ? -1.0 : 0.0);
-        const double lower = own.twistLower.value_or(joint.poleIsParent ? 0.0 : 1.0);
-        const std::size_t carrier = joint.poleIsParent ? static_cast<std::size_t>(joint.parent) : j;
-        for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
-            const double along =
-                glm::dot(mesh.positions[v] - joint.centre, joint.twistAxis) / joint.poleLength;
-            const double built = hermite((along - upper) / (lower - upper));
-            const double onBone = std::min(built, bend[carrier][v]);
-            twist[j][v] = joint.poleIsParent ? std::max(bend[j][v], onBone) : onBone;
+        if (joint.belowRigid(static_cast<int>(j))) continue;
+        if (buildsUp(joint, radii[j])) {
+            const TwistRegion region = twistRegion(joint, radii[j]);
+            // The pole bone is the joint's own or the one above; its skin is what its joint bends.
+            const std::size_t carrier = joint.poleIsParent ? regionAbove(joints, j) : j;
+            for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+                const double along =
+                    glm::dot(mesh.positions[v] - joint.centre, joint.twistAxis) / joint.poleLength;
+                const double t = (along - region.upper) / (region.lower - region.upper); // eq. 5
+                const double onBone = std::min(hermite(t), bend[carrier][v]);
+                twist[j][v] = joint.poleIsParent ? std::max(bend[j][v], onBone) : onBone;
+            }
+        }
+        // Where a child's turn begins, this joint's twist must have got at least as far.
+        for (std::size_t child = j + 1; child < joints.size(); ++child) {
+            if (joints[child].parent != static_cast<int>(j)) continue;
+            for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
+                twist[j][v] = std::max({twist[j][v], bend[child][v], twist[child][v]});
         }
     }
     return twist;

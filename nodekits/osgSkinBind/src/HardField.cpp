@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "HardField.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+/// Unit normal of the joint's plane, towards the child.
+glm::dvec3 planeNormal(const PlannedJoint& joint) {
+    const glm::dvec3 sum = joint.comingFrom + joint.boneAxis;
+    const double length = glm::length(sum);
+    return length > 1e-6 ? sum / length : joint.boneAxis; // a bone that folds straight back
+}
+
+} // namespace
+
+double hermite(double t) {
+    t = std::clamp(t, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+bool HardField::isBelow(std::uint32_t region, std::size_t joint) const {
+    for (int j = joints[region].parent; j >= 0; j = joints[static_cast<std::size_t>(j)].parent)
+        if (static_cast<std::size_t>(j) == joint) return true;
+    return false;
+}
+
+std::vector<double> HardField::subtree(std::size_t joint) const {
+    std::vector<double> inside(joints.size());
+    for (std::uint32_t r = 0; r < joints.size(); ++r)
+        inside[r] = r == joint || isBelow(r, joint) ? 1.0 : 0.0;
+    std::vector<double> field(mesh.vertexCount());
+    for (std::size_t v = 0; v < field.size(); ++v) field[v] = inside[regions[v]];
+    return field;
+}
+
+std::vector<double> HardField::divided(std::size_t joint) const {
+    const PlannedJoint& planned = joints[joint];
+    std::vector<double> field = subtree(joint);
+    if (planned.rigid >= 0 && planned.lengthAbove < planned.boneLength) return field;
+    const glm::dvec3 normal = planeNormal(planned);
+    for (std::size_t v = 0; v < field.size(); ++v)
+        if (regions[v] == joint && glm::dot(mesh.positions[v] - planned.centre, normal) <= 0.0)
+            field[v] = 0.0;
+    return field;
+}
+
+std::vector<double> HardField::bounded(std::size_t joint, double upper, double lower) const {
+    const glm::dvec3 normal = planeNormal(joints[joint]);
+    const double length = std::max(joints[joint].boneLength, 1e-9 * mesh.size);
+    const std::size_t above = regionAbove(joints, joint);
+    std::vector<double> field = subtree(joint);
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        if (regions[v] != joint && regions[v] != above) continue;
+        const double along = glm::dot(mesh.positions[v] - joints[joint].centre, normal) / length;
+        field[v] = hermite((along - upper) / (lower - upper));
+    }
+    return field;
+}
+
+} // namespace osgSkin

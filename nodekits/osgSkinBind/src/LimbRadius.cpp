@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "LimbRadius.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+/// Bone length over radius: from the first a bone is less and less stout, from the second slender.
+constexpr double kStoutRatio = 1.5;
+constexpr double kSlenderRatio = 2.5;
+constexpr double kSlenderRadius = 0.2; ///< of the bone's length
+
+double limbRadius(const HardField& hard, std::size_t joint) {
+    const WeldedMesh& mesh = hard.mesh;
+    const PlannedJoint& bone = hard.joints[joint];
+    const std::vector<double> field = hard.divided(joint);
+    std::vector<double> radii; // one for each edge across the division
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        if (field[v] < 0.5) continue;
+        for (std::uint32_t i = mesh.firstNeighbour[v]; i < mesh.firstNeighbour[v + 1]; ++i) {
+            const std::uint32_t next = mesh.neighbours[i];
+            if (field[next] >= 0.5) continue;
+            const glm::dvec3 d = 0.5 * (mesh.positions[v] + mesh.positions[next]) - bone.centre;
+            radii.push_back(glm::length(d - bone.boneAxis * glm::dot(d, bone.boneAxis)));
+        }
+    }
+    if (radii.empty()) return 0.0;
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return *middle;
+}
+
+} // namespace
+
+std::vector<double> limbRadii(const HardField& hard) {
+    std::vector<double> radii(hard.joints.size(), 0.0);
+    for (std::size_t j = 1; j < radii.size(); ++j)
+        if (hard.joints[j].holdsRegion) radii[j] = limbRadius(hard, j);
+    return radii;
+}
+
+bool isSlender(double boneLength, double radius) {
+    return boneLength > kSlenderRatio * radius;
+}
+
+double bendingRadius(double boneLength, double radius) {
+    if (!(radius > 0.0)) return 0.0;
+    const double slenderness =
+        std::clamp((boneLength / radius - kStoutRatio) / (kSlenderRatio - kStoutRatio), 0.0, 1.0);
+    const double capped = std::min(radius, kSlenderRadius * boneLength);
+    return radius + slenderness * (capped - radius);
+}
+
+} // namespace osgSkin

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_LIMBRADIUS_H
+#define OSGSKINBIND_LIMBRADIUS_H
+
+#include "HardField.h"
+
+#include <vector>
+
+namespace osgSkin {
+
+/// R_j for each joint: the limb's radius where it bends, the median distance to the bone's line of
+/// the skin that the joint's hard field divides. 0 for joints without a region or with an empty
+/// one.
+std::vector<double> limbRadii(const HardField& hard);
+
+/// True where the bone is long for its radius: a limb, not the trunk.
+bool isSlender(double boneLength, double radius);
+
+/// The radius that sets the width of a bend. A shoulder's or hip's is the trunk's, which would
+/// soften half of the limb; a slender bone has a fifth of its length at most.
+double bendingRadius(double boneLength, double radius);
+
+} // namespace osgSkin
+
+#endif
