@@ -157,7 +157,7 @@ private:
         if (found.size() < frames)
             failLine(_path, _words.line(),
                      "the motion ends after " + std::to_string(found.size()) +
-                         " frames, expected the declared " + std::to_string(frames));
+                         " frame(s), expected the declared " + std::to_string(frames));
         if (found.size() > frames)
             failLine(_path, found[frames].line,
                      "a frame beyond the declared " + std::to_string(frames));

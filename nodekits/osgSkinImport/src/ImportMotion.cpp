@@ -73,7 +73,7 @@ Motion importMotion(const std::string& path, std::size_t skipFrames) {
     if (bvh) motion.frameTime = bvh->frameTime;
     validate(motion, path);
     if (skipFrames >= motion.frames)
-        failFile(path, std::to_string(motion.frames) + " frames, expected more than the " +
+        failFile(path, std::to_string(motion.frames) + " frame(s), expected more than the " +
                            std::to_string(skipFrames) + " to skip");
     dropFirst(motion, skipFrames);
     return motion;

@@ -31,8 +31,11 @@ std::vector<int> mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
             throw Error("retarget: the map names the joint \"" + rigName +
                         "\", which the rig does not have");
         if (!motionName.empty() && lookUp(motionJoints, motionName) < 0)
-            throw Error("retarget: the map gives \"" + rigName + "\" the joint \"" + motionName +
-                        "\", which the motion does not have");
+            throw Error(std::string("retarget: the map gives \"")
+                            .append(rigName)
+                            .append("\" the joint \"")
+                            .append(motionName)
+                            .append("\", which the motion does not have"));
     }
     std::vector<int> result;
     for (const RestJoint& joint : rig.joints) {

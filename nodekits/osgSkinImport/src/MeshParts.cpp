@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "MeshParts.h"
 
+#include <osgSkin/GlmOsg>
+
 #include <array>
 #include <map>
 
@@ -47,9 +49,8 @@ private:
         const Key key{source, {n.x, n.y, n.z, t.x, t.y}};
         const auto [entry, isNew] = _copies.emplace(key, static_cast<unsigned>(_positions->size()));
         if (isNew) {
-            const glm::vec3 p(_source.mesh.positions[source]);
-            _positions->push_back({p.x, p.y, p.z});
-            _normals->push_back({n.x, n.y, n.z});
+            _positions->push_back(osg::Vec3(toOsg(_source.mesh.positions[source])));
+            _normals->push_back(osg::Vec3(toOsg(glm::dvec3(n))));
             _texCoords->push_back({t.x, t.y});
             _part.sourceVertex.push_back(source);
         }

@@ -3,6 +3,7 @@
 #include "FileText.h"
 #include "Materials.h"
 #include "MeshReaders.h"
+#include "PlyCheck.h"
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
@@ -95,6 +96,7 @@ bool assimpReads(const std::string& path) {
 }
 
 CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options) {
+    if (osgDB::getLowerCaseFileExtension(path) == "ply") checkPly(path, readText(path));
     Assimp::Importer importer;
     const aiScene& scene = readAssimpScene(importer, path);
     CornerMesh result;

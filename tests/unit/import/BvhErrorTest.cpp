@@ -34,11 +34,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"no_frames.bvh", "no frame, expected at least one"},
         BadFile{"negative_frames.bvh", "line 17: the number of frames is \"-2\""},
         BadFile{"billion_frames.bvh", "line 17: the number of frames is \"1000000000\""},
-        BadFile{"million_frames.bvh", "line 20: the motion ends after 1 frames"},
+        BadFile{"million_frames.bvh", "line 20: the motion ends after 1 frame(s)"},
         BadFile{"missing_frame_time.bvh", "line 18: found \"0\", expected \"Frame\""},
         BadFile{"zero_frame_time.bvh", "line 18: the frame time is 0"},
         BadFile{"nan_frame_time.bvh", "line 18: the frame time is \"nan\""},
-        BadFile{"truncated_motion.bvh", "line 20: the motion ends after 1 frames"},
+        BadFile{"truncated_motion.bvh", "line 20: the motion ends after 1 frame(s)"},
         BadFile{"short_row.bvh", "line 19: a frame of 8 values, expected 9"},
         BadFile{"uneven_rows.bvh", "line 19: a frame of 8 values, expected 9"},
         BadFile{"more_rows.bvh", "line 21: a frame beyond the declared 2"},
@@ -60,7 +60,7 @@ TEST(MotionErrors, DirectoryIsNoFile) {
 TEST(MotionErrors, SkippingEverySampleIsRefused) {
     const std::string path = testData("bvh/two_joints.bvh");
     EXPECT_EQ(osgSkin::importMotion(path, 1).frames, 1u);
-    expectError([&] { osgSkin::importMotion(path, 2); }, path + ": 2 frames, expected more than");
+    expectError([&] { osgSkin::importMotion(path, 2); }, path + ": 2 frame(s), expected more than");
 }
 
 TEST(MotionErrors, DeepNestingIsRefusedAndDoesNotCrash) {
