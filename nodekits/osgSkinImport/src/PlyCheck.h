@@ -5,7 +5,8 @@
 
 namespace osgSkin {
 
-/// Checks that the header of a PLY file has an end: Assimp 5.2.5 searches for it for ever.
+/// Checks the header of a PLY file: Assimp 5.2.5 searches for a missing end for ever, and believes
+/// any number of elements.
 /// \throw osgSkin::Error "PATH: what was expected".
 void checkPly(const std::string& path, const std::string& text);
 

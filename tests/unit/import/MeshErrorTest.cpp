@@ -35,6 +35,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"face_of_256.obj", "line 257: a face with 256 corners"},
         BadFile{"nan_vertex.ply", "mesh: vertex 2 has a coordinate that is not finite"},
         BadFile{"index_too_large.ply", "mesh \"\": face 0 names vertex 9, expected less than 4"},
+        BadFile{"too_many_elements.ply", "line 3: \"4000000000\" elements, expected no more"},
         BadFile{"no_header_end.ply", "the header has no end"},
         BadFile{"truncated.ply", "no face, expected at least one"}, BadFile{"broken.osgt", ""},
         BadFile{"unknown.format", ""}, BadFile{"../bvh/two_joints.bvh", "no face"}),
