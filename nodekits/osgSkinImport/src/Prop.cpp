@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkin/GlmOsg>
+#include "ClipChannels.h"
+
 #include <osgSkinImport/Prop>
 
-#include <osgAnimation/Channel>
 #include <osgAnimation/StackedQuaternionElement>
 #include <osgAnimation/StackedTranslateElement>
 #include <osgAnimation/UpdateMatrixTransform>
@@ -10,14 +10,17 @@
 namespace osgSkin {
 namespace {
 
-template <typename Channel>
-osg::ref_ptr<Channel> addChannel(osgAnimation::Animation& animation, const std::string& target,
-                                 const std::string& element) {
-    osg::ref_ptr<Channel> channel = new Channel;
-    channel->setTargetName(target);
-    channel->setName(element);
-    animation.addChannel(channel);
-    return channel;
+/// The prop's way in skeleton space, as a clip of one joint.
+Clip makeWay(const Motion& way, const RetargetReport& report) {
+    Clip clip;
+    clip.frameTime = way.frameTime;
+    clip.frames = way.frames;
+    clip.joints = 1;
+    for (std::size_t frame = 0; frame < way.frames; ++frame) {
+        clip.rotations.push_back(way.rotation(frame, 0));
+        clip.rootPositions.push_back(report.scale * way.rootPositions[frame] + report.offset);
+    }
+    return clip;
 }
 
 } // namespace
@@ -38,16 +41,10 @@ osg::ref_ptr<osg::MatrixTransform> makeProp(const std::string& name,
     node->setUpdateCallback(update);
     for (const MeshPart& part : parts) node->addChild(part.geometry);
 
-    const auto places = addChannel<osgAnimation::Vec3LinearChannel>(animation, name, "translate");
-    const auto turns =
-        addChannel<osgAnimation::QuatSphericalLinearChannel>(animation, name, "quaternion");
-    auto& placeKeys = *places->getOrCreateSampler()->getOrCreateKeyframeContainer();
-    auto& turnKeys = *turns->getOrCreateSampler()->getOrCreateKeyframeContainer();
-    for (std::size_t frame = 0; frame < way.frames; ++frame) {
-        const double time = static_cast<double>(frame) * way.frameTime;
-        const glm::dvec3 place = report.scale * way.rootPositions[frame] + report.offset;
-        placeKeys.push_back({time, osg::Vec3(toOsg(place))});
-        turnKeys.push_back({time, toOsg(way.rotation(frame, 0))});
+    const Clip clip = makeWay(way, report);
+    for (const auto& channel : {rootChannel(clip), rotationChannel(clip, 0)}) {
+        channel->setTargetName(name);
+        animation.addChannel(channel);
     }
     return node;
 }
