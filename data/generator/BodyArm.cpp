@@ -28,7 +28,7 @@ Sculpture sculptArm() {
     const glm::dvec3 along = elbow - shoulder;
     const glm::dvec3 insertion = shoulder + along * 0.46 + glm::dvec3(0.003, 0.004, 0);
     arm.add(RoundCone{shoulder + glm::dvec3(0.008, 0.010, 0.020), insertion, 0.046, 0.030}, 0.040);
-    arm.add(RoundCone{shoulder + glm::dvec3(0.012, 0.012, 0), insertion, 0.048, 0.030}, 0.040);
+    arm.add(RoundCone{shoulder + glm::dvec3(0.012, 0.012, 0), insertion, 0.051, 0.030}, 0.040);
     arm.add(RoundCone{shoulder + glm::dvec3(0.005, 0.005, -0.022), insertion, 0.046, 0.030}, 0.040);
     // Olecranon.
     arm.add(Ellipsoid{elbow + glm::dvec3(0, 0.002, -0.034), {0.018, 0.018, 0.014}}, 0.020);

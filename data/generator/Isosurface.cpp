@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +16,8 @@ namespace mannequin {
 namespace {
 
 constexpr int kBlock = 8; // cells along a block's edge; blocks far from the skin are skipped
+
+constexpr std::size_t kValues = (kBlock + 1UL) * (kBlock + 1UL) * (kBlock + 1UL);
 
 /// Marches through the grid. A cube's corner is a bit mask, one bit for each axis; the cube falls
 /// into the six tetrahedra 0, a, ab, abc of the orders of the axes, so that neighbours agree.
@@ -43,8 +46,9 @@ private:
     }
 
     double& value(const glm::ivec3& offset) {
-        constexpr int n = kBlock + 1;
-        return _values[static_cast<std::size_t>((offset.z * n + offset.y) * n + offset.x)];
+        const glm::uvec3 at(offset);
+        constexpr std::size_t n = kBlock + 1;
+        return _values[(at.z * n + at.y) * n + at.x];
     }
 
     void marchBlock(const glm::ivec3& first) {
@@ -122,7 +126,7 @@ private:
     const ImplicitBody& _body;
     double _spacing;
     glm::ivec3 _blocks{0};
-    std::array<double, (kBlock + 1) * (kBlock + 1) * (kBlock + 1)> _values{};
+    std::array<double, kValues> _values{};
     std::unordered_map<std::uint64_t, SkinMesh::Vertex_index> _vertices; // by the grid's edge
     SkinMesh _mesh;
 };

@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <cmath>
 #include <iomanip>
 #include <ostream>
 #include <vector>
