@@ -4,7 +4,6 @@
 #include <osgSkin/BoneReader>
 #include <osgSkin/DeformJob>
 #include <osgSkin/GlmOsg>
-#include <osgSkin/UpdateDeformableSkin>
 
 #include <glm/geometric.hpp>
 
@@ -87,11 +86,8 @@ osgSkin::Pose currentPose(const osgSkin::Character& character) {
 
 PosedMesh PosedMesh::read(const osgSkin::Character& character) {
     Collector collector(character.body.mesh.positions.size());
-    for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins) {
-        dynamic_cast<osgSkin::UpdateDeformableSkin&>(*skin.drawable->getUpdateCallback())
-            .pose(*skin.drawable, *character.skeleton);
+    for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins)
         collector.add(*skin.drawable->getDeformedGeometry(), skin.part.sourceVertex, {});
-    }
     for (const osgSkin::AttachedSkin::Rigid& rigid : character.skin.rigids)
         collector.add(*rigid.part.geometry, rigid.part.sourceVertex,
                       rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace());

@@ -38,7 +38,8 @@ bake::FrameRange chooseFrames(const Arguments& arguments, const osgSkin::Clip& c
 }
 
 void bakeFrames(const Arguments& arguments, Character& character) {
-    const osgSkin::Clip& clip = chooseMotion(character, arguments).clip;
+    const Character::Motion& motion = chooseMotion(character, arguments);
+    const osgSkin::Clip& clip = motion.clip;
     const bake::FrameRange range = chooseFrames(arguments, clip);
     const std::size_t total = (range.last - range.first) / range.step + 1;
     if (total > 1 && !arguments.out.empty() && !bake::hasNumber(arguments.out))
@@ -48,7 +49,7 @@ void bakeFrames(const Arguments& arguments, Character& character) {
     nlohmann::json poses = nlohmann::json::array();
     double seamGap = 0.0;
     for (std::size_t frame = range.first; frame <= range.last; frame += range.step) {
-        osgSkin::applyFrame(clip, character.rig, frame, *character.skeleton);
+        character.pose(motion, frame);
         const bake::PosedMesh posed = bake::PosedMesh::read(character);
         seamGap = std::max(seamGap, posed.seamGap);
         if (!arguments.out.empty())

@@ -15,12 +15,15 @@
 
 namespace {
 
-const example::View kView{{1.2, -6.4, 1.75}, {0.45, 0.0, 0.95}};
+const example::View kView{{0.75, -5.1, 1.35}, {0.62, 0.0, 0.9}};
 
-void takePictures(osg::Node* scene, double seconds, unsigned int count, const std::string& folder) {
+/// Pictures of the throw from second `from` to second `to`.
+void takePictures(osg::Node* scene, double from, double to, unsigned int count,
+                  const std::string& folder) {
     example::Snapshots snapshots(scene, kView, 800, 800);
+    const double step = count > 1 ? (to - from) / (count - 1) : 0.0;
     for (unsigned int i = 0; i < count; ++i)
-        snapshots.write(seconds * i / count, example::pictureName(folder, "throw", i));
+        snapshots.write(from + i * step, example::pictureName(folder, "throw", i));
     std::cout << count << " pictures of the throw in " << folder << std::endl;
 }
 
@@ -43,16 +46,21 @@ int main(int argc, char** argv) {
     std::string data = OSGSKIN_DATA;
     std::string pictures;
     unsigned int count = 12;
+    double from = 0.0;
+    double to = 0.999; // at 1 the loop starts again
     app.add_option("--data", data, "folder of thrower.obj, thrower.bvh and throw.bvh");
     app.add_option("--pictures", pictures, "write pictures to this folder; no window to look at");
     app.add_option("--count", count, "how many pictures")->check(CLI::Range(1u, 99u));
+    app.add_option("--from", from, "first picture's time, in shares of the throw's length")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--to", to, "last picture's time, the same")->check(CLI::Range(0.0, 1.0));
     CLI11_PARSE(app, argc, argv);
     try {
         double seconds = 0.0;
         const osg::ref_ptr<osg::Group> scene = example::withShadow(makeThrowScene(data, &seconds));
         scene->addChild(example::makeFloor(8.0f));
         if (pictures.empty()) return show(scene);
-        takePictures(scene, seconds, count, pictures);
+        takePictures(scene, from * seconds, to * seconds, count, pictures);
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "osgskinthrow: " << error.what() << std::endl;

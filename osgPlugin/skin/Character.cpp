@@ -5,6 +5,7 @@
 #include "Props.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinBind/Bind>
 
 #include <osg/MatrixTransform>
@@ -96,6 +97,14 @@ Character Character::load(const std::string& file, const osgDB::Options* options
         return 0;
     });
     return character;
+}
+
+void Character::pose(const Motion& motion, std::size_t frame) {
+    applyFrame(motion.clip, rig, frame, *skeleton);
+    for (const AttachedSkin::Skin& attached : skin.skins)
+        if (auto* update =
+                dynamic_cast<UpdateDeformableSkin*>(attached.drawable->getUpdateCallback()))
+            update->pose(*attached.drawable, *skeleton);
 }
 
 } // namespace osgSkin

@@ -41,6 +41,9 @@ struct Character {
 
     /// Reads, binds and builds. \throw Error with file, place and what was expected
     static Character load(const std::string& file, const osgDB::Options* options = nullptr);
+
+    /// Puts bones and skin into a sample of a motion, exactly, without an update traversal.
+    void pose(const Motion& motion, std::size_t frame);
 };
 
 } // namespace osgSkin

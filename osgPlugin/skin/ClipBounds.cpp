@@ -6,6 +6,8 @@
 #include <osg/BoundingBox>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -29,13 +31,15 @@ std::vector<glm::dvec3> jointCentres(const Clip& clip, const RestSkeleton& rig, 
     return centres;
 }
 
-/// The largest distance from a vertex to the centre of its region's joint.
-double skinDistance(const Binding& binding, const SkinMesh& mesh) {
-    double distance = 0.0;
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        distance = std::max(
-            distance, glm::length(mesh.positions[v] - binding.joints[binding.regions[v]].centre));
-    return distance;
+/// For each joint, the largest distance of its region's skin from its centre.
+std::vector<double> skinDistances(const Binding& binding, const SkinMesh& mesh) {
+    std::vector<double> distances(binding.joints.size(), 0.0);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const std::uint32_t joint = binding.regions[v];
+        distances[joint] = std::max(distances[joint],
+                                    glm::length(mesh.positions[v] - binding.joints[joint].centre));
+    }
+    return distances;
 }
 
 } // namespace
@@ -44,17 +48,23 @@ osg::BoundingSphere clipBounds(const Clip& clip, const RestSkeleton& rig, const 
                                const SkinMesh& mesh, const osg::Matrix& toWorld) {
     // A character stays within a hand's breadth of where it is a few samples earlier.
     const std::size_t step = std::max<std::size_t>(1, clip.frames / 200);
-    std::vector<osg::Vec3d> points;
+    const std::vector<double> distances = skinDistances(binding, mesh);
+    std::vector<std::pair<osg::Vec3d, double>> balls;
     osg::BoundingBoxd box;
-    for (std::size_t frame = 0; frame < clip.frames; frame += step)
-        for (const glm::dvec3& centre : jointCentres(clip, rig, frame)) {
-            points.push_back(toOsg(centre) * toWorld);
-            box.expandBy(points.back());
+    for (std::size_t frame = 0; frame < clip.frames; frame += step) {
+        const std::vector<glm::dvec3> centres = jointCentres(clip, rig, frame);
+        for (std::size_t j = 0; j < centres.size(); ++j) {
+            const osg::Vec3d centre = toOsg(centres[j]) * toWorld;
+            const osg::Vec3d reach(distances[j], distances[j], distances[j]);
+            balls.emplace_back(centre, distances[j]);
+            box.expandBy(centre - reach);
+            box.expandBy(centre + reach);
         }
+    }
     double radius = 0.0;
-    for (const osg::Vec3d& point : points)
-        radius = std::max(radius, (point - box.center()).length());
-    return {box.center(), static_cast<float>(radius + skinDistance(binding, mesh))};
+    for (const auto& [centre, distance] : balls)
+        radius = std::max(radius, (centre - box.center()).length() + distance);
+    return {box.center(), static_cast<float>(radius)};
 }
 
 } // namespace osgSkin

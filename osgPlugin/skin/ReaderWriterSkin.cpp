@@ -27,7 +27,10 @@ public:
         const std::string found = osgDB::findDataFile(file, options);
         if (found.empty()) return ReadResult::FILE_NOT_FOUND;
         try {
-            return osgSkin::Character::load(found, options).root.get();
+            osgSkin::Character character = osgSkin::Character::load(found, options);
+            // Bounds and pictures taken before the first update show the motion's first pose.
+            if (!character.motions.empty()) character.pose(character.motions.front(), 0);
+            return character.root.get();
         } catch (const std::exception& error) {
             return ReadResult(error.what());
         }

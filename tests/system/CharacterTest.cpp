@@ -4,11 +4,9 @@
 #include "CharacterFiles.h"
 #include "Command.h"
 
-#include <osgSkin/GlmOsg>
-#include <osgSkin/UpdateDeformableSkin>
-
 #include <osg/TriangleIndexFunctor>
 #include <osgAnimation/BoneMapVisitor>
+#include <osgSkin/GlmOsg>
 
 #include <gtest/gtest.h>
 
@@ -41,14 +39,7 @@ protected:
         character = Character::load(test::skinFile(GetParam(), test::makeTestFolder()));
     }
 
-    void setFrame(std::size_t frame) {
-        osgSkin::applyFrame(character.motions.front().clip, character.rig, frame,
-                            *character.skeleton);
-        for (const auto& skin : character.skin.skins)
-            ASSERT_TRUE(
-                dynamic_cast<osgSkin::UpdateDeformableSkin&>(*skin.drawable->getUpdateCallback())
-                    .pose(*skin.drawable, *character.skeleton));
-    }
+    void setFrame(std::size_t frame) { character.pose(character.motions.front(), frame); }
 
     osg::Vec3d joint(const std::string& name) const {
         osgAnimation::BoneMapVisitor visitor;
