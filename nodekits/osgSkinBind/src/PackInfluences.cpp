@@ -29,8 +29,8 @@ float excess(const std::vector<Influence>& all) {
     std::vector<float> partial;
     for (const Influence& influence : all)
         if (isPartial(influence)) partial.push_back(partialness(influence));
-    if (partial.size() <= kMaxPartialJoints) return 0.0f;
-    const auto extra = partial.begin() + kMaxPartialJoints;
+    if (partial.size() <= kMostPartialJoints) return 0.0f;
+    const auto extra = partial.begin() + kMostPartialJoints;
     std::nth_element(partial.begin(), extra, partial.end(), std::greater<>());
     return *extra;
 }

@@ -12,10 +12,10 @@
 
 namespace osgSkin {
 
-/// Joints that may lie strictly between 0 and 1 at one vertex: what the runtime has room for.
-constexpr std::size_t kMaxPartialJoints = 4;
+/// Joints that may lie strictly between 0 and 1 at one vertex: each costs work in every frame.
+constexpr std::size_t kMostPartialJoints = 4;
 
-/// One vertex's influences out of the fields, in joint order, at most kMaxPartialJoints of them
+/// One vertex's influences out of the fields, in joint order, at most kMostPartialJoints of them
 /// partial. Returns whether there were more.
 ///
 /// Where there were, all ratios are stretched by as much as rounds the fifth to 0 or 1. That is as

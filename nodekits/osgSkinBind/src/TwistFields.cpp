@@ -32,11 +32,13 @@ TwistRegion twistRegion(const PlannedJoint& joint, double radius) {
 }
 
 /// True where the twist has a region of its own; elsewhere it goes with the bend. It builds up
-/// along limbs; the trunk's bones are shorter than they are thick.
+/// along limbs; the trunk's bones are shorter than they are thick, and a last bone leads to no
+/// joint.
 bool buildsUp(const PlannedJoint& joint, double radius) {
     if (!(joint.poleLength > 0.0)) return false;
     if (joint.options.twistUpper || joint.options.twistLower || joint.poleIsParent) return true;
-    return joint.rigid < 0 && joint.holdsRegion && isSlender(joint.boneLength, radius);
+    return joint.child >= 0 && joint.rigid < 0 && joint.holdsRegion &&
+           isSlender(joint.boneLength, radius);
 }
 
 } // namespace

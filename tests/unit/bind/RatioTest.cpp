@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Ratios.h"
+#include "Shapes.h"
+
+#include <osgSkinBind/Bind>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace osgSkin;
+
+namespace {
+
+/// Bend ratio of `joint` on the cylinder's ring at the given height; its vertices must agree.
+float ringBend(const SkinMesh& mesh, const Binding& binding, std::size_t joint, double height) {
+    float low = 2.0f, high = -1.0f;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        if (std::abs(mesh.positions[v].y - height) < 1e-9) {
+            low = std::fmin(low, ratiosOf(binding, v, joint).bend);
+            high = std::fmax(high, ratiosOf(binding, v, joint).bend);
+        }
+    EXPECT_LE(low, high) << "no ring at " << height;
+    EXPECT_NEAR(low, high, 0.15) << "ring at " << height; // the fans' diagonals lean one way
+    return 0.5f * (low + high);
+}
+
+} // namespace
+
+TEST(Ratios, RiseFromZeroToOneOverTheJoint) {
+    const SkinMesh mesh = shapes::cylinder();
+    const Binding binding = bind(mesh, shapes::chainAlongY({1.1, 4.1}, 7.0));
+    expectSound(binding);
+    EXPECT_EQ(ringBend(mesh, binding, 1, 0.0), 0.0f);
+    EXPECT_EQ(ringBend(mesh, binding, 1, 2.0), 0.0f);
+    EXPECT_NEAR(ringBend(mesh, binding, 1, 4.0), 0.45, 0.1);
+    EXPECT_NEAR(ringBend(mesh, binding, 1, 4.25), 0.55, 0.1);
+    EXPECT_EQ(ringBend(mesh, binding, 1, 6.25), 1.0f);
+    EXPECT_EQ(ringBend(mesh, binding, 1, 8.0), 1.0f);
+    float last = 0.0f;
+    for (double height = 0.0; height <= 8.0; height += 0.25) {
+        const float here = ringBend(mesh, binding, 1, height);
+        EXPECT_GE(here, last - 1e-3f) << "at " << height;
+        last = here;
+    }
+}
+
+TEST(Ratios, DoNotDependOnTheUnitOrThePlace) {
+    const SkinMesh mesh = shapes::cylinder();
+    RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.1}, 7.0);
+    const Binding near = bind(mesh, skeleton);
+    const glm::dvec3 offset(3000.0, -500.0, 200.0);
+    for (RestJoint& joint : skeleton.joints) {
+        joint.centre = 100.0 * joint.centre + offset;
+        if (joint.tip) joint.tip = 100.0 * *joint.tip + offset;
+    }
+    const Binding far = bind(shapes::moved(mesh, offset, 100.0), skeleton);
+    for (std::size_t v = 0; v < near.vertexCount(); ++v)
+        ASSERT_NEAR(ratiosOf(near, v, 1).bend, ratiosOf(far, v, 1).bend, 1e-4) << "vertex " << v;
+}
+
+TEST(Ratios, SmoothingWidensTheBend) {
+    const SkinMesh mesh = shapes::cylinder();
+    const RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.1}, 7.0);
+    BindOptions narrow, wide;
+    narrow.smoothing = 0.4;
+    wide.smoothing = 1.2;
+    const Binding tight = bind(mesh, skeleton, narrow);
+    const Binding soft = bind(mesh, skeleton, wide);
+    EXPECT_EQ(ringBend(mesh, tight, 1, 3.0), 0.0f);
+    EXPECT_GT(ringBend(mesh, soft, 1, 3.0), 0.03f);
+    EXPECT_EQ(ringBend(mesh, tight, 1, 5.25), 1.0f);
+    EXPECT_LT(ringBend(mesh, soft, 1, 5.25), 0.97f);
+}
+
+TEST(Ratios, CutOffStiffensTheLimb) {
+    const SkinMesh mesh = shapes::cylinder();
+    const RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.1}, 7.0);
+    BindOptions none, much;
+    none.cutOff = 0.0;
+    much.cutOff = 0.2;
+    EXPECT_LT(ringBend(mesh, bind(mesh, skeleton, none), 1, 5.0), 0.97f);
+    EXPECT_EQ(ringBend(mesh, bind(mesh, skeleton, much), 1, 5.0), 1.0f);
+}
+
+TEST(Ratios, AuthorsBoundariesAreKept) {
+    const SkinMesh mesh = shapes::cylinder();
+    BindOptions options;
+    options.joints["joint1"].bendUpper = -0.5; // the bone is 3 long: from 2.6 to 5.6
+    options.joints["joint1"].bendLower = 0.5;
+    const Binding binding = bind(mesh, shapes::chainAlongY({1.1, 4.1}, 7.1), options);
+    expectSound(binding);
+    EXPECT_EQ(ringBend(mesh, binding, 1, 2.25), 0.0f);
+    EXPECT_GT(ringBend(mesh, binding, 1, 3.25), 0.02f);
+    EXPECT_LT(ringBend(mesh, binding, 1, 3.25), 0.25f);
+    EXPECT_NEAR(ringBend(mesh, binding, 1, 4.0), 0.45, 0.05);
+    EXPECT_EQ(ringBend(mesh, binding, 1, 6.0), 1.0f);
+}
+
+TEST(Ratios, SkippedJointTurnsWhatItsChildTurns) {
+    const SkinMesh mesh = shapes::cylinder();
+    const RestSkeleton skeleton = shapes::chainAlongY({1.1, 3.1, 5.1}, 7.0);
+    BindOptions options;
+    options.joints["joint1"].skip = true;
+    const Binding binding = bind(mesh, skeleton, options);
+    expectSound(binding);
+    const Binding plain = bind(mesh, skeleton);
+    bool differs = false;
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        ASSERT_NE(binding.regions[v], 1u);
+        ASSERT_EQ(ratiosOf(binding, v, 1).bend, ratiosOf(binding, v, 2).bend) << "vertex " << v;
+        differs = differs || ratiosOf(plain, v, 1).bend != ratiosOf(plain, v, 2).bend;
+    }
+    EXPECT_TRUE(differs);
+}
+
+TEST(Ratios, JointOfNoLengthTurnsWhatItsChildrenTurn) {
+    const SkinMesh mesh = shapes::hangingArms();
+    RestSkeleton skeleton;
+    shapes::addJoint(skeleton, "chest", "", {0, 1, 0});
+    shapes::addJoint(skeleton, "both", "chest", {0, 1, 0}); // where its parent is
+    shapes::addJoint(skeleton, "left", "both", {1.6, -0.9, 0});
+    shapes::addJoint(skeleton, "right", "both", {-1.6, -0.9, 0});
+    const Binding binding = bind(mesh, skeleton);
+    expectSound(binding);
+    std::size_t turned = 0;
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const float most = std::fmax(ratiosOf(binding, v, 2).bend, ratiosOf(binding, v, 3).bend);
+        ASSERT_EQ(ratiosOf(binding, v, 1).bend, most) << "vertex " << v;
+        if (most == 1.0f) ++turned;
+    }
+    EXPECT_GT(turned, 100u);
+}
+
+TEST(Ratios, StayContinuousWhereManyJointsMeet) {
+    // A ball with six joints close around its middle: everywhere more than four of them would turn.
+    const SkinMesh ball = shapes::voxelSurface(
+        [](int x, int y, int z) {
+            return (x + .5) * (x + .5) + (y + .5) * (y + .5) + (z + .5) * (z + .5) < 100.0;
+        },
+        12, 0.1);
+    RestSkeleton skeleton;
+    shapes::addJoint(skeleton, "middle", "", {0.02, 0.01, 0.03});
+    const glm::dvec3 ways[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (const glm::dvec3& way : ways)
+        shapes::addJoint(skeleton, "joint" + std::to_string(skeleton.joints.size()), "middle",
+                         0.3 * way);
+    BindOptions options;
+    options.smoothing = 2.0;
+    options.cutOff = 0.0;
+    BindReport report;
+    const Binding binding = bind(ball, skeleton, options, &report);
+    expectSound(binding);
+    EXPECT_GT(report.cappedVertices, 50u);
+    std::size_t corner = 0;
+    float steepest = 0.0f;
+    for (const std::uint32_t size : ball.faceSizes) {
+        for (std::uint32_t k = 0; k < size; ++k)
+            for (std::size_t j = 1; j < binding.joints.size(); ++j) {
+                const std::uint32_t a = ball.faceVertices[corner + k];
+                const std::uint32_t b = ball.faceVertices[corner + (k + 1) % size];
+                steepest = std::fmax(steepest, std::abs(ratiosOf(binding, a, j).bend -
+                                                        ratiosOf(binding, b, j).bend));
+            }
+        corner += size;
+    }
+    EXPECT_LT(steepest, 0.3f); // rounding the surplus joints alone would step by up to 0.5
+}
+
+TEST(Ratios, AreTheSameEachTime) {
+    const SkinMesh mesh = shapes::hangingArms();
+    const Binding a = bind(mesh, shapes::hangingArmsSkeleton());
+    const Binding b = bind(mesh, shapes::hangingArmsSkeleton());
+    ASSERT_EQ(a.regions, b.regions);
+    ASSERT_EQ(a.influences.size(), b.influences.size());
+    for (std::size_t i = 0; i < a.influences.size(); ++i) {
+        ASSERT_EQ(a.influences[i].bend, b.influences[i].bend);
+        ASSERT_EQ(a.influences[i].twist, b.influences[i].twist);
+    }
+}

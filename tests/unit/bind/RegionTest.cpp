@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Ratios.h"
+#include "Shapes.h"
+
+#include <osgSkinBind/Bind>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numeric>
+#include <set>
+
+using namespace osgSkin;
+
+namespace {
+
+/// Number of connected patches of each region.
+std::map<std::uint32_t, std::size_t> patchCounts(const SkinMesh& mesh, const Binding& binding) {
+    std::vector<std::size_t> root(mesh.positions.size());
+    std::iota(root.begin(), root.end(), std::size_t{0});
+    const auto find = [&root](std::size_t v) {
+        while (root[v] != v) v = root[v] = root[root[v]];
+        return v;
+    };
+    const std::vector<std::uint32_t> corners = mesh.triangles();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::uint32_t a = corners[i], b = corners[i - i % 3 + (i + 1) % 3];
+        if (binding.regions[a] == binding.regions[b]) root[find(a)] = find(b);
+    }
+    std::set<std::size_t> patches;
+    std::map<std::uint32_t, std::size_t> counts;
+    for (std::size_t v = 0; v < root.size(); ++v)
+        if (patches.insert(find(v)).second) ++counts[binding.regions[v]];
+    return counts;
+}
+
+const BindReport::Region* regionOf(const BindReport& report, const std::string& joint) {
+    for (const BindReport::Region& region : report.regions)
+        if (region.joint == joint) return &region;
+    return nullptr;
+}
+
+bool hasNote(const BindReport& report, const std::string& part) {
+    for (const std::string& note : report.notes)
+        if (note.find(part) != std::string::npos) return true;
+    return false;
+}
+
+} // namespace
+
+TEST(Regions, ArmBesideTheTrunkIsTheArms) {
+    const SkinMesh mesh = shapes::hangingArms();
+    BindReport report;
+    const Binding binding = bind(mesh, shapes::hangingArmsSkeleton(), {}, &report);
+    expectSound(binding);
+    EXPECT_EQ(report.unassigned, 0u);
+    EXPECT_EQ(report.shells, 1u);
+    EXPECT_EQ(report.openEdges, 0u);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const glm::dvec3& p = mesh.positions[v];
+        if (p.y > 0.0) continue; // the shoulders
+        const std::string& joint = binding.joints[binding.regions[v]].name;
+        const std::string side = p.x < 0 ? "right" : "left";
+        if (std::abs(p.x) > 1.2)
+            EXPECT_EQ(joint.substr(0, side.size()), side) << "arm vertex at height " << p.y;
+        else
+            EXPECT_TRUE(joint == "hips" || joint == "chest") << joint << " on the trunk";
+    }
+}
+
+TEST(Regions, AreConnected) {
+    const SkinMesh mesh = shapes::hangingArms();
+    BindReport report;
+    const Binding binding = bind(mesh, shapes::hangingArmsSkeleton(), {}, &report);
+    const auto counts = patchCounts(mesh, binding);
+    EXPECT_EQ(counts.size(), 8u);
+    for (const auto& [joint, patches] : counts)
+        EXPECT_EQ(patches, 1u) << binding.joints[joint].name;
+    std::size_t sum = 0;
+    for (const BindReport::Region& region : report.regions) {
+        EXPECT_GT(region.seeds, 0u) << region.joint;
+        EXPECT_GE(region.vertices, region.seeds / 2) << region.joint;
+        sum += region.vertices;
+    }
+    EXPECT_EQ(sum, mesh.positions.size());
+}
+
+TEST(Regions, SeamsDoNotStopThem) {
+    const SkinMesh mesh = shapes::hangingArms();
+    const SkinMesh split = shapes::exploded(mesh);
+    BindReport report;
+    const Binding whole = bind(mesh, shapes::hangingArmsSkeleton());
+    const Binding pieces = bind(split, shapes::hangingArmsSkeleton(), {}, &report);
+    EXPECT_EQ(report.vertices, split.positions.size());
+    EXPECT_EQ(report.weldedVertices, mesh.positions.size());
+    EXPECT_EQ(report.shells, 1u);
+    for (std::size_t i = 0; i < split.positions.size(); ++i) {
+        const std::uint32_t v = mesh.faceVertices[i];
+        ASSERT_EQ(pieces.regions[i], whole.regions[v]);
+        for (std::size_t j = 0; j < whole.joints.size(); ++j)
+            ASSERT_NEAR(ratiosOf(pieces, i, j).bend, ratiosOf(whole, v, j).bend, 1e-5);
+    }
+    // Copies of one vertex are exactly alike, or the seam would open.
+    std::map<std::uint32_t, std::size_t> first;
+    for (std::size_t i = 0; i < split.positions.size(); ++i) {
+        const std::size_t copy = first.emplace(mesh.faceVertices[i], i).first->second;
+        for (std::size_t j = 0; j < whole.joints.size(); ++j) {
+            ASSERT_EQ(ratiosOf(pieces, i, j).bend, ratiosOf(pieces, copy, j).bend);
+            ASSERT_EQ(ratiosOf(pieces, i, j).twist, ratiosOf(pieces, copy, j).twist);
+        }
+    }
+}
+
+TEST(Regions, ShellWithoutADelaunayEdgeTakesTheNearest) {
+    // Two buttons on the far end of a cylinder: no joint lies inside them, the skin hides them all.
+    const SkinMesh tube = shapes::cylinder();
+    const SkinMesh button = shapes::moved(shapes::cylinder(0.5), {0, 0, 0}, 0.05);
+    const SkinMesh mesh = shapes::joined(shapes::joined(tube, shapes::moved(button, {1.2, 6.0, 0})),
+                                         shapes::moved(button, {0, 1.0, -1.2}));
+    BindReport report;
+    const Binding binding = bind(mesh, shapes::chainAlongY({1.1, 4.1}, 7.0), {}, &report);
+    expectSound(binding);
+    EXPECT_EQ(report.shells, 3u);
+    EXPECT_EQ(report.unassigned, 0u);
+    const std::size_t end = tube.positions.size() + button.positions.size();
+    for (std::size_t v = tube.positions.size(); v < mesh.positions.size(); ++v) {
+        EXPECT_EQ(binding.regions[v], v < end ? 1u : 0u) << "vertex " << v;
+        EXPECT_EQ(ratiosOf(binding, v, 1).bend, v < end ? 1.0f : 0.0f) << "vertex " << v;
+    }
+}
+
+TEST(Regions, JointOutsideTheSkinHasNone) {
+    RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.1}, 7.0);
+    shapes::addJoint(skeleton, "hat", "joint1", {0, 12, 0});
+    BindReport report;
+    const Binding binding = bind(shapes::cylinder(), skeleton, {}, &report);
+    expectSound(binding);
+    EXPECT_TRUE(hasNote(report, "\"hat\" lies outside the skin"));
+    EXPECT_EQ(regionOf(report, "hat"), nullptr);
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v)
+        ASSERT_EQ(ratiosOf(binding, v, 2).bend, 0.0f);
+}
+
+TEST(Regions, WithoutAnyJointInsideGoToTheNearestBone) {
+    RestSkeleton skeleton = shapes::chainAlongY({1.0, 4.0}, 8.0);
+    for (RestJoint& joint : skeleton.joints) joint.centre.x += 5.0;
+    skeleton.joints.back().tip = glm::dvec3(5, 8, 0);
+    const SkinMesh mesh = shapes::cylinder();
+    BindReport report;
+    const Binding binding = bind(mesh, skeleton, {}, &report);
+    expectSound(binding);
+    EXPECT_TRUE(hasNote(report, "no joint lies inside"));
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const double height = mesh.positions[v].y;
+        if (height < 3.0 || height > 5.0) {
+            EXPECT_EQ(binding.regions[v], height < 3.0 ? 0u : 1u) << "at " << height;
+        }
+    }
+}
+
+TEST(Regions, ReportSaysWhatWasFound) {
+    BindReport report;
+    bind(shapes::hangingArms(), shapes::hangingArmsSkeleton(), {}, &report);
+    const std::string text = report.text();
+    EXPECT_NE(text.find("shells 1"), std::string::npos) << text;
+    EXPECT_NE(text.find("unassigned vertices 0"), std::string::npos) << text;
+    EXPECT_NE(text.find("region leftElbow: "), std::string::npos) << text;
+    EXPECT_EQ(text.back(), '\n');
+    EXPECT_GT(report.seconds, 0.0);
+    EXPECT_LT(report.seconds, 10.0);
+}
