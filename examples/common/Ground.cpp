@@ -80,6 +80,7 @@ osg::ref_ptr<osg::Group> withShadow(osg::Node* figure) {
     const auto override = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
     state.setAttributeAndModes(dark, override);
     state.setAttributeAndModes(new osg::PolygonOffset(1.0f, 1.0f), override);
+    state.setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     group->addChild(shadow);
     return group;
 }
