@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "Report.h"
+#include "TwistKeys.h"
+#include "TwistScene.h"
+
+#include <osgGA/StateSetManipulator>
+#include <osgGA/TrackballManipulator>
+#include <osgViewer/Viewer>
+#include <osgViewer/ViewerEventHandlers>
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <iterator>
+
+namespace {
+
+constexpr int kWidth = 1280;
+constexpr int kHeight = 640;
+
+constexpr twist::TwistPose kPictures[] = {{0, 0},   {0, 90},  {0, 180},   {0, 330}, {90, 0},
+                                          {150, 0}, {90, 90}, {120, 120}, {60, 180}};
+
+struct Arguments {
+    twist::TwistPose pose;
+    bool report = false;
+    std::string pictures;
+};
+
+void takePictures(twist::TwistScene& scene, const std::string& folder) {
+    example::Snapshots snapshots(scene.root(), twist::sceneView(), kWidth, kHeight);
+    double time = 0.0;
+    for (const twist::TwistPose& pose : kPictures) {
+        scene.setPose(pose);
+        char name[40];
+        std::snprintf(name, sizeof name, "/bend%03.0f_twist%03.0f.png", pose.bend, pose.twist);
+        snapshots.write(time, folder + name);
+        time += 1.0;
+    }
+    std::cout << std::size(kPictures) << " pictures in " << folder << std::endl;
+}
+
+int show(twist::TwistScene& scene) {
+    const example::View view = twist::sceneView();
+    osgViewer::Viewer viewer;
+    // The copies are measured between frames, when no thread may still be drawing them.
+    viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
+    viewer.setUpViewInWindow(60, 60, kWidth, kHeight);
+    viewer.setSceneData(scene.root());
+    viewer.addEventHandler(new twist::TwistKeys(scene)); // before those that know b, t and space
+    viewer.addEventHandler(new osgViewer::StatsHandler);
+    viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getStateSet()));
+    osg::Camera& camera = *viewer.getCamera();
+    camera.setClearColor(osg::Vec4(0.13f, 0.145f, 0.16f, 1.0f));
+    camera.setProjectionMatrixAsPerspective(view.fieldOfView, double(kWidth) / kHeight, 0.1,
+                                            1000.0);
+    const osg::ref_ptr<osgGA::TrackballManipulator> trackball = new osgGA::TrackballManipulator;
+    trackball->setHomePosition(view.eye, view.centre, view.up);
+    viewer.setCameraManipulator(trackball);
+    return viewer.run();
+}
+
+int run(const Arguments& arguments) {
+    if (arguments.report) twist::printReport(std::cout);
+    if (arguments.report && arguments.pictures.empty()) return 0;
+    twist::TwistScene scene;
+    scene.setPose(arguments.pose);
+    if (arguments.pictures.empty()) return show(scene);
+    takePictures(scene, arguments.pictures);
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("A cylinder that bends and twists: osgSkin beside linear blending and dual "
+                 "quaternions.",
+                 "osgskintwist");
+    app.footer("Press h in the window for its keys.\n"
+               "Exit status: 0 done, 1 failed, 2 bad usage.");
+    Arguments arguments;
+    app.add_option("--bend", arguments.pose.bend, "degrees to start with")
+        ->check(CLI::Range(-150.0, 150.0));
+    app.add_option("--twist", arguments.pose.twist, "degrees to start with")
+        ->check(CLI::Range(-330.0, 330.0));
+    app.add_option("--pictures", arguments.pictures,
+                   "write pictures of a set of poses to this folder; no window to look at");
+    app.add_flag("--report", arguments.report, "print the methods' figures; needs no display");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        return run(arguments);
+    } catch (const std::exception& error) {
+        std::cerr << "osgskintwist: " << error.what() << std::endl;
+        return 1;
+    }
+}
