@@ -36,7 +36,7 @@ const BadFile kBadFiles[] = {
     {"truncated_motion", "truncated_motion.bvh", "line", "expected"},
     {"missing_motion", "nowhere.bvh", "", "cannot open"},
     {"foreign_motion", "root_only.bvh", "", "no joint"},
-    {"all_frames_skipped", "move.bvh", "4 frames", "expected"},
+    {"all_frames_skipped", "move.bvh", "4 frame", "expected"},
     {"motion_name_twice", "motion_name_twice.skin", "motions[1]", "expected"},
     {"motion_without_file", "motion_without_file.skin", "motions[0]", "expected"},
     {"negative_skip", "negative_skip.skin", "motions[0].skipFrames", "expected a whole number"},

@@ -118,7 +118,7 @@ TEST_P(BakedCharacter, DoesNotTear) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Characters, BakedCharacter, testing::ValuesIn(test::characterCases()),
-                         [](const auto& c) { return test::caseName(c.param); });
+                         [](const auto& c) { return std::string(c.param.name); });
 
 TEST(Bake, FramesAreTheFilesOwnSamples) {
     const std::string folder = test::makeTestFolder();

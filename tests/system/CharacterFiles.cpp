@@ -51,8 +51,8 @@ std::string skinFile(const CharacterCase& c, const std::string& folder) {
     return file;
 }
 
-std::string caseName(const CharacterCase& c) {
-    return c.name;
+std::ostream& operator<<(std::ostream& out, const CharacterCase& c) {
+    return out << c.name;
 }
 
 } // namespace test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,7 +27,7 @@ bool isAvailable(const CharacterCase& c, std::string& why);
 /// Path of a .skin file for the case; one is written to `folder` for third-party files.
 std::string skinFile(const CharacterCase& c, const std::string& folder);
 
-/// Prints a case's name in a test's name.
-std::string caseName(const CharacterCase& c);
+/// Prints a case by its name.
+std::ostream& operator<<(std::ostream& out, const CharacterCase& c);
 
 } // namespace test

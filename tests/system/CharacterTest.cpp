@@ -173,4 +173,4 @@ TEST_P(LoadedCharacter, BoundsHoldTheSkinInEveryFrame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Characters, LoadedCharacter, testing::ValuesIn(test::characterCases()),
-                         [](const auto& c) { return test::caseName(c.param); });
+                         [](const auto& c) { return std::string(c.param.name); });

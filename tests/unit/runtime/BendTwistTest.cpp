@@ -19,7 +19,9 @@ const double kPi = glm::pi<double>();
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInf = std::numeric_limits<double>::infinity();
 
-glm::dquat turn(const glm::dvec3& axis, double angle) { return glm::angleAxis(angle, axis); }
+glm::dquat turn(const glm::dvec3& axis, double angle) {
+    return glm::angleAxis(angle, axis);
+}
 
 /// Distance between two rotations as quaternions, up to sign.
 double distance(const glm::dquat& a, const glm::dquat& b) {

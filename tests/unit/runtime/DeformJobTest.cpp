@@ -14,16 +14,17 @@ using osgSkin::Pose;
 
 namespace {
 
-/// The deformation in double precision, vertex by vertex and joint by joint, as DESIGN's formula has
-/// it: no groups, no folding.
+/// The deformation in double precision, vertex by vertex and joint by joint, as DESIGN's formula
+/// has it: no groups, no folding.
 glm::dvec3 reference(const osgSkin::Binding& binding, std::uint32_t vertex, glm::dvec3 x,
                      const std::vector<glm::dmat4>& skinning) {
-    for (std::uint32_t i = binding.firstInfluence[vertex + 1]; i-- > binding.firstInfluence[vertex];) {
+    for (std::uint32_t i = binding.firstInfluence[vertex + 1];
+         i-- > binding.firstInfluence[vertex];) {
         const osgSkin::Influence& influence = binding.influences[i];
         const osgSkin::BoundJoint& joint = binding.joints[influence.joint];
         if (joint.parent < 0) return glm::dvec3(skinning[0] * glm::dvec4(x, 1.0));
-        const glm::dmat4 local =
-            glm::inverse(skinning[static_cast<std::size_t>(joint.parent)]) * skinning[influence.joint];
+        const glm::dmat4 local = glm::inverse(skinning[static_cast<std::size_t>(joint.parent)]) *
+                                 skinning[influence.joint];
         const osgSkin::BendTwist split =
             osgSkin::splitBendTwist(glm::quat_cast(glm::dmat3(local)), joint.twistAxis);
         x = joint.centre + osgSkin::partialTurn(split, joint.twistAxis, double(influence.bend),
@@ -147,8 +148,8 @@ TEST(Pose, LeavesScaleOut) {
     const test::Tube tube(3, 3);
     Pose pose(tube.binding.joints);
     const glm::dquat turn = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)));
-    const std::vector<glm::dmat4> skinning(
-        3, glm::mat4_cast(turn) * glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
+    const std::vector<glm::dmat4> skinning(3, glm::mat4_cast(turn) *
+                                                  glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
     ASSERT_TRUE(pose.set(skinning.data(), 3));
     EXPECT_NEAR(std::abs(glm::dot(pose.turn(0).rotation, turn)), 1.0, 1e-12);
     EXPECT_NEAR(std::abs(pose.turn(1).rotation.w), 1.0, 1e-12);

@@ -48,9 +48,10 @@ osg::ref_ptr<osgSkin::DeformableSkin> makeSkin() {
 
 /// Bends the middle joint by `angle` about x, the end joint not at all.
 void bend(osgSkin::DeformableSkin& skin, double angle) {
-    const auto skinning = test::skinningFrom(
-        skin.getModel()->joints(),
-        {glm::dquat(1, 0, 0, 0), glm::angleAxis(angle, glm::dvec3(1, 0, 0)), glm::dquat(1, 0, 0, 0)});
+    const auto skinning =
+        test::skinningFrom(skin.getModel()->joints(),
+                           {glm::dquat(1, 0, 0, 0), glm::angleAxis(angle, glm::dvec3(1, 0, 0)),
+                            glm::dquat(1, 0, 0, 0)});
     ASSERT_TRUE(skin.setPose(skinning.data(), skinning.size()));
 }
 
@@ -87,11 +88,10 @@ void cull(osg::Node& node, bool inView) {
     visitor->setRenderStage(stage);
     visitor->pushViewport(new osg::Viewport(0, 0, 100, 100));
     visitor->pushProjectionMatrix(new osg::RefMatrix(osg::Matrix::perspective(60, 1, 0.1, 1000)));
-    visitor->pushModelViewMatrix(
-        new osg::RefMatrix(osg::Matrix::lookAt(osg::Vec3d(0, 3, inView ? 30 : -30),
-                                               osg::Vec3d(0, 3, inView ? 0 : -60),
-                                               osg::Vec3d(0, 1, 0))),
-        osg::Transform::ABSOLUTE_RF);
+    visitor->pushModelViewMatrix(new osg::RefMatrix(osg::Matrix::lookAt(
+                                     osg::Vec3d(0, 3, inView ? 30 : -30),
+                                     osg::Vec3d(0, 3, inView ? 0 : -60), osg::Vec3d(0, 1, 0))),
+                                 osg::Transform::ABSOLUTE_RF);
     node.accept(*visitor);
 }
 
@@ -198,7 +198,8 @@ TEST(DeformableSkin, OptimizerLeavesItAlone) {
     for (unsigned int i = 0; i < 2; ++i) {
         const auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(scene->getChild(i));
         ASSERT_NE(skin, nullptr);
-        const auto& rest = static_cast<const osg::Vec3Array&>(*skin->getRestGeometry()->getVertexArray());
+        const auto& rest =
+            static_cast<const osg::Vec3Array&>(*skin->getRestGeometry()->getVertexArray());
         EXPECT_EQ(rest.front(), osg::Vec3(1, 0, 0));
     }
 }
@@ -213,7 +214,8 @@ TEST(UpdateDeformableSkin, FollowsTheBonesOfTheSkeletonAbove) {
     auto& end = static_cast<osgAnimation::Bone&>(*middle.getChild(0));
     middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(osg::PI_2, osg::Vec3(1, 0, 0)) *
                                     osg::Matrix::translate(0, 2, 0));
-    end.setMatrixInSkeletonSpace(osg::Matrix::translate(0, 2, 0) * middle.getMatrixInSkeletonSpace());
+    end.setMatrixInSkeletonSpace(osg::Matrix::translate(0, 2, 0) *
+                                 middle.getMatrixInSkeletonSpace());
 
     osgUtil::UpdateVisitor update;
     update.setTraversalNumber(1);

@@ -14,7 +14,8 @@ namespace {
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// The message of the Error that validate() throws; empty where it throws none.
-template <typename T> std::string complaint(const T& value) {
+template <typename T>
+std::string complaint(const T& value) {
     try {
         value.validate();
         return "";
