@@ -19,11 +19,14 @@ namespace {
 
 constexpr char kUpperBone[] = "upper";
 
-/// The root stands inside the skin, as a body's hips do; the upper bone turns about the origin.
+/// Two bones, the upper one turning about the origin. The chain's two ends lie inside the skin, as
+/// a body's hips and wrists do: the end joint never turns, but shows how long the upper bone is.
 osgSkin::RestSkeleton twoBones() {
+    constexpr double end = Cylinder::kHalfLength - 0.5;
     osgSkin::RestSkeleton bones;
-    bones.joints = {{"lower", -1, {0, 0, 0.5 - Cylinder::kHalfLength}, {}},
-                    {kUpperBone, 0, {0, 0, 0}, glm::dvec3(0, 0, Cylinder::kHalfLength)}};
+    bones.joints = {{"lower", -1, {0, 0, -end}, {}},
+                    {kUpperBone, 0, {0, 0, 0}, {}},
+                    {"end", 1, {0, 0, end}, glm::dvec3(0, 0, Cylinder::kHalfLength)}};
     return bones;
 }
 

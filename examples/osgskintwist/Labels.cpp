@@ -54,6 +54,9 @@ osg::ref_ptr<osg::Camera> makeOverlay(osgText::Text* title, osgText::Text* lines
     overlay->setAllowEventFocus(false);
     title->setPosition(osg::Vec3(20.0f, float(kHeight) - 16.0f, 0.0f));
     lines->setPosition(osg::Vec3(20.0f, float(kHeight) - 60.0f, 0.0f));
+    lines->setDrawMode(osgText::Text::TEXT | osgText::Text::FILLEDBOUNDINGBOX);
+    lines->setBoundingBoxMargin(8.0f);
+    lines->setBoundingBoxColor(osg::Vec4(0.08f, 0.09f, 0.10f, 1.0f)); // readable over a cylinder
     overlay->addChild(title);
     overlay->addChild(lines);
     return overlay;

@@ -25,11 +25,12 @@ const char kHelp[] = "left, right   bend\n"
                      "w             wireframe\n"
                      "h             hide this help\n"
                      "Escape        leave";
+const char kHint[] = "h  help";
 
 } // namespace
 
 TwistKeys::TwistKeys(TwistScene& scene) : _scene(scene) {
-    _scene.setHelp(kHelp);
+    _scene.setHelp(kHint);
 }
 
 bool TwistKeys::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
@@ -75,7 +76,7 @@ bool TwistKeys::press(int key) {
         return true;
     case 'h':
         _help = !_help;
-        _scene.setHelp(_help ? kHelp : "");
+        _scene.setHelp(_help ? kHelp : kHint);
         return true;
     case '1':
     case '2':

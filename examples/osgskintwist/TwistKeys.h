@@ -24,7 +24,7 @@ private:
     bool _bending = false;
     bool _twisting = false;
     bool _paused = false;
-    bool _help = true;
+    bool _help = false;
     double _bendTime = 0.0; ///< seconds into the animations
     double _twistTime = 0.0;
     double _lastFrame = -1.0;

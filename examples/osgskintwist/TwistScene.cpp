@@ -6,6 +6,7 @@
 #include <Ground.h>
 
 #include <osg/LightSource>
+#include <osg/Material>
 #include <osg/MatrixTransform>
 
 #include <cstdio>
@@ -43,7 +44,8 @@ example::View sceneView() {
 }
 
 TwistScene::TwistScene()
-    : _figures(_comparison.cylinder()), _title(makeText(26.0f, osgText::Text::LEFT_TOP)),
+    : _figures(_comparison.cylinder()), _root(new osg::Group),
+      _title(makeText(26.0f, osgText::Text::LEFT_TOP)),
       _help(makeText(18.0f, osgText::Text::LEFT_TOP)) {
     const osg::ref_ptr<osg::Group> figures = new osg::Group;
     const osg::ref_ptr<osg::Group> labels = new osg::Group;
@@ -53,12 +55,13 @@ TwistScene::TwistScene()
         _labels[i] = makeLabel(osg::Vec3(placeOf(i), -1.6f, 0.0f));
         labels->addChild(_labels[i]);
     }
-    _root = example::withShadow(figures);
-    _root->addChild(example::makeFloor(40.0f));
-    _root->addChild(makeFillLight());
+    const osg::ref_ptr<osg::Group> lit = example::withShadow(figures);
+    lit->addChild(makeFillLight());
+    lit->addChild(example::makeFloor(40.0f));
+    lit->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+    _root->addChild(lit);
     _root->addChild(labels);
     _root->addChild(makeOverlay(_title, _help));
-    _root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
     setPose({});
 }
 
@@ -67,6 +70,10 @@ osg::ref_ptr<osg::Node> TwistScene::makeCopy(Method method, const osg::Vec3& col
         osg::Matrix::translate(x, 0.0, Cylinder::kHalfLength)); // on the floor
     copy->setDataVariance(osg::Object::DYNAMIC);
     copy->addChild(_comparison.node(method));
+    const osg::ref_ptr<osg::Material> white = new osg::Material; // the texture has the colours
+    white->setAmbient(osg::Material::FRONT_AND_BACK, osg::Vec4(0.85f, 0.85f, 0.85f, 1.0f));
+    white->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0.85f, 0.85f, 0.85f, 1.0f));
+    copy->getOrCreateStateSet()->setAttributeAndModes(white);
     copy->getOrCreateStateSet()->setTextureAttributeAndModes(
         0, makeChequers(Cylinder::kChequersAround, colour));
     return copy;
