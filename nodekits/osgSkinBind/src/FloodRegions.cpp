@@ -1,60 +1,81 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "EdgeWeights.h"
 #include "Regions.h"
 
-#include <glm/geometric.hpp>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
-#include <functional>
-#include <limits>
-#include <queue>
-#include <tuple>
 
 namespace osgSkin {
 namespace {
 
-/// How much longer a fully concave edge counts. Parts of a body meet in creases (Hoffman & Richards
-/// 1984), so a region should rather end in one - jaw, armpit, groin - than run across it.
-constexpr double kCreaseCost = 10.0;
+using Matrix = Eigen::SparseMatrix<double>;
 
-double stepLength(const WeldedMesh& mesh, std::uint32_t from, std::uint32_t to) {
-    const glm::dvec3 edge = mesh.positions[to] - mesh.positions[from];
-    const double length = glm::length(edge);
-    if (!(length > 0.0)) return 0.0;
-    // Normals that lean towards each other: 0 where flat or convex, up to 2.
-    const double concavity =
-        std::max(0.0, glm::dot(mesh.normals[from] - mesh.normals[to], edge) / length);
-    return length * (1.0 + kCreaseCost * concavity);
+/// The vertices without a label on shells that have some, numbered; -1 elsewhere.
+std::vector<int> numberUnlabelled(const WeldedMesh& mesh, const std::vector<std::uint32_t>& jointOf,
+                                  int& count) {
+    std::vector<bool> hasLabel(mesh.shells, false);
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
+        if (jointOf[v] != Regions::kNone && mesh.shellOf[v] != WeldedMesh::kNoShell)
+            hasLabel[mesh.shellOf[v]] = true;
+    std::vector<int> row(mesh.vertexCount(), -1);
+    count = 0;
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
+        if (jointOf[v] == Regions::kNone && mesh.shellOf[v] != WeldedMesh::kNoShell &&
+            hasLabel[mesh.shellOf[v]])
+            row[v] = count++;
+    return row;
+}
+
+std::vector<std::uint32_t> labelsOf(const std::vector<std::uint32_t>& jointOf) {
+    std::vector<std::uint32_t> labels;
+    for (const std::uint32_t joint : jointOf)
+        if (joint != Regions::kNone) labels.push_back(joint);
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    return labels;
 }
 
 } // namespace
 
 void floodRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf) {
-    // Dijkstra's shortest paths from all labelled vertices at once. Breadth-first, as printed,
-    // walks further where the mesh is coarse; length along the edges does not depend on the
-    // sampling.
-    using Step = std::tuple<double, std::uint32_t, std::uint32_t>; // length, vertex, joint
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> front;
-    std::vector<double> length(mesh.vertexCount(), std::numeric_limits<double>::infinity());
-    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
-        if (jointOf[v] != Regions::kNone) {
-            length[v] = 0.0;
-            front.emplace(0.0, v, jointOf[v]);
-        }
-    std::vector<bool> settled(mesh.vertexCount(), false);
-    while (!front.empty()) {
-        const auto [reached, v, joint] = front.top();
-        front.pop();
-        if (settled[v]) continue;
-        settled[v] = true;
-        jointOf[v] = joint;
+    int count = 0;
+    const std::vector<int> row = numberUnlabelled(mesh, jointOf, count);
+    if (count == 0) return;
+    const std::vector<std::uint32_t> labels = labelsOf(jointOf);
+    const std::vector<double> weights = edgeWeights(mesh);
+
+    // A walk goes to each neighbour with a probability in proportion to the edge's weight, less
+    // across creases. Its chance to meet a joint's seeds first is harmonic: one linear system for
+    // all joints.
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::MatrixXd chances =
+        Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(labels.size()));
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        if (row[v] < 0) continue;
+        double sum = 0.0;
         for (std::uint32_t i = mesh.firstNeighbour[v]; i < mesh.firstNeighbour[v + 1]; ++i) {
             const std::uint32_t next = mesh.neighbours[i];
-            const double there = reached + stepLength(mesh, v, next);
-            if (there < length[next]) {
-                length[next] = there;
-                front.emplace(there, next, joint);
-            }
+            const double weight = weights[i] / creaseFactor(mesh, v, next);
+            sum += weight;
+            if (row[next] >= 0)
+                entries.emplace_back(row[v], row[next], -weight);
+            else
+                chances(row[v], std::lower_bound(labels.begin(), labels.end(), jointOf[next]) -
+                                    labels.begin()) += weight;
         }
+        entries.emplace_back(row[v], row[v], sum);
+    }
+    Matrix walk(count, count);
+    walk.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Matrix> solver(walk);
+    if (solver.info() != Eigen::Success) return spreadRegions(mesh, jointOf);
+    chances = solver.solve(chances).eval();
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        if (row[v] < 0) continue;
+        Eigen::Index likeliest = 0;
+        chances.row(row[v]).maxCoeff(&likeliest);
+        jointOf[v] = labels[static_cast<std::size_t>(likeliest)];
     }
 }
 

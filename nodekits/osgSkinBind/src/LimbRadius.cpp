@@ -9,8 +9,8 @@ namespace osgSkin {
 namespace {
 
 /// Bone length over radius: from the first a bone is less and less stout, from the second slender.
-constexpr double kStoutRatio = 1.5;
-constexpr double kSlenderRatio = 2.5;
+constexpr double kStoutRatio = 2.2;
+constexpr double kSlenderRatio = 2.8;
 constexpr double kSlenderRadius = 0.2; ///< of the bone's length
 
 double limbRadius(const HardField& hard, std::size_t joint) {

@@ -58,9 +58,9 @@ void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
     for (std::size_t p = 0; p < patches.size(); ++p)
         if (main.at({patches[p].shell, patches[p].joint}) != p)
             for (const std::uint32_t v : patches[p].vertices) jointOf[v] = Regions::kNone;
-    // Each shell keeps at least one patch, so flooding reaches all of it again, and what it adds is
-    // connected to the patch that it comes from.
-    floodRegions(mesh, jointOf);
+    // Each shell keeps at least one patch, so spreading reaches all of it again, and what it adds
+    // is connected to the patch that it comes from.
+    spreadRegions(mesh, jointOf);
 }
 
 } // namespace osgSkin

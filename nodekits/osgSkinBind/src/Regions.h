@@ -27,9 +27,15 @@ Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
 /// The Delaunay step alone: seeds labelled, all other vertices kNone.
 Regions seedRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints);
 
-/// The flooding step: labels each kNone vertex like the labelled vertex that is nearest along the
-/// edges of the mesh. Vertices of a shell without any label stay kNone.
+/// The flooding step. The printed one gives an unlabelled vertex the joint of a labelled neighbour
+/// until none is left, so that a region grows as far as the mesh happens to be coarse. Here a
+/// vertex goes to the joint whose seeds a random walk over the skin, shy of creases, most likely
+/// meets first (Grady 2006). Vertices of a shell without any label stay kNone.
 void floodRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf);
+
+/// Labels each kNone vertex like the labelled vertex that is nearest along the edges of the mesh,
+/// so that what it adds to a region is connected to it.
+void spreadRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf);
 
 /// Joins each region's islands to the regions around them: of a region's connected patches on one
 /// shell the one with most seeds (then most vertices) stays.

@@ -9,9 +9,9 @@
 namespace osgSkin {
 namespace {
 
-/// An edge may leave a vertex at most this far from the inward normal: the cosine of 53 degrees. A
+/// An edge may leave a vertex at most this far from the inward normal: the cosine of 45 degrees. A
 /// limb is seen by its own joint head-on, by a neighbour's slantwise.
-constexpr double kInwardCosine = 0.6;
+constexpr double kInwardCosine = 0.7;
 
 /// Normal filtering, after Amenta, Bern & Kamvysselis (1998): the edge from the skin to a joint
 /// that the skin belongs to runs inwards.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "SkinSmoother.h"
 
+#include "EdgeWeights.h"
+
 #include <Eigen/SparseCholesky>
 #include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 namespace osgSkin {
 namespace {
@@ -16,16 +15,6 @@ using Vector = Eigen::VectorXd;
 /// One step's kernel falls off exponentially and has a cusp in its middle; several shorter steps
 /// come near a Gaussian: rounder where the skin bends, and sooner exactly flat.
 constexpr int kSteps = 3;
-
-/// Bounds of an edge's weight. The lower one keeps needles connected and the values in range.
-constexpr double kLowestWeight = 1e-3;
-constexpr double kHighestWeight = 50.0;
-
-/// Cotangent of the angle at `a`; 0 where the triangle has no angle.
-double cotangent(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    const double twiceArea = glm::length(glm::cross(b - a, c - a));
-    return twiceArea > 0.0 ? glm::dot(b - a, c - a) / twiceArea : 0.0;
-}
 
 Vector lumpedMass(const WeldedMesh& mesh) {
     Vector mass = Vector::Zero(static_cast<Eigen::Index>(mesh.vertexCount()));
@@ -42,28 +31,15 @@ Vector lumpedMass(const WeldedMesh& mesh) {
 }
 
 Matrix laplacian(const WeldedMesh& mesh) {
-    const auto n = static_cast<Eigen::Index>(mesh.vertexCount());
+    const std::vector<double> weights = edgeWeights(mesh);
     std::vector<Eigen::Triplet<double>> entries;
-    for (const auto& t : mesh.triangles)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto i = static_cast<int>(t[k]), j = static_cast<int>(t[(k + 1) % 3]);
-            const double half =
-                0.5 * cotangent(mesh.positions[t[(k + 2) % 3]], mesh.positions[t[k]],
-                                mesh.positions[t[(k + 1) % 3]]);
-            entries.emplace_back(std::min(i, j), std::max(i, j), half);
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
+        for (std::uint32_t i = mesh.firstNeighbour[v]; i < mesh.firstNeighbour[v + 1]; ++i) {
+            entries.emplace_back(static_cast<int>(v), static_cast<int>(mesh.neighbours[i]),
+                                 -weights[i]);
+            entries.emplace_back(static_cast<int>(v), static_cast<int>(v), weights[i]);
         }
-    Matrix edges(n, n);
-    edges.setFromTriplets(entries.begin(), entries.end()); // sums both sides of an edge
-    entries.clear();
-    for (int column = 0; column < edges.outerSize(); ++column)
-        for (Matrix::InnerIterator it(edges, column); it; ++it) {
-            const int i = static_cast<int>(it.row()), j = static_cast<int>(it.col());
-            const double weight = std::clamp(it.value(), kLowestWeight, kHighestWeight);
-            entries.emplace_back(i, j, -weight);
-            entries.emplace_back(j, i, -weight);
-            entries.emplace_back(i, i, weight);
-            entries.emplace_back(j, j, weight);
-        }
+    const auto n = static_cast<Eigen::Index>(mesh.vertexCount());
     Matrix result(n, n);
     result.setFromTriplets(entries.begin(), entries.end());
     return result;
