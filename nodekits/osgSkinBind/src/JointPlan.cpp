@@ -21,13 +21,56 @@ bool hasParentPole(const JointBindOptions& options, const std::string& name) {
     return options.twistPole == JointBindOptions::Pole::Parent;
 }
 
-/// True where an earlier joint that may hold a region has the same centre.
-bool coincides(const std::vector<PlannedJoint>& joints, std::size_t joint, double tolerance) {
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// The earlier joint of the same centre that may have a region, kNone where there is none.
+std::size_t coincident(const std::vector<PlannedJoint>& joints, std::size_t joint,
+                       double tolerance) {
     for (std::size_t other = 0; other < joint; ++other)
         if (joints[other].holdsRegion &&
             glm::distance(joints[other].centre, joints[joint].centre) <= tolerance)
-            return true;
-    return false;
+            return other;
+    return kNone;
+}
+
+/// Every joint that is not skipped and has a centre of its own gets a region. Of joints in one
+/// point the topmost gets it; none where they stand beside each other (two hips in the middle).
+void giveRegions(const RestSkeleton& skeleton, double tolerance,
+                 std::vector<PlannedJoint>& joints) {
+    std::vector<std::size_t> rivals;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        if (joints[j].options.skip) continue;
+        const std::size_t other = coincident(joints, j, tolerance);
+        if (other == kNone)
+            joints[j].holdsRegion = true;
+        else if (!skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(other)))
+            rivals.push_back(other);
+    }
+    for (const std::size_t rival : rivals) joints[rival].holdsRegion = false;
+}
+
+/// Joints inside the skin seed their regions. Outside, a joint in the middle of a chain claims the
+/// skin around it; a last joint gets none. Where all are outside, all keep theirs.
+void findSeeding(const RestSkeleton& skeleton, const WeldedMesh& mesh,
+                 std::vector<PlannedJoint>& joints, std::vector<std::string>& notes) {
+    bool anyInside = false;
+    for (PlannedJoint& joint : joints) {
+        joint.seeds = joint.holdsRegion && isInsideSkin(mesh, joint.centre);
+        anyInside = anyInside || joint.seeds;
+    }
+    if (!anyInside) {
+        notes.emplace_back("no joint lies inside the skin: regions by the nearest bone");
+        return;
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        PlannedJoint& joint = joints[j];
+        if (!joint.holdsRegion || joint.seeds) continue;
+        joint.claims = j > 0 && joint.child >= 0 && !joint.belowRigid(static_cast<int>(j));
+        joint.holdsRegion = joint.claims;
+        if (!joint.belowRigid(static_cast<int>(j)))
+            notes.push_back("joint \"" + skeleton.joints[j].name + "\" lies outside the skin" +
+                            (joint.claims ? ", its region is the skin nearest to it" : ""));
+    }
 }
 
 /// A rigid joint owns what its descendants seed, so it has a region although it may seed none.
@@ -63,24 +106,8 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     }
     setJointAxes(skeleton, tolerance, joints);
 
-    std::vector<std::size_t> outside;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        PlannedJoint& joint = joints[j];
-        if (joint.options.skip || coincides(joints, j, tolerance)) continue;
-        joint.seeds = joint.holdsRegion = true;
-        if (!isInsideSkin(mesh, joint.centre)) outside.push_back(j);
-    }
-    const auto seeding = std::count_if(joints.begin(), joints.end(),
-                                       [](const PlannedJoint& joint) { return joint.seeds; });
-    const bool allOutside = static_cast<std::size_t>(seeding) == outside.size();
-    if (allOutside)
-        notes.emplace_back("no joint lies inside the skin: regions by the nearest bone");
-    for (const std::size_t j : outside) {
-        joints[j].seeds = false;
-        if (allOutside) continue;
-        joints[j].holdsRegion = false;
-        notes.push_back("joint \"" + skeleton.joints[j].name + "\" lies outside the skin");
-    }
+    giveRegions(skeleton, tolerance, joints);
+    findSeeding(skeleton, mesh, joints, notes);
     giveRegionsToRigidJoints(joints);
     return joints;
 }

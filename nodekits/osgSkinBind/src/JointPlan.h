@@ -28,6 +28,7 @@ struct PlannedJoint {
     int child = -1;           ///< the child that continues the chain, -1 for a leaf
     int rigid = -1;           ///< the rigid joint at or above, -1 where there is none
     bool seeds = false;       ///< its centre takes part in the Delaunay step
+    bool claims = false;      ///< outside the skin: takes the skin nearest to it
     bool holdsRegion = false; ///< has a region, so its field is its own; else its children's
 
     JointBindOptions options; ///< what the author said about it

@@ -11,6 +11,7 @@ Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
 
     floodRegions(mesh, regions.jointOf);
     assignUnreached(mesh, joints, regions.jointOf);
+    claimRegions(mesh, joints, regions.jointOf);
     // What moves with a rigid joint is one region, the rigid joint's.
     for (std::uint32_t& joint : regions.jointOf)
         if (joints[joint].rigid >= 0) joint = static_cast<std::uint32_t>(joints[joint].rigid);

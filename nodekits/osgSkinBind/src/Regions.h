@@ -37,6 +37,11 @@ void floodRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf);
 /// so that what it adds to a region is connected to it.
 void spreadRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf);
 
+/// Gives joints that claim a region the vertices nearer to them than to the neighbouring joint of
+/// the chain whose label they have.
+void claimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                  std::vector<std::uint32_t>& jointOf);
+
 /// Joins each region's islands to the regions around them: of a region's connected patches on one
 /// shell the one with most seeds (then most vertices) stays.
 void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,

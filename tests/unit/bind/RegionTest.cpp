@@ -141,6 +141,43 @@ TEST(Regions, JointOutsideTheSkinHasNone) {
         ASSERT_EQ(ratiosOf(binding, v, 2).bend, 0.0f);
 }
 
+TEST(Regions, JointOutsideInTheMiddleOfAChainStillBends) {
+    RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.1, 7.0}, 7.6);
+    skeleton.joints[1].centre.x = 1.2; // the elbow stands out of the skin, whose radius is 1
+    const SkinMesh mesh = shapes::cylinder();
+    BindReport report;
+    const Binding binding = bind(mesh, skeleton, {}, &report);
+    expectSound(binding);
+    EXPECT_TRUE(hasNote(report, "\"joint1\" lies outside the skin, its region"));
+    const BindReport::Region* region = regionOf(report, "joint1");
+    ASSERT_NE(region, nullptr);
+    EXPECT_EQ(region->seeds, 0u);
+    EXPECT_GT(region->vertices, 50u);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const double height = mesh.positions[v].y;
+        if (height < 1.5) {
+            EXPECT_EQ(ratiosOf(binding, v, 1).bend, 0.0f) << "at " << height;
+        }
+        if (height > 6.5) {
+            EXPECT_EQ(ratiosOf(binding, v, 1).bend, 1.0f) << "at " << height;
+        }
+    }
+}
+
+TEST(Regions, JointsBesideEachOtherInOnePointHaveNone) {
+    RestSkeleton skeleton;
+    shapes::addJoint(skeleton, "chest", "", {0, 1, 0});
+    shapes::addJoint(skeleton, "leftHip", "chest", {0, -3, 0});
+    shapes::addJoint(skeleton, "rightHip", "chest", {0, -3, 0});
+    shapes::addJoint(skeleton, "left", "leftHip", {1.6, -0.9, 0});
+    shapes::addJoint(skeleton, "right", "rightHip", {-1.6, -0.9, 0});
+    BindReport report;
+    expectSound(bind(shapes::hangingArms(), skeleton, {}, &report));
+    EXPECT_EQ(regionOf(report, "leftHip"), nullptr);
+    EXPECT_EQ(regionOf(report, "rightHip"), nullptr);
+    EXPECT_EQ(report.regions.size(), 3u);
+}
+
 TEST(Regions, WithoutAnyJointInsideGoToTheNearestBone) {
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 4.0}, 8.0);
     for (RestJoint& joint : skeleton.joints) joint.centre.x += 5.0;
