@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "BenchBody.h"
+
+#include "Subdivide.h"
+
+#include <osgSkin/BoneReader>
+#include <osgSkinBind/Bind>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/Motion>
+#include <osgSkinImport/Retarget>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+namespace bench {
+namespace {
+
+struct Files {
+    std::string name, mesh, skeleton, motion, weights;
+    std::size_t skipFrames;
+};
+
+Files files() {
+    const std::string shared = OSGSKIN_SHARED_DATA;
+    const Files body4k{"body4k_neutral",
+                       shared + "/makehuman/body/body4k_neutral.obj",
+                       shared + "/makehuman/rig/cmu_mb_neutral.bvh",
+                       shared + "/cmu/mb/12_01_walk_pybvh.bvh",
+                       shared + "/makehuman/weights/body4k_weights_cmu_mb.json",
+                       1};
+    if (std::filesystem::exists(body4k.mesh)) return body4k;
+    const std::string own = OSGSKIN_DATA;
+    return {"thrower", own + "/thrower.obj", own + "/thrower.bvh", own + "/throw.bvh", "", 0};
+}
+
+std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
+                                     const std::vector<std::uint32_t>& triangles) {
+    std::vector<glm::vec3> normals(positions.size(), glm::vec3(0.0f));
+    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+        const glm::vec3& a = positions[triangles[t]];
+        const glm::vec3 area =
+            glm::cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
+        for (std::size_t k = 0; k < 3; ++k) normals[triangles[t + k]] += area;
+    }
+    for (glm::vec3& n : normals) n = glm::normalize(n);
+    return normals;
+}
+
+Body load() {
+    const Files file = files();
+    Body body;
+    body.name = file.name;
+    const osgSkin::SkinMesh mesh = osgSkin::importMesh(file.mesh).mesh;
+    body.rig = osgSkin::importSkeleton(file.skeleton);
+    body.clip = osgSkin::retarget(osgSkin::importMotion(file.motion, file.skipFrames), body.rig);
+    body.binding = osgSkin::bind(mesh, body.rig);
+    body.positions.assign(mesh.positions.begin(), mesh.positions.end());
+    body.triangles = mesh.triangles();
+    body.normals = smoothNormals(body.positions, body.triangles);
+    body.weights =
+        readPaintedWeights(file.weights, body.binding.joints, body.binding.vertexCount());
+    if (body.weights.vertices.empty()) body.weights = weightsFromRatios(body.binding);
+
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(body.rig);
+    osgSkin::BoneReader bones(body.binding.joints, *skeleton);
+    for (std::size_t frame = 0; frame < body.clip.frames; ++frame) {
+        osgSkin::applyFrame(body.clip, body.rig, frame, *skeleton);
+        body.skinning.push_back(bones.read());
+    }
+    return body;
+}
+
+osgSkin::Binding blend(const osgSkin::Binding& binding, const std::vector<Blend>& vertices) {
+    osgSkin::Binding result;
+    result.joints = binding.joints;
+    result.firstInfluence.push_back(0);
+    for (const Blend& vertex : vertices) {
+        std::map<std::uint32_t, std::pair<double, double>> sum;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (vertex.share[k] == 0.0) continue;
+            const std::uint32_t v = vertex.corner[k];
+            for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1];
+                 ++i) {
+                const osgSkin::Influence& influence = binding.influences[i];
+                sum[influence.joint].first += vertex.share[k] * static_cast<double>(influence.bend);
+                sum[influence.joint].second +=
+                    vertex.share[k] * static_cast<double>(influence.twist);
+            }
+        }
+        for (const auto& [joint, ratio] : sum)
+            result.influences.push_back({joint, std::min(1.0f, static_cast<float>(ratio.first)),
+                                         std::min(1.0f, static_cast<float>(ratio.second))});
+        result.regions.push_back(binding.regions[vertex.corner[0]]);
+        result.firstInfluence.push_back(static_cast<std::uint32_t>(result.influences.size()));
+    }
+    return result;
+}
+
+std::vector<glm::vec3> blend(const std::vector<glm::vec3>& vectors,
+                             const std::vector<Blend>& vertices) {
+    std::vector<glm::vec3> result;
+    for (const Blend& vertex : vertices) {
+        glm::vec3 sum(0.0f);
+        for (std::size_t k = 0; k < 3; ++k)
+            sum += static_cast<float>(vertex.share[k]) * vectors[vertex.corner[k]];
+        result.push_back(sum);
+    }
+    return result;
+}
+
+Body refine(const Body& coarse, std::uint32_t parts) {
+    const Subdivided mesh = subdivide(coarse.triangles, coarse.positions.size(), parts);
+    Body body = coarse;
+    body.binding = blend(coarse.binding, mesh.vertices);
+    body.positions = blend(coarse.positions, mesh.vertices);
+    body.normals = blend(coarse.normals, mesh.vertices);
+    for (glm::vec3& n : body.normals) n = glm::normalize(n);
+    body.triangles = mesh.triangles;
+    body.weights = blend(coarse.weights, mesh.vertices);
+    return body;
+}
+
+} // namespace
+
+std::shared_ptr<const osgSkin::SkinModel> Body::model() const {
+    std::vector<std::uint32_t> source(positions.size());
+    for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
+    return osgSkin::SkinModel::create(binding, positions, normals, source);
+}
+
+double Body::partialPerVertex() const {
+    std::size_t partial = 0;
+    for (const osgSkin::Influence& i : binding.influences)
+        partial += i.bend != i.twist || (i.bend > 0.0f && i.bend < 1.0f) ? 1 : 0;
+    return static_cast<double>(partial) / static_cast<double>(positions.size());
+}
+
+const Body& body(std::uint32_t parts) {
+    static std::map<std::uint32_t, Body> bodies;
+    const auto found = bodies.find(parts);
+    if (found != bodies.end()) return found->second;
+    return bodies.emplace(parts, parts == 1 ? load() : refine(body(1), parts)).first->second;
+}
+
+} // namespace bench

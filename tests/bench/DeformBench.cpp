@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//
+// What one frame of a skin costs: ours, osgAnimation's software rig, and a plain copy, in one run.
+#include "BenchBody.h"
+#include "OsgRig.h"
+#include "RatioTable.h"
+
+#include <osgSkin/DeformJob>
+
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+
+namespace {
+
+struct Size {
+    const char* name;
+    std::uint32_t parts;
+};
+const Size kSizes[] = {{"4k", 1}, {"40k", 3}, {"400k", 10}};
+
+void count(benchmark::State& state, std::size_t vertices) {
+    state.counters["vertices"] = static_cast<double>(vertices);
+}
+
+void copy(benchmark::State& state, std::uint32_t parts) {
+    const bench::Body& body = bench::body(parts);
+    std::vector<glm::vec3> positions(body.positions.size()), normals(body.normals.size());
+    const std::size_t bytes = body.positions.size() * sizeof(glm::vec3);
+    for ([[maybe_unused]] auto iteration : state) {
+        std::memcpy(positions.data(), body.positions.data(), bytes);
+        std::memcpy(normals.data(), body.normals.data(), bytes);
+        benchmark::ClobberMemory();
+    }
+    count(state, positions.size());
+}
+
+void reference(benchmark::State& state, std::uint32_t parts) {
+    const bench::Body& body = bench::body(parts);
+    const auto model = body.model();
+    osgSkin::Pose pose(model->joints());
+    std::vector<glm::vec3> positions(body.positions.size()), normals(body.normals.size());
+    osgSkin::DeformJob job;
+    job.model = model.get();
+    job.pose = &pose;
+    job.positions = positions.data();
+    job.normals = normals.data();
+    job.positionCount = job.normalCount = positions.size();
+    std::size_t frame = 0;
+    for ([[maybe_unused]] auto iteration : state) {
+        const auto& skinning = body.skinning[frame++ % body.skinning.size()];
+        pose.set(skinning.data(), skinning.size());
+        job.run();
+        benchmark::ClobberMemory();
+    }
+    count(state, positions.size());
+}
+
+void osgAnimationRig(benchmark::State& state, std::uint32_t parts) {
+    const bench::Body& body = bench::body(parts);
+    bench::OsgRig rig(body);
+    std::size_t frame = 0;
+    for ([[maybe_unused]] auto iteration : state) {
+        rig.pose(frame++ % body.clip.frames);
+        const std::clock_t start = std::clock();
+        rig.update();
+        state.SetIterationTime(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    }
+    if (rig.error((frame - 1) % body.clip.frames) > 1e-3)
+        state.SkipWithError("osgAnimation's rig did not skin the body");
+    count(state, body.positions.size());
+}
+
+void poseSetUp(benchmark::State& state) {
+    const bench::Body& body = bench::body(1);
+    osgSkin::Pose pose(body.binding.joints);
+    std::size_t frame = 0;
+    for ([[maybe_unused]] auto iteration : state) {
+        const auto& skinning = body.skinning[frame++ % body.skinning.size()];
+        benchmark::DoNotOptimize(pose.set(skinning.data(), skinning.size()));
+    }
+}
+
+void describe() {
+    const bench::Body& body = bench::body(1);
+    std::printf("Body %s: %zu vertices, %zu joints, %.2f partial joints a vertex, %zu frames\n"
+                "Weights for osgAnimation: %s, %zu weight groups (interpolated where subdivided)\n",
+                body.name.c_str(), body.positions.size(), body.binding.joints.size(),
+                body.partialPerVertex(), body.clip.frames, body.weights.name.c_str(),
+                body.weights.groupCount());
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+    describe();
+    const std::string joints = std::to_string(bench::body(1).binding.joints.size()) + " joints";
+    benchmark::RegisterBenchmark(("pose set-up/" + joints).c_str(), poseSetUp);
+    for (const Size& size : kSizes) {
+        const auto add = [&size](const char* what, void (*run)(benchmark::State&, std::uint32_t)) {
+            return benchmark::RegisterBenchmark((std::string(what) + "/" + size.name).c_str(), run,
+                                                size.parts)
+                ->Unit(benchmark::kMicrosecond);
+        };
+        add("memcpy", copy);
+        add("ours reference", reference);
+        add("osgAnimation", osgAnimationRig)->UseManualTime();
+    }
+    bench::RatioTable table;
+    benchmark::RunSpecifiedBenchmarks(&table);
+    return 0;
+}
