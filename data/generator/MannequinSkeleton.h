@@ -12,11 +12,11 @@ namespace mannequin {
 ///
 /// Space: metres, Y up, facing +Z, the figure's left is +X, the floor is y = 0.
 struct RestJoint {
-    std::string name;    ///< CMU motion-capture name ("LeftForeArm")
-    int parent;          ///< index of the parent joint, -1 for the root
-    glm::dvec3 centre;   ///< joint centre
-    glm::dvec3 endSite;  ///< tip of the bone; meaningful for leaf joints only
-    bool leaf;           ///< true where the joint has no child and ends in `endSite`
+    std::string name;   ///< CMU motion-capture name ("LeftForeArm")
+    int parent;         ///< index of the parent joint, -1 for the root
+    glm::dvec3 centre;  ///< joint centre
+    glm::dvec3 endSite; ///< tip of the bone; meaningful for leaf joints only
+    bool leaf;          ///< true where the joint has no child and ends in `endSite`
 };
 
 /// The skeleton of a standing man of 1.80 m, parents before children.

@@ -41,7 +41,8 @@ osg::Matrix shadowMatrix() {
 
 osg::ref_ptr<osg::Node> makeFloor(float size) {
     const osg::ref_ptr<osg::Vec3Array> quad = new osg::Vec3Array;
-    for (const auto& corner : {osg::Vec2(-1, -1), osg::Vec2(1, -1), osg::Vec2(1, 1), osg::Vec2(-1, 1)})
+    for (const auto& corner :
+         {osg::Vec2(-1, -1), osg::Vec2(1, -1), osg::Vec2(1, 1), osg::Vec2(-1, 1)})
         quad->push_back({size * corner.x(), size * corner.y(), 0.0f});
     const osg::ref_ptr<osg::Vec3Array> lines = new osg::Vec3Array;
     for (float at = -size; at <= size; at += 1.0f) {
@@ -80,7 +81,8 @@ osg::ref_ptr<osg::Group> withShadow(osg::Node* figure) {
     const auto override = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
     state.setAttributeAndModes(dark, override);
     state.setAttributeAndModes(new osg::PolygonOffset(1.0f, 1.0f), override);
-    state.setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+    state.setTextureMode(0, GL_TEXTURE_2D,
+                         osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     group->addChild(shadow);
     return group;
 }

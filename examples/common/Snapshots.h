@@ -19,8 +19,8 @@ struct View {
     double fieldOfView = 30.0; ///< degrees, of the picture's height
 };
 
-/// Takes pictures of a scene at given times of its own clock, so that they do not depend on how fast
-/// the machine draws. Needs an X display (Xvfb will do).
+/// Takes pictures of a scene at given times of its own clock, so that they do not depend on how
+/// fast the machine draws. Needs an X display (Xvfb will do).
 class Snapshots {
 public:
     /// \throw std::runtime_error where no window can be opened
