@@ -54,7 +54,11 @@ int main(int argc, char** argv) {
     app.add_option("--from", from, "first picture's time, in shares of the throw's length")
         ->check(CLI::Range(0.0, 1.0));
     app.add_option("--to", to, "last picture's time, the same")->check(CLI::Range(0.0, 1.0));
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
     try {
         double seconds = 0.0;
         const osg::ref_ptr<osg::Group> scene = example::withShadow(makeThrowScene(data, &seconds));
