@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -43,6 +44,14 @@ std::optional<glm::dvec3> ownBone(const SkeletonTree& tree, int j) {
         }
     if (result && !hasLength(*result, tree)) result.reset();
     return result;
+}
+
+/// A foot's bone falls from the ankle to the sole, more or less steeply from one skeleton to the
+/// next, but both soles stand flat: where both feet lie, only their headings are to be aligned.
+BonePair alongFloor(const BonePair& bone) {
+    const auto lies = [](const glm::dvec3& b) { return std::abs(b.y) < 0.8 * glm::length(b); };
+    if (!lies(bone.rig) || !lies(bone.motion)) return bone;
+    return {{bone.rig.x, 0.0, bone.rig.z}, {bone.motion.x, 0.0, bone.motion.z}};
 }
 
 class BoneFinder {
@@ -121,6 +130,8 @@ std::vector<glm::dquat> alignBones(const SkeletonTree& rig, const SkeletonTree& 
         if (!parts.isLimb[index]) continue;
         std::optional<BonePair> bone;
         if (motionJoint[index] >= 0) bone = finder.find(j);
+        if (bone && std::count(parts.feet.begin(), parts.feet.end(), j) > 0)
+            bone = alongFloor(*bone);
         if (bone)
             result[index] = shortestTurn(bone->rig, bone->motion);
         else
