@@ -13,30 +13,39 @@ constexpr double kRigidNarrowing = 0.6;
 
 /// Width, in limb radii, that makes a field with boundaries of its own continuous across regions.
 constexpr double kBoundedWidth = 0.25;
-
-std::vector<double> smoothField(const HardField& hard, const SkinSmoother& smoother,
-                                std::size_t joint, double radius, double smoothing) {
-    const PlannedJoint& planned = hard.joints[joint];
-    const double bending = bendingRadius(planned.boneLength, radius);
-    const double width = smoothing * bending;
-    std::vector<double> field;
-    if (planned.options.bendUpper || planned.options.bendLower) {
-        const double reach = width / std::max(planned.boneLength, 1e-9 * hard.mesh.size);
-        const double upper = planned.options.bendUpper.value_or(
-            std::min(-reach, planned.options.bendLower.value_or(reach) - reach));
-        const double lower = planned.options.bendLower.value_or(std::max(reach, upper + reach));
-        field = hard.bounded(joint, upper, lower);
-        smoother.smooth(field, kBoundedWidth * bending);
-        return field;
-    }
-    field = hard.divided(joint);
-    smoother.smooth(field, planned.rigid >= 0 ? kRigidNarrowing * width : width);
-    return field;
-}
+/// That little is cut off again, so that the ratios are exact close beyond the boundaries.
+constexpr double kBoundedCutOff = 0.02;
 
 /// Stretches [cutOff, 1 - cutOff] to [0, 1]: beyond the bend region the ratios are exactly 0 and 1.
 void stretch(std::vector<double>& field, double cutOff) {
     for (double& a : field) a = std::clamp((a - cutOff) / (1.0 - 2.0 * cutOff), 0.0, 1.0);
+}
+
+bool hasBoundaries(const PlannedJoint& joint) {
+    return joint.options.bendUpper || joint.options.bendLower;
+}
+
+/// The bend field between the boundaries that the author set, one of which may be missing.
+std::vector<double> boundedField(const HardField& hard, const SkinSmoother& smoother,
+                                 std::size_t joint, double radius, double smoothing) {
+    const PlannedJoint& planned = hard.joints[joint];
+    const double reach = smoothing * radius / std::max(planned.boneLength, 1e-9 * hard.mesh.size);
+    const double upper = planned.options.bendUpper.value_or(
+        std::min(-reach, planned.options.bendLower.value_or(reach) - reach));
+    const double lower = planned.options.bendLower.value_or(std::max(reach, upper + reach));
+    std::vector<double> field = hard.bounded(joint, upper, lower);
+    smoother.smooth(field, kBoundedWidth * radius);
+    stretch(field, kBoundedCutOff);
+    return field;
+}
+
+std::vector<double> smoothField(const HardField& hard, const SkinSmoother& smoother,
+                                std::size_t joint, double radius, const BindOptions& options) {
+    const double width = options.smoothing * radius;
+    std::vector<double> field = hard.divided(joint);
+    smoother.smooth(field, hard.joints[joint].rigid >= 0 ? kRigidNarrowing * width : width);
+    stretch(field, options.cutOff);
+    return field;
 }
 
 void raise(std::vector<double>& field, const std::vector<double>& other) {
@@ -53,8 +62,10 @@ JointFields bendFields(const HardField& hard, const std::vector<double>& radii,
     fields[0].assign(hard.mesh.vertexCount(), 1.0);
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!joints[j].holdsRegion) continue;
-        fields[j] = smoothField(hard, smoother, j, radii[j], options.smoothing);
-        stretch(fields[j], options.cutOff);
+        const double radius = bendingRadius(joints[j].boneLength, radii[j]);
+        fields[j] = hasBoundaries(joints[j])
+                        ? boundedField(hard, smoother, j, radius, options.smoothing)
+                        : smoothField(hard, smoother, j, radius, options);
     }
     // Along a chain no joint turns skin that its parent leaves behind. A joint without a region (of
     // no length, or skipped) turns what its children turn.

@@ -111,6 +111,20 @@ TEST(Regions, SeamsDoNotStopThem) {
     }
 }
 
+TEST(Regions, SeamsMayBeOffByRounding) {
+    const SkinMesh mesh = shapes::hangingArms();
+    SkinMesh split = shapes::exploded(mesh);
+    for (std::size_t i = 0; i < split.positions.size(); ++i)
+        split.positions[i].x += 1e-9 * static_cast<double>(i % 3); // the body's size is 6
+    BindReport report;
+    bind(split, shapes::hangingArmsSkeleton(), {}, &report);
+    EXPECT_EQ(report.weldedVertices, mesh.positions.size());
+    for (std::size_t i = 0; i < split.positions.size(); ++i)
+        split.positions[i].x += 1e-3 * static_cast<double>(i % 3); // another place
+    bind(split, shapes::hangingArmsSkeleton(), {}, &report);
+    EXPECT_GT(report.weldedVertices, mesh.positions.size());
+}
+
 TEST(Regions, ShellWithoutADelaunayEdgeTakesTheNearest) {
     // Two buttons on the far end of a cylinder: no joint lies inside them, the skin hides them all.
     const SkinMesh tube = shapes::cylinder();
