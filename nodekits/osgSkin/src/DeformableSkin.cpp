@@ -25,8 +25,8 @@ DeformableSkin::DeformableSkin() {
 }
 
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
-    : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
-      _eager(other._eager) {
+    : osg::Drawable(other, copyop), _rest(other._rest), _shared(other._shared), _model(other._model),
+      _pose(other._pose), _eager(other._eager) {
     makeBuffers();
     poseChanged();
 }
@@ -34,6 +34,12 @@ DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& c
 DeformableSkin::~DeformableSkin() = default;
 
 void DeformableSkin::setSkin(osg::Geometry* rest, std::shared_ptr<const SkinModel> model) {
+    const osg::ref_ptr<SharedSkinModel> shared = new SharedSkinModel(std::move(model));
+    setSkin(rest, shared.get());
+}
+
+void DeformableSkin::setSkin(osg::Geometry* rest, SharedSkinModel* shared) {
+    const std::shared_ptr<const SkinModel> model = shared ? shared->getModel() : nullptr;
     if (!rest || !model) throw Error("deformable skin: expected a geometry and a model");
     const auto* vertices = dynamic_cast<const osg::Vec3Array*>(rest->getVertexArray());
     const auto* normals = dynamic_cast<const osg::Vec3Array*>(rest->getNormalArray());
@@ -43,7 +49,8 @@ void DeformableSkin::setSkin(osg::Geometry* rest, std::shared_ptr<const SkinMode
                     "\" needs Vec3Arrays of " + std::to_string(model->vertexCount()) +
                     " vertices and normals, as many as the model has");
     _rest = rest;
-    _model = std::move(model);
+    _shared = shared;
+    _model = model;
     _pose = Pose(_model->joints());
     setStateSet(rest->getStateSet());
     makeBuffers();
