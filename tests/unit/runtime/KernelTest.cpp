@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+//
+// The fast path on every instruction set that this machine has, and the scalar reference, against
+// the formula worked out in double precision.
+#include <osgSkin/DeformJob>
+
+#include "Turns.h"
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <string>
+
+namespace {
+
+constexpr float kHeight = 10.0f;
+constexpr float kGuard = 12345.0f;
+
+struct Way {
+    std::string name;
+    std::int64_t target; ///< of Highway; 0: the scalar reference
+};
+
+std::vector<Way> ways() {
+    std::vector<Way> result = {{"reference", 0}};
+    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
+        result.push_back({hwy::TargetName(rest & -rest), rest & -rest});
+    return result;
+}
+
+std::ostream& operator<<(std::ostream& out, const Way& way) {
+    return out << way.name;
+}
+
+/// Vertices in a ball that all follow the joints 1.. of a chain in one given manner.
+struct Manner {
+    const char* name;
+    std::vector<char> joints; ///< f: fully, p: partly, b: bend only, t: twist only, -: not at all
+};
+
+const std::vector<Manner>& manners() {
+    static const std::vector<Manner> all = {
+        {"root alone", {}},
+        {"one full", {'f'}},
+        {"one partial", {'p'}},
+        {"full, partial", {'f', 'f', 'p'}},
+        {"partial, full", {'p', 'f', 'f'}},
+        {"partial, full, partial", {'p', 'f', 'p'}},
+        {"two branches", {'f', 'p', '-', 'p'}},
+        {"twist only", {'f', 't'}},
+        {"bend only", {'b', 'p'}},
+        {"mixed, full", {'t', 'b', 'f'}},
+        {"four", {'p', 'p', 'p', 'p'}},
+        {"eight", {'p', 't', 'p', 'b', 'p', 'p', 'p', 'p', '-'}},
+        {"long", std::vector<char>(60, 'f')},
+    };
+    return all;
+}
+
+osgSkin::Binding chainOf(std::size_t joints, std::mt19937_64& random) {
+    osgSkin::Binding binding;
+    std::uniform_real_distribution<double> place(-2.0, 2.0);
+    for (std::size_t j = 0; j < joints; ++j)
+        binding.joints.push_back({"joint" + std::to_string(j),
+                                  static_cast<int>(j) - 1,
+                                  {place(random), place(random), place(random)},
+                                  test::randomUnit(random),
+                                  test::randomUnit(random)});
+    binding.firstInfluence.push_back(0);
+    return binding;
+}
+
+/// `count` vertices of each manner after one another: groups of that many.
+struct Skin {
+    osgSkin::Binding binding;
+    std::vector<glm::vec3> positions, normals;
+    std::vector<std::uint32_t> source;
+
+    Skin(std::size_t joints, const std::vector<Manner>& manner, std::size_t count,
+         std::uint64_t seed) {
+        std::mt19937_64 random(seed);
+        binding = chainOf(joints, random);
+        std::uniform_real_distribution<float> ratio(0.01f, 0.99f);
+        for (const Manner& m : manner)
+            for (std::size_t v = 0; v < count; ++v) {
+                add(m, ratio, random);
+                positions.push_back(glm::vec3(test::randomUnit(random)) * 0.5f * kHeight);
+                normals.push_back(glm::vec3(test::randomUnit(random)));
+                source.push_back(static_cast<std::uint32_t>(source.size()));
+            }
+    }
+
+private:
+    void add(const Manner& m, std::uniform_real_distribution<float>& ratio,
+             std::mt19937_64& random) {
+        binding.influences.push_back({0, 1.0f, 1.0f});
+        for (std::uint32_t j = 0; j < m.joints.size(); ++j) {
+            const float some = ratio(random);
+            switch (m.joints[j]) {
+            case 'f':
+                binding.influences.push_back({j + 1, 1.0f, 1.0f});
+                break;
+            case 'p':
+                binding.influences.push_back({j + 1, some, ratio(random)});
+                break;
+            case 'b':
+                binding.influences.push_back({j + 1, some, 1.0f});
+                break;
+            case 't':
+                binding.influences.push_back({j + 1, 0.0f, some});
+                break;
+            default:
+                break;
+            }
+        }
+        binding.regions.push_back(0);
+        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+};
+
+/// The same skin with its vertices where the deformation writes them straight.
+Skin inBestOrder(Skin skin) {
+    const auto order = osgSkin::SkinModel::bestOrder(skin.binding, skin.source);
+    const Skin old = skin;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        skin.positions[i] = old.positions[order[i]];
+        skin.normals[i] = old.normals[order[i]];
+        skin.source[i] = old.source[order[i]];
+    }
+    return skin;
+}
+
+/// One vertex and normal, joint by joint, in double precision.
+void reference(const osgSkin::Binding& binding, const osgSkin::Pose& pose, std::uint32_t vertex,
+               glm::dvec3& x, glm::dvec3& n) {
+    for (std::uint32_t i = binding.firstInfluence[vertex + 1];
+         i-- > binding.firstInfluence[vertex];) {
+        const osgSkin::Influence& influence = binding.influences[i];
+        const osgSkin::BoundJoint& joint = binding.joints[influence.joint];
+        const osgSkin::Pose::Turn& turn = pose.turn(influence.joint);
+        const auto bend = static_cast<double>(influence.bend);
+        const glm::dquat q = osgSkin::partialTurn(turn.split, joint.twistAxis, bend,
+                                                  static_cast<double>(influence.twist));
+        n = q * n;
+        x = joint.parent < 0 ? turn.offset + q * x
+                             : joint.centre + bend * turn.translation + q * (x - joint.centre);
+    }
+}
+
+class Kernel : public testing::TestWithParam<Way> {
+protected:
+    void SetUp() override {
+        if (GetParam().target) hwy::SetSupportedTargetsForTest(GetParam().target);
+    }
+    void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
+
+    static void deform(const Skin& skin, const osgSkin::Pose& pose, const osgSkin::SkinModel& model,
+                       bool withNormals);
+};
+
+void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const osgSkin::SkinModel& model,
+                    bool withNormals) {
+    const std::size_t count = skin.positions.size();
+    // One vertex before and several behind, which must stay as they are.
+    std::vector<glm::vec3> positions(count + 20, glm::vec3(kGuard)), normals = positions;
+    osgSkin::DeformJob job;
+    job.model = &model;
+    job.pose = &pose;
+    job.positions = positions.data() + 1;
+    job.positionCount = count;
+    job.normals = withNormals ? normals.data() + 1 : nullptr;
+    job.normalCount = count;
+    ASSERT_TRUE(GetParam().target ? job.run() : job.runReference());
+    for (std::uint32_t v = 0; v < count; ++v) {
+        glm::dvec3 x(skin.positions[v]), n(skin.normals[v]);
+        reference(skin.binding, pose, skin.source[v], x, n);
+        // Written so that NaN fails.
+        ASSERT_TRUE(glm::distance(glm::dvec3(positions[v + 1]), x) <= 1e-6 * double(kHeight))
+            << "vertex " << v << ", off by " << glm::distance(glm::dvec3(positions[v + 1]), x);
+        if (!withNormals) continue;
+        ASSERT_TRUE(glm::distance(glm::dvec3(normals[v + 1]), n) <= 1e-5) << "vertex " << v;
+    }
+    for (std::size_t i = 0; i < positions.size(); i = i == 0 ? count + 1 : i + 1) {
+        ASSERT_EQ(positions[i], glm::vec3(kGuard)) << "written outside, at " << i;
+        ASSERT_EQ(normals[i], glm::vec3(kGuard)) << "written outside, at " << i;
+    }
+}
+
+/// Poses that stay within the body's height: turns of any angle about joints inside the body.
+osgSkin::Pose randomPose(const osgSkin::Binding& binding, double moves, std::mt19937_64& random) {
+    std::vector<glm::dmat4> skinning;
+    for (std::size_t j = 0; j < binding.joints.size(); ++j) {
+        const glm::dvec3 c = binding.joints[j].centre;
+        const glm::dmat4 turn =
+            glm::translate(glm::dmat4(1.0), c + moves * test::randomUnit(random)) *
+            glm::mat4_cast(test::randomRotation(random)) * glm::translate(glm::dmat4(1.0), -c);
+        skinning.push_back(j == 0 ? turn : skinning.back() * turn);
+    }
+    osgSkin::Pose pose(binding.joints);
+    EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
+    return pose;
+}
+
+} // namespace
+
+TEST_P(Kernel, AgreesWithDoublePrecisionForEveryGroupSize) {
+    std::mt19937_64 random(11);
+    // Five joints are what a long limb has; more turns, each about a far centre, leave the body.
+    const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
+    for (std::size_t size = 1; size <= 33; ++size) {
+        SCOPED_TRACE("groups of " + std::to_string(size));
+        const Skin skin(5, upToFour, size, size);
+        const auto model =
+            osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
+        for (const double moves : {0.0, 0.5})
+            deform(skin, randomPose(skin.binding, moves, random), *model, true);
+        deform(skin, randomPose(skin.binding, 0.0, random), *model, false);
+    }
+}
+
+TEST_P(Kernel, AgreesForVerticesInTheBestOrder) {
+    std::mt19937_64 random(12);
+    const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
+    for (std::size_t size = 1; size <= 33; ++size) {
+        SCOPED_TRACE("groups of " + std::to_string(size));
+        const Skin skin = inBestOrder(Skin(5, upToFour, size, size));
+        const auto model =
+            osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
+        for (std::uint32_t i = 0; i < model->order().size(); ++i) ASSERT_EQ(model->order()[i], i);
+        deform(skin, randomPose(skin.binding, 0.0, random), *model, true);
+    }
+}
+
+TEST_P(Kernel, TakesLongChainsAndManyPartialJoints) {
+    std::mt19937_64 random(13);
+    const Skin skin(61, {manners().begin() + 11, manners().end()}, 5, 3);
+    const auto model =
+        osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
+    osgSkin::Pose pose(skin.binding.joints);
+    deform(skin, pose, *model, true);
+    // Small turns, so that sixty of them stay within the body.
+    std::vector<glm::dmat4> skinning;
+    std::vector<glm::dquat> turns;
+    for (std::size_t j = 0; j < skin.binding.joints.size(); ++j)
+        turns.push_back(glm::angleAxis(0.02, test::randomUnit(random)));
+    skinning = test::skinningFrom(skin.binding.joints, turns);
+    ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
+    deform(skin, pose, *model, true);
+}
+
+TEST_P(Kernel, TurnsByPiAndBack) {
+    const Skin skin(4, {manners().begin() + 2, manners().begin() + 4}, 17, 7);
+    const auto model =
+        osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
+    osgSkin::Pose pose(skin.binding.joints);
+    const glm::dvec3 w = skin.binding.joints[1].twistAxis;
+    const glm::dvec3 v = glm::normalize(glm::cross(w, glm::dvec3(0.3, 0.5, 0.7)));
+    for (const double angle : {3.14159265358979, -3.14159265358979, 3.1, 1e-9, 0.0})
+        for (const glm::dvec3& axis : {v, w}) {
+            const std::vector<glm::dquat> turns = {
+                glm::dquat(1, 0, 0, 0), glm::angleAxis(angle, axis), glm::angleAxis(-angle, axis),
+                glm::angleAxis(angle, axis)};
+            const auto skinning = test::skinningFrom(skin.binding.joints, turns);
+            ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
+            deform(skin, pose, *model, true);
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, Kernel, testing::ValuesIn(ways()),
+                         [](const auto& tested) { return tested.param.name; });
