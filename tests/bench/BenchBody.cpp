@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numeric>
 
 namespace bench {
 namespace {
@@ -47,30 +48,6 @@ std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
     }
     for (glm::vec3& n : normals) n = glm::normalize(n);
     return normals;
-}
-
-Body load() {
-    const Files file = files();
-    Body body;
-    body.name = file.name;
-    const osgSkin::SkinMesh mesh = osgSkin::importMesh(file.mesh).mesh;
-    body.rig = osgSkin::importSkeleton(file.skeleton);
-    body.clip = osgSkin::retarget(osgSkin::importMotion(file.motion, file.skipFrames), body.rig);
-    body.binding = osgSkin::bind(mesh, body.rig);
-    body.positions.assign(mesh.positions.begin(), mesh.positions.end());
-    body.triangles = mesh.triangles();
-    body.normals = smoothNormals(body.positions, body.triangles);
-    body.weights =
-        readPaintedWeights(file.weights, body.binding.joints, body.binding.vertexCount());
-    if (body.weights.vertices.empty()) body.weights = weightsFromRatios(body.binding);
-
-    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(body.rig);
-    osgSkin::BoneReader bones(body.binding.joints, *skeleton);
-    for (std::size_t frame = 0; frame < body.clip.frames; ++frame) {
-        osgSkin::applyFrame(body.clip, body.rig, frame, *skeleton);
-        body.skinning.push_back(bones.read());
-    }
-    return body;
 }
 
 osgSkin::Binding blend(const osgSkin::Binding& binding, const std::vector<Blend>& vertices) {
@@ -111,6 +88,48 @@ std::vector<glm::vec3> blend(const std::vector<glm::vec3>& vectors,
     return result;
 }
 
+/// Sorts the vertices as attachSkin() does, so that they are written straight.
+void bringIntoOrder(Body& body) {
+    std::vector<std::uint32_t> source(body.positions.size());
+    std::iota(source.begin(), source.end(), 0u);
+    const std::vector<std::uint32_t> order = osgSkin::SkinModel::bestOrder(body.binding, source);
+    std::vector<Blend> vertices;
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        source[order[i]] = i;
+        vertices.push_back({{order[i], order[i], order[i]}, {1.0, 0.0, 0.0}});
+    }
+    body.binding = blend(body.binding, vertices);
+    body.positions = blend(body.positions, vertices);
+    body.normals = blend(body.normals, vertices);
+    body.weights = blend(body.weights, vertices);
+    for (std::uint32_t& corner : body.triangles) corner = source[corner];
+}
+
+Body load() {
+    const Files file = files();
+    Body body;
+    body.name = file.name;
+    const osgSkin::SkinMesh mesh = osgSkin::importMesh(file.mesh).mesh;
+    body.rig = osgSkin::importSkeleton(file.skeleton);
+    body.clip = osgSkin::retarget(osgSkin::importMotion(file.motion, file.skipFrames), body.rig);
+    body.binding = osgSkin::bind(mesh, body.rig);
+    body.positions.assign(mesh.positions.begin(), mesh.positions.end());
+    body.triangles = mesh.triangles();
+    body.normals = smoothNormals(body.positions, body.triangles);
+    body.weights =
+        readPaintedWeights(file.weights, body.binding.joints, body.binding.vertexCount());
+    if (body.weights.vertices.empty()) body.weights = weightsFromRatios(body.binding);
+    bringIntoOrder(body);
+
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(body.rig);
+    osgSkin::BoneReader bones(body.binding.joints, *skeleton);
+    for (std::size_t frame = 0; frame < body.clip.frames; ++frame) {
+        osgSkin::applyFrame(body.clip, body.rig, frame, *skeleton);
+        body.skinning.push_back(bones.read());
+    }
+    return body;
+}
+
 Body refine(const Body& coarse, std::uint32_t parts) {
     const Subdivided mesh = subdivide(coarse.triangles, coarse.positions.size(), parts);
     Body body = coarse;
@@ -120,6 +139,7 @@ Body refine(const Body& coarse, std::uint32_t parts) {
     for (glm::vec3& n : body.normals) n = glm::normalize(n);
     body.triangles = mesh.triangles;
     body.weights = blend(coarse.weights, mesh.vertices);
+    bringIntoOrder(body);
     return body;
 }
 

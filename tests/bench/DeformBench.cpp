@@ -8,6 +8,7 @@
 #include <osgSkin/DeformJob>
 
 #include <benchmark/benchmark.h>
+#include <hwy/highway.h>
 
 #include <cstdio>
 #include <cstring>
@@ -37,7 +38,8 @@ void copy(benchmark::State& state, std::uint32_t parts) {
     count(state, positions.size());
 }
 
-void reference(benchmark::State& state, std::uint32_t parts) {
+/// Ours. `target` is one of Highway's instruction sets, 0 for the best, -1 for the plain reference.
+void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target) {
     const bench::Body& body = bench::body(parts);
     const auto model = body.model();
     osgSkin::Pose pose(model->joints());
@@ -48,13 +50,15 @@ void reference(benchmark::State& state, std::uint32_t parts) {
     job.positions = positions.data();
     job.normals = normals.data();
     job.positionCount = job.normalCount = positions.size();
+    if (target > 0) hwy::SetSupportedTargetsForTest(target);
     std::size_t frame = 0;
     for ([[maybe_unused]] auto iteration : state) {
         const auto& skinning = body.skinning[frame++ % body.skinning.size()];
         pose.set(skinning.data(), skinning.size());
-        job.run();
+        target < 0 ? job.runReference() : job.run();
         benchmark::ClobberMemory();
     }
+    hwy::SetSupportedTargetsForTest(0);
     count(state, positions.size());
 }
 
@@ -100,14 +104,19 @@ int main(int argc, char** argv) {
     describe();
     const std::string joints = std::to_string(bench::body(1).binding.joints.size()) + " joints";
     benchmark::RegisterBenchmark(("pose set-up/" + joints).c_str(), poseSetUp);
+    std::vector<std::int64_t> targets;
+    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
+        targets.push_back(rest & -rest);
     for (const Size& size : kSizes) {
-        const auto add = [&size](const char* what, void (*run)(benchmark::State&, std::uint32_t)) {
-            return benchmark::RegisterBenchmark((std::string(what) + "/" + size.name).c_str(), run,
-                                                size.parts)
+        const auto add = [&size](const std::string& what, auto run, auto... more) {
+            return benchmark::RegisterBenchmark((what + "/" + size.name).c_str(), run, size.parts,
+                                                more...)
                 ->Unit(benchmark::kMicrosecond);
         };
         add("memcpy", copy);
-        add("ours reference", reference);
+        for (const std::int64_t target : targets)
+            add(std::string("ours ") + hwy::TargetName(target), ours, target);
+        add("ours reference", ours, std::int64_t{-1});
         add("osgAnimation", osgAnimationRig)->UseManualTime();
     }
     bench::RatioTable table;
