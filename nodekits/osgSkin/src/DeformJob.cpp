@@ -2,6 +2,8 @@
 #include <osgSkin/DeformJob>
 
 #include "Chain.h"
+#include "DeformKernel.h"
+#include "KernelChain.h"
 
 namespace osgSkin {
 
@@ -17,6 +19,26 @@ const char* DeformJob::validate() const noexcept {
 }
 
 bool DeformJob::run() const noexcept {
+    if (validate()) return false;
+    const SkinBlocks& blocks = model->blocks();
+    KernelChain chain(*model, *pose);
+    KernelCall call;
+    for (std::size_t g = 0; g < model->groups().size(); ++g) {
+        const SkinModel::Group& group = model->groups()[g];
+        chain.prepare(group, call);
+        const std::size_t first = blocks.inOrder ? group.firstVertex : 0;
+        call.rows = blocks.rows.data() + blocks.firstRow[g];
+        call.vertexCount = group.vertexCount;
+        call.room = model->vertexCount() - group.firstVertex;
+        call.scatter = blocks.inOrder ? nullptr : model->order().data() + group.firstVertex;
+        call.positions = &positions[first].x;
+        call.normals = normals ? &normals[first].x : nullptr;
+        runKernel(call);
+    }
+    return true;
+}
+
+bool DeformJob::runReference() const noexcept {
     if (validate()) return false;
     for (const SkinModel::Group& group : model->groups()) {
         const Chain chain(*model, group, *pose);

@@ -3,6 +3,8 @@
 #include <osgSkin/PoseBounds>
 #include <osgSkin/SkinModel>
 
+#include "SkinBlocks.h"
+
 #include <map>
 
 namespace osgSkin {
@@ -32,7 +34,30 @@ Signature signatureOf(const Binding& binding, std::uint32_t vertex) {
     return signature;
 }
 
+/// The vertices of each signature. Sorted, so that groups side by side share their outer links.
+using Members = std::map<Signature, std::vector<std::uint32_t>>;
+
+Members groupBySignature(const Binding& binding, const std::vector<std::uint32_t>& source) {
+    Members members;
+    for (std::uint32_t v = 0; v < source.size(); ++v) {
+        if (source[v] >= binding.vertexCount())
+            throw Error("skin model: vertex " + std::to_string(v) + " comes from no bound vertex");
+        members[signatureOf(binding, source[v])].push_back(v);
+    }
+    return members;
+}
+
 } // namespace
+
+std::vector<std::uint32_t> SkinModel::bestOrder(const Binding& binding,
+                                                const std::vector<std::uint32_t>& source) {
+    binding.validate();
+    std::vector<std::uint32_t> order;
+    order.reserve(source.size());
+    for (const auto& [signature, vertices] : groupBySignature(binding, source))
+        order.insert(order.end(), vertices.begin(), vertices.end());
+    return order;
+}
 
 std::shared_ptr<const SkinModel> SkinModel::create(const Binding& binding,
                                                    std::vector<glm::vec3> positions,
@@ -41,12 +66,7 @@ std::shared_ptr<const SkinModel> SkinModel::create(const Binding& binding,
     binding.validate();
     if (positions.size() != source.size() || normals.size() != source.size())
         throw Error("skin model: expected one position, one normal and one source per vertex");
-    std::map<Signature, std::vector<std::uint32_t>> members;
-    for (std::uint32_t v = 0; v < source.size(); ++v) {
-        if (source[v] >= binding.vertexCount())
-            throw Error("skin model: vertex " + std::to_string(v) + " comes from no bound vertex");
-        members[signatureOf(binding, source[v])].push_back(v);
-    }
+    const Members members = groupBySignature(binding, source);
 
     const std::shared_ptr<SkinModel> model(new SkinModel);
     model->_joints = binding.joints;
@@ -72,6 +92,7 @@ std::shared_ptr<const SkinModel> SkinModel::create(const Binding& binding,
         model->addVertices(binding, source, vertices);
     }
     model->_boundProxies = makeBoundProxies(*model);
+    model->_blocks = std::make_shared<SkinBlocks>(*model);
     return model;
 }
 

@@ -36,7 +36,10 @@ MeshPart facesOf(const MeshPart& part, const RigidSplit& split, std::uint32_t jo
     return partSubset(part, keep);
 }
 
-osg::ref_ptr<DeformableSkin> makeSkin(const MeshPart& part, const Binding& binding) {
+/// The part's vertices come to lie in the deformation's order, so that it writes them straight.
+AttachedSkin::Skin makeSkin(const MeshPart& unordered, const Binding& binding) {
+    const MeshPart part =
+        reorderedPart(unordered, SkinModel::bestOrder(binding, unordered.sourceVertex));
     const auto& vertices = static_cast<const osg::Vec3Array&>(*part.geometry->getVertexArray());
     const auto& normals = static_cast<const osg::Vec3Array&>(*part.geometry->getNormalArray());
     const glm::vec3* positions = asGlm(vertices.asVector().data());
@@ -47,7 +50,7 @@ osg::ref_ptr<DeformableSkin> makeSkin(const MeshPart& part, const Binding& bindi
                   SkinModel::create(binding, {positions, positions + vertices.size()},
                                     {directions, directions + normals.size()}, part.sourceVertex));
     skin->setUpdateCallback(new UpdateDeformableSkin);
-    return skin;
+    return {skin, part};
 }
 
 } // namespace
@@ -69,7 +72,7 @@ AttachedSkin attachSkin(osgAnimation::Skeleton& skeleton, const SkinMesh& mesh,
             MeshPart piece = facesOf(part, split, joint);
             if (piece.sourceFace.empty()) continue;
             if (joint == RigidSplit::kSkin) {
-                result.skins.push_back({makeSkin(piece, binding), piece});
+                result.skins.push_back(makeSkin(piece, binding));
                 skeleton.addChild(result.skins.back().drawable);
                 continue;
             }

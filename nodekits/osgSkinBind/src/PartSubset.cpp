@@ -40,24 +40,16 @@ osg::Array* subset(osg::Array* source, std::size_t vertices,
     return keepAlive.back();
 }
 
-} // namespace
+std::vector<std::uint32_t> corners(const osg::Geometry& geometry) {
+    osg::TriangleIndexFunctor<CollectTriangles> triangles;
+    geometry.accept(triangles);
+    return std::move(triangles.corners);
+}
 
-MeshPart partSubset(const MeshPart& part, const std::vector<bool>& keep) {
+/// The vertices `oldIndex` of the part, with everything that is given per vertex, and no triangle.
+MeshPart vertexSubset(const MeshPart& part, const std::vector<std::uint32_t>& oldIndex) {
     const osg::Geometry& source = *part.geometry;
     const std::size_t vertices = part.sourceVertex.size();
-    osg::TriangleIndexFunctor<CollectTriangles> triangles;
-    source.accept(triangles);
-
-    std::vector<std::uint32_t> newIndex(vertices, kUnused);
-    for (std::size_t c = 0; c < triangles.corners.size(); ++c)
-        if (keep[c / 3]) newIndex[triangles.corners[c]] = 0;
-    std::vector<std::uint32_t> oldIndex;
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        if (newIndex[v] == kUnused) continue;
-        newIndex[v] = static_cast<std::uint32_t>(oldIndex.size());
-        oldIndex.push_back(v);
-    }
-
     MeshPart result;
     result.geometry = new osg::Geometry;
     osg::Geometry& geometry = *result.geometry;
@@ -78,15 +70,43 @@ MeshPart partSubset(const MeshPart& part, const std::vector<bool>& keep) {
         geometry.setTexCoordArray(unit, take(source.getTexCoordArray(unit)));
     for (unsigned int i = 0; i < source.getNumVertexAttribArrays(); ++i)
         geometry.setVertexAttribArray(i, take(source.getVertexAttribArray(i)));
+    for (const std::uint32_t v : oldIndex) result.sourceVertex.push_back(part.sourceVertex[v]);
+    return result;
+}
 
+} // namespace
+
+MeshPart partSubset(const MeshPart& part, const std::vector<bool>& keep) {
+    const std::vector<std::uint32_t> old = corners(*part.geometry);
+    std::vector<std::uint32_t> newIndex(part.sourceVertex.size(), kUnused);
+    for (std::size_t c = 0; c < old.size(); ++c)
+        if (keep[c / 3]) newIndex[old[c]] = 0;
+    std::vector<std::uint32_t> oldIndex;
+    for (std::uint32_t v = 0; v < newIndex.size(); ++v) {
+        if (newIndex[v] == kUnused) continue;
+        newIndex[v] = static_cast<std::uint32_t>(oldIndex.size());
+        oldIndex.push_back(v);
+    }
+
+    MeshPart result = vertexSubset(part, oldIndex);
     const osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
-    for (std::size_t c = 0; c < triangles.corners.size(); ++c) {
+    for (std::size_t c = 0; c < old.size(); ++c) {
         if (!keep[c / 3]) continue;
-        elements->push_back(newIndex[triangles.corners[c]]);
+        elements->push_back(newIndex[old[c]]);
         if (c % 3 == 0) result.sourceFace.push_back(part.sourceFace[c / 3]);
     }
-    geometry.addPrimitiveSet(elements);
-    for (const std::uint32_t v : oldIndex) result.sourceVertex.push_back(part.sourceVertex[v]);
+    result.geometry->addPrimitiveSet(elements);
+    return result;
+}
+
+MeshPart reorderedPart(const MeshPart& part, const std::vector<std::uint32_t>& order) {
+    std::vector<std::uint32_t> newIndex(order.size());
+    for (std::uint32_t v = 0; v < order.size(); ++v) newIndex[order[v]] = v;
+    MeshPart result = vertexSubset(part, order);
+    result.sourceFace = part.sourceFace;
+    const osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (const std::uint32_t v : corners(*part.geometry)) elements->push_back(newIndex[v]);
+    result.geometry->addPrimitiveSet(elements);
     return result;
 }
 

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "SkinBlocks.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace osgSkin {
+
+/// A constant four times over, so that 128-bit instructions can read it as an operand.
+struct alignas(16) Splat {
+    float value[4];
+
+    Splat& operator=(double x) {
+        const auto rounded = static_cast<float>(x);
+        for (float& v : value) v = rounded;
+        return *this;
+    }
+};
+
+/// x -> turn x + move, in single precision, as the kernel reads it.
+struct KernelMap {
+    Splat turn[3][3]; ///< [row][column]
+    Splat move[3];
+};
+
+/// One partial joint of a group's chain in the present pose.
+///
+/// In the frame (v, w x v, w) about the joint centre, with bend axis v and twist axis w, the
+/// partial turn is a turn in the plane of the first two axes (by the twist) followed by one in the
+/// plane of the last two (by the bend).
+struct KernelLink {
+    Splat halfBend;  ///< psi / 2
+    Splat halfTwist; ///< phi / 2
+    Splat move[3];   ///< the joint's translation, in its frame; comes in with the bend ratio
+    KernelMap out;   ///< from this frame to that of the next partial joint outwards, or rest space
+};
+
+/// All vertices of one group, with the constants that they have in common.
+struct KernelCall {
+    const BlockRow* rows;
+    std::size_t vertexCount;
+    std::size_t linkCount;   ///< partial links
+    const KernelLink* links; ///< outermost first
+    const KernelMap* lead;   ///< applied first; null where the blocks are in a joint's frame
+    Splat azimuthCosine;     ///< of v in that frame; where lead is null
+    Splat azimuthSine;
+    bool moved;       ///< some link's move is not 0
+    float* positions; ///< x, y, z of the group's first vertex
+    float* normals;   ///< may be null
+    std::size_t room; ///< vertices from there on that may be overwritten, >= vertexCount
+    const std::uint32_t* scatter; ///< vertex of each row, where output is not in order; else null
+};
+
+/// Deforms a group with the best instructions that the machine has.
+///
+/// Without scatter, up to `room` vertices may be written beyond the group's: call in the groups'
+/// order. With it, positions and normals are those of vertex 0.
+void runKernel(const KernelCall& call) noexcept;
+
+} // namespace osgSkin

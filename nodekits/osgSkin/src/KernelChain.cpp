@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "KernelChain.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+void write(const glm::dmat3& turn, const glm::dvec3& move, KernelMap& map) noexcept {
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) map.turn[row][column] = turn[column][row];
+        map.move[row] = move[row];
+    }
+}
+
+} // namespace
+
+std::size_t KernelChain::sharedLinks(const SkinModel::Group& group) const noexcept {
+    if (!_last) return 0;
+    const SkinModel::Link* a = _model.links().data() + _last->firstLink;
+    const SkinModel::Link* b = _model.links().data() + group.firstLink;
+    const std::size_t most = std::min<std::size_t>({_last->linkCount, group.linkCount, kKept});
+    std::size_t shared = 0;
+    while (shared < most && a[shared].joint == b[shared].joint &&
+           a[shared].partial == b[shared].partial)
+        ++shared;
+    return shared;
+}
+
+void KernelChain::append(const SkinModel::Link& link, State& state) noexcept {
+    const Pose::Turn& turn = _pose.turn(link.joint);
+    if (!link.partial) {
+        state.map.move += state.map.turn * turn.offset;
+        state.map.turn = state.map.turn * glm::mat3_cast(turn.rotation);
+        return;
+    }
+    const BoundJoint& joint = _model.joints()[link.joint];
+    const glm::dvec3& v = turn.split.bendAxis;
+    const glm::dmat3 frame(v, glm::cross(joint.twistAxis, v), joint.twistAxis);
+    KernelLink& out = _links[state.partialCount++];
+    out.halfBend = 0.5 * turn.split.bendAngle;
+    out.halfTwist = 0.5 * turn.split.twistAngle;
+    const glm::dvec3 move = turn.translation * frame; // transposed: into the frame
+    for (int axis = 0; axis < 3; ++axis) out.move[axis] = move[axis];
+    const double smallMove = _model.blocks().smallMove;
+    state.moved = state.moved || glm::dot(move, move) > smallMove * smallMove;
+    write(state.map.turn * frame, state.map.turn * joint.centre + state.map.move, out.out);
+    state.map.turn = glm::transpose(frame);
+    state.map.move = -(joint.centre * frame);
+}
+
+void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexcept {
+    const std::size_t shared = sharedLinks(group);
+    State state = _states[shared];
+    for (std::size_t i = shared; i < group.linkCount; ++i) {
+        append(_model.links()[group.firstLink + i], state);
+        if (i + 1 <= kKept) _states[i + 1] = state;
+    }
+    _last = &group;
+
+    call.linkCount = group.partialCount;
+    call.links = _links.data();
+    call.moved = state.moved;
+    call.lead = nullptr;
+    if (!isInJointFrame(_model, group)) {
+        write(state.map.turn, state.map.move, _lead);
+        call.lead = &_lead;
+        return;
+    }
+    const std::uint32_t joint = _model.links()[group.firstLink + group.linkCount - 1].joint;
+    const glm::dvec3& v = _pose.turn(joint).split.bendAxis;
+    const glm::dmat3& frame = _model.blocks().jointFrames[joint];
+    call.azimuthCosine = glm::dot(v, frame[0]);
+    call.azimuthSine = glm::dot(v, frame[1]);
+}
+
+} // namespace osgSkin

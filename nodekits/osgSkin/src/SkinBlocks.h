@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgSkin/SkinModel>
+
+#include <glm/mat3x3.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace osgSkin {
+
+/// Vertices a block holds; a multiple of every vector's number of floats.
+constexpr std::size_t kBlock = 16;
+
+/// One number of each vertex of a block.
+struct alignas(64) BlockRow {
+    float lane[kBlock];
+};
+
+/// A SkinModel's vertices as the kernel reads them: structure of arrays, group after group, each
+/// group padded to whole blocks with zeros.
+///
+/// A block is rowsPerBlock(n) rows for n partial links: position x, y, z, normal x, y, z, then the
+/// bend and twist ratio of each partial link, innermost (applied first) first. Where a group's
+/// innermost link is a partial one, positions and normals are in that joint's fixed frame
+/// (jointFrame()), which spares the kernel the change of frame; else in rest space.
+struct SkinBlocks {
+    explicit SkinBlocks(const SkinModel& model);
+
+    static std::size_t rowsPerBlock(std::size_t partialCount) { return 6 + 2 * partialCount; }
+
+    std::vector<BlockRow> rows;
+    std::vector<std::size_t> firstRow;   ///< of each group
+    std::vector<glm::dmat3> jointFrames; ///< columns e1, e2, w of each joint; right-handed
+    bool inOrder;     ///< the model's order() is the identity: output needs no scatter
+    double smallMove; ///< a joint's translation up to this is a rounding error
+};
+
+/// True where the group's innermost link is partial, so that its blocks are in a joint's frame.
+inline bool isInJointFrame(const SkinModel& model, const SkinModel::Group& group) {
+    return group.linkCount > 0 && model.links()[group.firstLink + group.linkCount - 1].partial;
+}
+
+} // namespace osgSkin
