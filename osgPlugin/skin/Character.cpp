@@ -3,7 +3,9 @@
 
 #include "ClipBounds.h"
 #include "Props.h"
+#include "WeightsFile.h"
 
+#include <osgSkin/AutoPlayManager>
 #include <osgSkin/Error>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinBind/Bind>
@@ -25,6 +27,19 @@ auto inFile(const std::string& file, const Step& step) {
         if (what.rfind(file, 0) == 0) throw;
         throw Error(file + ": " + what);
     }
+}
+
+Binding bindBody(Character& character) {
+    const SkinFile& file = character.file;
+    const SkinMesh& mesh = character.body.mesh;
+    VertexWeights weights;
+    if (!file.weights.empty())
+        weights = readWeights(file.weights, character.rig, mesh.positions.size());
+    return inFile(file.file, [&] {
+        return file.weights.empty()
+                   ? bind(mesh, character.rig, file.bind, &character.report)
+                   : bindWeights(mesh, character.rig, weights, file.bind, &character.report);
+    });
 }
 
 void loadMotions(Character& character) {
@@ -59,7 +74,7 @@ void buildScene(Character& character, const osgDB::Options* options) {
         splitRigid(character.body.mesh, character.binding,
                    character.file.bind.rigid ? *character.file.bind.rigid
                                              : automaticRigidJoints(character.rig)));
-    character.manager = new osgAnimation::BasicAnimationManager;
+    character.manager = new AutoPlayManager; // one that plays again when saved and read
     const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character.file.zUp);
     upright->addChild(character.skeleton);
     for (const Character::Motion& motion : character.motions) {
@@ -87,9 +102,7 @@ Character Character::load(const std::string& file, const osgDB::Options* options
     character.file = SkinFile::read(file);
     character.body = importMesh(character.file.mesh, options);
     character.rig = importSkeleton(character.file.skeleton);
-    character.binding = inFile(file, [&] {
-        return bind(character.body.mesh, character.rig, character.file.bind, &character.report);
-    });
+    character.binding = bindBody(character);
     OSG_INFO << file << ":\n" << character.report.text();
     loadMotions(character);
     inFile(file, [&] {

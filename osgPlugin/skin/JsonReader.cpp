@@ -12,7 +12,8 @@
 namespace osgSkin {
 namespace {
 
-/// A character's description is a page of text; anything far larger is not one.
+/// A character's description is a page of text and a body's weights a few megabytes; anything far
+/// larger is neither.
 constexpr std::streamoff kLargestFile = 16 << 20;
 
 } // namespace
@@ -21,7 +22,8 @@ nlohmann::json JsonReader::parseFile(const std::string& file) {
     std::ifstream in(file, std::ios::binary | std::ios::ate);
     const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
     if (size < 0) throw Error(file + ": cannot be opened, expected a readable file");
-    if (size > kLargestFile) throw Error(file + ": larger than 16 MiB, expected a .skin file");
+    if (size > kLargestFile)
+        throw Error(file + ": larger than 16 MiB, expected a character's description");
     in.seekg(0);
     std::string text(static_cast<std::size_t>(size), '\0');
     in.read(text.data(), size);
@@ -82,6 +84,12 @@ bool JsonReader::boolean() const {
 std::size_t JsonReader::count() const {
     if (!_value.is_number_unsigned()) fail("a whole number, 0 or more");
     return _value.get<std::size_t>();
+}
+
+std::vector<JsonReader> JsonReader::items() const {
+    std::vector<JsonReader> result;
+    forEachItem([&](const JsonReader& item) { result.push_back(item); });
+    return result;
 }
 
 void JsonReader::forEachItem(const std::function<void(const JsonReader&)>& visit) const {

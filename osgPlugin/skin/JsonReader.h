@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace osgSkin {
 
@@ -33,6 +34,7 @@ public:
     bool boolean() const;
     std::size_t count() const; ///< a whole number, not negative
 
+    std::vector<JsonReader> items() const; ///< of a list
     void forEachItem(const std::function<void(const JsonReader&)>& visit) const;
     void
     forEachMember(const std::function<void(const std::string&, const JsonReader&)>& visit) const;

@@ -84,10 +84,20 @@ JointBindOptions readJoint(const JsonReader& reader) {
     return joint;
 }
 
+/// "bind", and the file that the method "weights" needs.
+void readMethod(const JsonReader& root, const std::string& folder, SkinFile& skin) {
+    const auto method = root.find("bind");
+    const std::string name = method ? method->string() : "smooth";
+    if (name != "smooth" && name != "weights")
+        method->complain("expected \"smooth\" or \"weights\", found \"" + name + "\"");
+    const auto weights = root.find("weights");
+    if (name == "weights")
+        skin.weights = path(root.require("weights", "the name of a file of weights"), folder);
+    else if (weights)
+        weights->complain("expected \"bind\": \"weights\" beside it");
+}
+
 void readBinding(const JsonReader& root, BindOptions& bind) {
-    if (const auto method = root.find("bind"))
-        if (method->string() != "smooth")
-            method->complain("expected \"smooth\", found \"" + method->string() + "\"");
     if (const auto rigid = root.find("rigid")) {
         bind.rigid.emplace();
         rigid->forEachItem([&](const JsonReader& name) { bind.rigid->push_back(name.string()); });
@@ -105,8 +115,8 @@ SkinFile SkinFile::read(const std::string& file) {
     const JsonReader root(json, file);
     const std::string folder = osgDB::getFilePath(file);
     checkVersion(root);
-    root.warnUnknown(
-        {"osgskin", "mesh", "skeleton", "motions", "props", "rigid", "bind", "joints", "up"});
+    root.warnUnknown({"osgskin", "mesh", "skeleton", "motions", "props", "rigid", "bind", "weights",
+                      "joints", "up"});
 
     SkinFile skin;
     skin.file = file;
@@ -131,6 +141,7 @@ SkinFile SkinFile::read(const std::string& file) {
             up->complain("expected \"y\" or \"z\", found \"" + up->string() + "\"");
         skin.zUp = up->string() == "z";
     }
+    readMethod(root, folder, skin);
     readBinding(root, skin.bind);
     return skin;
 }

@@ -35,7 +35,8 @@ struct SkinFile {
     std::vector<Motion> motions;
     std::vector<Prop> props;
     BindOptions bind;
-    bool zUp = false; ///< the character's files have Z up, not Y
+    std::string weights; ///< painted weights that the binding comes from; empty: none
+    bool zUp = false;    ///< the character's files have Z up, not Y
 
     /// Reads and checks a file. \throw Error with file, JSON path and what was expected
     static SkinFile read(const std::string& file);

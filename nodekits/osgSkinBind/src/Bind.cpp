@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/Bind>
 
+#include "BoundJoints.h"
 #include "CheckOptions.h"
 #include "JointPlan.h"
 #include "LimbRadius.h"
@@ -26,15 +27,6 @@ std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
     const NearestPoint nearest(mesh.positions, used);
     for (std::uint32_t v = 0; v < result.size(); ++v)
         if (mesh.shellOf[v] == WeldedMesh::kNoShell) result[v] = nearest.find(mesh.positions[v]);
-    return result;
-}
-
-std::vector<BoundJoint> boundJoints(const RestSkeleton& skeleton,
-                                    const std::vector<PlannedJoint>& joints) {
-    std::vector<BoundJoint> result;
-    for (std::size_t j = 0; j < joints.size(); ++j)
-        result.push_back({skeleton.joints[j].name, joints[j].parent, joints[j].centre,
-                          joints[j].boneAxis, joints[j].twistAxis});
     return result;
 }
 

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Ratios.h"
+#include "Shapes.h"
+#include "SharedBody.h"
+
+#include <osgSkin/Error>
+#include <osgSkinBind/BindWeights>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+using namespace osgSkin;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A cylinder over three joints, painted so that each takes over from the one above.
+struct Input {
+    SkinMesh mesh = shapes::cylinder();
+    RestSkeleton skeleton = shapes::chainAlongY({1.0, 4.0, 6.0}, 7.0);
+    VertexWeights weights;
+
+    Input() {
+        for (const glm::dvec3& p : mesh.positions) {
+            const double first = std::clamp((p.y - 3.0) / 2.0, 0.0, 1.0);
+            const double second = std::clamp((p.y - 4.0) / 2.0, 0.0, first);
+            weights.push_back({{0, 1.0 - first}, {2, second}, {1, first - second}});
+        }
+    }
+    Binding bind(BindReport* report = nullptr) const {
+        return bindWeights(mesh, skeleton, weights, {}, report);
+    }
+};
+
+} // namespace
+
+TEST(BindWeights, RatioIsTheShareOfTheSubtree) {
+    const Input input;
+    const Binding binding = input.bind();
+    expectSound(binding);
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const double y = input.mesh.positions[v].y;
+        const double first = std::clamp((y - 3.0) / 2.0, 0.0, 1.0);
+        const double second = std::clamp((y - 4.0) / 2.0, 0.0, first);
+        EXPECT_NEAR(ratiosOf(binding, v, 1).bend, first, 1e-4) << "at " << y;
+        EXPECT_NEAR(ratiosOf(binding, v, 2).bend, second, 1e-4) << "at " << y;
+        EXPECT_EQ(ratiosOf(binding, v, 1).bend, ratiosOf(binding, v, 1).twist);
+    }
+}
+
+TEST(BindWeights, RegionIsTheHeaviestJoint) {
+    const Input input;
+    BindReport report;
+    const Binding binding = input.bind(&report);
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const double y = input.mesh.positions[v].y;
+        if (y < 3.9) {
+            EXPECT_EQ(binding.regions[v], 0u) << "at " << y;
+        }
+        if (y > 5.2) {
+            EXPECT_EQ(binding.regions[v], 2u) << "at " << y;
+        }
+    }
+    EXPECT_EQ(report.vertices, input.mesh.positions.size());
+    EXPECT_EQ(report.shells, 1u);
+    EXPECT_EQ(report.unassigned, 0u);
+    EXPECT_TRUE(report.notes.empty()) << report.text();
+}
+
+TEST(BindWeights, ScaleOfTheWeightsDoesNotMatter) {
+    Input input;
+    const Binding before = input.bind();
+    for (auto& vertex : input.weights)
+        for (JointWeight& entry : vertex) entry.weight *= 300.0;
+    const Binding after = input.bind();
+    for (std::size_t v = 0; v < before.vertexCount(); ++v)
+        EXPECT_NEAR(ratiosOf(before, v, 1).bend, ratiosOf(after, v, 1).bend, 1e-6);
+}
+
+TEST(BindWeights, CopiesOfAVertexMoveAlike) {
+    Input input;
+    input.mesh = shapes::exploded(input.mesh);
+    input.weights = Input().weights;
+    VertexWeights copies;
+    const SkinMesh whole = shapes::cylinder();
+    for (std::size_t i = 0; i < whole.faceVertices.size(); ++i) {
+        copies.push_back(input.weights[whole.faceVertices[i]]);
+        if (i % 2) copies.back() = {{0, 1.0}}; // somebody painted across the seam
+    }
+    input.weights = copies;
+    const Binding binding = input.bind();
+    for (std::size_t i = 0; i < whole.faceVertices.size(); ++i)
+        for (std::size_t k = 0; k < i; k += 7)
+            if (whole.faceVertices[k] == whole.faceVertices[i]) {
+                ASSERT_EQ(ratiosOf(binding, i, 1).bend, ratiosOf(binding, k, 1).bend);
+            }
+}
+
+TEST(BindWeights, UnpaintedSkinDoesAsTheNearestPainted) {
+    Input input;
+    input.weights[20].clear();
+    input.weights[21] = {{1, 0.0}};
+    BindReport report;
+    expectSound(input.bind(&report));
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_NE(report.notes.front().find("2 vertices"), std::string::npos) << report.notes.front();
+}
+
+TEST(BindWeights, SevenJointsAtAVertexBecomeFour) {
+    const SkinMesh mesh = shapes::cylinder();
+    const RestSkeleton skeleton = shapes::chainAlongY({1, 2, 3, 4, 5, 6, 6.5}, 7.0);
+    VertexWeights weights;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        weights.push_back({{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 3}, {5, 2}, {6, 1}});
+    BindReport report;
+    const Binding binding = bindWeights(mesh, skeleton, weights, {}, &report);
+    expectSound(binding);
+    EXPECT_EQ(report.cappedVertices, mesh.positions.size());
+    EXPECT_EQ(partialJoints(binding, 0), 4u);
+    EXPECT_EQ(ratiosOf(binding, 0, 1).bend, 1.0f); // 15/16, the least partial, goes to 1
+    EXPECT_EQ(ratiosOf(binding, 0, 6).bend, 0.0f); // and 1/16 to 0
+}
+
+namespace {
+
+struct BadWeights {
+    const char* name;
+    std::function<void(Input&)> spoil;
+    const char* message;
+};
+
+const BadWeights kBad[] = {
+    {"TooFewLists", [](Input& i) { i.weights.pop_back(); }, "expected one list for each"},
+    {"NoLists", [](Input& i) { i.weights.clear(); }, "expected one list for each"},
+    {"UnknownJoint",
+     [](Input& i) {
+         i.weights[5] = {{3, 1.0}};
+     },
+     "vertex 5: joint 3"},
+    {"Negative",
+     [](Input& i) {
+         i.weights[6] = {{1, -0.1}};
+     },
+     "vertex 6"},
+    {"NotANumber",
+     [](Input& i) {
+         i.weights[7] = {{1, kNaN}};
+     },
+     "vertex 7"},
+    {"AllZero",
+     [](Input& i) {
+         i.weights.assign(i.weights.size(), {{1, 0.0}});
+     },
+     "no vertex has"},
+    {"NoFace", [](Input& i) { i.mesh.faceSizes.clear(), i.mesh.faceVertices.clear(); }, "no face"},
+    {"NoJoint", [](Input& i) { i.skeleton.joints.clear(); }, "no joint"},
+};
+
+class BindWeightsError : public testing::TestWithParam<BadWeights> {};
+
+} // namespace
+
+TEST_P(BindWeightsError, SaysWhatIsWrong) {
+    Input input;
+    GetParam().spoil(input);
+    try {
+        input.bind();
+        FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(GetParam().message), std::string::npos)
+            << error.what();
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, BindWeightsError, testing::ValuesIn(kBad),
+                         [](const auto& c) { return std::string(c.param.name); });
+
+TEST(BindWeights, RatiosOfABodyAgreeWithItsPaint) {
+    const auto folder = shared::makehuman();
+    const auto rig = folder / "rig" / "joints_cmu_mb_neutral.json";
+    const auto paint = folder / "weights" / "body4k_weights_cmu_mb.json";
+    if (!std::filesystem::exists(rig)) GTEST_SKIP() << "needs " << rig;
+    const SkinMesh mesh = shared::readObj(folder / "body" / "body4k_neutral.obj");
+    const RestSkeleton skeleton = shared::readJoints(rig);
+    const auto painted = shared::readWeights(paint, skeleton, mesh.positions.size());
+    VertexWeights weights(painted.size());
+    for (std::size_t v = 0; v < painted.size(); ++v)
+        for (std::uint32_t j = 0; j < painted[v].size(); ++j)
+            if (painted[v][j] > 0.0) weights[v].push_back({j, painted[v][j]});
+    BindReport report;
+    const Binding binding = bindWeights(mesh, skeleton, weights, {}, &report);
+    expectSound(binding);
+    std::size_t capped = 0;
+    for (std::size_t v = 0; v < painted.size(); ++v) {
+        double all = 0.0, worst = 0.0;
+        for (const double weight : painted[v]) all += weight;
+        for (std::size_t j = 0; j < painted[v].size(); ++j) {
+            double sum = 0.0;
+            for (std::size_t k = j; k < painted[v].size(); ++k)
+                if (skeleton.isInSubtree(static_cast<int>(k), static_cast<int>(j)))
+                    sum += painted[v][k];
+            worst = std::max(worst, std::abs(sum / all - double(ratiosOf(binding, v, j).bend)));
+        }
+        if (worst > 2e-4) ++capped; // only where there were more than 4 partial joints
+    }
+    EXPECT_LE(capped, report.cappedVertices);
+    EXPECT_LT(static_cast<double>(capped), 0.08 * static_cast<double>(painted.size()));
+}
