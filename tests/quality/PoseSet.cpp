@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "PoseSet.h"
+
+#include <osgSkin/BoneReader>
+#include <osgSkinImport/Motion>
+#include <osgSkinImport/Retarget>
+
+namespace quality {
+namespace {
+
+/// Samples first, first + step, ... below `end`, counted as the file does: its calibration pose,
+/// where it has one, is frame 0.
+struct Clip {
+    const char* name;
+    const char* file;
+    std::size_t first, end, step;
+};
+
+constexpr Clip kClips[] = {{"12_01", "12_01_walk_pybvh.bvh", 10, 519, 60},
+                           {"124_01", "124_01_pitch_excerpt_120hz.bvh", 1, 28, 3},
+                           {"01_03", "01_03.bvh", 400, 4399, 400},
+                           {"01_01", "01_01.bvh", 300, 2699, 300}};
+
+} // namespace
+
+std::vector<NamedPose> standardPoses(const std::string& folder, const Subject& subject) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(subject.rig);
+    osgSkin::BoneReader bones(subject.binding.joints, *skeleton);
+    std::vector<NamedPose> poses;
+    for (const Clip& entry : kClips) {
+        const osgSkin::Clip clip =
+            osgSkin::retarget(osgSkin::importMotion(folder + "/" + entry.file), subject.rig);
+        for (std::size_t frame = entry.first; frame < entry.end; frame += entry.step) {
+            osgSkin::applyFrame(clip, subject.rig, frame, *skeleton);
+            poses.push_back({entry.name + (":" + std::to_string(frame)), bones.read()});
+        }
+    }
+    return poses;
+}
+
+} // namespace quality

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <SkinMeasures.h>
+#include <SkinWeights.h>
+#include <osgSkin/Binding>
+#include <osgSkin/RestSkeleton>
+#include <osgSkin/SkinMesh>
+#include <osgSkin/SkinModel>
+#include <osgSkinBind/BindReport>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quality {
+
+struct SubjectFiles {
+    std::string body, rig, weights;
+    bool bindByWeights = false; ///< our ratios from the painted weights, not from regions
+};
+
+/// A body to measure: bound by us, and with its painted weights for the peers.
+struct Subject {
+    std::string name;
+    osgSkin::SkinMesh mesh;
+    osgSkin::RestSkeleton rig;
+    osgSkin::Binding binding;
+    osgSkin::BindReport report;
+    compare::SkinWeights weights; ///< over the rig's joints
+
+    compare::Points rest;
+    /// The skin that is measured: corners name the first of the vertices that share a position.
+    std::vector<std::uint32_t> triangles;
+    std::vector<compare::Edge> edges;
+    std::shared_ptr<const osgSkin::SkinModel> model; ///< one vertex for each of the mesh
+
+    /// Index of the joint of that name in any of the usual rigs ("LeftForeArm" is "lowerarm_l"
+    /// elsewhere), -1 where there is none.
+    int joint(const std::string& name) const;
+
+    /// The joint of the largest painted weight.
+    std::uint32_t dominantJoint(std::size_t vertex) const;
+};
+
+/// \throw osgSkin::Error where a file cannot be read or does not fit the others
+Subject loadSubject(const SubjectFiles& files);
+
+/// The model of a binding's own vertices, with normals that mean nothing.
+std::shared_ptr<const osgSkin::SkinModel> modelOf(const osgSkin::Binding& binding,
+                                                  const compare::Points& rest);
+
+} // namespace quality
