@@ -88,8 +88,9 @@ JointBindOptions readJoint(const JsonReader& reader) {
 void readMethod(const JsonReader& root, const std::string& folder, SkinFile& skin) {
     const auto method = root.find("bind");
     const std::string name = method ? method->string() : "smooth";
-    if (name != "smooth" && name != "weights")
-        method->complain("expected \"smooth\" or \"weights\", found \"" + name + "\"");
+    if (name != "smooth" && name != "paper" && name != "weights")
+        method->complain("expected \"smooth\", \"paper\" or \"weights\", found \"" + name + "\"");
+    if (name == "paper") skin.bind.method = BindOptions::Method::Paper;
     const auto weights = root.find("weights");
     if (name == "weights")
         skin.weights = path(root.require("weights", "the name of a file of weights"), folder);

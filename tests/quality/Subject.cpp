@@ -50,9 +50,11 @@ Subject loadSubject(const SubjectFiles& files) {
     const osgSkin::VertexWeights painted =
         osgSkin::readWeights(files.weights, subject.rig, mesh.positions.size());
     subject.weights = normalised(painted);
+    osgSkin::BindOptions options;
+    if (files.bindAsPrinted) options.method = osgSkin::BindOptions::Method::Paper;
     subject.binding = files.bindByWeights
                           ? osgSkin::bindWeights(mesh, subject.rig, painted, {}, &subject.report)
-                          : osgSkin::bind(mesh, subject.rig, {}, &subject.report);
+                          : osgSkin::bind(mesh, subject.rig, options, &subject.report);
     subject.rest = mesh.positions;
     subject.model = modelOf(subject.binding, subject.rest);
 

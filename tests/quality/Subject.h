@@ -18,6 +18,7 @@ namespace quality {
 struct SubjectFiles {
     std::string body, rig, weights;
     bool bindByWeights = false; ///< our ratios from the painted weights, not from regions
+    bool bindAsPrinted = false; ///< between boundary planes
 };
 
 /// A body to measure: bound by us, and with its painted weights for the peers.

@@ -31,7 +31,7 @@ void define(CLI::App& app, Options& options) {
     weights->needs(body);
     app.add_option("--motions", options.motions, "the folder of the CMU motions");
     app.add_option("--bind", options.method, "how our ratios are found")
-        ->check(CLI::IsMember({"smooth", "weights"}))
+        ->check(CLI::IsMember({"smooth", "paper", "weights"}))
         ->capture_default_str();
     app.add_option("--json", options.json, "a file to write the figures to");
     app.add_flag("--no-sweeps", options.noSweeps, "leave out the sweeps, which take longest");
@@ -50,6 +50,7 @@ std::vector<SubjectFiles> subjects(const Options& options) {
 
 Report measure(SubjectFiles files, const Options& options) {
     files.bindByWeights = options.method == "weights";
+    files.bindAsPrinted = options.method == "paper";
     const Subject subject = loadSubject(files);
     const std::vector<NamedPose> poses = standardPoses(options.motions, subject);
     Report report;

@@ -7,6 +7,7 @@
 #include "LimbRadius.h"
 #include "NearestPoint.h"
 #include "PackInfluences.h"
+#include "PaperFields.h"
 #include "RatioFields.h"
 #include "Regions.h"
 #include "WeldedMesh.h"
@@ -67,8 +68,15 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     // Section 3: what share of each joint's turn each vertex takes.
     const HardField hard{skin, joints, regions.jointOf};
     const std::vector<double> radii = limbRadii(hard);
-    const JointFields bend = bendFields(hard, radii, options);
-    const JointFields twist = twistFields(skin, joints, radii, bend);
+    JointFields bend, twist;
+    if (options.method == BindOptions::Method::Paper) {
+        PaperFields printed(hard, radii);
+        bend.swap(printed.bend);
+        twist.swap(printed.twist);
+    } else {
+        bend = bendFields(hard, radii, options);
+        twist = twistFields(skin, joints, radii, bend);
+    }
 
     const std::vector<std::uint32_t> shown = representatives(skin);
     Binding binding;

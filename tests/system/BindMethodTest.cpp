@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What a .skin file may ask for beside the default way to find ratios.
+#include "Character.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+using osgSkin::Character;
+
+namespace {
+
+/// Compares the bend ratios of the joint "arm" with what its file makes of a vertex's height.
+void expectBend(const Character& character, const std::function<double(double)>& expected) {
+    const osgSkin::Binding& binding = character.binding;
+    ASSERT_EQ(binding.vertexCount(), character.body.mesh.positions.size());
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const double height = character.body.mesh.positions[v].y;
+        float arm = 0.0f;
+        for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i)
+            if (binding.influences[i].joint == 1) arm = binding.influences[i].bend;
+        EXPECT_NEAR(arm, static_cast<float>(expected(height)), 1e-4f)
+            << "vertex " << v << " at " << height;
+    }
+}
+
+} // namespace
+
+TEST(BindMethod, WeightsGivesTheRatiosOfTheFile) {
+    expectBend(Character::load(OSGSKIN_TEST_DATA "/character/painted.skin"),
+               [](double height) { return std::clamp(height - 1.5, 0.0, 1.0); });
+}
+
+TEST(BindMethod, WeightsAreReported) {
+    const Character character = Character::load(OSGSKIN_TEST_DATA "/character/painted.skin");
+    EXPECT_EQ(character.report.vertices, 56u);
+    EXPECT_EQ(character.report.regions.size(), 2u);
+    EXPECT_TRUE(character.report.notes.empty()) << character.report.text();
+}
+
+TEST(BindMethod, PaperGivesEquation5BetweenTheFilesBoundaries) {
+    expectBend(Character::load(OSGSKIN_TEST_DATA "/character/printed.skin"), [](double height) {
+        const double t = std::clamp((height - 1.0) / 2.0, 0.0, 1.0);
+        return t * t * (3.0 - 2.0 * t);
+    });
+}
