@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ClipChannels.h"
 
+#include <osgSkin/GlmOsg>
 #include <osgSkinImport/Prop>
 
 #include <osgAnimation/StackedQuaternionElement>
@@ -42,6 +43,9 @@ osg::ref_ptr<osg::MatrixTransform> makeProp(const std::string& name,
     for (const MeshPart& part : parts) node->addChild(part.geometry);
 
     const Clip clip = makeWay(way, report);
+    if (clip.frames > 0) // where it is before the first update
+        node->setMatrix(osg::Matrix::rotate(toOsg(clip.rotations[0])) *
+                        osg::Matrix::translate(toOsg(clip.rootPositions[0])));
     for (const auto& channel : {rootChannel(clip), rotationChannel(clip, 0)}) {
         channel->setTargetName(name);
         animation.addChannel(channel);

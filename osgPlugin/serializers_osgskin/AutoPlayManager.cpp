@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// A callback's bases are virtual: the wrapper's default cast does not compile for it.
+#undef OBJECT_CAST
+#define OBJECT_CAST dynamic_cast
+
+#include <osgSkin/AutoPlayManager>
+
+#include <osgDB/InputStream>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/OutputStream>
+
+REGISTER_OBJECT_WRAPPER(osgSkin_AutoPlayManager, new osgSkin::AutoPlayManager,
+                        osgSkin::AutoPlayManager,
+                        "osg::Object osg::Callback osg::NodeCallback "
+                        "osgAnimation::AnimationManagerBase osgAnimation::BasicAnimationManager "
+                        "osgSkin::AutoPlayManager") {}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// For programs that link the wrappers statically: USE_SERIALIZER_WRAPPER_LIBRARY(osgSkin).
+#include <osgDB/Registry>
+
+USE_SERIALIZER_WRAPPER(osgSkin_AutoPlayManager)
+USE_SERIALIZER_WRAPPER(osgSkin_DeformableSkin)
+USE_SERIALIZER_WRAPPER(osgSkin_RigidPart)
+USE_SERIALIZER_WRAPPER(osgSkin_SharedSkinModel)
+USE_SERIALIZER_WRAPPER(osgSkin_UpdateDeformableSkin)
+
+extern "C" void wrapper_serializer_library_osgSkin(void) {}

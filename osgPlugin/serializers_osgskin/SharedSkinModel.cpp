@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/SharedSkinModel>
+#include <osgSkin/SkinModelBlock>
+
+#include <osgDB/InputStream>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/OutputStream>
+
+#include <algorithm>
+#include <exception>
+
+namespace {
+
+// Words come in rows of at most this many, each after its length; a row of none ends the block. A
+// length for the whole would be one that a bad file could make us believe.
+constexpr unsigned int kRow = 16;
+
+bool checkModel(const osgSkin::SharedSkinModel& shared) {
+    return shared.getModel() != nullptr;
+}
+
+bool writeModel(osgDB::OutputStream& os, const osgSkin::SharedSkinModel& shared) {
+    const std::vector<std::uint32_t> words = osgSkin::packSkinModel(*shared.getModel());
+    os << os.BEGIN_BRACKET << std::endl;
+    for (std::size_t first = 0; first < words.size(); first += kRow) {
+        const std::size_t end = std::min(words.size(), first + kRow);
+        os << static_cast<unsigned int>(end - first);
+        for (std::size_t i = first; i < end; ++i) os << static_cast<unsigned int>(words[i]);
+        os << std::endl;
+    }
+    os << 0u << std::endl << os.END_BRACKET << std::endl;
+    return true;
+}
+
+bool readWords(osgDB::InputStream& is, std::vector<std::uint32_t>& words) {
+    for (;;) {
+        unsigned int length = 0;
+        is >> length;
+        if (is.getException()) return false;
+        if (length == 0) return true;
+        if (length > kRow) {
+            is.throwException("osgSkin: a skin model's block has a row of " +
+                              std::to_string(length) + " words, expected at most " +
+                              std::to_string(kRow));
+            return false;
+        }
+        for (unsigned int i = 0; i < length; ++i) {
+            unsigned int word = 0;
+            is >> word;
+            words.push_back(word);
+        }
+    }
+}
+
+bool readModel(osgDB::InputStream& is, osgSkin::SharedSkinModel& shared) {
+    is >> is.BEGIN_BRACKET;
+    std::vector<std::uint32_t> words;
+    if (!readWords(is, words)) return false;
+    is >> is.END_BRACKET;
+    try {
+        shared.setModel(osgSkin::unpackSkinModel(words));
+    } catch (const std::exception& error) {
+        // Refuses the whole file; osgDB prints the reason.
+        is.throwException(std::string("osgSkin: ") + error.what());
+        return false;
+    }
+    return true;
+}
+
+} // namespace
+
+REGISTER_OBJECT_WRAPPER(osgSkin_SharedSkinModel, new osgSkin::SharedSkinModel,
+                        osgSkin::SharedSkinModel, "osg::Object osgSkin::SharedSkinModel") {
+    ADD_USER_SERIALIZER(Model);
+}

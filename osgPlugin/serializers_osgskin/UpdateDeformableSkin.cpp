@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A callback's bases are virtual: the wrapper's default cast does not compile for it.
+#undef OBJECT_CAST
+#define OBJECT_CAST dynamic_cast
+
+#include <osgSkin/UpdateDeformableSkin>
+
+#include <osgDB/InputStream>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/OutputStream>
+
+// Nothing of its own: the bones are found again by their names.
+REGISTER_OBJECT_WRAPPER(osgSkin_UpdateDeformableSkin, new osgSkin::UpdateDeformableSkin,
+                        osgSkin::UpdateDeformableSkin,
+                        "osg::Object osg::Callback osgSkin::UpdateDeformableSkin") {}

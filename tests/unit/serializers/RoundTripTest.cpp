@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// A scene saved and read again, field by field. osgDB says nothing where a wrapper is missing: only
+// what comes back counts.
+#include "SavedScene.h"
+
+#include <osgSkin/AutoPlayManager>
+#include <osgSkin/RigidPart>
+#include <osgSkin/UpdateDeformableSkin>
+
+#include <osg/Material>
+#include <osg/ValueObject>
+#include <osgAnimation/Bone>
+#include <osgUtil/UpdateVisitor>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using osgSkin::DeformableSkin;
+
+class RoundTrip : public testing::TestWithParam<const char*> {
+protected:
+    void SetUp() override {
+        before = test::makeScene();
+        const std::string file = test::save(*before, GetParam());
+        ASSERT_FALSE(file.empty());
+        after = test::load(file, GetParam());
+        ASSERT_NE(after, nullptr);
+        was = test::skinsOf(*before);
+        is = test::skinsOf(*after);
+        ASSERT_EQ(is.size(), 2u) << "a wrapper is missing";
+    }
+
+    static const osg::Vec3Array& vertices(const osg::Geometry& geometry) {
+        return static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
+    }
+
+    osg::ref_ptr<osg::Node> before, after;
+    std::vector<DeformableSkin*> was, is;
+};
+
+void update(osg::Node& scene, double time) {
+    osgUtil::UpdateVisitor visitor;
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    stamp->setSimulationTime(time);
+    visitor.setFrameStamp(stamp);
+    scene.accept(visitor);
+}
+
+} // namespace
+
+TEST_P(RoundTrip, SkinFields) {
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(is[i]->getName(), was[i]->getName());
+        EXPECT_EQ(is[i]->getEager(), was[i]->getEager());
+        EXPECT_EQ(is[i]->getNodeMask(), was[i]->getNodeMask());
+        EXPECT_EQ(is[i]->getDataVariance(), osg::Object::DYNAMIC);
+        EXPECT_FALSE(is[i]->getUseDisplayList());
+        EXPECT_NE(dynamic_cast<osgSkin::UpdateDeformableSkin*>(is[i]->getUpdateCallback()),
+                  nullptr);
+    }
+    int answer = 0;
+    EXPECT_TRUE(is[0]->getUserValue("answer", answer));
+    EXPECT_EQ(answer, 42);
+    EXPECT_EQ(is[0]->getDescriptions(), was[0]->getDescriptions());
+}
+
+TEST_P(RoundTrip, StateSetsStayWhereTheyWere) {
+    const osg::StateSet* state = is[0]->getStateSet();
+    ASSERT_NE(state, nullptr);
+    EXPECT_EQ(state, is[0]->getRestGeometry()->getStateSet());
+    const auto* material =
+        dynamic_cast<const osg::Material*>(state->getAttribute(osg::StateAttribute::MATERIAL));
+    ASSERT_NE(material, nullptr);
+    EXPECT_EQ(material->getDiffuse(osg::Material::FRONT), osg::Vec4(0.25f, 0.5f, 0.75f, 1));
+    ASSERT_NE(is[1]->getStateSet(), nullptr); // its own, empty one
+    EXPECT_TRUE(is[1]->getStateSet()->getAttributeList().empty());
+}
+
+TEST_P(RoundTrip, RestGeometry) {
+    const osg::Geometry& a = *was[0]->getRestGeometry();
+    const osg::Geometry& b = *is[0]->getRestGeometry();
+    EXPECT_EQ(vertices(b).asVector(), vertices(a).asVector());
+    EXPECT_EQ(static_cast<const osg::Vec3Array&>(*b.getNormalArray()).asVector(),
+              static_cast<const osg::Vec3Array&>(*a.getNormalArray()).asVector());
+    EXPECT_EQ(static_cast<const osg::Vec2Array&>(*b.getTexCoordArray(0)).asVector(),
+              static_cast<const osg::Vec2Array&>(*a.getTexCoordArray(0)).asVector());
+    ASSERT_EQ(b.getNumPrimitiveSets(), 1u);
+    EXPECT_EQ(b.getPrimitiveSet(0)->getNumIndices(), a.getPrimitiveSet(0)->getNumIndices());
+}
+
+TEST_P(RoundTrip, CopiesShareTheModelAgain) {
+    ASSERT_NE(is[0]->getModel(), nullptr);
+    EXPECT_EQ(is[0]->getModel(), is[1]->getModel());
+    EXPECT_EQ(is[0]->getRestGeometry(), is[1]->getRestGeometry());
+}
+
+TEST_P(RoundTrip, SavedPose) {
+    const osg::Vec3Array& a = vertices(*was[0]->getDeformedGeometry());
+    const osg::Vec3Array& b = vertices(*is[0]->getDeformedGeometry());
+    for (std::size_t v = 0; v < a.size(); ++v) ASSERT_LE((a[v] - b[v]).length(), 1e-5f);
+}
+
+TEST_P(RoundTrip, DeformedVerticesToTheBit) {
+    for (const auto& pose : test::somePoses(*was[0]))
+        EXPECT_EQ(test::posed(*is[0], pose), test::posed(*was[0], pose));
+}
+
+TEST_P(RoundTrip, RigidPart) {
+    const auto rigidOf = [](osg::Node& scene) {
+        osg::Group* node = scene.asGroup()->getChild(0)->asGroup();
+        while (node && !dynamic_cast<osgSkin::RigidPart*>(node))
+            node = node->getNumChildren() ? node->getChild(0)->asGroup() : nullptr;
+        return dynamic_cast<osgSkin::RigidPart*>(node);
+    };
+    ASSERT_NE(rigidOf(*after), nullptr);
+    EXPECT_EQ(rigidOf(*after)->getMatrix(), rigidOf(*before)->getMatrix());
+    EXPECT_EQ(rigidOf(*after)->getName(), "end");
+    EXPECT_EQ(rigidOf(*after)->getDataVariance(), osg::Object::DYNAMIC);
+    EXPECT_EQ(rigidOf(*after)->getNumChildren(), 1u);
+}
+
+TEST_P(RoundTrip, PlaysByItself) {
+    ASSERT_NE(dynamic_cast<osgSkin::AutoPlayManager*>(after->getUpdateCallback()), nullptr);
+    std::vector<osg::Vec3> first;
+    for (const double time : {0.0, 0.25, 0.5, 0.75}) {
+        update(*before, time);
+        update(*after, time);
+        const auto a = vertices(*was[0]->getDeformedGeometry()).asVector();
+        EXPECT_EQ(a, vertices(*is[0]->getDeformedGeometry()).asVector()) << time;
+        if (time == 0.0) first = a;
+    }
+    EXPECT_NE(first, vertices(*is[0]->getDeformedGeometry()).asVector());
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip, testing::Values("osgt", "osgb", "osgx"),
+                         [](const auto& format) { return std::string(format.param); });

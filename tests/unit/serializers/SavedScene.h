@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgSkin/DeformableSkin>
+
+#include <osg/Group>
+#include <osg/ref_ptr>
+
+#include <glm/mat4x4.hpp>
+
+#include <string>
+#include <vector>
+
+namespace test {
+
+/// A tube's skin and a copy of it under a skeleton of three bones, a rigid part on the last bone,
+/// an animation of the middle one, and a value other than the default in each field that is saved.
+osg::ref_ptr<osg::Group> makeScene();
+
+/// All skins below `root`.
+std::vector<osgSkin::DeformableSkin*> skinsOf(osg::Node& root);
+
+/// Writes in the format of this extension, to memory. Text has all digits of a number.
+std::string save(const osg::Node& scene, const std::string& extension);
+
+/// Reads what save() wrote; null where osgDB refuses it, for the reason that it would print.
+osg::ref_ptr<osg::Node> load(const std::string& file, const std::string& extension,
+                             std::string* reason = nullptr);
+
+/// Skinning matrices of a few poses of the tube, all joints turned.
+std::vector<std::vector<glm::dmat4>> somePoses(const osgSkin::DeformableSkin& skin);
+
+/// The vertices, then the normals, of the skin in this pose.
+std::vector<osg::Vec3> posed(osgSkin::DeformableSkin& skin, const std::vector<glm::dmat4>& pose);
+
+} // namespace test

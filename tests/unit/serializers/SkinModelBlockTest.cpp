@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "Tube.h"
+
+#include <osgSkin/SkinModelBlock>
+
+#include <gtest/gtest.h>
+
+using osgSkin::SkinModel;
+
+namespace {
+
+void expectEqual(const SkinModel& a, const SkinModel& b) {
+    ASSERT_EQ(a.joints().size(), b.joints().size());
+    for (std::size_t j = 0; j < a.joints().size(); ++j) {
+        EXPECT_EQ(a.joints()[j].name, b.joints()[j].name);
+        EXPECT_EQ(a.joints()[j].parent, b.joints()[j].parent);
+        EXPECT_EQ(a.joints()[j].centre, b.joints()[j].centre);
+        EXPECT_EQ(a.joints()[j].boneAxis, b.joints()[j].boneAxis);
+        EXPECT_EQ(a.joints()[j].twistAxis, b.joints()[j].twistAxis);
+    }
+    EXPECT_EQ(a.positions(), b.positions());
+    EXPECT_EQ(a.normals(), b.normals());
+    EXPECT_EQ(a.order(), b.order());
+    ASSERT_EQ(a.ratios().size(), b.ratios().size());
+    for (std::size_t i = 0; i < a.ratios().size(); ++i) {
+        EXPECT_EQ(a.ratios()[i].bend, b.ratios()[i].bend);
+        EXPECT_EQ(a.ratios()[i].twist, b.ratios()[i].twist);
+    }
+    ASSERT_EQ(a.links().size(), b.links().size());
+    for (std::size_t i = 0; i < a.links().size(); ++i) {
+        EXPECT_EQ(a.links()[i].joint, b.links()[i].joint);
+        EXPECT_EQ(a.links()[i].partial, b.links()[i].partial);
+    }
+}
+
+} // namespace
+
+TEST(SkinModelBlock, ModelComesBackExactly) {
+    test::Tube tube;
+    tube.binding.joints[1].centre.x = 0.1; // no float
+    tube.binding.joints[1].name = "a name, 17 bytes";
+    tube.binding.joints[2].name = "";
+    const auto model = tube.model();
+    expectEqual(*osgSkin::unpackSkinModel(osgSkin::packSkinModel(*model)), *model);
+}
+
+TEST(SkinModelBlock, BindingComesBackExactly) {
+    const test::Tube tube;
+    const osgSkin::Binding binding = osgSkin::bindingOf(*tube.model());
+    EXPECT_NO_THROW(binding.validate());
+    EXPECT_EQ(binding.firstInfluence, tube.binding.firstInfluence);
+    ASSERT_EQ(binding.influences.size(), tube.binding.influences.size());
+    for (std::size_t i = 0; i < binding.influences.size(); ++i) {
+        EXPECT_EQ(binding.influences[i].joint, tube.binding.influences[i].joint);
+        EXPECT_EQ(binding.influences[i].bend, tube.binding.influences[i].bend);
+        EXPECT_EQ(binding.influences[i].twist, tube.binding.influences[i].twist);
+    }
+}
+
+TEST(SkinModelBlock, StartsWithItsVersion) {
+    EXPECT_EQ(osgSkin::packSkinModel(*test::Tube().model()).front(),
+              osgSkin::kSkinModelBlockVersion);
+}
