@@ -26,12 +26,12 @@ struct Files {
 
 Files files() {
     const std::string shared = OSGSKIN_SHARED_DATA;
-    const Files body4k{"body4k_neutral",
-                       shared + "/makehuman/body/body4k_neutral.obj",
-                       shared + "/makehuman/rig/cmu_mb_neutral.bvh",
-                       shared + "/cmu/mb/12_01_walk_pybvh.bvh",
-                       shared + "/makehuman/weights/body4k_weights_cmu_mb.json",
-                       1};
+    Files body4k{"body4k_neutral",
+                 shared + "/makehuman/body/body4k_neutral.obj",
+                 shared + "/makehuman/rig/cmu_mb_neutral.bvh",
+                 shared + "/cmu/mb/12_01_walk_pybvh.bvh",
+                 shared + "/makehuman/weights/body4k_weights_cmu_mb.json",
+                 1};
     if (std::filesystem::exists(body4k.mesh)) return body4k;
     const std::string own = OSGSKIN_DATA;
     return {"thrower", own + "/thrower.obj", own + "/thrower.bvh", own + "/throw.bvh", "", 0};

@@ -43,7 +43,7 @@ bool isAvailable(const CharacterCase& c, std::string& why) {
 
 std::string skinFile(const CharacterCase& c, const std::string& folder) {
     if (!c.mesh) return OSGSKIN_DATA "/thrower.skin";
-    const std::string file = folder + "/character.skin";
+    std::string file = folder + "/character.skin";
     std::ofstream(file) << "{ \"osgskin\": 1, \"mesh\": \"" << shared(c.mesh)
                         << "\", \"skeleton\": \"" << shared(c.skeleton)
                         << "\", \"motions\": [ { \"file\": \"" << shared(c.motion)

@@ -25,11 +25,11 @@ TEST(PoseBounds, ContainEveryVertexAndStayClose) {
     for (int i = 0; i < 300; ++i) {
         // Every other pose is of an animal's joints (90 degrees at most), the others are any.
         const bool natural = i % 2 == 0;
-        std::vector<glm::dquat> turns;
-        for (int joint = 0; joint < 3; ++joint)
-            turns.push_back(natural ? glm::angleAxis(0.5 * glm::pi<double>() * (i % 10) / 8.0,
-                                                     test::randomUnit(random))
-                                    : test::randomRotation(random));
+        std::vector<glm::dquat> turns(3);
+        for (glm::dquat& turn : turns)
+            turn = natural ? glm::angleAxis(0.5 * glm::pi<double>() * (i % 10) / 8.0,
+                                            test::randomUnit(random))
+                           : test::randomRotation(random);
         const auto skinning = test::skinningFrom(model->joints(), turns, glm::dvec3(i, 2 * i, -i));
         ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
         ASSERT_TRUE(job.run());
