@@ -6,13 +6,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <typename Figure>
-Json perMethod(const Figure& figure) {
-    Json json;
-    for (const Method method : kMethods) json[nameOf(method)] = figure(method);
-    return json;
-}
-
 Json posesJson(const std::vector<PoseFigure>& poses) {
     Json json = Json::array();
     for (const PoseFigure& pose : poses)
@@ -62,11 +55,7 @@ Json sweepJson(const PerMethod<Sweep>& sweep) {
 
 Json barsJson(const Report& report) {
     Json json = Json::array();
-    for (const Bar& bar : bars(report))
-        json.push_back({{"name", bar.name},
-                        {"value", bar.value},
-                        {bar.atMost ? "atMost" : "atLeast", bar.limit},
-                        {"passed", bar.passed()}});
+    for (const Bar& bar : bars(report)) json.push_back(toJson(bar));
     return json;
 }
 

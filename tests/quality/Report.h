@@ -3,6 +3,7 @@
 
 #include "BindFigures.h"
 #include "Continuity.h"
+#include "Format.h"
 #include "PoseFigures.h"
 #include "Rigidity.h"
 #include "WristTwist.h"
@@ -23,15 +24,6 @@ struct Report {
     std::vector<WristTwist> wrist;
     std::optional<Continuity> continuity; ///< takes longest; may be left out
     BindFigures binding;
-};
-
-/// A limit that a figure has to keep.
-struct Bar {
-    std::string name;
-    double value;
-    bool atMost; ///< else at least
-    double limit;
-    bool passed() const { return atMost ? value <= limit : value >= limit; }
 };
 
 /// The limits that hold for every body with default settings.

@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Report.h"
 
-#include <cstdio>
-
 namespace quality {
 namespace {
-
-template <typename... Values>
-std::string format(const char* pattern, Values... values) {
-    char line[200];
-    std::snprintf(line, sizeof line, pattern, values...);
-    return line;
-}
 
 /// A row of the table: a name and a figure for each method.
 template <typename Figure>
@@ -64,8 +55,7 @@ void printTable(const Report& report, std::ostream& out) {
     const std::vector<Bar> all = bars(report);
     for (const Bar& bar : all) {
         if (bar.passed()) ++passed;
-        out << format("  %-28s%10.4f  %s%-8.4g%s\n", bar.name.c_str(), bar.value,
-                      bar.atMost ? "<= " : ">= ", bar.limit, bar.passed() ? "PASS" : "FAIL");
+        out << lineOf(bar);
     }
     out << format("  %zu of %zu bars hold\n\n", passed, all.size());
 }

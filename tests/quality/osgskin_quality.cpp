@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Measures deformed bodies: ours beside linear blending and dual quaternions with painted weights.
+#include "CylinderFigures.h"
 #include "Report.h"
 
 #include <CLI/CLI.hpp>
@@ -22,7 +23,8 @@ struct Options {
 };
 
 void define(CLI::App& app, Options& options) {
-    auto* body = app.add_option("--body", options.files.body, "a body mesh, in place of the two");
+    auto* body = app.add_option("--body", options.files.body,
+                                "a body mesh, in place of the cylinder and the two bodies");
     auto* rig = app.add_option("--rig", options.files.rig, "its skeleton (BVH)");
     auto* weights =
         app.add_option("--weights", options.files.weights, "its painted weights (JSON)");
@@ -41,10 +43,14 @@ std::vector<SubjectFiles> subjects(const Options& options) {
     if (!options.files.body.empty()) return {options.files};
     const std::string makehuman = OSGSKIN_SHARED_DATA "/makehuman/";
     std::vector<SubjectFiles> files;
-    for (const std::string shape : {"neutral", "male"})
-        files.push_back({makehuman + "body/body4k_" + shape + ".obj",
-                         makehuman + "rig/cmu_mb_" + shape + ".bvh",
-                         makehuman + "weights/body4k_weights_cmu_mb.json"});
+    for (const std::string shape : {"neutral", "male"}) {
+        SubjectFiles& entry = files.emplace_back();
+        entry.body = makehuman;
+        entry.body.append("body/body4k_").append(shape).append(".obj");
+        entry.rig = makehuman;
+        entry.rig.append("rig/cmu_mb_").append(shape).append(".bvh");
+        entry.weights = makehuman + "weights/body4k_weights_cmu_mb.json";
+    }
     return files;
 }
 
@@ -70,6 +76,11 @@ Report measure(SubjectFiles files, const Options& options) {
 
 void run(const Options& options) {
     nlohmann::ordered_json json = {{"bind", options.method}, {"bodies", nlohmann::json::array()}};
+    if (options.files.body.empty()) {
+        const std::vector<CylinderPose> cylinder = measureCylinder();
+        printTable(cylinder, std::cout);
+        json["cylinder"] = toJson(cylinder);
+    }
     for (const SubjectFiles& files : subjects(options)) {
         const Report report = measure(files, options);
         printTable(report, std::cout);

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "CylinderFigures.h"
+
+#include <osgSkinBind/Bind>
+
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quality {
+namespace {
+
+constexpr std::uint32_t kSides = 48;
+constexpr std::uint32_t kRings = 65; ///< along y = -4..4, an eighth apart
+
+osgSkin::SkinMesh makeMesh() {
+    osgSkin::SkinMesh mesh;
+    for (std::uint32_t ring = 0; ring < kRings; ++ring)
+        for (std::uint32_t side = 0; side < kSides; ++side) {
+            const double angle = 2.0 * glm::pi<double>() * side / kSides;
+            mesh.positions.emplace_back(std::cos(angle), 0.125 * ring - 4.0, -std::sin(angle));
+        }
+    const auto addFace = [&](const std::vector<std::uint32_t>& corners) {
+        mesh.faceSizes.push_back(static_cast<std::uint32_t>(corners.size()));
+        mesh.faceVertices.insert(mesh.faceVertices.end(), corners.begin(), corners.end());
+    };
+    const auto at = [](std::uint32_t ring, std::uint32_t side) {
+        return ring * kSides + side % kSides;
+    };
+    for (std::uint32_t ring = 0; ring + 1 < kRings; ++ring)
+        for (std::uint32_t side = 0; side < kSides; ++side)
+            addFace(
+                {at(ring, side), at(ring, side + 1), at(ring + 1, side + 1), at(ring + 1, side)});
+    const auto last = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.emplace_back(0.0, -4.0, 0.0);
+    mesh.positions.emplace_back(0.0, 4.0, 0.0);
+    for (std::uint32_t side = 0; side < kSides; ++side) {
+        addFace({last, at(0, side + 1), at(0, side)});
+        addFace({last + 1, at(kRings - 1, side), at(kRings - 1, side + 1)});
+    }
+    return mesh;
+}
+
+Subject makeCylinder() {
+    Subject cylinder;
+    cylinder.name = "cylinder";
+    cylinder.mesh = makeMesh();
+    cylinder.rig.joints = {{"lower", -1, {0, -4, 0}, {}}, {"upper", 0, {0, 0, 0}, {}}};
+    cylinder.rig.joints.back().tip = glm::dvec3(0, 4, 0);
+    cylinder.binding = osgSkin::bind(cylinder.mesh, cylinder.rig, {}, &cylinder.report);
+    cylinder.rest = cylinder.mesh.positions;
+    cylinder.model = modelOf(cylinder.binding, cylinder.rest);
+    cylinder.triangles = cylinder.mesh.triangles();
+    cylinder.edges = compare::faceEdges(cylinder.mesh.faceSizes, cylinder.mesh.faceVertices);
+    for (const glm::dvec3& p : cylinder.rest) {
+        const double t = std::clamp(0.5 * (p.y + 1.0), 0.0, 1.0);
+        const double weight = t * t * (3.0 - 2.0 * t); // eq. 5
+        cylinder.weights.add({{0, 1.0 - weight}, {1, weight}});
+    }
+    return cylinder;
+}
+
+double leastRing(const Subject& cylinder, const compare::Points& posed) {
+    double least = 1.0;
+    for (std::uint32_t ring = 0; ring < kRings; ++ring) {
+        std::vector<std::uint32_t> loop;
+        for (std::uint32_t side = 0; side < kSides; ++side) loop.push_back(ring * kSides + side);
+        least = std::min(least,
+                         compare::loopArea(posed, loop) / compare::loopArea(cylinder.rest, loop));
+    }
+    return least;
+}
+
+CylinderPose measure(const Subject& cylinder, double bend, double twist) {
+    CylinderPose pose{bend, twist, {}, {}, {}};
+    const glm::dvec3 axis = bend != 0.0 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const auto skinning = singleTurn(cylinder, 1, axis, glm::radians(bend + twist));
+    for (const Method method : kMethods) {
+        const compare::Points posed = deform(cylinder, method, skinning);
+        pose.strain[method] = compare::edgeStrain(cylinder.rest, posed, cylinder.edges).rms;
+        pose.volume[method] = compare::enclosedVolume(posed, cylinder.triangles) /
+                              compare::enclosedVolume(cylinder.rest, cylinder.triangles);
+        pose.leastArea[method] = leastRing(cylinder, posed);
+    }
+    return pose;
+}
+
+} // namespace
+
+std::vector<CylinderPose> measureCylinder() {
+    const Subject cylinder = makeCylinder();
+    std::vector<CylinderPose> poses;
+    for (int degrees = 30; degrees <= 330; degrees += 30)
+        poses.push_back(measure(cylinder, 0.0, degrees));
+    for (int degrees = 30; degrees <= 150; degrees += 30)
+        poses.push_back(measure(cylinder, degrees, 0.0));
+    return poses;
+}
+
+double leastTwistArea(const std::vector<CylinderPose>& poses) {
+    double least = 1.0;
+    for (const CylinderPose& pose : poses)
+        if (pose.bend == 0.0) least = std::min(least, pose.leastArea[Method::Ours]);
+    return least;
+}
+
+double mostVolumeError(const std::vector<CylinderPose>& poses) {
+    double most = 0.0;
+    for (const CylinderPose& pose : poses)
+        if (pose.bend > 0.0 && pose.bend <= 120.0)
+            most = std::max(most, std::abs(pose.volume[Method::Ours] - 1.0));
+    return most;
+}
+
+} // namespace quality

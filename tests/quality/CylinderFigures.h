@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Methods.h"
+
+#include <nlohmann/json.hpp>
+
+#include <ostream>
+
+namespace quality {
+
+/// One turn of the upper half of a cylinder, radius 1 and length 8, against the lower; degrees.
+struct CylinderPose {
+    double bend = 0.0, twist = 0.0;
+    PerMethod<double> strain;    ///< edge strain RMS
+    PerMethod<double> volume;    ///< V'/V
+    PerMethod<double> leastArea; ///< of its rings, A'/A
+};
+
+/// Twists of 30 to 330 degrees, then bends of 30 to 150. The peers' weights go smoothly over a
+/// radius to either side of the joint.
+std::vector<CylinderPose> measureCylinder();
+
+/// Area kept in every twist, volume kept in bends up to 120 degrees: the figures with limits.
+double leastTwistArea(const std::vector<CylinderPose>& poses);
+double mostVolumeError(const std::vector<CylinderPose>& poses);
+
+void printTable(const std::vector<CylinderPose>& poses, std::ostream& out);
+nlohmann::ordered_json toJson(const std::vector<CylinderPose>& poses);
+
+} // namespace quality
