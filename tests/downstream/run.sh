@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# run.sh BUILD SOURCE FOLDER: installs BUILD, moves the installed tree, and uses it from there: by
+# CMake, by pkg-config, by osgskinbake and as OSG's plug-ins.
+set -euo pipefail
+build=$1 source=$2 folder=$3
+fail() {
+  echo "FAILED: $1"
+  exit 1
+}
+
+rm -rf "$folder"
+mkdir -p "$folder/project"
+cmake --install "$build" --prefix "$folder/first" >"$folder/install.txt"
+mv "$folder/first" "$folder/moved"
+prefix="$folder/moved"
+lib=$(dirname "$(find "$prefix" -name 'libosgSkin.so')")
+unset LD_LIBRARY_PATH
+
+echo "No path of the build or of the first place is left"
+grep -rlE "$build|$source|$folder/first" "$prefix" --include='*.cmake' --include='*.pc' &&
+  fail "a configuration file names a folder that may be gone"
+for file in "$lib"/*.so "$lib"/osgPlugins-*/*.so "$prefix"/bin/*; do
+  readelf -d "$file" | grep -E 'R(UN)?PATH' | grep -v '\[\$ORIGIN' && fail "$file has a fixed path"
+done
+
+echo "A project of ten lines, by find_package"
+sed -n '/\[readme\]/,/\[readme\]/p' "$source/examples/osgskinthrow/ThrowScene.cpp" \
+  >"$folder/project/readme.inc"
+[ -s "$folder/project/readme.inc" ] || fail "the example's [readme] marks are gone"
+cmake -S "$source/tests/downstream" -B "$folder/project" -DCMAKE_PREFIX_PATH="$prefix" \
+  >"$folder/configure.txt"
+cmake --build "$folder/project" >"$folder/build.txt"
+"$folder/project/downstream" "$source/data"
+
+echo "A component that is none is refused"
+sed 's/osgSkinBind osgSkinImport)$/osgSkinNone)/' "$source/tests/downstream/CMakeLists.txt" \
+  >"$folder/CMakeLists.txt"
+cp "$source/tests/downstream/main.cpp" "$folder"
+cmake -S "$folder" -B "$folder/none" -DCMAKE_PREFIX_PATH="$prefix" >"$folder/none.txt" 2>&1 &&
+  fail "find_package accepted osgSkinNone"
+grep -q "osgSkinNone was not built" "$folder/none.txt" || fail "find_package did not say why"
+
+echo "The runtime, by pkg-config"
+cat >"$folder/runtime.cpp" <<'CODE'
+#include <osgSkin/DeformableSkin>
+int main() { return osg::ref_ptr<osgSkin::DeformableSkin>(new osgSkin::DeformableSkin)->getEager(); }
+CODE
+export PKG_CONFIG_PATH="$lib/pkgconfig"
+for kit in osgSkin osgSkinBind osgSkinImport; do pkg-config --print-errors --exists "$kit"; done
+# shellcheck disable=SC2046 # options, one a word
+c++ -std=c++17 "$folder/runtime.cpp" -o "$folder/runtime" \
+  $(pkg-config --cflags --libs osgSkin openscenegraph) -Wl,-rpath,"$lib"
+"$folder/runtime"
+
+echo "The programs and plug-ins"
+"$prefix/bin/osgskinbake" --help >"$folder/help.txt"
+(cd "$folder" && OSG_LIBRARY_PATH="$lib" osgconv "$source/data/thrower.skin" thrower.osgb)
+grep -q osgSkin::DeformableSkin "$folder/thrower.osgb" || fail "the character was not saved"
