@@ -11,6 +11,10 @@ namespace {
 constexpr int kMostSteps = 100;
 constexpr double kTolerance = 1e-14;
 
+/// A point this near to one plane, for its distance to the other, is on it; in a wide wedge the
+/// root grows without limit on the way there.
+constexpr double kNothing = 1e-60;
+
 /// The condition on x, the cotangent of the angle at which the segment meets the upper plane.
 ///
 /// A segment at that angle A has the length a / sin A + b / sin(A + angle), with the distances a
@@ -54,9 +58,9 @@ double root(const Cubic& cubic) {
 } // namespace
 
 double philoShare(double toUpper, double toLower, double angle) {
-    if (!(toUpper > 0.0)) return 0.0;
-    if (!(toLower > 0.0)) return 1.0;
     const double sum = toUpper + toLower;
+    if (!(toUpper > kNothing * sum)) return 0.0;
+    if (!(toLower > kNothing * sum)) return 1.0;
     const double sine = std::sin(angle), cosine = std::cos(angle);
     if (!(sine > 1e-9)) return toUpper / sum;
     const Cubic cubic{toUpper / sum, toLower / sum, sine, cosine};

@@ -106,3 +106,14 @@ TEST_F(Philo, GrowsFromTheUpperPlaneToTheLower) {
         EXPECT_LT(last, 1.0);
     }
 }
+
+TEST_F(Philo, ExtremesStayInRange) {
+    for (const double a : {1e-300, 1e-30, 1e-12, 1.0, 1e12, 1e30})
+        for (const double b : {1e-300, 1e-30, 1e-12, 1.0, 1e12, 1e30})
+            for (const double angle :
+                 {0.0, 1e-15, 1e-8, 1.5707963267948966, 3.1415, 3.14159265, 3.141592653589793}) {
+                const double share = philoShare(a, b, angle);
+                EXPECT_GE(share, 0.0) << a << ' ' << b << ' ' << angle;
+                EXPECT_LE(share, 1.0) << a << ' ' << b << ' ' << angle;
+            }
+}
