@@ -24,7 +24,7 @@ std::size_t vertexCountAt() {
     return 2 + 20 + 1 + 20 + 2 + 20 + 1; // "root", "middle", "end"
 }
 std::size_t influencesAt(const Words& words) {
-    return vertexCountAt() + 1 + 6 * words[vertexCountAt()];
+    return vertexCountAt() + 1 + std::size_t{6} * words[vertexCountAt()];
 }
 
 struct BadBlock {

@@ -36,9 +36,9 @@ osg::ref_ptr<osg::Geometry> makeGeometry(const Tube& tube) {
     geometry->setVertexArray(vertices);
     geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
     geometry->setTexCoordArray(0, texture, osg::Array::BIND_PER_VERTEX);
-    const osg::ref_ptr<osg::DrawElementsUShort> strip = new osg::DrawElementsUShort(GL_POINTS);
-    for (unsigned short v = 0; v < vertices->size(); ++v) strip->push_back(v);
-    geometry->addPrimitiveSet(strip);
+    const osg::ref_ptr<osg::DrawElementsUShort> points = new osg::DrawElementsUShort(GL_POINTS);
+    for (unsigned int v = 0; v < vertices->size(); ++v) points->addElement(v);
+    geometry->addPrimitiveSet(points);
     const osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setDiffuse(osg::Material::FRONT_AND_BACK, {0.25f, 0.5f, 0.75f, 1.0f});
     geometry->getOrCreateStateSet()->setAttribute(material);
