@@ -6,17 +6,16 @@
 namespace osgSkin {
 
 AutoPlayManager::AutoPlayManager(const AutoPlayManager& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop),
-      osgAnimation::BasicAnimationManager(other, copyop) {
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osgAnimation::BasicAnimationManager(
+                                                                    other, copyop) {
     // A copy plays nothing yet, so it starts by itself too.
 }
 
 void AutoPlayManager::update(double time) {
     if (!_started) {
         _started = true;
-        const bool playing =
-            std::any_of(_animationsPlaying.begin(), _animationsPlaying.end(),
-                        [](const auto& layer) { return !layer.second.empty(); });
+        const bool playing = std::any_of(_animationsPlaying.begin(), _animationsPlaying.end(),
+                                         [](const auto& layer) { return !layer.second.empty(); });
         if (!playing && !_animations.empty()) playAnimation(_animations.front());
     }
     osgAnimation::BasicAnimationManager::update(time);

@@ -25,8 +25,8 @@ DeformableSkin::DeformableSkin() {
 }
 
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
-    : osg::Drawable(other, copyop), _rest(other._rest), _shared(other._shared), _model(other._model),
-      _pose(other._pose), _eager(other._eager) {
+    : osg::Drawable(other, copyop), _rest(other._rest), _shared(other._shared),
+      _model(other._model), _pose(other._pose), _eager(other._eager) {
     makeBuffers();
     poseChanged();
 }
