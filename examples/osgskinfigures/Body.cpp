@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "Body.h"
+
+#include "DualQuaternionBlend.h"
+#include "LinearBlend.h"
+#include "WeightsFile.h"
+
+#include <osgSkin/DeformJob>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace figures {
+namespace {
+
+using Share = std::vector<compare::JointWeight>;
+
+void addNormalised(compare::SkinWeights& weights, Share vertex) {
+    double sum = 0.0;
+    for (const compare::JointWeight& share : vertex) sum += share.weight;
+    if (sum <= 0.0)
+        vertex = {{0, 1.0}}; // nobody painted it: the root's
+    else
+        for (compare::JointWeight& share : vertex) share.weight /= sum;
+    weights.add(vertex);
+}
+
+/// What stays at a joint is its bend ratio less those of its children: the weights whose sums over
+/// subtrees are our ratios. Where two branches overlap (crotch), what would be negative is 0.
+compare::SkinWeights weightsOf(const osgSkin::Binding& binding) {
+    compare::SkinWeights weights;
+    std::vector<double> left(binding.joints.size());
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        std::fill(left.begin(), left.end(), 0.0);
+        for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i) {
+            const osgSkin::Influence& influence = binding.influences[i];
+            left[influence.joint] += double(influence.bend);
+            const int parent = binding.joints[influence.joint].parent;
+            if (parent >= 0) left[static_cast<std::size_t>(parent)] -= double(influence.bend);
+        }
+        Share vertex;
+        for (std::uint32_t j = 0; j < left.size(); ++j)
+            if (left[j] > 1e-6) vertex.push_back({j, left[j]});
+        addNormalised(weights, vertex);
+    }
+    return weights;
+}
+
+compare::SkinWeights painted(const std::string& file, const osgSkin::Character& character) {
+    compare::SkinWeights weights;
+    for (const auto& list :
+         osgSkin::readWeights(file, character.rig, character.body.mesh.positions.size())) {
+        Share vertex;
+        for (const osgSkin::JointWeight& entry : list)
+            vertex.push_back({entry.joint, entry.weight});
+        addNormalised(weights, vertex);
+    }
+    return weights;
+}
+
+} // namespace
+
+Body::Body(const std::string& file, const std::string& weights)
+    : character(osgSkin::Character::load(file)), triangles(character.body.mesh.triangles()) {
+    std::vector<std::uint32_t> source(rest().size());
+    std::iota(source.begin(), source.end(), 0u);
+    _model = osgSkin::SkinModel::create(
+        character.binding, std::vector<glm::vec3>(rest().begin(), rest().end()),
+        std::vector<glm::vec3>(rest().size(), glm::vec3(0.0f, 1.0f, 0.0f)), source);
+    _weights = weights.empty() ? weightsOf(character.binding) : painted(weights, character);
+}
+
+std::size_t Body::find(const std::string& name) const {
+    const int index = character.rig.find(name);
+    if (index < 0)
+        throw std::runtime_error(character.file.file + ": expected a joint called \"" + name +
+                                 "\"");
+    return static_cast<std::size_t>(index);
+}
+
+osgSkin::Influence Body::influence(std::size_t vertex, std::size_t joint) const {
+    const osgSkin::Binding& binding = character.binding;
+    for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
+         ++i)
+        if (binding.influences[i].joint == joint) return binding.influences[i];
+    return {};
+}
+
+std::vector<glm::dmat4> Body::turned(std::size_t joint, const glm::dvec3& axis,
+                                     double degrees) const {
+    const glm::dmat4 unit(1.0);
+    const glm::dvec3& centre = character.binding.joints[joint].centre;
+    const glm::dmat4 turn = glm::translate(unit, centre) *
+                            glm::rotate(unit, glm::radians(degrees), axis) *
+                            glm::translate(unit, -centre);
+    std::vector<glm::dmat4> skinning(character.rig.joints.size(), unit);
+    for (std::size_t j = joint; j < skinning.size(); ++j)
+        if (character.rig.isInSubtree(static_cast<int>(j), static_cast<int>(joint)))
+            skinning[j] = turn;
+    return skinning;
+}
+
+std::vector<glm::dvec3> Body::deform(Method method, const std::vector<glm::dmat4>& skinning) const {
+    if (method == Method::Linear) return compare::linearBlend(rest(), _weights, skinning);
+    if (method == Method::DualQuaternion)
+        return compare::dualQuaternionBlend(rest(), _weights, skinning);
+    osgSkin::Pose pose(character.binding.joints);
+    std::vector<glm::vec3> posed(rest().size());
+    osgSkin::DeformJob job;
+    job.model = _model.get();
+    job.pose = &pose;
+    job.positions = posed.data();
+    job.positionCount = posed.size();
+    if (!pose.set(skinning.data(), skinning.size()) || !job.run())
+        throw std::runtime_error("a pose cannot be set");
+    return {posed.begin(), posed.end()};
+}
+
+glm::dvec3 Body::toWorld(const glm::dvec3& v) const {
+    return character.file.zUp ? v : glm::dvec3(v.x, -v.z, v.y);
+}
+
+glm::dvec3 Body::fromWorld(const glm::dvec3& v) const {
+    return character.file.zUp ? v : glm::dvec3(v.x, v.z, -v.y);
+}
+
+} // namespace figures

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Character.h"
+#include "SkinWeights.h"
+
+#include <osgSkin/SkinModel>
+
+#include <glm/mat4x4.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace figures {
+
+enum class Method { Linear, DualQuaternion, Ours };
+
+/// A character with all that the figures ask of it. Points are in rest space.
+class Body {
+public:
+    /// \param weights painted weights (JSON); empty: taken from the ratios, see weightsOf()
+    Body(const std::string& file, const std::string& weights);
+
+    osgSkin::Character character;
+    std::vector<std::uint32_t> triangles;
+
+    const std::vector<glm::dvec3>& rest() const { return character.body.mesh.positions; }
+    const osgSkin::BoundJoint& joint(std::size_t index) const {
+        return character.binding.joints[index];
+    }
+    /// \throw std::runtime_error where the character has no such joint
+    std::size_t find(const std::string& name) const;
+    /// A vertex's share of a joint's turn; zeros where it takes none.
+    osgSkin::Influence influence(std::size_t vertex, std::size_t joint) const;
+
+    /// Joint `joint` turned by `degrees`, with all that hangs on it.
+    std::vector<glm::dmat4> turned(std::size_t joint, const glm::dvec3& axis, double degrees) const;
+    std::vector<glm::dvec3> deform(Method method, const std::vector<glm::dmat4>& skinning) const;
+
+    /// The scene's frame: Z up, the figure facing -Y.
+    glm::dvec3 toWorld(const glm::dvec3& v) const;
+    glm::dvec3 fromWorld(const glm::dvec3& v) const;
+
+private:
+    std::shared_ptr<const osgSkin::SkinModel> _model;
+    compare::SkinWeights _weights;
+};
+
+} // namespace figures

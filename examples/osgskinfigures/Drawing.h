@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Body.h"
+
+#include <osg/Camera>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/Group>
+#include <osg/ref_ptr>
+#include <osgText/Text>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace figures {
+
+const osg::Vec4 kInk(0.93f, 0.94f, 0.95f, 1.0f);
+const osg::Vec4 kSkin(0.86f, 0.72f, 0.62f, 1.0f);
+
+/// A group with a light over the camera's left shoulder.
+osg::ref_ptr<osg::Group> makeLit();
+
+/// The body's skin at `points` (rest space), in the scene's frame, with smooth normals.
+osg::ref_ptr<osg::Geometry> makeSkin(const Body& body, const std::vector<glm::dvec3>& points,
+                                     const std::function<osg::Vec4(std::size_t)>& colour);
+
+/// Unlit points, joined as `mode` says.
+osg::ref_ptr<osg::Geometry> makeLines(const std::vector<osg::Vec3>& points, const osg::Vec4& colour,
+                                      GLenum mode, float width = 2.0f);
+
+osg::ref_ptr<osg::Node> makeBall(const osg::Vec3& centre, float radius, const osg::Vec4& colour);
+osg::ref_ptr<osgText::Text> makeText(const std::string& text, const osg::Vec3& place, float size,
+                                     const osg::Vec4& colour = kInk);
+/// Draws over the scene; its units are the picture's pixels, from the lower left.
+osg::ref_ptr<osg::Camera> makeOverlay(int width, int height);
+/// An overlay with a caption at the lower left.
+osg::ref_ptr<osg::Camera> makeCaption(const std::string& text, int width, int height,
+                                      float size = 20.0f);
+
+osg::Vec3 toScene(const glm::dvec3& v);
+/// 0 blue, 1 red, by way of a light grey.
+osg::Vec4 ratioColour(double ratio);
+
+} // namespace figures

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "Body.h"
+#include "Figures.h"
+
+#include <osgDB/FileUtils>
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+
+namespace {
+
+void writeFigures(figures::Body& body, const std::string& out, bool painted) {
+    if (!osgDB::makeDirectory(out)) throw std::runtime_error(out + ": cannot be made");
+    using figures::writePicture;
+    writePicture(*figures::regionFigure(body), out + "/fig1_regions.png");
+    writePicture(*figures::splitFigure(), out + "/fig2_split.png");
+    writePicture(*figures::ratioFigure(body), out + "/fig3_ratios.png");
+    std::vector<figures::Tile> all;
+    for (const figures::Comparison& row : figures::comparisons(body, painted)) {
+        writePicture(*figures::tiled(row.tiles, 3), out + "/compare_" + row.name + ".png");
+        all.insert(all.end(), row.tiles.begin(), row.tiles.end());
+    }
+    writePicture(*figures::tiled(all, 3), out + "/compare.png");
+    if (body.character.motions.empty())
+        std::cerr << "no motion, so no fig4_throw.png" << std::endl;
+    else
+        writePicture(*figures::throwFigure(body), out + "/fig4_throw.png");
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("The paper's figures, and osgSkin beside linear blending and dual quaternions, "
+                 "as pictures.",
+                 "osgskinfigures");
+    app.footer("Needs an X display; Xvfb will do. Exit status: 0 done, 1 failed, 2 bad usage.");
+    std::string out;
+    std::string file = OSGSKIN_DATA "/thrower.skin";
+    std::string weights;
+    app.add_option("--out", out, "folder for the pictures, made if need be")->required();
+    app.add_option("--weights", weights,
+                   "painted weights (JSON) for the peers; without: from our ratios");
+    app.add_option("CHARACTER", file, "a .skin file with the joint names of the CMU skeletons");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        figures::Body body(file, weights);
+        writeFigures(body, out, !weights.empty());
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "osgskinfigures: " << error.what() << std::endl;
+        return 1;
+    }
+}
