@@ -45,7 +45,7 @@ Tile tile(const Body& body, const Shot& shot, Method method, const std::string& 
         body.deform(method, body.turned(joint, axisOf(body, shot, joint), shot.degrees));
     const osg::ref_ptr<osg::Group> scene = makeLit();
     scene->addChild(makeSkin(body, posed, [](std::size_t) { return kSkin; }));
-    scene->addChild(makeCaption(caption, kSize, kSize, 18.0f));
+    scene->addChild(makeCaption(caption, kSize, kSize, 16.0f));
     glm::dvec3 centre = body.joint(joint).centre;
     if (shot.twist) // the twist is along the forearm
         centre = glm::mix(centre, body.joint(std::size_t(body.joint(joint).parent)).centre, 0.4);
@@ -58,7 +58,7 @@ Tile tile(const Body& body, const Shot& shot, Method method, const std::string& 
 } // namespace
 
 std::vector<Comparison> comparisons(const Body& body, bool painted) {
-    const std::string note = painted ? "painted weights" : "weights from our ratios";
+    const std::string note = painted ? "painted" : "our ratios";
     std::vector<Comparison> result;
     for (const Shot& shot : kShots) {
         const std::string what = std::string(shot.name) + (shot.twist ? ", twisted " : ", bent ") +
