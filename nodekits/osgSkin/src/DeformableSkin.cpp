@@ -69,7 +69,7 @@ void DeformableSkin::makeBuffers() {
         buffer->setUseDisplayList(false);
         buffer->setUseVertexBufferObjects(true);
         // Each buffer streams from memory of its own: a draw thread may still read the other one.
-        const auto stream = [this](const osg::Array* source) {
+        const auto stream = [](const osg::Array* source) {
             const osg::ref_ptr<osg::Vec3Array> array =
                 new osg::Vec3Array(*static_cast<const osg::Vec3Array*>(source));
             array->setBinding(osg::Array::BIND_PER_VERTEX);

@@ -72,11 +72,11 @@ TEST(Allocation, NoneInAThousandFrames) {
     job.normals = normals.data();
     job.positionCount = job.normalCount = positions.size();
     std::mt19937_64 random(3);
-    std::vector<std::vector<glm::dmat4>> frames;
-    for (int frame = 0; frame < 20; ++frame)
-        frames.push_back(test::skinningFrom(model->joints(), {test::randomRotation(random),
-                                                              test::randomRotation(random),
-                                                              test::randomRotation(random)}));
+    std::vector<std::vector<glm::dmat4>> frames(20);
+    for (std::vector<glm::dmat4>& frame : frames)
+        frame = test::skinningFrom(model->joints(),
+                                   {test::randomRotation(random), test::randomRotation(random),
+                                    test::randomRotation(random)});
     const std::size_t before = allocations;
     bool good = true;
     for (std::size_t frame = 0; frame < 1000; ++frame) {
