@@ -82,7 +82,7 @@ Tile splitFigure() {
         makeCaption("Fig. 2  A joint rotation split: q = exp(psi v / 2) exp(phi w / 2)\n"
                     "first the twist by phi about the bone, then the bend by psi",
                     kWidth, kHeight));
-    return photograph(scene, {{1.3, -5.2, 1.5}, {0.25, 0, 0.3}}, kWidth, kHeight);
+    return photograph(scene, {{1.7, -5.9, 1.5}, {0.65, 0, 0.3}}, kWidth, kHeight);
 }
 
 } // namespace figures

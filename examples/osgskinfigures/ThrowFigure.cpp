@@ -3,6 +3,8 @@
 #include "Figures.h"
 #include "Ground.h"
 
+#include <glm/common.hpp>
+
 #include <cstdio>
 #include <stdexcept>
 
@@ -12,8 +14,8 @@ namespace {
 constexpr int kSize = 400;
 constexpr int kFrames = 8;
 // The action: after the first steps, and up to the follow-through.
-constexpr double kFrom = 0.2;
-constexpr double kTo = 0.85;
+constexpr double kFrom = 0.15;
+constexpr double kTo = 0.6;
 
 } // namespace
 
@@ -28,9 +30,14 @@ Tile throwFigure(Body& body) {
     const osg::ref_ptr<osg::Camera> overlay = makeCaption("", kSize, kSize, 18.0f);
     auto& caption = static_cast<osgText::Text&>(*overlay->getChild(0));
     scene->addChild(overlay);
-    // Midway between where the figure's root starts and where it ends.
-    const glm::dvec3 way =
-        body.toWorld(0.5 * (clip.rootPositions.front() + clip.rootPositions.back()));
+    // Midway between the ends of the way that the figure's root goes.
+    glm::dvec3 low = clip.rootPositions.front();
+    glm::dvec3 high = low;
+    for (const glm::dvec3& place : clip.rootPositions) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    const glm::dvec3 way = body.toWorld(0.5 * (low + high));
     const osg::Vec3d centre(way.x, way.y, 0.52 * size);
     const example::View view{centre + osg::Vec3d(0.1, -3.0, 0.3) * size, centre};
     example::Snapshots snapshots(scene, view, kSize, kSize);
