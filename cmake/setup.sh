@@ -4,7 +4,7 @@
 osgskin_build_packages="g++ cmake ninja-build pkg-config libopenscenegraph-dev openscenegraph
   libglm-dev libcgal-dev libeigen3-dev libassimp-dev libtinyobjloader-dev nlohmann-json3-dev
   libcli11-dev libhwy-dev"
-osgskin_show_packages="xvfb xauth imagemagick libgl1-mesa-dri"
+osgskin_show_packages="xvfb imagemagick libgl1-mesa-dri"
 osgskin_test_packages="libgtest-dev libbenchmark-dev binutils dpkg-dev"
 
 # osgskin_install PACKAGE...: installs the Debian packages that are missing.

@@ -7,7 +7,7 @@ file=$1 folder=$2
 mkdir -p "$folder"
 export file folder
 
-xvfb-run -a -s "-screen 0 800x800x24" bash -c '
+"$(dirname "${BASH_SOURCE[0]}")/../../cmake/with_display.sh" 800x800 bash -c '
   osgviewer --window 0 0 800 800 "$file" >"$folder/console.txt" 2>&1 &
   viewer=$!
   for attempt in $(seq 60); do

@@ -2,7 +2,7 @@
 # `PROGRAM --pictures FOLDER` draws a picture of every pose, none of them blank.
 file(REMOVE_RECURSE ${FOLDER})
 execute_process(
-  COMMAND ${XVFB_RUN} -a -s "-screen 0 1280x1024x24" ${PROGRAM} --pictures ${FOLDER}
+  COMMAND ${WITH_DISPLAY} 1280x1024 ${PROGRAM} --pictures ${FOLDER}
   RESULT_VARIABLE status)
 if(NOT status STREQUAL "0")
   message(FATAL_ERROR "exit status ${status}, expected 0")
