@@ -59,10 +59,11 @@ Chain::Chain(const SkinModel& model, const SkinModel::Group& group, const Pose& 
     full[partialCount] = fold.rounded();
 }
 
-void Chain::apply(const SkinModel::Ratio* ratios, glm::vec3& position,
-                  glm::vec3* normal) const noexcept {
+void Chain::apply(const SkinModel::Ratio* ratios, glm::vec3& position, glm::vec3* normal,
+                  glm::vec3* tangent) const noexcept {
     glm::vec3 x = full[partialCount] * position;
     glm::vec3 n = normal ? full[partialCount].rotation * *normal : glm::vec3(0.0f);
+    glm::vec3 t = tangent ? full[partialCount].rotation * *tangent : glm::vec3(0.0f);
     for (std::size_t k = partialCount; k-- > 0;) {
         const Partial& joint = partial[k];
         // exp(b psi v / 2) exp(t phi w / 2) multiplied out; v . w = 0 (section 3 and eq. 1).
@@ -77,9 +78,11 @@ void Chain::apply(const SkinModel::Ratio* ratios, glm::vec3& position,
         x = joint.centre + ratios[k].bend * joint.translation + rotate(s, u, x - joint.centre);
         x = full[k] * x;
         if (normal) n = full[k].rotation * rotate(s, u, n);
+        if (tangent) t = full[k].rotation * rotate(s, u, t);
     }
     position = x;
     if (normal) *normal = n;
+    if (tangent) *tangent = t;
 }
 
 } // namespace osgSkin

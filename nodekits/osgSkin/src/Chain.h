@@ -37,9 +37,9 @@ struct Chain {
 
     Chain(const SkinModel& model, const SkinModel::Group& group, const Pose& pose) noexcept;
 
-    /// Poses one vertex; `ratios` has one entry per partial joint. `normal` may be null.
-    void apply(const SkinModel::Ratio* ratios, glm::vec3& position,
-               glm::vec3* normal) const noexcept;
+    /// Poses one vertex; `ratios` has one entry per partial joint. The directions may be null.
+    void apply(const SkinModel::Ratio* ratios, glm::vec3& position, glm::vec3* normal,
+               glm::vec3* tangent = nullptr) const noexcept;
 
     std::size_t partialCount = 0;
     std::array<Rigid, SkinModel::kMaxPartial + 1> full;

@@ -15,6 +15,11 @@ const char* DeformJob::validate() const noexcept {
     if (positionCount != model->vertexCount()) return "as many positions as vertices are needed";
     if (normals && normalCount != model->vertexCount())
         return "as many normals as vertices are needed";
+    if (!tangents) return nullptr;
+    if (!normals) return "tangents are turned beside normals only";
+    if (!restTangents) return "no rest tangents";
+    if (restTangents->model().get() != model) return "the rest tangents are another model's";
+    if (tangentCount != model->vertexCount()) return "as many tangents as vertices are needed";
     return nullptr;
 }
 
@@ -33,6 +38,8 @@ bool DeformJob::run() const noexcept {
         call.scatter = blocks.inOrder ? nullptr : model->order().data() + group.firstVertex;
         call.positions = &positions[first].x;
         call.normals = normals ? &normals[first].x : nullptr;
+        call.tangents = tangents ? &tangents[first].x : nullptr;
+        call.tangentRows = tangents ? restTangents->blocks(g) : nullptr;
         runKernel(call);
     }
     return true;
@@ -48,9 +55,13 @@ bool DeformJob::runReference() const noexcept {
             const std::uint32_t v = order[i];
             glm::vec3 position = model->positions()[v];
             glm::vec3 normal = model->normals()[v];
-            chain.apply(ratios, position, normals ? &normal : nullptr);
+            const glm::vec4 rest = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
+            glm::vec3 tangent(rest);
+            chain.apply(ratios, position, normals ? &normal : nullptr,
+                        tangents ? &tangent : nullptr);
             positions[v] = position;
             if (normals) normals[v] = normal;
+            if (tangents) tangents[v] = glm::vec4(tangent, rest.w);
         }
     }
     return true;

@@ -146,20 +146,45 @@ HWY_INLINE void store(const KernelCall& call, std::size_t first, float* HWY_REST
                     3 * sizeof(float));
 }
 
-template <bool kNormals, bool kMoved>
+/// The same for a vector's tangents, w kept.
+HWY_INLINE void storeTangents(const KernelCall& call, std::size_t first, V x, V y, V z, V w) {
+    const std::size_t lanes = hn::Lanes(D());
+    if (HWY_LIKELY(!call.scatter && first + lanes <= call.room)) {
+        hn::StoreInterleaved4(x, y, z, w, D(), call.tangents + 4 * first);
+        return;
+    }
+    float buffer[4 * kBlock];
+    hn::StoreInterleaved4(x, y, z, w, D(), buffer);
+    const std::size_t count = HWY_MIN(lanes, call.vertexCount - first);
+    for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(call.tangents + 4 * (call.scatter ? call.scatter[first + i] : first + i),
+                    buffer + 4 * i, 4 * sizeof(float));
+}
+
+/// A direction of each vertex of a vector: a normal or a tangent.
+struct Direction {
+    V x, y, z;
+
+    HWY_INLINE void load(const float* HWY_RESTRICT rows) {
+        const D d;
+        x = hn::Load(d, rows);
+        y = hn::Load(d, rows + kBlock);
+        z = hn::Load(d, rows + 2 * kBlock);
+    }
+};
+
+template <bool kNormals, bool kTangents, bool kMoved>
 HWY_INLINE void deformLanes(const KernelCall& call, std::size_t first,
-                            const float* HWY_RESTRICT rows) {
+                            const float* HWY_RESTRICT rows, const float* HWY_RESTRICT tangentRows) {
     const D d;
     V x = hn::Load(d, rows), y = hn::Load(d, rows + kBlock), z = hn::Load(d, rows + 2 * kBlock);
-    V nx = hn::Zero(d), ny = nx, nz = nx;
-    if (kNormals) {
-        nx = hn::Load(d, rows + 3 * kBlock);
-        ny = hn::Load(d, rows + 4 * kBlock);
-        nz = hn::Load(d, rows + 5 * kBlock);
-    }
+    Direction n, t;
+    if (kNormals) n.load(rows + 3 * kBlock);
+    if (kTangents) t.load(tangentRows);
     if (call.lead) {
         apply(*call.lead, x, y, z);
-        if (kNormals) turn(*call.lead, nx, ny, nz);
+        if (kNormals) turn(*call.lead, n.x, n.y, n.z);
+        if (kTangents) turn(*call.lead, t.x, t.y, t.z);
     }
     const float* HWY_RESTRICT ratio = rows + 6 * kBlock;
     bool inJointFrame = !call.lead;
@@ -178,36 +203,51 @@ HWY_INLINE void deformLanes(const KernelCall& call, std::size_t first,
                               hn::Mul(old, constant(call.azimuthSine)));
         }
         turnPlane(sine, cosine, x, y);
-        if (kNormals) turnPlane(sine, cosine, nx, ny);
+        if (kNormals) turnPlane(sine, cosine, n.x, n.y);
+        if (kTangents) turnPlane(sine, cosine, t.x, t.y);
         sineCosineOfDouble(hn::Mul(bendRatio, constant(link->halfBend)), sine, cosine);
         turnPlane(sine, cosine, y, z);
-        if (kNormals) turnPlane(sine, cosine, ny, nz);
+        if (kNormals) turnPlane(sine, cosine, n.y, n.z);
+        if (kTangents) turnPlane(sine, cosine, t.y, t.z);
         if (kMoved) {
             x = hn::MulAdd(bendRatio, constant(link->move[0]), x);
             y = hn::MulAdd(bendRatio, constant(link->move[1]), y);
             z = hn::MulAdd(bendRatio, constant(link->move[2]), z);
         }
         apply(link->out, x, y, z);
-        if (kNormals) turn(link->out, nx, ny, nz);
+        if (kNormals) turn(link->out, n.x, n.y, n.z);
+        if (kTangents) turn(link->out, t.x, t.y, t.z);
     }
     store(call, first, call.positions, x, y, z);
-    if (kNormals) store(call, first, call.normals, nx, ny, nz);
+    if (kNormals) store(call, first, call.normals, n.x, n.y, n.z);
+    if (kTangents) storeTangents(call, first, t.x, t.y, t.z, hn::Load(d, tangentRows + 3 * kBlock));
 }
 
-template <bool kNormals, bool kMoved>
+template <bool kNormals, bool kTangents, bool kMoved>
 void deformGroup(const KernelCall& call) {
     const std::size_t lanes = hn::Lanes(D());
     const std::size_t blockRows = SkinBlocks::rowsPerBlock(call.linkCount);
-    for (std::size_t first = 0; first < call.vertexCount; first += lanes)
-        deformLanes<kNormals, kMoved>(call, first,
-                                      call.rows[first / kBlock * blockRows].lane + first % kBlock);
+    for (std::size_t first = 0; first < call.vertexCount; first += lanes) {
+        const std::size_t block = first / kBlock, lane = first % kBlock;
+        deformLanes<kNormals, kTangents, kMoved>(
+            call, first, call.rows[block * blockRows].lane + lane,
+            kTangents ? call.tangentRows[block * SkinBlocks::kTangentRows].lane + lane : nullptr);
+    }
+}
+
+template <bool kNormals, bool kTangents>
+void deformStreams(const KernelCall& call) {
+    call.moved ? deformGroup<kNormals, kTangents, true>(call)
+               : deformGroup<kNormals, kTangents, false>(call);
 }
 
 void deform(const KernelCall& call) {
-    if (call.normals)
-        call.moved ? deformGroup<true, true>(call) : deformGroup<true, false>(call);
+    if (call.tangents)
+        deformStreams<true, true>(call);
+    else if (call.normals)
+        deformStreams<true, false>(call);
     else
-        call.moved ? deformGroup<false, true>(call) : deformGroup<false, false>(call);
+        deformStreams<false, false>(call);
 }
 
 } // namespace HWY_NAMESPACE

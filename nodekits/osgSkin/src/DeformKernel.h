@@ -40,6 +40,7 @@ struct KernelLink {
 /// All vertices of one group, with the constants that they have in common.
 struct KernelCall {
     const BlockRow* rows;
+    const BlockRow* tangentRows; ///< SkinTangents::blocks(); where tangents is not null
     std::size_t vertexCount;
     std::size_t linkCount;   ///< partial links
     const KernelLink* links; ///< outermost first
@@ -49,6 +50,7 @@ struct KernelCall {
     bool moved;       ///< some link's move is not 0
     float* positions; ///< x, y, z of the group's first vertex
     float* normals;   ///< may be null
+    float* tangents;  ///< x, y, z, w; may be null; null where normals is
     std::size_t room; ///< vertices from there on that may be overwritten, >= vertexCount
     const std::uint32_t* scatter; ///< vertex of each row, where output is not in order; else null
 };
@@ -56,7 +58,7 @@ struct KernelCall {
 /// Deforms a group with the best instructions that the machine has.
 ///
 /// Without scatter, up to `room` vertices may be written beyond the group's: call in the groups'
-/// order. With it, positions and normals are those of vertex 0.
+/// order. With it, the outputs are those of vertex 0.
 void runKernel(const KernelCall& call) noexcept;
 
 } // namespace osgSkin

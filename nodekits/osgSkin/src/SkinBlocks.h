@@ -30,9 +30,12 @@ struct SkinBlocks {
 
     static std::size_t rowsPerBlock(std::size_t partialCount) { return 6 + 2 * partialCount; }
 
+    /// SkinTangents has blocks of its own: x, y, z in the same frame, and the handedness.
+    static constexpr std::size_t kTangentRows = 4;
+
     std::vector<BlockRow> rows;
     std::vector<std::size_t> firstRow;   ///< of each group
-    std::vector<glm::dmat3> jointFrames; ///< columns e1, e2, w of each joint; right-handed
+    std::vector<glm::dmat3> jointFrames; ///< jointFrame() of each joint
     bool inOrder;     ///< the model's order() is the identity: output needs no scatter
     double smallMove; ///< a joint's translation up to this is a rounding error
 };
@@ -41,5 +44,11 @@ struct SkinBlocks {
 inline bool isInJointFrame(const SkinModel& model, const SkinModel::Group& group) {
     return group.linkCount > 0 && model.links()[group.firstLink + group.linkCount - 1].partial;
 }
+
+/// e1, e2, w: any two directions that make a right-handed frame with the twist axis w.
+glm::dmat3 jointFrame(const BoundJoint& joint);
+
+/// The axes, in rest space and as columns, of the frame that a group's blocks are in.
+glm::dmat3 restFrame(const SkinModel& model, const SkinModel::Group& group);
 
 } // namespace osgSkin

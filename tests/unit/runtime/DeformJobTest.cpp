@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 
 using osgSkin::DeformJob;
@@ -51,7 +52,19 @@ struct Deformed {
     Pose pose;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
+    std::vector<glm::vec4> tangents;
+    std::shared_ptr<const osgSkin::SkinTangents> restTangents;
     DeformJob job;
+
+    /// Asks for tangents along the tube, of either handedness.
+    void addTangents() {
+        for (std::size_t v = 0; v < positions.size(); ++v)
+            tangents.emplace_back(0, 1, 0, v % 2 == 0 ? 1 : -1);
+        restTangents = osgSkin::SkinTangents::create(model, tangents);
+        job.restTangents = restTangents.get();
+        job.tangents = tangents.data();
+        job.tangentCount = tangents.size();
+    }
 };
 
 } // namespace
@@ -64,25 +77,50 @@ TEST(DeformJob, DefaultIsInvalid) {
 
 TEST(DeformJob, SaysWhatIsMissing) {
     const test::Tube tube;
-    const Deformed good(tube);
+    Deformed good(tube);
+    good.addTangents();
+    Deformed other(tube);
+    other.addTangents();
     ASSERT_EQ(good.job.validate(), nullptr);
-    const Pose other;
+    const Pose foreign;
     struct Case {
         const char* name;
-        void (*spoil)(DeformJob&, const Pose&);
+        std::function<void(DeformJob&)> spoil;
     };
     const Case cases[] = {
-        {"no pose", [](DeformJob& job, const Pose&) { job.pose = nullptr; }},
-        {"foreign pose", [](DeformJob& job, const Pose& pose) { job.pose = &pose; }},
-        {"no positions", [](DeformJob& job, const Pose&) { job.positions = nullptr; }},
-        {"too few positions", [](DeformJob& job, const Pose&) { --job.positionCount; }},
-        {"too few normals", [](DeformJob& job, const Pose&) { --job.normalCount; }},
+        {"no pose", [](DeformJob& job) { job.pose = nullptr; }},
+        {"foreign pose", [&](DeformJob& job) { job.pose = &foreign; }},
+        {"no positions", [](DeformJob& job) { job.positions = nullptr; }},
+        {"too few positions", [](DeformJob& job) { --job.positionCount; }},
+        {"too few normals", [](DeformJob& job) { --job.normalCount; }},
+        {"tangents alone", [](DeformJob& job) { job.normals = nullptr; }},
+        {"no rest tangents", [](DeformJob& job) { job.restTangents = nullptr; }},
+        {"rest tangents of another model",
+         [&](DeformJob& job) { job.restTangents = other.restTangents.get(); }},
+        {"too few tangents", [](DeformJob& job) { --job.tangentCount; }},
     };
     for (const Case& c : cases) {
         DeformJob job = good.job;
-        c.spoil(job, other);
+        c.spoil(job);
         EXPECT_NE(job.validate(), nullptr) << c.name;
         EXPECT_FALSE(job.run()) << c.name;
+        EXPECT_FALSE(job.runReference()) << c.name;
+    }
+}
+
+TEST(DeformJob, TangentsTurnAndKeepTheirHandedness) {
+    const test::Tube tube;
+    Deformed deformed(tube);
+    deformed.addTangents();
+    const auto turn = glm::angleAxis(1.0, glm::dvec3(0, 0, 1));
+    const auto skinning = test::skinningFrom(
+        tube.binding.joints, {turn, glm::dquat(1, 0, 0, 0), glm::dquat(1, 0, 0, 0)});
+    ASSERT_TRUE(deformed.pose.set(skinning.data(), skinning.size()));
+    ASSERT_TRUE(deformed.job.run());
+    const glm::dvec3 expected = turn * glm::dvec3(0, 1, 0);
+    for (std::size_t v = 0; v < deformed.tangents.size(); ++v) {
+        EXPECT_LE(glm::distance(glm::dvec3(deformed.tangents[v]), expected), 1e-6);
+        EXPECT_EQ(deformed.tangents[v].w, v % 2 == 0 ? 1.0f : -1.0f);
     }
 }
 
@@ -181,4 +219,16 @@ TEST(SkinModel, HoldsEveryVertexOnce) {
     std::size_t vertices = 0;
     for (const auto& group : model->groups()) vertices += group.vertexCount;
     EXPECT_EQ(vertices, tube.positions.size());
+}
+
+TEST(SkinTangents, RefuseWhatDoesNotFit) {
+    const test::Tube tube(3, 3);
+    const auto model = tube.model();
+    const std::vector<glm::vec4> good(tube.positions.size(), glm::vec4(0, 1, 0, 1));
+    EXPECT_EQ(osgSkin::SkinTangents::create(model, good)->tangents(), good);
+    EXPECT_THROW(osgSkin::SkinTangents::create(nullptr, good), osgSkin::Error);
+    EXPECT_THROW(osgSkin::SkinTangents::create(model, {}), osgSkin::Error);
+    std::vector<glm::vec4> spoilt = good;
+    spoilt.back().y = std::numeric_limits<float>::infinity();
+    EXPECT_THROW(osgSkin::SkinTangents::create(model, spoilt), osgSkin::Error);
 }

@@ -75,6 +75,7 @@ osgSkin::Binding chainOf(std::size_t joints, std::mt19937_64& random) {
 struct Skin {
     osgSkin::Binding binding;
     std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec4> tangents;
     std::vector<std::uint32_t> source;
 
     Skin(std::size_t joints, const std::vector<Manner>& manner, std::size_t count,
@@ -87,6 +88,7 @@ struct Skin {
                 add(m, ratio, random);
                 positions.push_back(glm::vec3(test::randomUnit(random)) * 0.5f * kHeight);
                 normals.push_back(glm::vec3(test::randomUnit(random)));
+                tangents.emplace_back(test::randomUnit(random), v % 3 == 0 ? -1.0 : 1.0);
                 source.push_back(static_cast<std::uint32_t>(source.size()));
             }
     }
@@ -126,14 +128,15 @@ Skin inBestOrder(Skin skin) {
     for (std::size_t i = 0; i < order.size(); ++i) {
         skin.positions[i] = old.positions[order[i]];
         skin.normals[i] = old.normals[order[i]];
+        skin.tangents[i] = old.tangents[order[i]];
         skin.source[i] = old.source[order[i]];
     }
     return skin;
 }
 
-/// One vertex and normal, joint by joint, in double precision.
+/// One vertex with its directions, joint by joint, in double precision.
 void reference(const osgSkin::Binding& binding, const osgSkin::Pose& pose, std::uint32_t vertex,
-               glm::dvec3& x, glm::dvec3& n) {
+               glm::dvec3& x, glm::dvec3& n, glm::dvec3& t) {
     for (std::uint32_t i = binding.firstInfluence[vertex + 1];
          i-- > binding.firstInfluence[vertex];) {
         const osgSkin::Influence& influence = binding.influences[i];
@@ -143,10 +146,20 @@ void reference(const osgSkin::Binding& binding, const osgSkin::Pose& pose, std::
         const glm::dquat q = osgSkin::partialTurn(turn.split, joint.twistAxis, bend,
                                                   static_cast<double>(influence.twist));
         n = q * n;
+        t = q * t;
         x = joint.parent < 0 ? turn.offset + q * x
                              : joint.centre + bend * turn.translation + q * (x - joint.centre);
     }
 }
+
+using Model = std::shared_ptr<const osgSkin::SkinModel>;
+
+Model modelOf(const Skin& skin) {
+    return osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
+}
+
+/// Which outputs are asked for beside positions.
+enum class Streams { None, Normals, NormalsAndTangents };
 
 class Kernel : public testing::TestWithParam<Way> {
 protected:
@@ -155,35 +168,46 @@ protected:
     }
     void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
 
-    static void deform(const Skin& skin, const osgSkin::Pose& pose, const osgSkin::SkinModel& model,
-                       bool withNormals);
+    static void deform(const Skin& skin, const osgSkin::Pose& pose, const Model& model,
+                       Streams streams);
 };
 
-void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const osgSkin::SkinModel& model,
-                    bool withNormals) {
+void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const Model& model,
+                    Streams streams) {
+    const bool withNormals = streams != Streams::None;
+    const bool withTangents = streams == Streams::NormalsAndTangents;
     const std::size_t count = skin.positions.size();
     // One vertex before and several behind, which must stay as they are.
     std::vector<glm::vec3> positions(count + 20, glm::vec3(kGuard)), normals = positions;
+    std::vector<glm::vec4> tangents(count + 20, glm::vec4(kGuard));
+    const auto restTangents = osgSkin::SkinTangents::create(model, skin.tangents);
     osgSkin::DeformJob job;
-    job.model = &model;
+    job.model = model.get();
     job.pose = &pose;
     job.positions = positions.data() + 1;
     job.positionCount = count;
     job.normals = withNormals ? normals.data() + 1 : nullptr;
     job.normalCount = count;
+    job.restTangents = restTangents.get();
+    job.tangents = withTangents ? tangents.data() + 1 : nullptr;
+    job.tangentCount = count;
     ASSERT_TRUE(GetParam().target ? job.run() : job.runReference());
     for (std::uint32_t v = 0; v < count; ++v) {
-        glm::dvec3 x(skin.positions[v]), n(skin.normals[v]);
-        reference(skin.binding, pose, skin.source[v], x, n);
+        glm::dvec3 x(skin.positions[v]), n(skin.normals[v]), t(skin.tangents[v]);
+        reference(skin.binding, pose, skin.source[v], x, n, t);
         // Written so that NaN fails.
         ASSERT_TRUE(glm::distance(glm::dvec3(positions[v + 1]), x) <= 1e-6 * double(kHeight))
             << "vertex " << v << ", off by " << glm::distance(glm::dvec3(positions[v + 1]), x);
         if (!withNormals) continue;
         ASSERT_TRUE(glm::distance(glm::dvec3(normals[v + 1]), n) <= 1e-5) << "vertex " << v;
+        if (!withTangents) continue;
+        ASSERT_TRUE(glm::distance(glm::dvec3(tangents[v + 1]), t) <= 1e-5) << "vertex " << v;
+        ASSERT_EQ(tangents[v + 1].w, skin.tangents[v].w) << "vertex " << v;
     }
     for (std::size_t i = 0; i < positions.size(); i = i == 0 ? count + 1 : i + 1) {
         ASSERT_EQ(positions[i], glm::vec3(kGuard)) << "written outside, at " << i;
         ASSERT_EQ(normals[i], glm::vec3(kGuard)) << "written outside, at " << i;
+        ASSERT_EQ(tangents[i], glm::vec4(kGuard)) << "written outside, at " << i;
     }
 }
 
@@ -211,11 +235,11 @@ TEST_P(Kernel, AgreesWithDoublePrecisionForEveryGroupSize) {
     for (std::size_t size = 1; size <= 33; ++size) {
         SCOPED_TRACE("groups of " + std::to_string(size));
         const Skin skin(5, upToFour, size, size);
-        const auto model =
-            osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
+        const Model model = modelOf(skin);
         for (const double moves : {0.0, 0.5})
-            deform(skin, randomPose(skin.binding, moves, random), *model, true);
-        deform(skin, randomPose(skin.binding, 0.0, random), *model, false);
+            for (const Streams streams :
+                 {Streams::None, Streams::Normals, Streams::NormalsAndTangents})
+                deform(skin, randomPose(skin.binding, moves, random), model, streams);
     }
 }
 
@@ -225,20 +249,19 @@ TEST_P(Kernel, AgreesForVerticesInTheBestOrder) {
     for (std::size_t size = 1; size <= 33; ++size) {
         SCOPED_TRACE("groups of " + std::to_string(size));
         const Skin skin = inBestOrder(Skin(5, upToFour, size, size));
-        const auto model =
-            osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
+        const Model model = modelOf(skin);
         for (std::uint32_t i = 0; i < model->order().size(); ++i) ASSERT_EQ(model->order()[i], i);
-        deform(skin, randomPose(skin.binding, 0.0, random), *model, true);
+        for (const Streams streams : {Streams::Normals, Streams::NormalsAndTangents})
+            deform(skin, randomPose(skin.binding, 0.0, random), model, streams);
     }
 }
 
 TEST_P(Kernel, TakesLongChainsAndManyPartialJoints) {
     std::mt19937_64 random(13);
     const Skin skin(61, {manners().begin() + 11, manners().end()}, 5, 3);
-    const auto model =
-        osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
+    const Model model = modelOf(skin);
     osgSkin::Pose pose(skin.binding.joints);
-    deform(skin, pose, *model, true);
+    deform(skin, pose, model, Streams::NormalsAndTangents);
     // Small turns, so that sixty of them stay within the body.
     std::vector<glm::dmat4> skinning;
     std::vector<glm::dquat> turns;
@@ -246,13 +269,12 @@ TEST_P(Kernel, TakesLongChainsAndManyPartialJoints) {
         turns.push_back(glm::angleAxis(0.02, test::randomUnit(random)));
     skinning = test::skinningFrom(skin.binding.joints, turns);
     ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
-    deform(skin, pose, *model, true);
+    deform(skin, pose, model, Streams::NormalsAndTangents);
 }
 
 TEST_P(Kernel, TurnsByPiAndBack) {
     const Skin skin(4, {manners().begin() + 2, manners().begin() + 4}, 17, 7);
-    const auto model =
-        osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
+    const Model model = modelOf(skin);
     osgSkin::Pose pose(skin.binding.joints);
     const glm::dvec3 w = skin.binding.joints[1].twistAxis;
     const glm::dvec3 v = glm::normalize(glm::cross(w, glm::dvec3(0.3, 0.5, 0.7)));
@@ -263,7 +285,7 @@ TEST_P(Kernel, TurnsByPiAndBack) {
                 glm::angleAxis(angle, axis)};
             const auto skinning = test::skinningFrom(skin.binding.joints, turns);
             ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
-            deform(skin, pose, *model, true);
+            deform(skin, pose, model, Streams::NormalsAndTangents);
         }
 }
 
