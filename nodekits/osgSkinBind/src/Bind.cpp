@@ -2,6 +2,7 @@
 #include <osgSkinBind/Bind>
 
 #include "BoundJoints.h"
+#include "BoundarySpan.h"
 #include "CheckOptions.h"
 #include "JointPlan.h"
 #include "LimbRadius.h"
@@ -51,6 +52,37 @@ void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>
     report.rejectedEdges = regions.rejectedEdges;
 }
 
+std::vector<std::int32_t> seedsOf(const WeldedMesh& mesh, const Regions& regions) {
+    std::vector<std::int32_t> result;
+    result.reserve(mesh.weldedOf.size());
+    for (const std::uint32_t v : mesh.weldedOf) {
+        const std::uint32_t seed = regions.seedOf[v];
+        result.push_back(seed == Regions::kNone ? -1 : static_cast<std::int32_t>(seed));
+    }
+    return result;
+}
+
+std::vector<BindReport::Boundaries> boundariesOf(const std::vector<PlannedJoint>& joints,
+                                                 const std::vector<double>& radii, bool printed) {
+    std::vector<BindReport::Boundaries> result(joints.size());
+    for (std::size_t j = 1; j < joints.size(); ++j) {
+        if (!joints[j].holdsRegion) continue;
+        result[j].bendUpper = joints[j].options.bendUpper;
+        result[j].bendLower = joints[j].options.bendLower;
+        if (printed) {
+            const BoundarySpan bend = paperBendSpan(joints[j], radii[j]);
+            result[j].bendUpper = bend.upper;
+            result[j].bendLower = bend.lower;
+        }
+        const auto twist =
+            printed ? paperTwistSpan(joints[j], radii[j]) : twistSpan(joints[j], radii[j]);
+        if (!twist) continue;
+        result[j].twistUpper = twist->upper;
+        result[j].twistLower = twist->lower;
+    }
+    return result;
+}
+
 } // namespace
 
 Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptions& options,
@@ -98,6 +130,8 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     found.shells = skin.shells;
     found.openEdges = skin.openEdges;
     found.influencesPerVertex = static_cast<double>(partial) / static_cast<double>(found.vertices);
+    found.seeds = seedsOf(skin, regions);
+    found.boundaries = boundariesOf(joints, radii, options.method == BindOptions::Method::Paper);
     reportRegions(skeleton, joints, regions, found);
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (report) *report = found;

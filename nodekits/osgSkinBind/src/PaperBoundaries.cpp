@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "PaperBoundaries.h"
 
+#include "BoundarySpan.h"
 #include "LimbRadius.h"
 
 #include <glm/geometric.hpp>
@@ -14,16 +15,11 @@ namespace {
 /// Largest default distance of a bend boundary from the joint, in bone lengths.
 constexpr double kBendShare = 0.3;
 
-/// Boundaries along a bone from the joint's centre, in units of the bone's length.
-struct Span {
-    double upper, lower;
-};
-
 /// The author's boundaries, else the defaults. One that was set beyond the other's default pushes
 /// that one on.
-Span chosen(const std::optional<double>& upper, const std::optional<double>& lower,
-            const Span& defaults) {
-    Span span{upper.value_or(defaults.upper), lower.value_or(defaults.lower)};
+BoundarySpan chosen(const std::optional<double>& upper, const std::optional<double>& lower,
+                    const BoundarySpan& defaults) {
+    BoundarySpan span{upper.value_or(defaults.upper), lower.value_or(defaults.lower)};
     if (span.upper < span.lower) return span;
     const double width = defaults.lower - defaults.upper;
     if (upper)
@@ -58,25 +54,33 @@ BoundaryPlane bendPlane(const PlannedJoint& joint, double radius, double along, 
 
 } // namespace
 
+BoundarySpan paperBendSpan(const PlannedJoint& joint, double radius) {
+    const double unit = unitLength(joint);
+    return chosen(joint.options.bendUpper, joint.options.bendLower,
+                  {-reach(joint.lengthAbove, radius) / unit, reach(unit, radius) / unit});
+}
+
+std::optional<BoundarySpan> paperTwistSpan(const PlannedJoint& joint, double radius) {
+    const bool alongBone = joint.poleIsParent || (joint.child >= 0 && joint.rigid < 0);
+    if (!(joint.poleLength > 0.0) || (!alongBone && !hasOwnTwistRegion(joint))) return std::nullopt;
+    const BoundarySpan defaults =
+        joint.poleIsParent ? BoundarySpan{-1.0, reach(unitLength(joint), radius) / joint.poleLength}
+                           : BoundarySpan{0.0, 1.0};
+    return chosen(joint.options.twistUpper, joint.options.twistLower, defaults);
+}
+
 PaperRegion bendRegion(const PlannedJoint& joint, double radius) {
     const double unit = unitLength(joint);
-    const Span span =
-        chosen(joint.options.bendUpper, joint.options.bendLower,
-               {-reach(joint.lengthAbove, radius) / unit, reach(unit, radius) / unit});
+    const BoundarySpan span = paperBendSpan(joint, radius);
     return {bendPlane(joint, radius, span.upper, unit), bendPlane(joint, radius, span.lower, unit)};
 }
 
 PaperRegion twistRegion(const PlannedJoint& joint, double radius) {
-    const bool alongBone = joint.poleIsParent || (joint.child >= 0 && joint.rigid < 0);
-    if (!(joint.poleLength > 0.0) || (!alongBone && !hasOwnTwistRegion(joint)))
-        return bendRegion(joint, radius);
-    const Span defaults = joint.poleIsParent
-                              ? Span{-1.0, reach(unitLength(joint), radius) / joint.poleLength}
-                              : Span{0.0, 1.0};
-    const Span span = chosen(joint.options.twistUpper, joint.options.twistLower, defaults);
+    const std::optional<BoundarySpan> span = paperTwistSpan(joint, radius);
+    if (!span) return bendRegion(joint, radius);
     const glm::dvec3 bone = joint.poleLength * joint.twistAxis;
-    return {{joint.centre + span.upper * bone, joint.twistAxis},
-            {joint.centre + span.lower * bone, joint.twistAxis}};
+    return {{joint.centre + span->upper * bone, joint.twistAxis},
+            {joint.centre + span->lower * bone, joint.twistAxis}};
 }
 
 bool hasOwnTwistRegion(const PlannedJoint& joint) {

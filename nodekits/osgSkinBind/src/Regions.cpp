@@ -5,6 +5,7 @@ namespace osgSkin {
 
 Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints) {
     Regions regions = seedRegions(mesh, joints);
+    regions.seedOf = regions.jointOf;
     std::vector<bool> isSeed(mesh.vertexCount());
     for (std::size_t v = 0; v < isSeed.size(); ++v)
         isSeed[v] = regions.jointOf[v] != Regions::kNone;

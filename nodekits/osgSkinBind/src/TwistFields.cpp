@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "BoundarySpan.h"
 #include "LimbRadius.h"
 #include "RatioFields.h"
 
@@ -9,19 +10,14 @@
 namespace osgSkin {
 namespace {
 
-/// The paper's upper and lower boundary of a twist region, along the pole bone from the joint's
-/// centre in units of that bone's length.
-struct TwistRegion {
-    double upper, lower;
-};
-
-TwistRegion twistRegion(const PlannedJoint& joint, double radius) {
+/// The boundaries of a twist region, along the pole bone.
+BoundarySpan twistRegion(const PlannedJoint& joint, double radius) {
     // A forearm turns with its hand one radius behind the wrist, where the hand's own bend ends
     // too.
     const double upper = joint.poleIsParent ? -1.0 : 0.0;
     const double lower = joint.poleIsParent ? std::min(radius / joint.poleLength, 0.5) : 1.0;
-    TwistRegion region{joint.options.twistUpper.value_or(upper),
-                       joint.options.twistLower.value_or(lower)};
+    BoundarySpan region{joint.options.twistUpper.value_or(upper),
+                        joint.options.twistLower.value_or(lower)};
     if (!(region.upper < region.lower)) { // one is given, beyond the other's default
         if (joint.options.twistUpper)
             region.lower = region.upper + (lower - upper);
@@ -43,6 +39,11 @@ bool buildsUp(const PlannedJoint& joint, double radius) {
 
 } // namespace
 
+std::optional<BoundarySpan> twistSpan(const PlannedJoint& joint, double radius) {
+    if (!buildsUp(joint, radius)) return std::nullopt;
+    return twistRegion(joint, radius);
+}
+
 JointFields twistFields(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
                         const std::vector<double>& radii, const JointFields& bend) {
     JointFields twist = bend;
@@ -50,7 +51,7 @@ JointFields twistFields(const WeldedMesh& mesh, const std::vector<PlannedJoint>&
         const PlannedJoint& joint = joints[j];
         if (joint.belowRigid(static_cast<int>(j))) continue;
         if (buildsUp(joint, radii[j])) {
-            const TwistRegion region = twistRegion(joint, radii[j]);
+            const BoundarySpan region = twistRegion(joint, radii[j]);
             // The pole bone is the joint's own or the one above; its skin is what its joint bends.
             const std::size_t carrier = joint.poleIsParent ? regionAbove(joints, j) : j;
             for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {

@@ -76,6 +76,38 @@ TEST(Paper, BendsOverThreeTenthsOfABoneAndTwistsOverAllOfItByDefault) {
     }
 }
 
+TEST(Paper, ReportsTheBoundariesItUsed) {
+    const Straight limb;
+    BindReport report;
+    bind(limb.mesh, limb.skeleton, printed(), &report);
+    ASSERT_EQ(report.boundaries.size(), 3u);
+    const BindReport::Boundaries& joint = report.boundaries[1];
+    EXPECT_NEAR(joint.bendUpper.value(), -0.72 / 2.5, 1e-12); // 0.3 of the bone above, in its own
+    EXPECT_NEAR(joint.bendLower.value(), 0.3, 1e-12);
+    EXPECT_NEAR(joint.twistUpper.value(), 0.0, 1e-12);
+    EXPECT_NEAR(joint.twistLower.value(), 1.0, 1e-12);
+    EXPECT_FALSE(report.boundaries[0].bendUpper.has_value()) << "the root has no region to bend";
+}
+
+TEST(Paper, SmoothReportsOnlyTheBoundariesThatThereAre) {
+    const Straight limb;
+    BindReport report;
+    const Binding binding = bind(limb.mesh, limb.skeleton, {}, &report);
+    const BindReport::Boundaries& joint = report.boundaries.at(1);
+    EXPECT_FALSE(joint.bendUpper || joint.bendLower);
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v)
+        if (joint.twistUpper && ratiosOf(binding, v, 1).bend == 1.0f &&
+            ratiosOf(binding, v, 2).bend == 0.0f && ratiosOf(binding, v, 2).twist == 0.0f) {
+            const double along = (limb.mesh.positions[v].y - 3.0) / 2.5;
+            const double t = (along - *joint.twistUpper) / (*joint.twistLower - *joint.twistUpper);
+            EXPECT_NEAR(ratiosOf(binding, v, 1).twist, hermite(t), 1e-4) << "vertex " << v;
+        }
+    BindOptions options;
+    options.joints["joint1"].bendUpper = -0.25;
+    bind(limb.mesh, limb.skeleton, options, &report);
+    EXPECT_EQ(report.boundaries.at(1).bendUpper, -0.25);
+}
+
 TEST(Paper, OneBoundaryBeyondTheOthersDefaultPushesItOn) {
     const Straight limb;
     BindOptions options = printed();

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <numeric>
 #include <set>
@@ -83,6 +84,24 @@ TEST(Regions, AreConnected) {
         sum += region.vertices;
     }
     EXPECT_EQ(sum, mesh.positions.size());
+}
+
+TEST(Regions, ReportNamesTheSeeds) {
+    const SkinMesh mesh = shapes::exploded(shapes::hangingArms());
+    BindReport report;
+    const Binding binding = bind(mesh, shapes::hangingArmsSkeleton(), {}, &report);
+    ASSERT_EQ(report.seeds.size(), mesh.positions.size());
+    std::map<std::int32_t, std::set<std::array<double, 3>>> places; // copies count once
+    for (std::size_t v = 0; v < report.seeds.size(); ++v) {
+        const glm::dvec3& p = mesh.positions[v];
+        if (report.seeds[v] >= 0) places[report.seeds[v]].insert({p.x, p.y, p.z});
+    }
+    for (const BindReport::Region& region : report.regions) {
+        std::size_t seeds = 0;
+        for (const auto& [joint, seen] : places)
+            if (binding.joints[std::size_t(joint)].name == region.joint) seeds += seen.size();
+        EXPECT_EQ(seeds, region.seeds) << region.joint;
+    }
 }
 
 TEST(Regions, SeamsDoNotStopThem) {
