@@ -81,14 +81,6 @@ std::size_t Body::find(const std::string& name) const {
     return static_cast<std::size_t>(index);
 }
 
-osgSkin::Influence Body::influence(std::size_t vertex, std::size_t joint) const {
-    const osgSkin::Binding& binding = character.binding;
-    for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
-         ++i)
-        if (binding.influences[i].joint == joint) return binding.influences[i];
-    return {};
-}
-
 std::vector<glm::dmat4> Body::turned(std::size_t joint, const glm::dvec3& axis,
                                      double degrees) const {
     const glm::dmat4 unit(1.0);
@@ -125,6 +117,14 @@ glm::dvec3 Body::toWorld(const glm::dvec3& v) const {
 
 glm::dvec3 Body::fromWorld(const glm::dvec3& v) const {
     return character.file.zUp ? v : glm::dvec3(v.x, v.z, -v.y);
+}
+
+osgSkin::Influence influenceOf(const osgSkin::Binding& binding, std::size_t vertex,
+                               std::size_t joint) {
+    for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
+         ++i)
+        if (binding.influences[i].joint == joint) return binding.influences[i];
+    return {};
 }
 
 } // namespace figures

@@ -31,8 +31,6 @@ public:
     }
     /// \throw std::runtime_error where the character has no such joint
     std::size_t find(const std::string& name) const;
-    /// A vertex's share of a joint's turn; zeros where it takes none.
-    osgSkin::Influence influence(std::size_t vertex, std::size_t joint) const;
 
     /// Joint `joint` turned by `degrees`, with all that hangs on it.
     std::vector<glm::dmat4> turned(std::size_t joint, const glm::dvec3& axis, double degrees) const;
@@ -46,5 +44,9 @@ private:
     std::shared_ptr<const osgSkin::SkinModel> _model;
     compare::SkinWeights _weights;
 };
+
+/// A vertex's share of a joint's turn; zeros where it takes none.
+osgSkin::Influence influenceOf(const osgSkin::Binding& binding, std::size_t vertex,
+                               std::size_t joint);
 
 } // namespace figures

@@ -14,18 +14,19 @@ struct Shot {
     const char* name;
     const char* joint;
     double degrees;
-    glm::dvec3 axis; ///< zero: the fold between the bone above and the bone; see axisOf()
-    bool twist;      ///< about the bone above
-    glm::dvec3 eye;  ///< direction from the joint to the camera
-    double distance; ///< in body sizes
+    glm::dvec3 axis;  ///< zero: the fold between the bone above and the bone; see axisOf()
+    bool twist;       ///< about the bone above
+    glm::dvec3 eye;   ///< direction from the joint to the camera
+    double distance;  ///< in body sizes
+    glm::dvec3 aside; ///< from the joint to the picture's middle, in body sizes
 };
 
 const Shot kShots[] = {
-    {"shoulder", "LeftArm", 95.0, {0, -1, 0}, false, {0.1, -1.0, 0.15}, 1.0},
-    {"elbow", "LeftForeArm", 115.0, {0, 0, 0}, false, {0.3, -1.0, 0.5}, 0.62},
-    {"wrist", "LeftHand", 160.0, {0, 0, 0}, true, {0.1, -1.0, 0.3}, 0.62},
-    {"hip", "LeftUpLeg", -95.0, {1, 0, 0}, false, {1.0, -0.75, 0.2}, 1.1},
-    {"knee", "LeftLeg", 120.0, {1, 0, 0}, false, {1.0, -0.6, 0.15}, 0.85},
+    {"shoulder", "LeftArm", 95.0, {0, -1, 0}, false, {0.15, -1.0, 0.1}, 0.85, {-0.02, 0, 0.0}},
+    {"elbow", "LeftForeArm", 115.0, {0, 0, 0}, false, {0.55, -1.0, 0.55}, 0.68, {-0.055, 0, 0}},
+    {"wrist", "LeftHand", 160.0, {0, 0, 0}, true, {0.1, -1.0, 0.3}, 0.5, {0, 0, 0}},
+    {"hip", "LeftUpLeg", -95.0, {1, 0, 0}, false, {1.0, -0.75, 0.25}, 0.95, {0, -0.06, 0.03}},
+    {"knee", "LeftLeg", 120.0, {1, 0, 0}, false, {1.0, 0.25, 0.1}, 0.7, {0, 0.04, 0.03}},
 };
 
 glm::dvec3 axisOf(const Body& body, const Shot& shot, std::size_t joint) {
@@ -43,14 +44,15 @@ Tile tile(const Body& body, const Shot& shot, Method method, const std::string& 
     const std::size_t joint = body.find(shot.joint);
     const auto posed =
         body.deform(method, body.turned(joint, axisOf(body, shot, joint), shot.degrees));
-    const osg::ref_ptr<osg::Group> scene = makeLit();
+    const osg::ref_ptr<osg::Group> scene = makeLit(osg::Vec3d(toScene(shot.eye)));
     scene->addChild(makeSkin(body, posed, [](std::size_t) { return kSkin; }));
     scene->addChild(makeCaption(caption, kSize, kSize, 16.0f));
     glm::dvec3 centre = body.joint(joint).centre;
     if (shot.twist) // the twist is along the forearm
         centre = glm::mix(centre, body.joint(std::size_t(body.joint(joint).parent)).centre, 0.4);
     const double distance = shot.distance * body.character.body.mesh.size();
-    const osg::Vec3d at(toScene(body.toWorld(centre)));
+    const osg::Vec3d at(
+        toScene(body.toWorld(centre) + body.character.body.mesh.size() * shot.aside));
     const osg::Vec3d eye = at + osg::Vec3d(toScene(glm::normalize(shot.eye) * distance));
     return photograph(scene, {eye, at}, kSize, kSize);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Drawing.h"
 
+#include <osg/LightModel>
 #include <osg/LightSource>
 #include <osg/LineWidth>
 #include <osg/Material>
@@ -14,6 +15,18 @@ osg::ref_ptr<osg::Vec4Array> one(const osg::Vec4& colour) {
     osg::ref_ptr<osg::Vec4Array> colours = new osg::Vec4Array(osg::Array::BIND_OVERALL);
     colours->push_back(colour);
     return colours;
+}
+
+void addLight(osg::Group& group, int number, const osg::Vec3d& from, const osg::Vec4& diffuse) {
+    const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+    osg::Light& light = *source->getLight();
+    light.setLightNum(number);
+    light.setPosition(osg::Vec4(osg::Vec3(from), 0.0f));
+    light.setAmbient(osg::Vec4(0, 0, 0, 1));
+    light.setDiffuse(diffuse);
+    light.setSpecular(osg::Vec4(0, 0, 0, 1));
+    source->setStateSetModes(*group.getOrCreateStateSet(), osg::StateAttribute::ON);
+    group.addChild(source);
 }
 
 } // namespace
@@ -31,18 +44,22 @@ osg::Vec4 ratioColour(double ratio) {
                     : grey * (2.0f - 2.0f * t) + red * (2.0f * t - 1.0f);
 }
 
-osg::ref_ptr<osg::Group> makeLit() {
+osg::ref_ptr<osg::Group> makeLit(const osg::Vec3d& toCamera) {
+    osg::Vec3d back = toCamera;
+    back.normalize();
+    osg::Vec3d right = osg::Vec3d(0, 0, 1) ^ back;
+    right.normalize();
+    const osg::Vec3d up = back ^ right;
     osg::ref_ptr<osg::Group> group = new osg::Group;
-    const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
-    osg::Light& light = *source->getLight();
-    light.setPosition(osg::Vec4(-0.5f, -1.0f, 0.8f, 0.0f));
-    light.setAmbient(osg::Vec4(0.28f, 0.28f, 0.30f, 1.0f));
-    light.setDiffuse(osg::Vec4(0.75f, 0.74f, 0.72f, 1.0f));
-    light.setSpecular(osg::Vec4(0, 0, 0, 1));
-    group->addChild(source);
+    addLight(*group, 0, back * 0.55 - right * 0.8 + up * 0.75, osg::Vec4(0.86f, 0.84f, 0.80f, 1));
+    addLight(*group, 1, back * 0.5 + right * 1.0 - up * 0.1, osg::Vec4(0.24f, 0.28f, 0.36f, 1));
+    addLight(*group, 2, up * 0.8 + right * 0.7 - back * 0.8, osg::Vec4(0.45f, 0.45f, 0.42f, 1));
+    const osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
+    model->setAmbientIntensity(osg::Vec4(0.30f, 0.30f, 0.33f, 1.0f));
     const osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
     group->getOrCreateStateSet()->setAttributeAndModes(material);
+    group->getOrCreateStateSet()->setAttributeAndModes(model);
     return group;
 }
 

@@ -19,8 +19,10 @@ namespace figures {
 const osg::Vec4 kInk(0.93f, 0.94f, 0.95f, 1.0f);
 const osg::Vec4 kSkin(0.86f, 0.72f, 0.62f, 1.0f);
 
-/// A group with a light over the camera's left shoulder.
-osg::ref_ptr<osg::Group> makeLit();
+/// A group lit as from where the camera stands: a key light over its left shoulder, a weaker one
+/// from its right, and a rim light from behind.
+/// \param toCamera direction from the scene to the camera, Z up
+osg::ref_ptr<osg::Group> makeLit(const osg::Vec3d& toCamera = {0, -1, 0});
 
 /// The body's skin at `points` (rest space), in the scene's frame, with smooth normals.
 osg::ref_ptr<osg::Geometry> makeSkin(const Body& body, const std::vector<glm::dvec3>& points,

@@ -1,116 +1,144 @@
 // SPDX-License-Identifier: MIT
 #include "Drawing.h"
 #include "Figures.h"
+#include "RatioPlot.h"
+
+#include <osgSkinBind/Bind>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cstdio>
 
 namespace figures {
 namespace {
 
 constexpr int kWidth = 720;
-constexpr int kHeight = 820;
+constexpr int kHeight = 900;
 
-struct Sample {
-    double position; ///< along the bone, in its lengths
-    double ratio;
+const osg::Vec4 kPaper(0.95f, 0.45f, 0.40f, 1.0f);
+const osg::Vec4 kSmooth(0.45f, 0.75f, 0.95f, 1.0f);
+
+/// The left arm: where a vertex lies along it, and whether it belongs to it.
+class Arm {
+public:
+    explicit Arm(const Body& body)
+        : _body(body), _shoulder(body.find("LeftArm")), elbow(body.find("LeftForeArm")),
+          hand(body.find("LeftHand")), _centre(body.joint(elbow).centre),
+          _above(glm::normalize(_centre - body.joint(_shoulder).centre)) {
+        const glm::dvec3 bone = body.joint(hand).centre - _centre;
+        _length = glm::length(bone);
+        _along = bone / _length;
+    }
+
+    bool holds(std::size_t vertex) const {
+        const int region = int(_body.character.binding.regions[vertex]);
+        return _body.character.rig.isInSubtree(region, int(_shoulder));
+    }
+
+    /// From the elbow, in forearms: down the forearm, or else up the upper arm (an elbow rests a
+    /// little bent).
+    double position(std::size_t vertex) const {
+        const glm::dvec3 d = _body.rest()[vertex] - _centre;
+        const double below = glm::dot(d, _along);
+        return (below > 0.0 ? below : std::min(glm::dot(d, _above), 0.0)) / _length;
+    }
+
+private:
+    const Body& _body;
+    std::size_t _shoulder;
+
+public:
+    std::size_t elbow, hand;
+
+private:
+    glm::dvec3 _centre, _above, _along;
+    double _length;
 };
 
-/// Eq. 5 between two boundaries.
-double hermite(double position, double upper, double lower) {
-    const double t = std::clamp((position - upper) / (lower - upper), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
+double ratio(const osgSkin::Binding& binding, std::size_t vertex, std::size_t joint, bool twist) {
+    const osgSkin::Influence share = influenceOf(binding, vertex, joint);
+    return double(twist ? share.twist : share.bend);
 }
 
-/// The boundaries whose curve comes nearest to the samples, to a fiftieth of the bone.
-std::pair<double, double> fit(const std::vector<Sample>& samples, double low, double high) {
-    std::pair<double, double> best{low, high};
-    double least = 1e300;
-    for (double upper = low; upper < high; upper += 0.02)
-        for (double lower = upper + 0.02; lower <= high; lower += 0.02) {
-            double error = 0.0;
-            for (const Sample& s : samples) {
-                const double d = hermite(s.position, upper, lower) - s.ratio;
-                error += d * d;
-            }
-            if (error < least) {
-                least = error;
-                best = {upper, lower};
-            }
-        }
-    return best;
-}
-
-osg::ref_ptr<osg::Camera> makePlot(const std::vector<Sample>& samples, double low, double high,
-                                   const std::string& caption, const std::string& axis) {
-    const auto at = [&](double position, double ratio) {
-        return osg::Vec3(float(80.0 + (kWidth - 120.0) * (position - low) / (high - low)),
-                         float(150.0 + 190.0 * ratio), 0.0f);
-    };
-    osg::ref_ptr<osg::Camera> plot = makeCaption(caption, kWidth, kHeight);
-    const osg::Vec4 grey(0.55f, 0.57f, 0.60f, 1.0f);
-    plot->addChild(makeLines({at(low, 1.0), at(high, 1.0), at(low, 0.0), at(high, 0.0),
-                              at(low, 0.0), at(low, 1.0), at(0.0, 0.0), at(0.0, 1.0)},
-                             grey, GL_LINES, 1.0f));
-    std::vector<osg::Vec3> dots, curve;
-    for (const Sample& s : samples) dots.push_back(at(s.position, s.ratio));
-    plot->addChild(makeLines(dots, osg::Vec4(0.45f, 0.75f, 0.95f, 1.0f), GL_POINTS, 4.0f));
-    const auto [upper, lower] = fit(samples, low, high);
-    for (int i = 0; i <= 200; ++i) {
-        const double p = low + (high - low) * i / 200.0;
-        curve.push_back(at(p, hermite(p, upper, lower)));
-    }
-    plot->addChild(makeLines(curve, osg::Vec4(1.0f, 0.75f, 0.25f, 1.0f), GL_LINE_STRIP, 3.0f));
-    const osg::Vec3 down(0, -24, 0);
-    plot->addChild(makeText("1", at(low, 1.0) - osg::Vec3(24, 6, 0), 18.0f));
-    plot->addChild(makeText("0", at(low, 0.0) - osg::Vec3(24, 6, 0), 18.0f));
-    plot->addChild(makeText(axis, at(0.0, 0.0) + down, 16.0f));
-    plot->addChild(makeText("dots: vertices   curve: eq. 5, nearest boundaries",
-                            at(low, 1.0) + osg::Vec3(0, 12, 0), 16.0f));
-    return plot;
-}
-
-/// The arm coloured by one of a joint's ratios, over the plot along the bone from `from`.
-Tile ratioTile(const Body& body, const char* joint, bool twist, const std::string& caption) {
-    const std::size_t turning = body.find(joint);
-    const std::size_t elbow = body.find("LeftForeArm");
-    const std::size_t shoulder = body.find("LeftArm");
-    const glm::dvec3 from = body.joint(elbow).centre;
-    const glm::dvec3 bone = body.joint(body.find("LeftHand")).centre - from;
-    const double low = twist ? -0.3 : -0.8;
-    const double high = twist ? 1.3 : 0.8;
-    const auto ratioOf = [&](std::size_t v) {
-        const osgSkin::Influence share = body.influence(v, turning);
-        return double(twist ? share.twist : share.bend);
-    };
-    std::vector<Sample> samples;
+RatioPlot::Dots dotsOf(const Body& body, const Arm& arm, const osgSkin::Binding& binding,
+                       std::size_t joint, bool twist) {
+    RatioPlot::Dots dots;
     for (std::size_t v = 0; v < body.rest().size(); ++v) {
-        const int region = int(body.character.binding.regions[v]);
-        if (!body.character.rig.isInSubtree(region, int(shoulder))) continue;
-        const double position = glm::dot(body.rest()[v] - from, bone) / glm::dot(bone, bone);
-        if (position >= low && position <= high) samples.push_back({position, ratioOf(v)});
+        if (!arm.holds(v)) continue;
+        dots.positions.push_back(arm.position(v));
+        dots.ratios.push_back(ratio(binding, v, joint, twist));
     }
-    const osg::ref_ptr<osg::Group> scene = makeLit();
+    return dots;
+}
+
+/// The arm coloured by a ratio, over its plot.
+Tile picture(const Body& body, const Arm& arm, const RatioPlot& plot,
+             const std::function<double(std::size_t)>& ratioAt, const std::string& caption) {
+    const osg::Vec3d toCamera(0.1, -1.7, 0.3);
+    const osg::ref_ptr<osg::Group> scene = makeLit(toCamera);
     scene->addChild(
-        makeSkin(body, body.rest(), [&](std::size_t v) { return ratioColour(ratioOf(v)); }));
-    scene->addChild(makePlot(samples, low, high, caption, "elbow; unit: the forearm's length"));
+        makeSkin(body, body.rest(), [&](std::size_t v) { return ratioColour(ratioAt(v)); }));
+    scene->addChild(drawPlot(plot, kWidth, kHeight));
+    scene->addChild(makeCaption(caption, kWidth, kHeight));
     const double size = body.character.body.mesh.size();
     // The arm in the upper half, the plot below it.
-    const osg::Vec3d at(toScene(body.toWorld(from)));
-    const osg::Vec3d centre = at - osg::Vec3d(0, 0, 0.2 * size);
-    return photograph(scene, {centre + osg::Vec3d(0.1, -1.6, 0.3) * size, centre}, kWidth, kHeight);
+    const osg::Vec3d at(toScene(body.toWorld(body.joint(arm.elbow).centre)));
+    const osg::Vec3d centre = at - osg::Vec3d(0, 0, 0.23 * size);
+    return photograph(scene, {centre + toCamera * size, centre}, kWidth, kHeight);
+}
+
+/// Fig. 3a: only the method `paper` bends between boundaries; `smooth` is drawn beside it.
+Tile bendPicture(const Body& body, const Arm& arm) {
+    const osgSkin::Character& character = body.character;
+    osgSkin::BindOptions options = character.file.bind;
+    options.method = osgSkin::BindOptions::Method::Paper;
+    osgSkin::BindReport report;
+    const osgSkin::Binding printed =
+        osgSkin::bind(character.body.mesh, character.rig, options, &report);
+    RatioPlot plot;
+    plot.low = -0.8;
+    plot.high = 0.8;
+    plot.axis = "0: elbow; unit: the forearm's length";
+    plot.upper = report.boundaries[arm.elbow].bendUpper;
+    plot.lower = report.boundaries[arm.elbow].bendLower;
+    plot.dots.push_back(dotsOf(body, arm, character.binding, arm.elbow, false));
+    plot.dots.back().name = "vertices, as the character is bound: over the whole skin";
+    plot.dots.back().colour = kSmooth;
+    plot.dots.push_back(dotsOf(body, arm, printed, arm.elbow, false));
+    plot.dots.back().name = "vertices, bound as printed: between two planes";
+    plot.dots.back().colour = kPaper;
+    return picture(
+        body, arm, plot, [&](std::size_t v) { return ratio(printed, v, arm.elbow, false); },
+        "Fig. 3a  Bend ratio of the elbow\nblue 0, red 1; the arm is bound as printed");
+}
+
+Tile twistPicture(const Body& body, const Arm& arm) {
+    const osgSkin::Character& character = body.character;
+    RatioPlot plot;
+    plot.low = -0.3;
+    plot.high = 1.3;
+    plot.axis = "0: elbow; 1: wrist; unit: the forearm's length";
+    // The hand's boundaries are told from the wrist.
+    if (!character.report.boundaries.empty()) {
+        const auto& boundaries = character.report.boundaries[arm.hand];
+        if (boundaries.twistUpper && boundaries.twistLower) {
+            plot.upper = 1.0 + *boundaries.twistUpper;
+            plot.lower = 1.0 + *boundaries.twistLower;
+        }
+    }
+    plot.dots.push_back(dotsOf(body, arm, character.binding, arm.hand, true));
+    plot.dots.back().name = "vertices, as the character is bound";
+    plot.dots.back().colour = kSmooth;
+    return picture(
+        body, arm, plot, [&](std::size_t v) { return ratio(character.binding, v, arm.hand, true); },
+        "Fig. 3b  Twist ratio of the hand:\nit builds up along the forearm");
 }
 
 } // namespace
 
 Tile ratioFigure(const Body& body) {
-    return tiled(
-        {ratioTile(body, "LeftForeArm", false, "Fig. 3a  Bend ratio of the elbow\nblue 0, red 1"),
-         ratioTile(body, "LeftHand", true,
-                   "Fig. 3b  Twist ratio of the hand: it builds up\nalong the forearm")},
-        2);
+    const Arm arm(body);
+    return tiled({bendPicture(body, arm), twistPicture(body, arm)}, 2);
 }
 
 } // namespace figures
