@@ -23,7 +23,7 @@ struct View {
 /// fast the machine draws. Needs an X display (Xvfb will do).
 class Snapshots {
 public:
-    /// \throw std::runtime_error where no window can be opened
+    /// \throw std::runtime_error where no picture can be drawn
     Snapshots(osg::Node* scene, const View& view, int width, int height);
     ~Snapshots();
     Snapshots(const Snapshots&) = delete;
