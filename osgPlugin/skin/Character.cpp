@@ -2,6 +2,7 @@
 #include "Character.h"
 
 #include "ClipBounds.h"
+#include "MeshWeights.h"
 #include "Props.h"
 #include "WeightsFile.h"
 
@@ -32,13 +33,14 @@ auto inFile(const std::string& file, const Step& step) {
 Binding bindBody(Character& character) {
     const SkinFile& file = character.file;
     const SkinMesh& mesh = character.body.mesh;
-    VertexWeights weights;
-    if (!file.weights.empty())
-        weights = readWeights(file.weights, character.rig, mesh.positions.size());
+    if (!file.paintedWeights)
+        return inFile(file.file,
+                      [&] { return bind(mesh, character.rig, file.bind, &character.report); });
+    const VertexWeights weights =
+        file.weights.empty() ? meshWeights(file.mesh, character.body, character.rig)
+                             : readWeights(file.weights, character.rig, mesh.positions.size());
     return inFile(file.file, [&] {
-        return file.weights.empty()
-                   ? bind(mesh, character.rig, file.bind, &character.report)
-                   : bindWeights(mesh, character.rig, weights, file.bind, &character.report);
+        return bindWeights(mesh, character.rig, weights, file.bind, &character.report);
     });
 }
 

@@ -84,7 +84,7 @@ JointBindOptions readJoint(const JsonReader& reader) {
     return joint;
 }
 
-/// "bind", and the file that the method "weights" needs.
+/// "bind", and the file that the method "weights" may name.
 void readMethod(const JsonReader& root, const std::string& folder, SkinFile& skin) {
     const auto method = root.find("bind");
     const std::string name = method ? method->string() : "smooth";
@@ -92,8 +92,9 @@ void readMethod(const JsonReader& root, const std::string& folder, SkinFile& ski
         method->complain("expected \"smooth\", \"paper\" or \"weights\", found \"" + name + "\"");
     if (name == "paper") skin.bind.method = BindOptions::Method::Paper;
     const auto weights = root.find("weights");
-    if (name == "weights")
-        skin.weights = path(root.require("weights", "the name of a file of weights"), folder);
+    skin.paintedWeights = name == "weights";
+    if (skin.paintedWeights && weights)
+        skin.weights = path(*weights, folder);
     else if (weights)
         weights->complain("expected \"bind\": \"weights\" beside it");
 }

@@ -35,8 +35,9 @@ struct SkinFile {
     std::vector<Motion> motions;
     std::vector<Prop> props;
     BindOptions bind;
-    std::string weights; ///< painted weights that the binding comes from; empty: none
-    bool zUp = false;    ///< the character's files have Z up, not Y
+    bool paintedWeights = false; ///< the binding comes from painted weights
+    std::string weights;         ///< their file; empty: the mesh's own
+    bool zUp = false;            ///< the character's files have Z up, not Y
 
     /// Reads and checks a file. \throw Error with file, JSON path and what was expected
     static SkinFile read(const std::string& file);

@@ -39,6 +39,19 @@ TEST(BindMethod, WeightsAreReported) {
     EXPECT_TRUE(character.report.notes.empty()) << character.report.text();
 }
 
+TEST(BindMethod, WeightsMayBeTheMeshsOwn) {
+    const Character character = Character::load(OSGSKIN_TEST_DATA "/character/mesh_weights.skin");
+    const osgSkin::Binding& binding = character.binding;
+    ASSERT_EQ(binding.vertexCount(), 36u);
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const double height =
+            2.0 * character.body.mesh.positions[v].z; // the file's armature halves
+        const osgSkin::Influence* last = &binding.influences[binding.firstInfluence[v + 1] - 1];
+        const float arm = last->joint == 1 ? last->bend : 0.0f;
+        EXPECT_NEAR(arm, std::clamp(height - 1.5, 0.0, 1.0), 1e-5) << "vertex " << v;
+    }
+}
+
 TEST(BindMethod, PaperGivesEquation5BetweenTheFilesBoundaries) {
     expectBend(Character::load(OSGSKIN_TEST_DATA "/character/printed.skin"), [](double height) {
         const double t = std::clamp((height - 1.0) / 2.0, 0.0, 1.0);

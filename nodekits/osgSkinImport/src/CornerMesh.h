@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgSkin/SkinMesh>
+#include <osgSkinImport/BoneWeights>
 
 #include <osg/StateSet>
 #include <osg/ref_ptr>
@@ -22,7 +23,16 @@ struct CornerMesh {
     std::vector<glm::vec2> texCoords;     ///< one a corner
     std::vector<std::uint32_t> materials; ///< one a face: index in stateSets
     std::vector<osg::ref_ptr<osg::StateSet>> stateSets;
-    bool hasTexCoords = false; ///< false where no corner has any
+    std::vector<BoneWeights> weights; ///< one a bone
+    bool hasTexCoords = false;        ///< false where no corner has any
+
+    /// The weights of the bone called `name`, to be added to.
+    BoneWeights& weightsOf(const std::string& name) {
+        for (BoneWeights& known : weights)
+            if (known.bone == name) return known;
+        weights.push_back({name, {}});
+        return weights.back();
+    }
 
     /// Begins a face of the given material; addCorner() follows for each of its corners.
     void addFace(std::uint32_t material) {

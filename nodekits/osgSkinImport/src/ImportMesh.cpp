@@ -51,6 +51,7 @@ ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) 
 
     ImportedMesh result;
     result.parts = makeMeshParts(read);
+    result.weights = std::move(read.weights);
     result.mesh = std::move(read.mesh);
     return result;
 }

@@ -2,6 +2,8 @@
 #include "AssimpScene.h"
 #include "BvhCheck.h"
 #include "FileText.h"
+#include "MeshReaders.h"
+#include "OsgScene.h"
 #include "SampleTracks.h"
 #include "SceneSkeleton.h"
 
@@ -55,6 +57,7 @@ void dropFirst(Motion& motion, std::size_t count) {
 } // namespace
 
 RestSkeleton importSkeleton(const std::string& path) {
+    if (!assimpReads(path)) return skeletonOf(*readOsgScene(path, nullptr), path);
     check(path);
     Assimp::Importer importer;
     return skeletonOf(readAssimpScene(importer, path), path).rest;

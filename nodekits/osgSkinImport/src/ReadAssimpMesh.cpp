@@ -4,6 +4,7 @@
 #include "Materials.h"
 #include "MeshReaders.h"
 #include "PlyCheck.h"
+#include "SceneBind.h"
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
@@ -12,9 +13,9 @@
 
 #include <glm/matrix.hpp>
 
+#include <cmath>
 #include <limits>
 #include <sstream>
-#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -88,6 +89,33 @@ void addMesh(const aiMesh& source, const glm::dmat4& place, const std::string& w
     }
 }
 
+/// Adds the weights of a mesh whose vertices begin at `first`.
+void addWeights(const aiMesh& source, const aiNode& node, const SceneBind& bind, std::size_t first,
+                const std::string& where, CornerMesh& result) {
+    const auto start = static_cast<std::uint32_t>(first);
+    for (unsigned b = 0; b < source.mNumBones; ++b) {
+        const aiBone& bone = *source.mBones[b];
+        BoneWeights& weights = result.weightsOf(nameOf(bone));
+        for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+            const aiVertexWeight& entry = bone.mWeights[w];
+            if (entry.mVertexId >= source.mNumVertices || !std::isfinite(entry.mWeight) ||
+                entry.mWeight < 0.0f)
+                failFile(where, "bone " + quoted(nameOf(bone)) + ": weight " + std::to_string(w) +
+                                    ", expected a vertex below " +
+                                    std::to_string(source.mNumVertices) +
+                                    " and a finite number of 0 or more");
+            weights.entries.push_back({start + entry.mVertexId, double(entry.mWeight)});
+        }
+    }
+    if (source.mNumBones > 0) return;
+    const aiNode* above = &node;
+    while (above != nullptr && !bind.isBone(*above)) above = above->mParent;
+    if (above == nullptr) return;
+    BoneWeights& weights = result.weightsOf(nameOf(*above));
+    for (std::uint32_t v = 0; v < source.mNumVertices; ++v)
+        weights.entries.push_back({start + v, 1.0});
+}
+
 } // namespace
 
 bool assimpReads(const std::string& path) {
@@ -104,20 +132,17 @@ CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options
         result.stateSets.push_back(
             makeStateSet(lookOf(scene, *scene.mMaterials[m], path, options)));
 
-    std::vector<std::pair<const aiNode*, glm::dmat4>> open{{scene.mRootNode, glm::dmat4(1.0)}};
-    while (!open.empty()) {
-        const auto [node, above] = open.back();
-        open.pop_back();
-        const glm::dmat4 place = above * toGlm(node->mTransformation);
+    const SceneBind bind(scene);
+    for (const aiNode* node : bind.nodes())
         for (unsigned m = 0; m < node->mNumMeshes; ++m) {
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
             if (mesh.mMaterialIndex >= result.stateSets.size())
                 result.stateSets.resize(mesh.mMaterialIndex + 1, makeStateSet(Look()));
-            addMesh(mesh, place, path + ": mesh \"" + mesh.mName.C_Str() + "\"", result);
+            const std::string where = path + ": mesh \"" + mesh.mName.C_Str() + "\"";
+            const std::size_t first = result.mesh.positions.size();
+            addMesh(mesh, bind.mesh(*node, node->mMeshes[m]), where, result);
+            addWeights(mesh, *node, bind, first, where, result);
         }
-        for (unsigned c = node->mNumChildren; c > 0; --c)
-            open.emplace_back(node->mChildren[c - 1], place);
-    }
     return result;
 }
 

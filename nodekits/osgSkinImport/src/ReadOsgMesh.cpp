@@ -2,16 +2,18 @@
 #include "FileText.h"
 #include "Materials.h"
 #include "MeshReaders.h"
+#include "OsgScene.h"
 
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
 #include <osg/Transform>
 #include <osg/TriangleIndexFunctor>
 
-#include <osgDB/Registry>
+#include <osgAnimation/RigGeometry>
 
 #include <osgSkin/GlmOsg>
 
+#include <cmath>
 #include <limits>
 
 namespace osgSkin {
@@ -50,7 +52,11 @@ public:
     GeometryCollector(const std::string& path, CornerMesh& result)
         : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), _path(path), _result(result) {}
 
-    void apply(osg::Geometry& geometry) override {
+    void apply(osg::Geometry& drawable) override {
+        auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable);
+        // A rig deforms into its own arrays; its source stays at rest.
+        const bool hasSource = rig != nullptr && rig->getSourceGeometry() != nullptr;
+        osg::Geometry& geometry = hasSource ? *rig->getSourceGeometry() : drawable;
         std::vector<glm::dvec3> positions;
         if (!positionsOf(geometry.getVertexArray(), positions)) return;
         osg::TriangleIndexFunctor<TriangleCollector> triangles;
@@ -64,9 +70,26 @@ public:
         for (const glm::dvec3& p : positions)
             _result.mesh.positions.emplace_back(place * glm::dvec4(p, 1.0));
         addTriangles(geometry, triangles.corners, place, first, positions.size());
+        if (rig != nullptr && rig->getInfluenceMap() != nullptr)
+            addWeights(*rig->getInfluenceMap(), first, positions.size());
     }
 
 private:
+    void addWeights(const osgAnimation::VertexInfluenceMap& influences, std::uint32_t first,
+                    std::size_t vertices) {
+        for (const auto& [bone, entries] : influences) {
+            BoneWeights& weights = _result.weightsOf(bone);
+            for (const auto& [vertex, weight] : entries) {
+                if (vertex >= vertices || !std::isfinite(weight) || weight < 0.0f)
+                    failFile(_path, "bone " + quoted(bone) + ": weight of vertex " +
+                                        std::to_string(vertex) + ", expected a vertex below " +
+                                        std::to_string(vertices) +
+                                        " and a finite number of 0 or more");
+                weights.entries.push_back({first + vertex, double(weight)});
+            }
+        }
+    }
+
     void addTriangles(const osg::Geometry& geometry, const std::vector<unsigned>& corners,
                       const glm::dmat4& place, std::uint32_t first, std::size_t vertices) {
         const auto* normals = perVertex<osg::Vec3Array>(geometry.getNormalArray(), vertices);
@@ -112,14 +135,7 @@ private:
 } // namespace
 
 CornerMesh readOsgMesh(const std::string& path, const osgDB::Options* options) {
-    osgDB::ReaderWriter::ReadResult read = osgDB::Registry::instance()->readNode(path, options);
-    osg::ref_ptr<osg::Node> node = read.getNode();
-    if (!node) {
-        requireReadable(path); // a pseudo-loader's name is no file, but then it has been read
-        const std::string& reason = read.message();
-        failFile(path,
-                 reason.empty() ? "no reader of Assimp or OpenSceneGraph knows this file" : reason);
-    }
+    const osg::ref_ptr<osg::Node> node = readOsgScene(path, options);
     CornerMesh result;
     GeometryCollector collector(path, result);
     node->accept(collector);

@@ -3,6 +3,7 @@
 
 #include "AssimpScene.h"
 #include "FileText.h"
+#include "SceneBind.h"
 
 #include <osgSkin/Error>
 
@@ -16,34 +17,41 @@
 namespace osgSkin {
 namespace {
 
-std::string nameOf(const aiNode& node) {
-    return {node.mName.C_Str(), node.mName.length};
-}
-
-std::set<std::string> jointNames(const aiScene& scene) {
+std::set<std::string> boneNames(const aiScene& scene) {
     std::set<std::string> names;
-    if (scene.mNumAnimations > 0) {
-        const aiAnimation& animation = *scene.mAnimations[0];
-        for (unsigned c = 0; c < animation.mNumChannels; ++c)
-            names.insert(animation.mChannels[c]->mNodeName.C_Str());
-    }
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         for (unsigned b = 0; b < scene.mMeshes[m]->mNumBones; ++b)
-            names.insert(scene.mMeshes[m]->mBones[b]->mName.C_Str());
+            names.insert(nameOf(*scene.mMeshes[m]->mBones[b]));
     return names;
 }
 
-/// All nodes, parents before children, children in file order.
-std::vector<const aiNode*> preorder(const aiNode& root) {
-    std::vector<const aiNode*> result;
-    std::vector<const aiNode*> open{&root};
-    while (!open.empty()) {
-        const aiNode* node = open.back();
-        open.pop_back();
-        result.push_back(node);
-        for (unsigned c = node->mNumChildren; c > 0; --c) open.push_back(node->mChildren[c - 1]);
-    }
-    return result;
+std::set<std::string> animatedNames(const aiScene& scene) {
+    std::set<std::string> names;
+    for (unsigned a = 0; a < scene.mNumAnimations; ++a)
+        for (unsigned c = 0; c < scene.mAnimations[a]->mNumChannels; ++c)
+            names.insert(scene.mAnimations[a]->mChannels[c]->mNodeName.C_Str());
+    return names;
+}
+
+bool isBelow(const aiNode* node, const std::set<const aiNode*>& nodes) {
+    while (node != nullptr && nodes.count(node) == 0) node = node->mParent;
+    return node != nullptr;
+}
+
+/// The nodes that are joints: bones and what moves above or below them. Other things that move
+/// beside a skin (a camera, a door) are not; without a skin, all that moves is a joint.
+std::set<const aiNode*> jointNodes(const aiScene& scene, const SceneBind& bind) {
+    std::set<const aiNode*> bones, moving, lineage;
+    for (const std::string& name : boneNames(scene))
+        if (const aiNode* node = bind.find(name)) bones.insert(node);
+    for (const std::string& name : animatedNames(scene))
+        if (const aiNode* node = bind.find(name)) moving.insert(node);
+    if (bones.empty()) return moving;
+    for (const aiNode* node : bones)
+        for (; node != nullptr && lineage.insert(node).second;) node = node->mParent;
+    for (const aiNode* node : moving)
+        if (lineage.count(node) != 0 || isBelow(node, bones)) bones.insert(node);
+    return bones;
 }
 
 /// Whether a node that nothing moves marks the end of its parent's bone.
@@ -55,9 +63,8 @@ bool isEndNode(const aiNode& node) {
 
 class Builder {
 public:
-    explicit Builder(const aiScene& scene)
-        : _nodes(preorder(*scene.mRootNode)), _names(jointNames(scene)) {
-        for (const aiNode* node : _nodes)
+    explicit Builder(const aiScene& scene) : _bind(scene), _joints(jointNodes(scene, _bind)) {
+        for (const aiNode* node : _bind.nodes())
             if (isJoint(*node))
                 while (node != nullptr && _needed.insert(node).second) node = node->mParent;
     }
@@ -66,8 +73,7 @@ public:
 
     SceneSkeleton build() {
         const aiNode* root = rootJoint();
-        for (const aiNode* up = root->mParent; up != nullptr; up = up->mParent)
-            _result.aboveRoot = toGlm(up->mTransformation) * _result.aboveRoot;
+        if (root->mParent != nullptr) _result.aboveRoot = _bind.node(*root->mParent);
         std::vector<std::pair<const aiNode*, int>> open{{root, -1}};
         while (!open.empty()) {
             const auto [node, parent] = open.back();
@@ -81,11 +87,11 @@ public:
     }
 
 private:
-    bool isJoint(const aiNode& node) const { return _names.count(nameOf(node)) != 0; }
+    bool isJoint(const aiNode& node) const { return _joints.count(&node) != 0; }
 
     /// The lowest node that has all joints in its subtree.
     const aiNode* rootJoint() const {
-        const aiNode* node = _nodes.front();
+        const aiNode* node = _bind.nodes().front();
         while (!isJoint(*node)) {
             const aiNode* below = nullptr;
             for (unsigned c = 0; c < node->mNumChildren; ++c) {
@@ -99,28 +105,24 @@ private:
     }
 
     int add(const aiNode& node, int parent) {
-        const glm::dmat4& above =
-            parent < 0 ? _result.aboveRoot : _world[static_cast<std::size_t>(parent)];
-        const glm::dmat4 world = above * toGlm(node.mTransformation);
+        const glm::dmat4& world = _bind.node(node);
         RestJoint joint{nameOf(node), parent, glm::dvec3(world[3]), {}};
         bool isLeaf = true;
         for (unsigned c = 0; c < node.mNumChildren; ++c)
             isLeaf = isLeaf && _needed.count(node.mChildren[c]) == 0;
         for (unsigned c = 0; isLeaf && !joint.tip && c < node.mNumChildren; ++c)
             if (isEndNode(*node.mChildren[c]))
-                joint.tip = glm::dvec3((world * toGlm(node.mChildren[c]->mTransformation))[3]);
+                joint.tip = glm::dvec3(_bind.node(*node.mChildren[c])[3]);
         _result.rest.joints.push_back(joint);
         _result.nodes.push_back(&node);
         _result.worldRotations.push_back(rotationOf(world));
-        _world.push_back(world);
-        return static_cast<int>(_world.size()) - 1;
+        return static_cast<int>(_result.nodes.size()) - 1;
     }
 
-    std::vector<const aiNode*> _nodes;
-    std::set<std::string> _names;
+    SceneBind _bind;
+    std::set<const aiNode*> _joints;
     std::unordered_set<const aiNode*> _needed; ///< joints and the nodes above them
     SceneSkeleton _result;
-    std::vector<glm::dmat4> _world;
 };
 
 } // namespace

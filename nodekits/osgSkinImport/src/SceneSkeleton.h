@@ -18,7 +18,7 @@ namespace osgSkin {
 struct SceneSkeleton {
     RestSkeleton rest;
     std::vector<const aiNode*> nodes;       ///< [joint]
-    std::vector<glm::dquat> worldRotations; ///< the nodes' own frames at rest, [joint]
+    std::vector<glm::dquat> worldRotations; ///< the nodes' own frames in the bind pose, [joint]
     glm::dmat4 aboveRoot{1.0};              ///< places the root joint's parent node in the world
 };
 
