@@ -25,16 +25,32 @@ struct KernelMap {
     Splat move[3];
 };
 
+/// An angle of which each vertex takes its share. The smaller it is, the fewer terms its sine
+/// needs.
+struct KernelAngle {
+    enum Range { kSmall, kMedium, kLarge, kHalved }; ///< up to 0.34, 0.9, pi / 2, pi
+    Splat value; ///< radians; half the angle where the range is kHalved
+    Range range;
+
+    KernelAngle& operator=(double angle) {
+        const double size = angle < 0.0 ? -angle : angle;
+        range = size <= 0.34 ? kSmall : size <= 0.9 ? kMedium : size <= 1.5708 ? kLarge : kHalved;
+        value = range == kHalved ? 0.5 * angle : angle;
+        return *this;
+    }
+};
+
 /// One partial joint of a group's chain in the present pose.
 ///
 /// In the frame (v, w x v, w) about the joint centre, with bend axis v and twist axis w, the
 /// partial turn is a turn in the plane of the first two axes (by the twist) followed by one in the
 /// plane of the last two (by the bend).
 struct KernelLink {
-    Splat halfBend;  ///< psi / 2
-    Splat halfTwist; ///< phi / 2
-    Splat move[3];   ///< the joint's translation, in its frame; comes in with the bend ratio
-    KernelMap out;   ///< from this frame to that of the next partial joint outwards, or rest space
+    KernelAngle bend;  ///< psi
+    KernelAngle twist; ///< phi
+    bool moved;        ///< move is not 0
+    Splat move[3];     ///< the joint's translation, in its frame; comes in with the bend ratio
+    KernelMap out; ///< from this frame to that of the next partial joint outwards, or rest space
 };
 
 /// All vertices of one group, with the constants that they have in common.
@@ -47,7 +63,6 @@ struct KernelCall {
     const KernelMap* lead;   ///< applied first; null where the blocks are in a joint's frame
     Splat azimuthCosine;     ///< of v in that frame; where lead is null
     Splat azimuthSine;
-    bool moved;       ///< some link's move is not 0
     float* positions; ///< x, y, z of the group's first vertex
     float* normals;   ///< may be null
     float* tangents;  ///< x, y, z, w; may be null; null where normals is

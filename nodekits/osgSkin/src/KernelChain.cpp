@@ -42,12 +42,12 @@ void KernelChain::append(const SkinModel::Link& link, State& state) noexcept {
     const glm::dvec3& v = turn.split.bendAxis;
     const glm::dmat3 frame(v, glm::cross(joint.twistAxis, v), joint.twistAxis);
     KernelLink& out = _links[state.partialCount++];
-    out.halfBend = 0.5 * turn.split.bendAngle;
-    out.halfTwist = 0.5 * turn.split.twistAngle;
+    out.bend = turn.split.bendAngle;
+    out.twist = turn.split.twistAngle;
     const glm::dvec3 move = turn.translation * frame; // transposed: into the frame
     for (int axis = 0; axis < 3; ++axis) out.move[axis] = move[axis];
     const double smallMove = _model.blocks().smallMove;
-    state.moved = state.moved || glm::dot(move, move) > smallMove * smallMove;
+    out.moved = glm::dot(move, move) > smallMove * smallMove;
     write(state.map.turn * frame, state.map.turn * joint.centre + state.map.move, out.out);
     state.map.turn = glm::transpose(frame);
     state.map.move = -(joint.centre * frame);
@@ -64,7 +64,6 @@ void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexc
 
     call.linkCount = group.partialCount;
     call.links = _links.data();
-    call.moved = state.moved;
     call.lead = nullptr;
     if (!isInJointFrame(_model, group)) {
         write(state.map.turn, state.map.move, _lead);

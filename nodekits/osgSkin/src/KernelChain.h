@@ -37,7 +37,6 @@ private:
     struct State {
         Map map;
         std::uint32_t partialCount = 0;
-        bool moved = false; ///< some partial link's joint is translated
     };
     static constexpr std::size_t kKept = 48;
 
