@@ -17,6 +17,11 @@ void write(const glm::dmat3& turn, const glm::dvec3& move, KernelMap& map) noexc
     }
 }
 
+/// An angle, or 0 where it is a rounding error: its powers would be denormal numbers.
+double orNothing(double angle) noexcept {
+    return std::abs(angle) < 1e-9 ? 0.0 : angle;
+}
+
 } // namespace
 
 std::size_t KernelChain::sharedLinks(const SkinModel::Group& group) const noexcept {
@@ -42,8 +47,8 @@ void KernelChain::append(const SkinModel::Link& link, State& state) noexcept {
     const glm::dvec3& v = turn.split.bendAxis;
     const glm::dmat3 frame(v, glm::cross(joint.twistAxis, v), joint.twistAxis);
     KernelLink& out = _links[state.partialCount++];
-    out.bend = turn.split.bendAngle;
-    out.twist = turn.split.twistAngle;
+    out.bend = orNothing(turn.split.bendAngle);
+    out.twist = orNothing(turn.split.twistAngle);
     const glm::dvec3 move = turn.translation * frame; // transposed: into the frame
     for (int axis = 0; axis < 3; ++axis) out.move[axis] = move[axis];
     const double smallMove = _model.blocks().smallMove;

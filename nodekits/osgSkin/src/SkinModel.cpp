@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Error>
-#include <osgSkin/PoseBounds>
 #include <osgSkin/SkinModel>
 
 #include "SkinBlocks.h"
@@ -63,12 +62,22 @@ std::shared_ptr<const SkinModel> SkinModel::create(const Binding& binding,
                                                    std::vector<glm::vec3> positions,
                                                    std::vector<glm::vec3> normals,
                                                    const std::vector<std::uint32_t>& source) {
+    const std::shared_ptr<SkinModel> model =
+        arrange(binding, std::move(positions), std::move(normals), source);
+    model->_boundSkin = makeBoundSkin(*model);
+    return model;
+}
+
+std::shared_ptr<SkinModel> SkinModel::arrange(const Binding& binding,
+                                              std::vector<glm::vec3> positions,
+                                              std::vector<glm::vec3> normals,
+                                              const std::vector<std::uint32_t>& source) {
     binding.validate();
     if (positions.size() != source.size() || normals.size() != source.size())
         throw Error("skin model: expected one position, one normal and one source per vertex");
     const Members members = groupBySignature(binding, source);
 
-    const std::shared_ptr<SkinModel> model(new SkinModel);
+    std::shared_ptr<SkinModel> model(new SkinModel);
     model->_joints = binding.joints;
     model->_positions = std::move(positions);
     model->_normals = std::move(normals);
@@ -91,7 +100,6 @@ std::shared_ptr<const SkinModel> SkinModel::create(const Binding& binding,
         model->_groups.push_back(group);
         model->addVertices(binding, source, vertices);
     }
-    model->_boundProxies = makeBoundProxies(*model);
     model->_blocks = std::make_shared<SkinBlocks>(*model);
     return model;
 }

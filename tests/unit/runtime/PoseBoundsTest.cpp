@@ -49,5 +49,5 @@ TEST(PoseBounds, ContainEveryVertexAndStayClose) {
         }
         if (natural) worst = std::max(worst, ratio);
     }
-    EXPECT_LE(worst, 2.0);
+    EXPECT_LE(worst, 1.35);
 }
