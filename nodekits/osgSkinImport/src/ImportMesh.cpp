@@ -37,8 +37,7 @@ bool normalise(std::vector<glm::vec3>& normals) {
 
 } // namespace
 
-ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) {
-    CornerMesh read = readMesh(path, options);
+ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
     if (read.mesh.faceSizes.empty()) failFile(path, "no face, expected at least one");
     try {
         read.mesh.validate();
@@ -54,6 +53,10 @@ ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) 
     result.weights = std::move(read.weights);
     result.mesh = std::move(read.mesh);
     return result;
+}
+
+ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) {
+    return finishMesh(readMesh(path, options), path);
 }
 
 } // namespace osgSkin

@@ -3,9 +3,13 @@
 
 #include "CornerMesh.h"
 
+#include <osgSkinImport/ImportMesh>
+
 #include <osgDB/Options>
 
 #include <string>
+
+struct aiScene;
 
 namespace osgSkin {
 
@@ -14,6 +18,15 @@ namespace osgSkin {
 CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options);
 CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options);
 CornerMesh readOsgMesh(const std::string& path, const osgDB::Options* options);
+
+/// The meshes of a scene that Assimp has read.
+CornerMesh meshOf(const aiScene& scene, const std::string& path, const osgDB::Options* options);
+
+/// Refuses files that Assimp would crash or hang on. \throw osgSkin::Error
+void checkBeforeAssimp(const std::string& path);
+
+/// Checks a mesh as a whole, completes its normals and makes its parts. \throw osgSkin::Error
+ImportedMesh finishMesh(CornerMesh read, const std::string& path);
 
 /// Whether Assimp has a reader for files with this name's extension.
 bool assimpReads(const std::string& path);

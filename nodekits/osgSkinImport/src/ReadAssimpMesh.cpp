@@ -109,7 +109,7 @@ void addWeights(const aiMesh& source, const aiNode& node, const SceneBind& bind,
     }
     if (source.mNumBones > 0) return;
     const aiNode* above = &node;
-    while (above != nullptr && !bind.isBone(*above)) above = above->mParent;
+    while (above != nullptr && !bind.isBone(*above)) above = bind.parent(*above);
     if (above == nullptr) return;
     BoneWeights& weights = result.weightsOf(nameOf(*above));
     for (std::uint32_t v = 0; v < source.mNumVertices; ++v)
@@ -123,10 +123,17 @@ bool assimpReads(const std::string& path) {
     return !extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension);
 }
 
-CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options) {
+void checkBeforeAssimp(const std::string& path) {
     if (osgDB::getLowerCaseFileExtension(path) == "ply") checkPly(path, readText(path));
+}
+
+CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options) {
+    checkBeforeAssimp(path);
     Assimp::Importer importer;
-    const aiScene& scene = readAssimpScene(importer, path);
+    return meshOf(readAssimpScene(importer, path), path, options);
+}
+
+CornerMesh meshOf(const aiScene& scene, const std::string& path, const osgDB::Options* options) {
     CornerMesh result;
     for (unsigned m = 0; m < scene.mNumMaterials; ++m)
         result.stateSets.push_back(

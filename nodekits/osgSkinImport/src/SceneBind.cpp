@@ -20,18 +20,22 @@ bool isInvertible(const aiMatrix4x4& m) {
 } // namespace
 
 SceneBind::SceneBind(const aiScene& scene) {
-    std::vector<std::pair<const aiNode*, int>> open{{scene.mRootNode, 0}};
+    std::vector<const aiNode*> open{scene.mRootNode};
+    _parent[scene.mRootNode] = nullptr;
     while (!open.empty()) {
-        const auto [node, depth] = open.back();
+        const aiNode* node = open.back();
         open.pop_back();
+        const aiNode* above = _parent.at(node);
         _nodes.push_back(node);
         _byName.emplace(nameOf(*node), node);
-        _depth[node] = depth;
+        _depth[node] = above != nullptr ? _depth.at(above) + 1 : 0;
         _isBone[node] = false;
         const glm::dmat4 local = toGlm(node->mTransformation);
-        _posed[node] = node->mParent != nullptr ? _posed.at(node->mParent) * local : local;
-        for (unsigned c = node->mNumChildren; c > 0; --c)
-            open.emplace_back(node->mChildren[c - 1], depth + 1);
+        _posed[node] = above != nullptr ? _posed.at(above) * local : local;
+        for (unsigned c = node->mNumChildren; c > 0; --c) {
+            open.push_back(node->mChildren[c - 1]);
+            _parent[open.back()] = node;
+        }
     }
 
     // Skins that reach further up come first: the others follow the bones that they share.
@@ -75,7 +79,7 @@ glm::dmat4 SceneBind::bindFromAbove(const aiNode& node) const {
     const aiNode* above = &node;
     while (above != nullptr && _bind.count(above) == 0) {
         result = toGlm(above->mTransformation) * result;
-        above = above->mParent;
+        above = _parent.at(above);
     }
     return above == nullptr ? result : _bind.at(above) * result;
 }

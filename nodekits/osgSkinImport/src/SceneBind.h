@@ -27,6 +27,9 @@ public:
     /// The first node called `name`, null where there is none.
     const aiNode* find(const std::string& name) const;
 
+    /// The node above, null for the root. Not every reader of Assimp's sets aiNode::mParent.
+    const aiNode* parent(const aiNode& node) const { return _parent.at(&node); }
+
     /// Whether some skin has this node for a bone.
     bool isBone(const aiNode& node) const { return _isBone.at(&node); }
 
@@ -48,6 +51,7 @@ private:
 
     std::vector<const aiNode*> _nodes;
     std::unordered_map<std::string, const aiNode*> _byName;
+    std::unordered_map<const aiNode*, const aiNode*> _parent;
     std::unordered_map<const aiNode*, int> _depth;
     std::unordered_map<const aiNode*, bool> _isBone;
     std::unordered_map<const aiNode*, glm::dmat4> _posed;

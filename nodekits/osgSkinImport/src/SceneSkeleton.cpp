@@ -33,8 +33,8 @@ std::set<std::string> animatedNames(const aiScene& scene) {
     return names;
 }
 
-bool isBelow(const aiNode* node, const std::set<const aiNode*>& nodes) {
-    while (node != nullptr && nodes.count(node) == 0) node = node->mParent;
+bool isBelow(const aiNode* node, const std::set<const aiNode*>& nodes, const SceneBind& bind) {
+    while (node != nullptr && nodes.count(node) == 0) node = bind.parent(*node);
     return node != nullptr;
 }
 
@@ -48,9 +48,9 @@ std::set<const aiNode*> jointNodes(const aiScene& scene, const SceneBind& bind) 
         if (const aiNode* node = bind.find(name)) moving.insert(node);
     if (bones.empty()) return moving;
     for (const aiNode* node : bones)
-        for (; node != nullptr && lineage.insert(node).second;) node = node->mParent;
+        for (; node != nullptr && lineage.insert(node).second;) node = bind.parent(*node);
     for (const aiNode* node : moving)
-        if (lineage.count(node) != 0 || isBelow(node, bones)) bones.insert(node);
+        if (lineage.count(node) != 0 || isBelow(node, bones, bind)) bones.insert(node);
     return bones;
 }
 
@@ -66,14 +66,14 @@ public:
     explicit Builder(const aiScene& scene) : _bind(scene), _joints(jointNodes(scene, _bind)) {
         for (const aiNode* node : _bind.nodes())
             if (isJoint(*node))
-                while (node != nullptr && _needed.insert(node).second) node = node->mParent;
+                while (node != nullptr && _needed.insert(node).second) node = _bind.parent(*node);
     }
 
     bool empty() const { return _needed.empty(); }
 
     SceneSkeleton build() {
         const aiNode* root = rootJoint();
-        if (root->mParent != nullptr) _result.aboveRoot = _bind.node(*root->mParent);
+        if (const aiNode* above = _bind.parent(*root)) _result.aboveRoot = _bind.node(*above);
         std::vector<std::pair<const aiNode*, int>> open{{root, -1}};
         while (!open.empty()) {
             const auto [node, parent] = open.back();
@@ -115,6 +115,7 @@ private:
                 joint.tip = glm::dvec3(_bind.node(*node.mChildren[c])[3]);
         _result.rest.joints.push_back(joint);
         _result.nodes.push_back(&node);
+        _result.bind.push_back(world);
         _result.worldRotations.push_back(rotationOf(world));
         return static_cast<int>(_result.nodes.size()) - 1;
     }

@@ -17,7 +17,8 @@ namespace osgSkin {
 /// that connect them.
 struct SceneSkeleton {
     RestSkeleton rest;
-    std::vector<const aiNode*> nodes;       ///< [joint]
+    std::vector<const aiNode*> nodes; ///< [joint]
+    std::vector<glm::dmat4> bind;     ///< places the nodes' own frames in the bind pose, [joint]
     std::vector<glm::dquat> worldRotations; ///< the nodes' own frames in the bind pose, [joint]
     glm::dmat4 aboveRoot{1.0};              ///< places the root joint's parent node in the world
 };
