@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <ostream>
 
 namespace {
 
@@ -79,6 +80,10 @@ struct PseudoLoader {
     const char* suffix;
     osg::Matrix move;
 };
+
+void PrintTo(const PseudoLoader& loader, std::ostream* out) {
+    *out << loader.name;
+}
 
 class Placement : public testing::TestWithParam<PseudoLoader> {};
 

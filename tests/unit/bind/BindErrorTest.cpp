@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <limits>
+#include <ostream>
 
 using namespace osgSkin;
 
@@ -24,6 +25,10 @@ struct BadInput {
     std::function<void(Input&)> spoil;
     const char* message;
 };
+
+void PrintTo(const BadInput& bad, std::ostream* out) {
+    *out << bad.name;
+}
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <ostream>
 
 using namespace osgSkin;
 
@@ -16,6 +17,10 @@ struct OddInput {
     const char* name;
     std::function<void(SkinMesh&, RestSkeleton&)> make; ///< out of the cylinder and two joints
 };
+
+void PrintTo(const OddInput& odd, std::ostream* out) {
+    *out << odd.name;
+}
 
 void addTriangle(SkinMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     mesh.faceSizes.push_back(3);

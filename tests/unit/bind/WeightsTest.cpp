@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <ostream>
 
 using namespace osgSkin;
 
@@ -133,6 +134,10 @@ struct BadWeights {
     std::function<void(Input&)> spoil;
     const char* message;
 };
+
+void PrintTo(const BadWeights& bad, std::ostream* out) {
+    *out << bad.name;
+}
 
 const BadWeights kBad[] = {
     {"TooFewLists", [](Input& i) { i.weights.pop_back(); }, "expected one list for each"},

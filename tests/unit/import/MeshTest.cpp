@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <ostream>
 #include <set>
 
 namespace {
@@ -147,6 +148,10 @@ struct Body {
     std::size_t vertices;
     std::size_t faces;
 };
+
+void PrintTo(const Body& body, std::ostream* out) {
+    *out << body.file;
+}
 
 class SharedBody : public testing::TestWithParam<Body> {};
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <ostream>
 #include <string>
 
 /// A malformed file and what its error must say.
@@ -11,6 +12,10 @@ struct BadFile {
     const char* file;
     const char* message;
 };
+
+inline void PrintTo(const BadFile& bad, std::ostream* out) {
+    *out << bad.file;
+}
 
 /// A test's name from its file's.
 inline std::string nameOf(const testing::TestParamInfo<BadFile>& info) {
