@@ -43,13 +43,18 @@ HWY_INLINE void storeTriples(V x, V y, V z, float* HWY_RESTRICT to) {
     _mm512_storeu_ps(to + 16, merge(xy1, z1));
     _mm512_storeu_ps(to + 32, merge(xy2, z2));
 #elif HWY_TARGET == HWY_AVX2
-    // Lane 3j % 8 for x_j, whichever of the three vectors it goes to; then blends only.
-    const __m256 px = _mm256_permutevar8x32_ps(x.raw, _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5));
-    const __m256 py = _mm256_permutevar8x32_ps(y.raw, _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2));
-    const __m256 pz = _mm256_permutevar8x32_ps(z.raw, _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7));
-    _mm256_storeu_ps(to, _mm256_blend_ps(_mm256_blend_ps(px, py, 0x92), pz, 0x24));
-    _mm256_storeu_ps(to + 8, _mm256_blend_ps(_mm256_blend_ps(px, py, 0x24), pz, 0x49));
-    _mm256_storeu_ps(to + 16, _mm256_blend_ps(_mm256_blend_ps(px, py, 0x49), pz, 0x92));
+    const __m256 xy = _mm256_shuffle_ps(x.raw, y.raw, _MM_SHUFFLE(2, 0, 2, 0));
+    const __m256 yz = _mm256_shuffle_ps(y.raw, z.raw, _MM_SHUFFLE(3, 1, 3, 1));
+    const __m256 zx = _mm256_shuffle_ps(z.raw, x.raw, _MM_SHUFFLE(3, 1, 2, 0));
+    const __m256 p = _mm256_shuffle_ps(xy, zx, _MM_SHUFFLE(2, 0, 2, 0));
+    const __m256 q = _mm256_shuffle_ps(yz, xy, _MM_SHUFFLE(3, 1, 2, 0));
+    const __m256 r = _mm256_shuffle_ps(zx, yz, _MM_SHUFFLE(3, 1, 3, 1));
+    _mm_storeu_ps(to, _mm256_castps256_ps128(p));
+    _mm_storeu_ps(to + 4, _mm256_castps256_ps128(q));
+    _mm_storeu_ps(to + 8, _mm256_castps256_ps128(r));
+    _mm_storeu_ps(to + 12, _mm256_extractf128_ps(p, 1));
+    _mm_storeu_ps(to + 16, _mm256_extractf128_ps(q, 1));
+    _mm_storeu_ps(to + 20, _mm256_extractf128_ps(r, 1));
 #elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
     const __m128 xy = _mm_shuffle_ps(x.raw, y.raw, _MM_SHUFFLE(2, 0, 2, 0)); // x0 x2 y0 y2
     const __m128 yz = _mm_shuffle_ps(y.raw, z.raw, _MM_SHUFFLE(3, 1, 3, 1)); // y1 y3 z1 z3
@@ -62,40 +67,55 @@ HWY_INLINE void storeTriples(V x, V y, V z, float* HWY_RESTRICT to) {
 #endif
 }
 
-/// Stores a vector's vertices; those that would run past the end, or are not in order, by way of
-/// the stack.
-HWY_INLINE void store(const KernelCall& call, std::size_t first, float* HWY_RESTRICT to, V x, V y,
-                      V z) {
-    const std::size_t lanes = hn::Lanes(D());
-    if (HWY_LIKELY(!call.scatter && first + lanes <= call.room)) {
-        storeTriples(x, y, z, to + 3 * first);
+/// Where one stream of a group goes.
+struct Output {
+    float* to;            ///< of the group's first vertex; with scatter, of vertex 0
+    std::size_t straight; ///< a vector that starts at a vertex before this one is stored whole
+    std::size_t vertexCount;
+    const std::uint32_t* scatter;
+
+    HWY_INLINE Output(const KernelCall& call, float* stream)
+        : to(stream), straight(0), vertexCount(call.vertexCount), scatter(call.scatter) {
+        const std::size_t lanes = hn::Lanes(D());
+        if (!scatter && call.room >= lanes) straight = call.room - lanes + 1;
+    }
+};
+
+/// Stores what cannot be stored whole: a vector that ends too late, or one not in order. Takes it
+/// by way of memory: GCC 12 forgets to leave AVX mode behind a call with vectors as arguments.
+template <std::size_t kParts>
+HWY_NOINLINE void storeSingly(const Output& out, std::size_t first, const float* from) {
+    const std::size_t end = HWY_MIN(first + hn::Lanes(D()), out.vertexCount);
+    for (std::size_t i = first; i < end; ++i, from += kParts)
+        std::memcpy(out.to + kParts * (out.scatter ? out.scatter[i] : i), from,
+                    kParts * sizeof(float));
+}
+
+/// Stores the vertices of a vector, the first of which is the group's `first`.
+HWY_INLINE void store(const Output& out, std::size_t first, V x, V y, V z) {
+    if (HWY_LIKELY(first < out.straight)) {
+        storeTriples(x, y, z, out.to + 3 * first);
         return;
     }
     float buffer[3 * kBlock];
     storeTriples(x, y, z, buffer);
-    const std::size_t count = HWY_MIN(lanes, call.vertexCount - first);
-    if (!call.scatter) {
-        std::memcpy(to + 3 * first, buffer, 3 * count * sizeof(float));
-        return;
-    }
-    for (std::size_t i = 0; i < count; ++i)
-        std::memcpy(to + 3 * std::size_t(call.scatter[first + i]), buffer + 3 * i,
-                    3 * sizeof(float));
+    storeSingly<3>(out, first, buffer);
 }
 
-/// The same for a vector's tangents, w kept.
-HWY_INLINE void storeTangents(const KernelCall& call, std::size_t first, V x, V y, V z, V w) {
-    const std::size_t lanes = hn::Lanes(D());
-    if (HWY_LIKELY(!call.scatter && first + lanes <= call.room)) {
-        hn::StoreInterleaved4(x, y, z, w, D(), call.tangents + 4 * first);
+/// The same with a fourth part.
+HWY_INLINE void store(const Output& out, std::size_t first, V x, V y, V z, V w) {
+    if (HWY_LIKELY(first < out.straight)) {
+        hn::StoreInterleaved4(x, y, z, w, D(), out.to + 4 * first);
         return;
     }
     float buffer[4 * kBlock];
     hn::StoreInterleaved4(x, y, z, w, D(), buffer);
-    const std::size_t count = HWY_MIN(lanes, call.vertexCount - first);
-    for (std::size_t i = 0; i < count; ++i)
-        std::memcpy(call.tangents + 4 * (call.scatter ? call.scatter[first + i] : first + i),
-                    buffer + 4 * i, 4 * sizeof(float));
+    storeSingly<4>(out, first, buffer);
+}
+
+/// The lanes of the vertices from `first` on in the tangents' blocks: x; y, z, w a block further.
+HWY_INLINE const float* tangentLanes(const KernelCall& call, std::size_t first) {
+    return call.tangentRows[first / kBlock * SkinBlocks::kTangentRows].lane + first % kBlock;
 }
 
 } // namespace HWY_NAMESPACE

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Included by DeformKernel.cpp once for each instruction set.
-#if defined(OSGSKIN_KERNELSINE_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef OSGSKIN_KERNELSINE_INL_H
-#undef OSGSKIN_KERNELSINE_INL_H
+#if defined(OSGSKIN_KERNELTURNS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef OSGSKIN_KERNELTURNS_INL_H
+#undef OSGSKIN_KERNELTURNS_INL_H
 #else
-#define OSGSKIN_KERNELSINE_INL_H
+#define OSGSKIN_KERNELTURNS_INL_H
 #endif
 
 #include <hwy/highway.h>
@@ -51,11 +51,18 @@ constexpr float kLargeSine[] = {9.9999997659e-01f, -1.6666647633e-01f, 8.3328997
 constexpr float kLargeCosine[] = {-4.9999932288e-01f, 4.1663989297e-02f, -1.3855925896e-03f,
                                   2.3194355375e-05f};
 
+/// From sine and cosine of an angle to those of twice the angle.
+HWY_INLINE void twice(V& sine, V& cosine) {
+    const V s = sine;
+    const V both = hn::Add(s, s);
+    sine = hn::Mul(both, cosine);
+    cosine = hn::NegMulAdd(both, s, hn::Set(D(), 1.0f));
+}
+
 /// Sine and cosine of ratio * angle. The angle's range is the same for a whole group, so that each
-/// vertex pays only for as many terms as its group needs, and no range reduction.
+/// vertex pays only for as many terms as its group needs, and for no range reduction.
 HWY_INLINE void sineCosine(const KernelAngle& angle, V ratio, V& sine, V& cosine) {
-    const D d;
-    const V one = hn::Set(d, 1.0f);
+    const V one = hn::Set(D(), 1.0f);
     const V h = hn::Mul(ratio, constant(angle.value));
     const V t = hn::Mul(h, h);
     if (HWY_LIKELY(angle.range == KernelAngle::kSmall)) {
@@ -63,21 +70,62 @@ HWY_INLINE void sineCosine(const KernelAngle& angle, V ratio, V& sine, V& cosine
         cosine = hn::MulAdd(t, polynomial(t, kSmallCosine), one);
     } else if (HWY_LIKELY(angle.range == KernelAngle::kMedium)) {
         sine = hn::Mul(h, polynomial(t, kMediumSine));
-#if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
-        cosine = hn::Sqrt(hn::NegMulAdd(sine, sine, one)); // has a port of its own; exact enough
-#else
         cosine = hn::MulAdd(t, polynomial(t, kMediumCosine), one);
-#endif
     } else {
         sine = hn::Mul(h, polynomial(t, kLargeSine));
         cosine = hn::MulAdd(t, polynomial(t, kLargeCosine), one);
-        if (angle.range == KernelAngle::kHalved) {
-            const V twice = hn::Add(sine, sine);
-            const V half = sine;
-            sine = hn::Mul(twice, cosine);
-            cosine = hn::NegMulAdd(twice, half, one);
-        }
+        if (angle.range == KernelAngle::kHalved) twice(sine, cosine);
     }
+}
+
+/// From the twist b to b - z: the rest data's fixed frame differs from (v, w x v, w) by v's azimuth
+/// z.
+HWY_INLINE void takeAzimuthOff(const KernelCall& call, V& sine, V& cosine) {
+    const V old = cosine;
+    cosine =
+        hn::MulAdd(old, constant(call.azimuthCosine), hn::Mul(sine, constant(call.azimuthSine)));
+    sine = hn::MulSub(sine, constant(call.azimuthCosine), hn::Mul(old, constant(call.azimuthSine)));
+}
+
+/// Turns (a, b) in its plane.
+HWY_INLINE void turnPlane(V sine, V cosine, V& a, V& b) {
+    const V old = a;
+    a = hn::MulSub(cosine, a, hn::Mul(sine, b));
+    b = hn::MulAdd(sine, old, hn::Mul(cosine, b));
+}
+
+HWY_INLINE V mapRow(const Splat (&row)[3], V x, V y, V z) {
+    return hn::MulAdd(constant(row[2]), z,
+                      hn::MulAdd(constant(row[1]), y, hn::Mul(constant(row[0]), x)));
+}
+
+HWY_INLINE void turn(const KernelMap& map, V& x, V& y, V& z) {
+    const V a = mapRow(map.turn[0], x, y, z);
+    const V b = mapRow(map.turn[1], x, y, z);
+    z = mapRow(map.turn[2], x, y, z);
+    x = a;
+    y = b;
+}
+
+HWY_INLINE V movedRow(const Splat (&row)[3], const Splat& move, V x, V y, V z) {
+    return hn::MulAdd(
+        constant(row[2]), z,
+        hn::MulAdd(constant(row[1]), y, hn::MulAdd(constant(row[0]), x, constant(move))));
+}
+
+HWY_INLINE void apply(const KernelMap& map, V& x, V& y, V& z) {
+    const V a = movedRow(map.turn[0], map.move[0], x, y, z);
+    const V b = movedRow(map.turn[1], map.move[1], x, y, z);
+    z = movedRow(map.turn[2], map.move[2], x, y, z);
+    x = a;
+    y = b;
+}
+
+/// A translation of the joint, where the motion has one, comes in with the bend.
+HWY_INLINE void moveBy(const KernelLink& link, V bendRatio, V& x, V& y, V& z) {
+    x = hn::MulAdd(bendRatio, constant(link.move[0]), x);
+    y = hn::MulAdd(bendRatio, constant(link.move[1]), y);
+    z = hn::MulAdd(bendRatio, constant(link.move[2]), z);
 }
 
 } // namespace HWY_NAMESPACE
