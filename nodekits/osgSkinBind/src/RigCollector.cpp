@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "RigCollector.h"
+
+#include <algorithm>
+
+namespace osgSkin {
+
+void RigCollector::apply(osg::Drawable& drawable) {
+    auto* geometry = dynamic_cast<osgAnimation::RigGeometry*>(&drawable);
+    if (geometry == nullptr) return;
+    osg::NodePath way = getNodePath();
+    if (!way.empty() && way.back() == geometry) way.pop_back();
+    osgAnimation::Skeleton* skeleton = nullptr;
+    auto below = way.end();
+    while (below != way.begin() && skeleton == nullptr) {
+        skeleton = dynamic_cast<osgAnimation::Skeleton*>(*(below - 1));
+        if (skeleton == nullptr) --below;
+    }
+    const auto [entry, isNew] = _index.emplace(geometry, rigs.size());
+    if (isNew) {
+        rigs.push_back({});
+        rigs.back().geometry = geometry;
+        rigs.back().skeleton = skeleton;
+    }
+    Rig& rig = rigs[entry->second];
+    rig.severalSkeletons = rig.severalSkeletons || rig.skeleton != skeleton;
+    osg::NodePath nodes(below, way.end());
+    if (std::find(rig.ways.begin(), rig.ways.end(), nodes) == rig.ways.end())
+        rig.ways.push_back(nodes);
+}
+
+} // namespace osgSkin

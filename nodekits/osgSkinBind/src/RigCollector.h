@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_RIGCOLLECTOR_H
+#define OSGSKINBIND_RIGCOLLECTOR_H
+
+#include <osg/NodeVisitor>
+#include <osgAnimation/RigGeometry>
+#include <osgAnimation/Skeleton>
+
+#include <map>
+#include <vector>
+
+namespace osgSkin {
+
+/// Finds a scene's rigs, with every way that leads from their skeleton to them.
+class RigCollector : public osg::NodeVisitor {
+public:
+    RigCollector() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    struct Rig {
+        osg::ref_ptr<osgAnimation::RigGeometry> geometry;
+        /// Nodes from below the skeleton down to the rig's parent, one list for each parent.
+        std::vector<osg::NodePath> ways;
+        osgAnimation::Skeleton* skeleton = nullptr;
+        bool severalSkeletons = false;
+    };
+    /// In the order in which the scene holds them.
+    std::vector<Rig> rigs;
+
+    void apply(osg::Drawable& drawable) override;
+    void apply(osg::Geometry& geometry) override { apply(static_cast<osg::Drawable&>(geometry)); }
+
+private:
+    std::map<osgAnimation::RigGeometry*, std::size_t> _index;
+};
+
+} // namespace osgSkin
+
+#endif
