@@ -10,10 +10,14 @@
 #include <osgSkin/Error>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinBind/Bind>
+#include <osgSkinBind/ShowRegions>
 
 #include <osg/MatrixTransform>
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+
+#include <algorithm>
 
 namespace osgSkin {
 namespace {
@@ -97,17 +101,51 @@ void buildScene(Character& character, const osgDB::Options* options) {
                                                upright->getMatrix()));
 }
 
+/// What the caller asks for goes before what the file says.
+void change(SkinFile& file, const SkinOptions& wanted, const osgDB::Options* options) {
+    if (wanted.bind != SkinOptions::Bind::Default) {
+        file.paintedWeights = wanted.bind == SkinOptions::Bind::Weights;
+        if (!file.paintedWeights) file.weights.clear();
+        file.bind.method = wanted.bind == SkinOptions::Bind::Paper ? BindOptions::Method::Paper
+                                                                   : BindOptions::Method::Smooth;
+    }
+    if (wanted.rigid) file.bind.rigid = wanted.rigid;
+    if (!wanted.motion) return;
+    if (*wanted.motion == "none") {
+        file.motions.clear();
+        file.props.clear();
+        return;
+    }
+    const auto named = std::find_if(file.motions.begin(), file.motions.end(),
+                                    [&](const auto& m) { return m.name == *wanted.motion; });
+    if (named != file.motions.end()) {
+        std::rotate(file.motions.begin(), named, named + 1);
+        return;
+    }
+    const std::string found = osgDB::findDataFile(*wanted.motion, options);
+    if (found.empty())
+        throw Error(file.file + ": motion \"" + *wanted.motion +
+                    "\" is neither one of its motions nor a file");
+    SkinFile::Motion motion;
+    motion.file = found;
+    motion.name = found;
+    file.motions.insert(file.motions.begin(), motion);
+}
+
 } // namespace
 
-Character Character::load(const std::string& file, const osgDB::Options* options) {
+Character Character::load(const std::string& file, const osgDB::Options* options,
+                          const SkinOptions& wanted) {
     Character character;
     character.file = SkinFile::read(file);
+    change(character.file, wanted, options);
     character.body = importMesh(character.file.mesh, options);
     character.rig = importSkeleton(character.file.skeleton);
     character.binding = bindBody(character);
     OSG_INFO << file << ":\n" << character.report.text();
     loadMotions(character);
     inFile(file, [&] {
+        if (wanted.showRegions) showRegions(character.body.parts, character.binding);
         buildScene(character, options);
         return 0;
     });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "SkinFile.h"
+#include "SkinOptions.h"
 
 #include <osgSkin/Binding>
 #include <osgSkinBind/AttachSkin>
@@ -40,7 +41,8 @@ struct Character {
     AttachedSkin skin;
 
     /// Reads, binds and builds. \throw Error with file, place and what was expected
-    static Character load(const std::string& file, const osgDB::Options* options = nullptr);
+    static Character load(const std::string& file, const osgDB::Options* options = nullptr,
+                          const SkinOptions& wanted = {});
 
     /// Puts bones and skin into a sample of a motion, exactly, without an update traversal.
     void pose(const Motion& motion, std::size_t frame);

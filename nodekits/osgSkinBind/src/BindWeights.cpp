@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 namespace osgSkin {
 namespace {
@@ -89,6 +90,22 @@ std::vector<BindReport::Region> regionsOf(const Binding& binding) {
 }
 
 } // namespace
+
+bool isWellPainted(const VertexWeights& weights) {
+    std::size_t painted = 0;
+    std::set<std::uint32_t> joints;
+    for (const std::vector<JointWeight>& list : weights) {
+        bool any = false;
+        for (const JointWeight& entry : list) {
+            if (!(entry.weight > 0.0)) continue;
+            any = true;
+            joints.insert(entry.joint);
+        }
+        painted += any ? 1 : 0;
+    }
+    return joints.size() > 1 &&
+           static_cast<double>(painted) >= 0.98 * static_cast<double>(weights.size());
+}
 
 Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
                     const VertexWeights& weights, const BindOptions& options, BindReport* report) {

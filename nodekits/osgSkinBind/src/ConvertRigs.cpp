@@ -8,11 +8,13 @@
 #include <osgSkin/ReadSkeleton>
 #include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/Bind>
+#include <osgSkinBind/ShowRegions>
 
 #include <osg/Notify>
 #include <osg/Transform>
 
-#include <set>
+#include <iterator>
+#include <map>
 
 namespace osgSkin {
 namespace {
@@ -21,20 +23,6 @@ using Rig = RigCollector::Rig;
 
 std::string nameOf(const Rig& rig) {
     return "rig \"" + rig.geometry->getName() + "\"";
-}
-
-bool wellPainted(const VertexWeights& weights) {
-    std::size_t painted = 0;
-    std::set<std::uint32_t> joints;
-    for (const std::vector<JointWeight>& list : weights) {
-        double sum = 0.0;
-        for (const JointWeight& entry : list) {
-            sum += entry.weight;
-            if (entry.weight > 0.0) joints.insert(entry.joint);
-        }
-        painted += sum > 0.0 ? 1 : 0;
-    }
-    return joints.size() > 1 && double(painted) >= 0.98 * double(weights.size());
 }
 
 BindOptions optionsFor(const RestSkeleton& skeleton, const BindOptions& wanted) {
@@ -48,7 +36,7 @@ Binding bindBody(const RigBody& body, const RestSkeleton& skeleton, const Conver
     const BindOptions own = optionsFor(skeleton, options.bind);
     const bool painted =
         options.ratios == ConvertOptions::Ratios::Painted ||
-        (options.ratios == ConvertOptions::Ratios::Best && wellPainted(body.weights));
+        (options.ratios == ConvertOptions::Ratios::Best && isWellPainted(body.weights));
     BindReport report;
     Binding binding = painted ? bindWeights(body.mesh, skeleton, body.weights, own, &report)
                               : bind(body.mesh, skeleton, own, &report);
@@ -103,6 +91,7 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
     }
     if (taken.empty()) return;
     const Binding binding = bindBody(body, rest, options);
+    if (options.showRegions) showRegions(body.parts, binding);
     RigidSplit whole;
     whole.faceJoint.assign(body.mesh.faceSizes.size(), RigidSplit::kSkin);
     const osg::ref_ptr<osgAnimation::Skeleton> workbench = new osgAnimation::Skeleton;

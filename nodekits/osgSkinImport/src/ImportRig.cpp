@@ -21,9 +21,10 @@ bool isRigged(const aiScene& scene) {
 }
 
 /// OSG's world has Z up and a figure faces -Y. Assimp turns most formats to Y up; FBX files say
-/// what they have and are left as they are.
-osg::Matrixd toWorld(const aiScene& scene) {
+/// what they have and are left as they are, and so is SMD, which has Z up.
+osg::Matrixd toWorld(const aiScene& scene, const std::string& path) {
     const osg::Matrixd fromY = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
+    if (osgDB::getLowerCaseFileExtension(path) == "smd") return {};
     int up = 1;
     if (scene.mMetaData != nullptr && scene.mMetaData->Get("UpAxis", up) && up == 2) return {};
     return fromY;
@@ -42,6 +43,10 @@ double metresPerUnit(const aiScene& scene, const std::string& path) {
 
 } // namespace
 
+bool isReadByAssimp(const std::string& path) {
+    return assimpReads(path);
+}
+
 ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     requireReadable(path);
     if (!assimpReads(path)) failFile(path, "Assimp reads no files of this kind");
@@ -56,7 +61,7 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     result.rest = joints.rest;
     result.skeleton = makeBones(joints, movedJoints(scene, joints));
     result.animations = makeClips(scene, joints, path);
-    result.toWorld = toWorld(scene);
+    result.toWorld = toWorld(scene, path);
     result.metresPerUnit = metresPerUnit(scene, path);
     return result;
 }

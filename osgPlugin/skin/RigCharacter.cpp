@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "RigCharacter.h"
+
+#include "MeshWeights.h"
+#include "PlayedBounds.h"
+
+#include <osgSkin/AutoPlayManager>
+#include <osgSkin/Error>
+#include <osgSkinBind/AttachSkin>
+#include <osgSkinBind/Bind>
+#include <osgSkinBind/ConvertRigs>
+#include <osgSkinBind/ShowRegions>
+#include <osgSkinImport/Clip>
+#include <osgSkinImport/ImportRig>
+#include <osgSkinImport/Retarget>
+
+#include <osg/MatrixTransform>
+#include <osg/Notify>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+using Bind = SkinOptions::Bind;
+
+Binding bindRig(const std::string& file, const ImportedRig& rig, const SkinOptions& wanted) {
+    BindOptions options;
+    options.rigid = wanted.rigid;
+    if (wanted.bind == Bind::Paper) options.method = BindOptions::Method::Paper;
+    VertexWeights weights;
+    bool painted = wanted.bind == Bind::Weights;
+    if (painted || wanted.bind == Bind::Default) weights = meshWeights(file, rig.body, rig.rest);
+    if (wanted.bind == Bind::Default) painted = isWellPainted(weights);
+    BindReport report;
+    Binding binding = painted ? bindWeights(rig.body.mesh, rig.rest, weights, options, &report)
+                              : bind(rig.body.mesh, rig.rest, options, &report);
+    OSG_INFO << file << ": bound by " << (painted ? "its own weights" : "regions") << "\n"
+             << report.text();
+    return binding;
+}
+
+std::string clipNames(const osgAnimation::AnimationList& clips) {
+    std::string names;
+    for (const auto& clip : clips)
+        names += (names.empty() ? "\"" : ", \"") + clip->getName() + "\"";
+    return names.empty() ? "no clip" : "one of " + names;
+}
+
+/// A motion of another skeleton, which moves the joints of makeSkeleton().
+osg::ref_ptr<osgAnimation::Animation> carriedOver(const std::string& file, const ImportedRig& rig) {
+    try {
+        return makeAnimation(retarget(importMotion(file), rig.rest), rig.rest);
+    } catch (const Error& error) {
+        const std::string what = error.what();
+        throw Error(what.rfind(file, 0) == 0 ? what : file + ": " + what);
+    }
+}
+
+/// Takes what is to be played out of the rig: its clips with the wanted one first, or a motion
+/// file, for which the skeleton is built anew.
+osgAnimation::AnimationList chooseMotion(const std::string& file, ImportedRig& rig,
+                                         const SkinOptions& wanted, const osgDB::Options* options) {
+    osgAnimation::AnimationList clips = rig.animations;
+    if (!wanted.motion) return clips;
+    if (*wanted.motion == "none") return {};
+    for (auto clip = clips.begin(); clip != clips.end(); ++clip)
+        if ((*clip)->getName() == *wanted.motion) {
+            std::rotate(clips.begin(), clip, clip + 1);
+            return clips;
+        }
+    const std::string found = osgDB::findDataFile(*wanted.motion, options);
+    if (found.empty())
+        throw Error(file + ": motion \"" + *wanted.motion + "\" is neither a clip nor a file, " +
+                    "expected " + clipNames(clips));
+    rig.skeleton = makeSkeleton(rig.rest);
+    return {carriedOver(found, rig)};
+}
+
+osg::ref_ptr<osg::Group> loadByAssimp(const std::string& file, const osgDB::Options* options,
+                                      const SkinOptions& wanted) {
+    ImportedRig rig = importRig(file, options);
+    const Binding binding = bindRig(file, rig, wanted);
+    const osgAnimation::AnimationList clips = chooseMotion(file, rig, wanted, options);
+    if (wanted.showRegions) showRegions(rig.body.parts, binding);
+    const std::vector<std::string> rigid =
+        wanted.rigid ? *wanted.rigid : automaticRigidJoints(rig.rest);
+    attachSkin(*rig.skeleton, rig.body.mesh, rig.body.parts, binding,
+               splitRigid(rig.body.mesh, binding, rigid));
+
+    const osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(rig.toWorld);
+    upright->setName("upright");
+    upright->setDataVariance(osg::Object::DYNAMIC); // the bones below are rewritten every frame
+    upright->addChild(rig.skeleton);
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->setName(osgDB::getStrippedName(file));
+    root->addChild(upright);
+    root->setInitialBound(playedBounds(*root, clips));
+    if (clips.empty()) return root;
+    const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
+    for (const auto& clip : clips) manager->registerAnimation(clip);
+    root->setUpdateCallback(manager);
+    manager->playAnimation(clips.front());
+    return root;
+}
+
+osg::ref_ptr<osg::Group> loadByOsg(const std::string& file, const osgDB::Options* options,
+                                   const SkinOptions& wanted) {
+    osgDB::ReaderWriter::ReadResult read = osgDB::Registry::instance()->readNode(file, options);
+    const osg::ref_ptr<osg::Node> node = read.getNode();
+    if (!node) {
+        const std::string reason = read.message();
+        throw Error(file + ": " + (reason.empty() ? "cannot be read" : reason));
+    }
+    ConvertOptions convert;
+    convert.ratios = wanted.bind == Bind::Default   ? ConvertOptions::Ratios::Best
+                     : wanted.bind == Bind::Weights ? ConvertOptions::Ratios::Painted
+                                                    : ConvertOptions::Ratios::Own;
+    if (wanted.bind == Bind::Paper) convert.bind.method = BindOptions::Method::Paper;
+    convert.bind.rigid = wanted.rigid;
+    convert.showRegions = wanted.showRegions;
+    const ConvertReport report = convertRigs(*node, convert);
+    if (report.skins.empty())
+        throw Error(file + ": " +
+                    (report.notes.empty() ? "no osgAnimation::RigGeometry, expected a rigged model"
+                                          : report.notes.front()));
+    osg::ref_ptr<osg::Group> root = node->asGroup();
+    if (root) return root;
+    root = new osg::Group;
+    root->addChild(node);
+    return root;
+}
+
+} // namespace
+
+osg::ref_ptr<osg::Group> loadRigCharacter(const std::string& file, const osgDB::Options* options,
+                                          const SkinOptions& wanted) {
+    const std::string found = osgDB::findDataFile(file, options);
+    if (!found.empty() && isReadByAssimp(found)) return loadByAssimp(found, options, wanted);
+    return loadByOsg(file, options, wanted); // which may be a pseudo-loader's name and no file
+}
+
+} // namespace osgSkin

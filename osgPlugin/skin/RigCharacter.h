@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "SkinOptions.h"
+
+#include <osg/Group>
+#include <osg/ref_ptr>
+#include <osgDB/Options>
+
+#include <string>
+
+namespace osgSkin {
+
+/// Reads any rigged file and re-skins it: what Assimp reads by importRig(), anything else by osgDB
+/// and convertRigs(). The first clip plays, or the one that the options name.
+///
+/// \throw Error with the file and the reason, also where nothing in it is rigged
+osg::ref_ptr<osg::Group> loadRigCharacter(const std::string& file, const osgDB::Options* options,
+                                          const SkinOptions& wanted);
+
+} // namespace osgSkin

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// `model.glb.skin`: any rigged model, re-skinned, as a viewer reads it.
+#include <osgSkin/DeformableSkin>
+#include <osgSkin/RigidPart>
+
+#include <osg/FrameStamp>
+#include <osgAnimation/BasicAnimationManager>
+#include <osgAnimation/Bone>
+#include <osgAnimation/RigGeometry>
+#include <osgAnimation/Skeleton>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgDB/WriteFile>
+#include <osgUtil/UpdateVisitor>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace {
+
+const std::string kTube = OSGSKIN_TEST_DATA "/rig/tube.gltf.skin";
+
+osg::ref_ptr<osgDB::Options> optionsOf(const std::string& text) {
+    osg::ref_ptr<osgDB::Options> options = new osgDB::Options(text);
+    options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
+    return options;
+}
+
+osg::ref_ptr<osg::Node> read(const std::string& file, const std::string& options = {}) {
+    return osgDB::readRefNodeFile(file, optionsOf(options));
+}
+
+/// Why a file is refused.
+std::string complaint(const std::string& file, const std::string& options = {}) {
+    osgDB::ReaderWriter::ReadResult result =
+        osgDB::Registry::instance()->readNode(file, optionsOf(options));
+    EXPECT_FALSE(result.validNode()) << file << " with " << options;
+    EXPECT_EQ(result.message().find('\n'), std::string::npos) << result.message();
+    return result.message();
+}
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+struct Parts : osg::NodeVisitor {
+    explicit Parts(osg::Node& scene) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {
+        scene.accept(*this);
+    }
+    void apply(osg::Node& node) override {
+        if (auto* found =
+                dynamic_cast<osgAnimation::BasicAnimationManager*>(node.getUpdateCallback()))
+            manager = found;
+        traverse(node);
+    }
+    void apply(osg::Transform& node) override {
+        if (dynamic_cast<osgSkin::RigidPart*>(&node) != nullptr) ++rigid;
+        traverse(node);
+    }
+    void apply(osg::Drawable& drawable) override {
+        if (auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&drawable)) {
+            skins.push_back(skin);
+            toWorld = osg::computeLocalToWorld(getNodePath());
+        }
+        if (dynamic_cast<osgAnimation::RigGeometry*>(&drawable) != nullptr) ++rigs;
+    }
+    std::vector<osgSkin::DeformableSkin*> skins;
+    osg::Matrix toWorld;
+    osgAnimation::BasicAnimationManager* manager = nullptr;
+    std::size_t rigid = 0, rigs = 0;
+};
+
+void update(osg::Node& scene, double time) {
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    stamp->setSimulationTime(time);
+    osgUtil::UpdateVisitor visitor;
+    visitor.setFrameStamp(stamp);
+    scene.accept(visitor);
+}
+
+/// The box around all skins' vertices as they are posed, in the world.
+osg::BoundingBox posedBox(osg::Node& scene) {
+    const Parts parts(scene);
+    osg::BoundingBox box;
+    for (const osgSkin::DeformableSkin* skin : parts.skins)
+        for (const osg::Vec3& v :
+             static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray()))
+            box.expandBy(v * parts.toWorld);
+    return box;
+}
+
+} // namespace
+
+TEST(PseudoLoader, ReSkinsAndPlaysTheFirstClip) {
+    const osg::ref_ptr<osg::Node> scene = read(kTube);
+    ASSERT_NE(scene, nullptr);
+    const Parts parts(*scene);
+    ASSERT_EQ(parts.skins.size(), 1u);
+    ASSERT_NE(parts.manager, nullptr);
+    EXPECT_EQ(parts.manager->getAnimationList().size(), 2u);
+    update(*scene, 0.0);
+    const osg::BoundingBox rest = posedBox(*scene);
+    // The armature stands the tube along +Z of a format with Y up: it lies towards -Y.
+    EXPECT_NEAR(rest.yMin(), -2.0f, 1e-5f);
+    EXPECT_NEAR(rest.yMax(), 0.0f, 1e-5f);
+    update(*scene, 0.5);
+    const osg::BoundingBox waving = posedBox(*scene); // 70 degrees at the arm
+    EXPECT_NEAR(waving.xMin(),
+                -std::sin(70.0f * 3.14159265f / 180.0f) -
+                    0.25f * std::cos(70.0f * 3.14159265f / 180.0f),
+                1e-4f);
+    const osg::BoundingSphere& bound = scene->getBound();
+    EXPECT_TRUE(bound.contains(osg::Vec3(waving.xMin(), waving.yMax(), 0.0f)));
+    EXPECT_TRUE(bound.contains(osg::Vec3(0.0f, rest.yMin(), 0.0f)));
+}
+
+TEST(PseudoLoader, MotionChoosesTheClip) {
+    const osg::ref_ptr<osg::Node> scene = read(kTube, "other=1 motion=move more");
+    ASSERT_NE(scene, nullptr);
+    update(*scene, 0.0);
+    const float start = posedBox(*scene).center().x();
+    update(*scene, 0.5);
+    EXPECT_GT(std::abs(posedBox(*scene).center().x() - start), 0.1f);
+    EXPECT_EQ(Parts(*scene).manager->getAnimationList().front()->getName(), "move");
+
+    const osg::ref_ptr<osg::Node> still = read(kTube, "motion=none");
+    ASSERT_NE(still, nullptr);
+    EXPECT_EQ(Parts(*still).manager, nullptr);
+    EXPECT_NEAR(posedBox(*still).yMin(), -2.0f, 1e-5f);
+}
+
+TEST(PseudoLoader, MotionMayBeAFile) {
+    const std::string file = OSGSKIN_TEST_DATA "/character/move.bvh"; // of joints base and arm
+    const osg::ref_ptr<osg::Node> scene = read(kTube, "motion=\"" + file + "\"");
+    ASSERT_NE(scene, nullptr);
+    ASSERT_NE(Parts(*scene).manager, nullptr);
+    EXPECT_EQ(Parts(*scene).manager->getAnimationList().front()->getName(), "move");
+    update(*scene, 0.0);
+    EXPECT_TRUE(posedBox(*scene).valid());
+}
+
+TEST(PseudoLoader, OptionsChangeTheBinding) {
+    const auto positionsAt = [](const std::string& options) {
+        const osg::ref_ptr<osg::Node> scene = read(kTube, options);
+        EXPECT_NE(scene, nullptr) << options;
+        update(*scene, 0.5);
+        const auto& vertices = static_cast<const osg::Vec3Array&>(
+            *Parts(*scene).skins.at(0)->getDeformedGeometry()->getVertexArray());
+        std::vector<osg::Vec3> sorted(vertices.begin(), vertices.end());
+        std::sort(sorted.begin(), sorted.end());
+        return sorted;
+    };
+    EXPECT_EQ(positionsAt(""), positionsAt("bind=weights")) << "the file is well painted";
+    EXPECT_NE(positionsAt(""), positionsAt("bind=smooth"));
+    EXPECT_NE(positionsAt("bind=paper"), positionsAt("bind=smooth"));
+    EXPECT_EQ(Parts(*read(kTube, "rigid=none")).rigid, 0u);
+    EXPECT_EQ(Parts(*read(kTube, "rigid=arm")).rigid, 1u);
+}
+
+TEST(PseudoLoader, ShowRegionsColoursThem) {
+    const osg::ref_ptr<osg::Node> scene = read(kTube, "show=regions rigid=none");
+    ASSERT_NE(scene, nullptr);
+    const auto* colours = dynamic_cast<const osg::Vec4Array*>(
+        Parts(*scene).skins.at(0)->getRestGeometry()->getColorArray());
+    ASSERT_NE(colours, nullptr);
+    EXPECT_EQ(std::set<osg::Vec4>(colours->begin(), colours->end()).size(), 2u);
+    const osg::ref_ptr<osg::Node> character =
+        read(OSGSKIN_TEST_DATA "/character/good.skin", "show=regions motion=none");
+    ASSERT_NE(character, nullptr);
+    EXPECT_NE(Parts(*character).skins.at(0)->getRestGeometry()->getColorArray(), nullptr);
+    EXPECT_EQ(character->getUpdateCallback(), nullptr);
+}
+
+TEST(PseudoLoader, ConvertsRigsThatOsgReads) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    const osg::ref_ptr<osgAnimation::Bone> low = new osgAnimation::Bone("low");
+    const osg::ref_ptr<osgAnimation::Bone> high = new osgAnimation::Bone("high");
+    high->setInvBindMatrixInSkeletonSpace(osg::Matrix::translate(0, 0, -1));
+    low->addChild(high);
+    skeleton->addChild(low);
+    const osg::ref_ptr<osg::Geometry> quad =
+        osg::createTexturedQuadGeometry(osg::Vec3(), osg::Vec3(1, 0, 0), osg::Vec3(0, 0, 2));
+    quad->setColorArray(nullptr);
+    quad->setNormalArray(nullptr);
+    const osg::ref_ptr<osgAnimation::RigGeometry> rig = new osgAnimation::RigGeometry;
+    rig->setSourceGeometry(quad);
+    const osg::ref_ptr<osgAnimation::VertexInfluenceMap> map = new osgAnimation::VertexInfluenceMap;
+    (*map)["low"].assign({{1, 1.0f}, {2, 1.0f}});
+    (*map)["high"].assign({{0, 1.0f}, {3, 1.0f}});
+    rig->setInfluenceMap(map);
+    skeleton->addChild(rig);
+    const std::string file = testing::TempDir() + "osg_rig.osgt";
+    ASSERT_TRUE(osgDB::writeNodeFile(*skeleton, file));
+    const osg::ref_ptr<osg::Node> scene = read(file + ".skin");
+    ASSERT_NE(scene, nullptr);
+    EXPECT_EQ(Parts(*scene).skins.size(), 1u);
+    EXPECT_EQ(Parts(*scene).rigs, 0u);
+}
+
+TEST(PseudoLoader, RefusesWithAReason) {
+    EXPECT_SAYS(complaint(OSGSKIN_TEST_DATA "/rig/unskinned.gltf.skin"), "no mesh with bones");
+    EXPECT_SAYS(complaint(OSGSKIN_TEST_DATA "/bvh/two_joints.bvh.skin"), "no mesh with bones");
+    EXPECT_SAYS(complaint(OSGSKIN_DATA "/thrower.obj.skin"), "no mesh with bones");
+    EXPECT_SAYS(complaint(OSGSKIN_TEST_DATA "/mesh/broken.osgt.skin"), "broken.osgt");
+    EXPECT_SAYS(complaint(kTube, "motion=dance"), "expected one of \"wave\", \"move\"");
+    EXPECT_SAYS(complaint(kTube, "bind=tight"), "bind=tight: expected smooth");
+    EXPECT_SAYS(complaint(kTube, "show=bones"), "expected skin or regions");
+    EXPECT_SAYS(complaint(kTube, "rigid="), "names of joints");
+    EXPECT_SAYS(complaint(kTube, "rigid=nobody"), "nobody");
+    EXPECT_SAYS(complaint(OSGSKIN_TEST_DATA "/character/good.skin", "motion=dance"),
+                "neither one of its motions nor a file");
+}
+
+TEST(PseudoLoader, ListsItsOptions) {
+    osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("skin");
+    ASSERT_NE(reader, nullptr);
+    std::string all;
+    for (const auto& [option, meaning] : reader->supportedOptions()) all += option + " ";
+    for (const char* word : {"bind=", "motion=", "rigid=", "show="}) EXPECT_SAYS(all, word);
+}
