@@ -2,6 +2,8 @@
 #include <osgSkin/BendTwist>
 #include <osgSkin/Error>
 
+#include "SplitUnit.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -51,14 +53,16 @@ bool trySplitBendTwist(const glm::dquat& q, const glm::dvec3& pole, BendTwist& o
     const double largest = std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     if (!std::isfinite(q.w) || !isFinite({q.x, q.y, q.z}) || !(largest > 0.0)) return false;
 
-    const glm::dvec3 w = glm::normalize(pole);
     // Divide by the largest part first: squares of huge or tiny parts would overflow or vanish.
-    double c = q.w / largest;
-    glm::dvec3 xyz = glm::dvec3(q.x, q.y, q.z) / largest;
-    const double norm = std::sqrt(c * c + glm::dot(xyz, xyz));
-    c /= norm;
-    xyz /= norm;
+    const glm::dquat scaled = q / largest;
+    out = splitUnit(scaled / std::sqrt(glm::dot(scaled, scaled)), glm::normalize(pole));
+    return true;
+}
 
+BendTwist splitUnit(const glm::dquat& q, const glm::dvec3& w) noexcept {
+    BendTwist out;
+    double c = q.w;
+    const glm::dvec3 xyz(q.x, q.y, q.z);
     double s = glm::dot(xyz, w); // c + s w is the twist, unnormalised
     glm::dvec3 u = xyz - w * s;  // what is perpendicular to the bone
     if (isNegative(c, s, u)) {
@@ -71,18 +75,18 @@ bool trySplitBendTwist(const glm::dquat& q, const glm::dvec3& pole, BendTwist& o
     // arc tangent keeps them.
     const double n = std::sqrt(c * c + s * s);
     const double bendSine = glm::length(u);
+    out.bendAngle = 2.0 * std::atan2(bendSine, n);
     if (n < 1e-12) {
         // Bend of pi: w goes to -w, and every twist can be had by another bend axis.
         out.bendAxis = perpendicularDirection(u, w);
-        out.bendAngle = 2.0 * std::atan2(bendSine, n);
-        out.twistAngle = 0.0;
-        return true;
+        return out;
     }
-    // q times the inverse twist: its vector part is perpendicular to w, the bend axis of eq. 3.
-    out.bendAxis = perpendicularDirection(c * u + s * glm::cross(w, u), w);
-    out.bendAngle = 2.0 * std::atan2(bendSine, n);
+    // q times the inverse twist: its vector part is perpendicular to w, the bend axis of eq. 3. Its
+    // length is |u| n; where u is short, it has not that many digits.
+    const glm::dvec3 axis = c * u + s * glm::cross(w, u);
+    out.bendAxis = bendSine > 1e-3 ? axis / (bendSine * n) : perpendicularDirection(axis, w);
     out.twistAngle = 2.0 * std::atan2(s, c); // eq. 4
-    return true;
+    return out;
 }
 
 BendTwist splitBendTwist(const glm::dquat& q, const glm::dvec3& pole) {

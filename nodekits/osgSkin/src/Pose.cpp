@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Pose>
 
+#include "SplitUnit.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
@@ -14,14 +16,14 @@ namespace {
 bool rotationOf(const glm::dmat3& m, glm::dquat& rotation) noexcept {
     glm::dvec3 x = m[0];
     glm::dvec3 y = m[1];
-    const double lx = glm::length(x);
-    if (!std::isfinite(lx) || !(lx > 0.0)) return false;
-    x /= lx;
-    y -= x * glm::dot(x, y);
-    const double ly = glm::length(y);
-    if (!std::isfinite(ly) || !(ly > 1e-12 * lx)) return false;
-    y /= ly;
-    rotation = glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y))));
+    const double xx = glm::dot(x, x);
+    if (!std::isfinite(xx) || !(xx > 0.0)) return false;
+    y -= x * (glm::dot(x, y) / xx);
+    const double yy = glm::dot(y, y);
+    if (!std::isfinite(yy) || !(yy > 1e-24 * xx)) return false;
+    x *= 1.0 / std::sqrt(xx);
+    y *= 1.0 / std::sqrt(yy);
+    rotation = glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)));
     return true;
 }
 
@@ -35,8 +37,8 @@ Pose::Pose(const std::vector<BoundJoint>& joints)
     : _frames(joints.size(), Frame{{1.0, 0.0, 0.0, 0.0}, glm::dvec3(0.0)}), _turns(joints.size()) {
     _rest.reserve(joints.size());
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        _rest.push_back({joints[j].parent, joints[j].centre, joints[j].twistAxis});
-        trySplitBendTwist(_turns[j].rotation, joints[j].twistAxis, _turns[j].split);
+        _rest.push_back({joints[j].parent, joints[j].centre, glm::normalize(joints[j].twistAxis)});
+        _turns[j].split = splitUnit(_turns[j].rotation, _rest[j].twistAxis);
     }
 }
 
@@ -67,7 +69,7 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count) noexcept {
             turn.offset = back * (frame.offset - parent.offset);
             turn.translation = turn.offset + turn.rotation * rest.centre - rest.centre;
         }
-        trySplitBendTwist(turn.rotation, rest.twistAxis, turn.split);
+        turn.split = splitUnit(turn.rotation, rest.twistAxis);
     }
     return true;
 }
