@@ -56,6 +56,27 @@ bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     return true;
 }
 
+bool checkTangents(const osgSkin::DeformableSkin& skin) {
+    return skin.getTangentAttribute() >= 0;
+}
+
+bool writeTangents(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
+    os << skin.getTangentAttribute() << std::endl;
+    return true;
+}
+
+bool readTangents(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
+    int attribute = -1;
+    is >> attribute;
+    if (is.getException()) return false;
+    try {
+        skin.setTangentAttribute(attribute);
+    } catch (const std::exception& error) {
+        return fail(is, skin, std::string("tangents that cannot be used: ") + error.what());
+    }
+    return true;
+}
+
 bool checkPose(const osgSkin::DeformableSkin& skin) {
     return skin.getModel() != nullptr;
 }
@@ -109,5 +130,6 @@ REGISTER_OBJECT_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
                         "osg::Object osg::Node osg::Drawable osgSkin::DeformableSkin") {
     ADD_BOOL_SERIALIZER(Eager, false);
     ADD_USER_SERIALIZER(Skin);
+    ADD_USER_SERIALIZER(Tangents);
     ADD_USER_SERIALIZER(Pose);
 }

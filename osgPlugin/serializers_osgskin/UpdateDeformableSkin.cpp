@@ -9,7 +9,9 @@
 #include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 
-// Nothing of its own: the bones are found again by their names.
+// The bones are found again by their names.
 REGISTER_OBJECT_WRAPPER(osgSkin_UpdateDeformableSkin, new osgSkin::UpdateDeformableSkin,
                         osgSkin::UpdateDeformableSkin,
-                        "osg::Object osg::Callback osgSkin::UpdateDeformableSkin") {}
+                        "osg::Object osg::Callback osgSkin::UpdateDeformableSkin") {
+    ADD_BOOL_SERIALIZER(UnwrapTwist, false);
+}

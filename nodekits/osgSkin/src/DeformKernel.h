@@ -30,14 +30,19 @@ struct KernelMap {
 /// An angle of which each vertex takes its share. The smaller it is, the fewer terms its sine
 /// needs.
 struct KernelAngle {
-    enum Range { kSmall, kMedium, kLarge, kHalved }; ///< up to 0.34, 0.9, pi / 2, pi
-    Splat value; ///< radians; half the angle where the range is kHalved
+    /// Up to 0.34, 0.9, pi / 2, pi and 2 pi.
+    enum Range { kSmall, kMedium, kLarge, kHalved, kQuartered };
+    Splat value; ///< radians; half the angle where the range is kHalved, a quarter where kQuartered
     Range range;
 
     KernelAngle& operator=(double angle) {
         const double size = angle < 0.0 ? -angle : angle;
-        range = size <= 0.34 ? kSmall : size <= 0.9 ? kMedium : size <= 1.5708 ? kLarge : kHalved;
-        value = range == kHalved ? 0.5 * angle : angle;
+        range = size <= 0.34     ? kSmall
+                : size <= 0.9    ? kMedium
+                : size <= 1.5708 ? kLarge
+                : size <= 3.1416 ? kHalved
+                                 : kQuartered;
+        value = range == kQuartered ? 0.25 * angle : range == kHalved ? 0.5 * angle : angle;
         return *this;
     }
 };

@@ -45,7 +45,7 @@ struct alignas(64) ChunkStream {
 
 /// Sines and cosines of an angle's shares, as sineCosine() has them; the polynomials are scaled so
 /// that they take the shares as they are. With kShifted, the call's azimuth is taken off.
-template <bool kHalved, bool kShifted, std::size_t kTerms>
+template <int kDoublings, bool kShifted, std::size_t kTerms>
 HWY_INLINE void turnShares(const float (&sineTerms)[kTerms], const float (&cosineTerms)[kTerms - 1],
                            float angle, const KernelCall& call, const Chunk& chunk,
                            const float* HWY_RESTRICT ratio, float* HWY_RESTRICT sines,
@@ -66,7 +66,7 @@ HWY_INLINE void turnShares(const float (&sineTerms)[kTerms], const float (&cosin
             const V t = hn::Mul(r, r);
             V sine = hn::Mul(r, polynomial(t, forSine));
             V cosine = hn::MulAdd(t, polynomial(t, forCosine), one);
-            if (kHalved) twice(sine, cosine);
+            for (int i = 0; i < kDoublings; ++i) twice(sine, cosine);
             if (kShifted) takeAzimuthOff(call, sine, cosine);
             hn::Store(sine, d, sines + b * kBlock + lane);
             hn::Store(cosine, d, cosines + b * kBlock + lane);
@@ -80,17 +80,20 @@ HWY_NOINLINE void turnShares(const KernelAngle& angle, const KernelCall& call, c
     const float value = angle.value.value[0];
     switch (angle.range) {
     case KernelAngle::kSmall:
-        return turnShares<false, kShifted>(kSmallSine, kSmallCosine, value, call, chunk, ratio,
-                                           sines, cosines);
+        return turnShares<0, kShifted>(kSmallSine, kSmallCosine, value, call, chunk, ratio, sines,
+                                       cosines);
     case KernelAngle::kMedium:
-        return turnShares<false, kShifted>(kMediumSine, kMediumCosine, value, call, chunk, ratio,
-                                           sines, cosines);
+        return turnShares<0, kShifted>(kMediumSine, kMediumCosine, value, call, chunk, ratio, sines,
+                                       cosines);
     case KernelAngle::kLarge:
-        return turnShares<false, kShifted>(kLargeSine, kLargeCosine, value, call, chunk, ratio,
-                                           sines, cosines);
+        return turnShares<0, kShifted>(kLargeSine, kLargeCosine, value, call, chunk, ratio, sines,
+                                       cosines);
     case KernelAngle::kHalved:
-        return turnShares<true, kShifted>(kLargeSine, kLargeCosine, value, call, chunk, ratio,
-                                          sines, cosines);
+        return turnShares<1, kShifted>(kLargeSine, kLargeCosine, value, call, chunk, ratio, sines,
+                                       cosines);
+    case KernelAngle::kQuartered:
+        return turnShares<2, kShifted>(kLargeSine, kLargeCosine, value, call, chunk, ratio, sines,
+                                       cosines);
     }
 }
 

@@ -74,7 +74,8 @@ HWY_INLINE void sineCosine(const KernelAngle& angle, V ratio, V& sine, V& cosine
     } else {
         sine = hn::Mul(h, polynomial(t, kLargeSine));
         cosine = hn::MulAdd(t, polynomial(t, kLargeCosine), one);
-        if (angle.range == KernelAngle::kHalved) twice(sine, cosine);
+        if (angle.range >= KernelAngle::kHalved) twice(sine, cosine);
+        if (HWY_UNLIKELY(angle.range == KernelAngle::kQuartered)) twice(sine, cosine);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "SplitUnit.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -31,6 +32,14 @@ bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// `twist` or a whole turn more or less, see Pose::Twist.
+double continued(double before, double twist) noexcept {
+    const double turn = 2.0 * glm::pi<double>();
+    for (const double angle : {twist, twist + turn, twist - turn})
+        if (std::abs(angle) < turn && std::abs(angle - before) <= 0.25 * turn) return angle;
+    return twist;
+}
+
 } // namespace
 
 Pose::Pose(const std::vector<BoundJoint>& joints)
@@ -42,7 +51,7 @@ Pose::Pose(const std::vector<BoundJoint>& joints)
     }
 }
 
-bool Pose::set(const glm::dmat4* skinning, std::size_t count) noexcept {
+bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist) noexcept {
     if (count != _turns.size()) return false;
     for (std::size_t j = 0; j < count; ++j) {
         Frame frame;
@@ -69,7 +78,10 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count) noexcept {
             turn.offset = back * (frame.offset - parent.offset);
             turn.translation = turn.offset + turn.rotation * rest.centre - rest.centre;
         }
+        const double before = turn.split.twistAngle;
         turn.split = splitUnit(turn.rotation, rest.twistAxis);
+        if (twist == Twist::Continued)
+            turn.split.twistAngle = continued(before, turn.split.twistAngle);
     }
     return true;
 }

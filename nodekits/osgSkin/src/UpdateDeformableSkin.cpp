@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/UpdateDeformableSkin>
 
+#include <osg/FrameStamp>
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+
+#include <cmath>
 
 namespace osgSkin {
 namespace {
@@ -17,15 +20,24 @@ osgAnimation::Skeleton* nearestSkeleton(const osg::NodePath& path) {
 
 UpdateDeformableSkin::UpdateDeformableSkin(const UpdateDeformableSkin& other,
                                            const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::DrawableUpdateCallback(
-                                                                    other, copyop) {
     // Bones are not copied: the copy finds those of the skeleton that it comes to stand under.
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::DrawableUpdateCallback(other,
+                                                                                            copyop),
+      _unwrapTwist(other._unwrapTwist) {}
+
+void UpdateDeformableSkin::noticeSeek(const osg::NodeVisitor& nv) {
+    if (!nv.getFrameStamp()) return;
+    const double time = nv.getFrameStamp()->getSimulationTime();
+    if (std::abs(time - _time) > kSeekSeconds) startTwistAfresh();
+    _time = time;
 }
 
 void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable) {
     auto* skin = dynamic_cast<DeformableSkin*>(drawable);
     osgAnimation::Skeleton* skeleton = nv ? nearestSkeleton(nv->getNodePath()) : nullptr;
-    if (skin && skeleton) pose(*skin, *skeleton);
+    if (!skin || !skeleton) return;
+    noticeSeek(*nv);
+    pose(*skin, *skeleton);
 }
 
 bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
@@ -35,13 +47,16 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
         _reader = BoneReader(model->joints(), skeleton);
         _skeleton = &skeleton;
         _model = model;
+        startTwistAfresh();
         for (const std::string& joint : _reader.missing())
             OSG_WARN << "osgSkin: skin \"" << skin.getName() << "\": skeleton \""
                      << skeleton.getName() << "\" has no bone \"" << joint
                      << "\"; the joint moves with its parent" << std::endl;
     }
     const std::vector<glm::dmat4>& skinning = _reader.read();
-    return skin.setPose(skinning.data(), skinning.size());
+    if (!skin.setPose(skinning.data(), skinning.size(), _twist)) return false;
+    _twist = _unwrapTwist ? Pose::Twist::Continued : Pose::Twist::Shortest;
+    return true;
 }
 
 } // namespace osgSkin

@@ -4,73 +4,22 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkin/UpdateDeformableSkin>
 
-#include "Tube.h"
-#include "Turns.h"
+#include "TubeSkin.h"
 
 #include <osg/TriangleFunctor>
-#include <osgAnimation/Bone>
-#include <osgUtil/CullVisitor>
 #include <osgUtil/LineSegmentIntersector>
 #include <osgUtil/Optimizer>
 #include <osgUtil/UpdateVisitor>
 
 #include <gtest/gtest.h>
 
+using test::bend;
+using test::cull;
+using test::makeBones;
+using test::makeGeometry;
+using test::makeSkin;
+
 namespace {
-
-osg::ref_ptr<osg::Geometry> makeGeometry(const test::Tube& tube) {
-    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
-    for (std::size_t v = 0; v < tube.positions.size(); ++v) {
-        vertices->push_back({tube.positions[v].x, tube.positions[v].y, tube.positions[v].z});
-        normals->push_back({tube.normals[v].x, tube.normals[v].y, tube.normals[v].z});
-    }
-    geometry->setVertexArray(vertices);
-    geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
-    const unsigned int sides = 12;
-    const osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
-    for (unsigned int v = 0; v + sides < vertices->size(); ++v) {
-        const unsigned int next = v % sides == sides - 1 ? v + 1 - sides : v + 1;
-        for (const unsigned int corner : {v, v + sides, next, next, v + sides, next + sides})
-            elements->push_back(corner);
-    }
-    geometry->addPrimitiveSet(elements);
-    return geometry;
-}
-
-osg::ref_ptr<osgSkin::DeformableSkin> makeSkin() {
-    const test::Tube tube;
-    osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
-    skin->setSkin(makeGeometry(tube), tube.model());
-    return skin;
-}
-
-/// Bends the middle joint by `angle` about x, the end joint not at all.
-void bend(osgSkin::DeformableSkin& skin, double angle) {
-    const auto skinning =
-        test::skinningFrom(skin.getModel()->joints(),
-                           {glm::dquat(1, 0, 0, 0), glm::angleAxis(angle, glm::dvec3(1, 0, 0)),
-                            glm::dquat(1, 0, 0, 0)});
-    ASSERT_TRUE(skin.setPose(skinning.data(), skinning.size()));
-}
-
-/// Bones for the tube's three joints, in the rest pose.
-osg::ref_ptr<osgAnimation::Skeleton> makeBones() {
-    osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
-    osg::Group* parent = skeleton;
-    double height = 0.0;
-    for (const char* name : {"root", "middle", "end"}) {
-        const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone(name);
-        bone->setMatrix(osg::Matrix::translate(0, height == 0.0 ? 0.0 : 2.0, 0));
-        bone->setMatrixInSkeletonSpace(osg::Matrix::translate(0, height, 0));
-        bone->setInvBindMatrixInSkeletonSpace(osg::Matrix::translate(0, -height, 0));
-        parent->addChild(bone);
-        parent = bone;
-        height += 2.0;
-    }
-    return skeleton;
-}
 
 struct Count {
     unsigned int triangles = 0;
@@ -78,22 +27,6 @@ struct Count {
         ++triangles;
     }
 };
-
-/// One cull traversal over `node` with everything in view (or nothing).
-void cull(osg::Node& node, bool inView) {
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    const osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
-    const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
-    visitor->setStateGraph(graph);
-    visitor->setRenderStage(stage);
-    visitor->pushViewport(new osg::Viewport(0, 0, 100, 100));
-    visitor->pushProjectionMatrix(new osg::RefMatrix(osg::Matrix::perspective(60, 1, 0.1, 1000)));
-    visitor->pushModelViewMatrix(new osg::RefMatrix(osg::Matrix::lookAt(
-                                     osg::Vec3d(0, 3, inView ? 30 : -30),
-                                     osg::Vec3d(0, 3, inView ? 0 : -60), osg::Vec3d(0, 1, 0))),
-                                 osg::Transform::ABSOLUTE_RF);
-    node.accept(*visitor);
-}
 
 } // namespace
 
@@ -135,19 +68,6 @@ TEST(DeformableSkin, EagerDeformsAtOnce) {
     skin->setEager(true);
     bend(*skin, 0.3);
     EXPECT_EQ(skin->getDeformCount(), 1u);
-}
-
-TEST(DeformableSkin, AlternatesTwoBuffers) {
-    const auto skin = makeSkin();
-    bend(*skin, 0.3);
-    const osg::Geometry* first = skin->getDeformedGeometry();
-    bend(*skin, 0.6);
-    const osg::Geometry* second = skin->getDeformedGeometry();
-    bend(*skin, 0.9);
-    EXPECT_NE(first, second);
-    EXPECT_EQ(skin->getDeformedGeometry(), first);
-    EXPECT_NE(first->getVertexArray()->getVertexBufferObject(),
-              second->getVertexArray()->getVertexBufferObject());
 }
 
 TEST(DeformableSkin, PickingHitsThePosedSkin) {

@@ -56,8 +56,11 @@ TEST_P(RoundTrip, SkinFields) {
         EXPECT_EQ(is[i]->getNodeMask(), was[i]->getNodeMask());
         EXPECT_EQ(is[i]->getDataVariance(), osg::Object::DYNAMIC);
         EXPECT_FALSE(is[i]->getUseDisplayList());
-        EXPECT_NE(dynamic_cast<osgSkin::UpdateDeformableSkin*>(is[i]->getUpdateCallback()),
-                  nullptr);
+        EXPECT_EQ(is[i]->getTangentAttribute(), i == 0 ? 6 : -1);
+        const auto* callback =
+            dynamic_cast<osgSkin::UpdateDeformableSkin*>(is[i]->getUpdateCallback());
+        ASSERT_NE(callback, nullptr);
+        EXPECT_EQ(callback->getUnwrapTwist(), i == 0);
     }
     int answer = 0;
     EXPECT_TRUE(is[0]->getUserValue("answer", answer));

@@ -28,14 +28,17 @@ osg::ref_ptr<osg::Geometry> makeGeometry(const Tube& tube) {
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
     const osg::ref_ptr<osg::Vec2Array> texture = new osg::Vec2Array;
+    const osg::ref_ptr<osg::Vec4Array> tangents = new osg::Vec4Array;
     for (std::size_t v = 0; v < tube.positions.size(); ++v) {
         vertices->push_back({tube.positions[v].x, tube.positions[v].y, tube.positions[v].z});
         normals->push_back({tube.normals[v].x, tube.normals[v].y, tube.normals[v].z});
         texture->push_back({tube.positions[v].x, tube.positions[v].y});
+        tangents->push_back({0, 1, 0, v % 2 == 0 ? 1.0f : -1.0f});
     }
     geometry->setVertexArray(vertices);
     geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
     geometry->setTexCoordArray(0, texture, osg::Array::BIND_PER_VERTEX);
+    geometry->setVertexAttribArray(6, tangents, osg::Array::BIND_PER_VERTEX);
     const osg::ref_ptr<osg::DrawElementsUShort> points = new osg::DrawElementsUShort(GL_POINTS);
     for (unsigned int v = 0; v < vertices->size(); ++v) points->addElement(v);
     geometry->addPrimitiveSet(points);
@@ -104,15 +107,19 @@ osg::ref_ptr<osg::Group> makeScene() {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones(tube.binding.joints);
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
     skin->setSkin(makeGeometry(tube), tube.model());
+    skin->setTangentAttribute(6);
     skin->setName("tube");
     skin->setEager(true);
     skin->setNodeMask(0x1234);
     skin->setUserValue("answer", 42);
     skin->addDescription("a description");
-    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    update->setUnwrapTwist(true);
+    skin->setUpdateCallback(update);
     const osg::ref_ptr<osgSkin::DeformableSkin> copy = osg::clone(skin.get());
     copy->setName("copy");
     copy->setEager(false);
+    copy->setTangentAttribute(-1);
     copy->setStateSet(new osg::StateSet);
     copy->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
     skin->setPose(somePoses(*skin).front().data(), tube.binding.joints.size());
@@ -175,6 +182,8 @@ std::vector<osg::Vec3> posed(osgSkin::DeformableSkin& skin, const std::vector<gl
     const auto& normals = static_cast<const osg::Vec3Array&>(*geometry.getNormalArray());
     std::vector<osg::Vec3> all(vertices.begin(), vertices.end());
     all.insert(all.end(), normals.begin(), normals.end());
+    for (const osg::Vec4& t : static_cast<const osg::Vec4Array&>(*geometry.getVertexAttribArray(6)))
+        all.push_back({t.x(), t.y(), t.z()});
     return all;
 }
 
