@@ -2,6 +2,10 @@
 #include "AssimpScene.h"
 
 #include "FileText.h"
+#include "OffCheck.h"
+#include "PlyCheck.h"
+
+#include <osgDB/FileNameUtils>
 
 #include <assimp/config.h>
 
@@ -9,10 +13,22 @@
 
 namespace osgSkin {
 
+namespace {
+
+/// Refuses what Assimp would hang on.
+void checkBefore(const std::string& path) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    if (extension == "ply") checkPly(path, readText(path));
+    if (extension == "off") checkOff(path, readText(path));
+}
+
+} // namespace
+
 const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path) {
     // Assimp would add a mesh of its own to a file that holds a skeleton only.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    checkBefore(path);
     const aiScene* scene = nullptr;
     std::string reason;
     try {

@@ -50,7 +50,6 @@ bool isReadByAssimp(const std::string& path) {
 ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     requireReadable(path);
     if (!assimpReads(path)) failFile(path, "Assimp reads no files of this kind");
-    checkBeforeAssimp(path);
     Assimp::Importer importer;
     const aiScene& scene = readAssimpScene(importer, path);
     if (!isRigged(scene)) failFile(path, "no mesh with bones, expected a rigged character");

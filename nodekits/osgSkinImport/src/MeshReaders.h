@@ -22,9 +22,6 @@ CornerMesh readOsgMesh(const std::string& path, const osgDB::Options* options);
 /// The meshes of a scene that Assimp has read.
 CornerMesh meshOf(const aiScene& scene, const std::string& path, const osgDB::Options* options);
 
-/// Refuses files that Assimp would crash or hang on. \throw osgSkin::Error
-void checkBeforeAssimp(const std::string& path);
-
 /// Checks a mesh as a whole, completes its normals and makes its parts. \throw osgSkin::Error
 ImportedMesh finishMesh(CornerMesh read, const std::string& path);
 

@@ -5,8 +5,8 @@
 
 namespace osgSkin {
 
-/// Checks the header of a PLY file: Assimp 5.2.5 searches for a missing end for ever, and believes
-/// any number of elements.
+/// Checks a PLY file's header, and its lists' lengths: Assimp 5.2.5 searches for a missing end for
+/// ever, and believes any number of elements and entries.
 /// \throw osgSkin::Error "PATH: what was expected".
 void checkPly(const std::string& path, const std::string& text);
 

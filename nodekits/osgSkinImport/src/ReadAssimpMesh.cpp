@@ -3,7 +3,6 @@
 #include "FileText.h"
 #include "Materials.h"
 #include "MeshReaders.h"
-#include "PlyCheck.h"
 #include "SceneBind.h"
 
 #include <osgDB/FileNameUtils>
@@ -123,12 +122,7 @@ bool assimpReads(const std::string& path) {
     return !extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension);
 }
 
-void checkBeforeAssimp(const std::string& path) {
-    if (osgDB::getLowerCaseFileExtension(path) == "ply") checkPly(path, readText(path));
-}
-
 CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options) {
-    checkBeforeAssimp(path);
     Assimp::Importer importer;
     return meshOf(readAssimpScene(importer, path), path, options);
 }

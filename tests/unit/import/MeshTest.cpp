@@ -111,6 +111,14 @@ TEST(ImportObj, ShadesSmoothlyAcrossVerticesOfOnePosition) {
     EXPECT_EQ(ridge, 4u);
 }
 
+TEST(ImportPly, ReadsBytesToo) {
+    const osgSkin::ImportedMesh imported =
+        osgSkin::importMesh(testData("mesh/triangle_binary.ply"));
+    ASSERT_EQ(imported.mesh.positions.size(), 3u);
+    EXPECT_EQ(imported.mesh.positions[1], glm::dvec3(1, 0, 0));
+    EXPECT_EQ(imported.mesh.faceSizes, (Indices{3}));
+}
+
 TEST(ImportAssimp, KeepsPolygons) {
     const osgSkin::ImportedMesh imported = osgSkin::importMesh(testData("mesh/square.ply"));
     EXPECT_EQ(imported.mesh.faceSizes, (Indices{4}));

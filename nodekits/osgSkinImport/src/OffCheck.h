@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace osgSkin {
+
+/// Checks the counts of an OFF file: Assimp 5.2.5 asks for the memory before it reads on.
+/// \throw osgSkin::Error "PATH: what was expected".
+void checkOff(const std::string& path, const std::string& text);
+
+} // namespace osgSkin
