@@ -5,7 +5,56 @@
 #include "DeformKernel.h"
 #include "KernelChain.h"
 
+#include <algorithm>
+
 namespace osgSkin {
+namespace {
+
+constexpr std::size_t kPartBlocks = 256;
+
+/// The group that a block belongs to.
+std::size_t groupOf(const SkinBlocks& blocks, std::size_t block) noexcept {
+    const auto behind = std::upper_bound(blocks.firstBlock.begin(), blocks.firstBlock.end(), block);
+    return static_cast<std::size_t>(behind - blocks.firstBlock.begin()) - 1;
+}
+
+/// The vertex, in the model's order, that a block begins with; all of them for the end.
+std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
+    const SkinBlocks& blocks = model.blocks();
+    if (block >= blocks.firstBlock.back()) return model.vertexCount();
+    const std::size_t group = groupOf(blocks, block);
+    return model.groups()[group].firstVertex + (block - blocks.firstBlock[group]) * kBlock;
+}
+
+/// Deforms the blocks from `first` to before `end`, and no other vertex is written.
+void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
+    const SkinModel& model = *job.model;
+    const SkinBlocks& blocks = model.blocks();
+    const std::size_t endVertex = firstVertexOf(model, end);
+    KernelChain chain(model, *job.pose);
+    KernelCall call;
+    for (std::size_t g = groupOf(blocks, first); blocks.firstBlock[g] < end; ++g) {
+        const SkinModel::Group& group = model.groups()[g];
+        const std::size_t from = std::max(first, blocks.firstBlock[g]) - blocks.firstBlock[g];
+        const std::size_t to = std::min(end, blocks.firstBlock[g + 1]) - blocks.firstBlock[g];
+        const std::size_t vertex = group.firstVertex + from * kBlock;
+        const std::size_t out = blocks.inOrder ? vertex : 0;
+        chain.prepare(group, call);
+        call.rows =
+            &blocks.rows[blocks.firstRow[g] + from * SkinBlocks::rowsPerBlock(group.partialCount)];
+        call.vertexCount = std::min<std::size_t>(group.vertexCount, to * kBlock) - from * kBlock;
+        call.room = endVertex - vertex;
+        call.scatter = blocks.inOrder ? nullptr : model.order().data() + vertex;
+        call.positions = &job.positions[out].x;
+        call.normals = job.normals ? &job.normals[out].x : nullptr;
+        call.tangents = job.tangents ? &job.tangents[out].x : nullptr;
+        call.tangentRows =
+            job.tangents ? job.restTangents->blocks(g) + from * SkinBlocks::kTangentRows : nullptr;
+        runKernel(call);
+    }
+}
+
+} // namespace
 
 const char* DeformJob::validate() const noexcept {
     if (!model) return "no model";
@@ -25,24 +74,19 @@ const char* DeformJob::validate() const noexcept {
 
 bool DeformJob::run() const noexcept {
     if (validate()) return false;
-    const SkinBlocks& blocks = model->blocks();
-    KernelChain chain(*model, *pose);
-    KernelCall call;
-    for (std::size_t g = 0; g < model->groups().size(); ++g) {
-        const SkinModel::Group& group = model->groups()[g];
-        chain.prepare(group, call);
-        const std::size_t first = blocks.inOrder ? group.firstVertex : 0;
-        call.rows = blocks.rows.data() + blocks.firstRow[g];
-        call.vertexCount = group.vertexCount;
-        call.room = model->vertexCount() - group.firstVertex;
-        call.scatter = blocks.inOrder ? nullptr : model->order().data() + group.firstVertex;
-        call.positions = &positions[first].x;
-        call.normals = normals ? &normals[first].x : nullptr;
-        call.tangents = tangents ? &tangents[first].x : nullptr;
-        call.tangentRows = tangents ? restTangents->blocks(g) : nullptr;
-        runKernel(call);
-    }
+    runBlocks(*this, 0, model->blocks().firstBlock.back());
     return true;
+}
+
+std::size_t DeformJob::partCount() const noexcept {
+    if (validate()) return 0;
+    return (model->blocks().firstBlock.back() + kPartBlocks - 1) / kPartBlocks;
+}
+
+void DeformJob::runPart(std::size_t part) const noexcept {
+    if (part >= partCount()) return;
+    const std::size_t first = part * kPartBlocks;
+    runBlocks(*this, first, std::min(first + kPartBlocks, model->blocks().firstBlock.back()));
 }
 
 bool DeformJob::runReference() const noexcept {

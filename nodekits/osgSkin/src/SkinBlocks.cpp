@@ -68,8 +68,10 @@ SkinBlocks::SkinBlocks(const SkinModel& model)
         const std::size_t blockRows = rowsPerBlock(group.partialCount);
         const glm::dmat3 frame = restFrame(model, group);
         const std::size_t first = rows.size();
+        const std::size_t blocks = (group.vertexCount + kBlock - 1) / kBlock;
         firstRow.push_back(first);
-        rows.resize(first + (group.vertexCount + kBlock - 1) / kBlock * blockRows, BlockRow{});
+        firstBlock.push_back(firstBlock.back() + blocks);
+        rows.resize(first + blocks * blockRows, BlockRow{});
         for (std::uint32_t row = 0; row < group.vertexCount; ++row)
             place(model, group, row, frame, &rows[first + row / kBlock * blockRows]);
     }

@@ -34,8 +34,9 @@ struct SkinBlocks {
     static constexpr std::size_t kTangentRows = 4;
 
     std::vector<BlockRow> rows;
-    std::vector<std::size_t> firstRow;   ///< of each group
-    std::vector<glm::dmat3> jointFrames; ///< jointFrame() of each joint
+    std::vector<std::size_t> firstRow;         ///< of each group
+    std::vector<std::size_t> firstBlock = {0}; ///< of each group; then the number of all blocks
+    std::vector<glm::dmat3> jointFrames;       ///< jointFrame() of each joint
     bool inOrder;     ///< the model's order() is the identity: output needs no scatter
     double smallMove; ///< a joint's translation up to this is a rounding error
 };

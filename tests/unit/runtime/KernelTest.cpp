@@ -289,5 +289,32 @@ TEST_P(Kernel, TurnsByPiAndBack) {
         }
 }
 
+TEST_P(Kernel, PartsInAnyOrderMakeTheWhole) {
+    if (!GetParam().target) return; // the reference has no parts
+    std::mt19937_64 random(14);
+    const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
+    for (const Skin& skin : {Skin(5, upToFour, 1201, 9), inBestOrder(Skin(5, upToFour, 1201, 9))}) {
+        const Model model = modelOf(skin);
+        const osgSkin::Pose pose = randomPose(skin.binding, 0.5, random);
+        const std::size_t count = skin.positions.size();
+        std::vector<glm::vec3> whole(count), parts(count), normals(count), partNormals(count);
+        osgSkin::DeformJob job;
+        job.model = model.get();
+        job.pose = &pose;
+        job.positions = whole.data();
+        job.normals = normals.data();
+        job.positionCount = job.normalCount = count;
+        ASSERT_TRUE(job.run());
+        job.positions = parts.data();
+        job.normals = partNormals.data();
+        ASSERT_GE(job.partCount(), 3u);
+        for (std::size_t part = job.partCount(); part-- > 0;) job.runPart(part);
+        EXPECT_EQ(parts, whole);
+        EXPECT_EQ(partNormals, normals);
+        job.runPart(job.partCount()); // no such part
+        EXPECT_EQ(parts, whole);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Targets, Kernel, testing::ValuesIn(ways()),
                          [](const auto& tested) { return tested.param.name; });
