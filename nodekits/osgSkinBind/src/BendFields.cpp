@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "LimbRadius.h"
 #include "RatioFields.h"
 #include "SkinSmoother.h"
+#include "SmoothBend.h"
 
 #include <algorithm>
 
 namespace osgSkin {
 namespace {
 
-/// A rigid part starts close behind its joint: its field is this much narrower.
-constexpr double kRigidNarrowing = 0.6;
-
 /// Width, in limb radii, that makes a field with boundaries of its own continuous across regions.
 constexpr double kBoundedWidth = 0.25;
 /// That little is cut off again, so that the ratios are exact close beyond the boundaries.
 constexpr double kBoundedCutOff = 0.02;
-
-/// Stretches [cutOff, 1 - cutOff] to [0, 1]: beyond the bend region the ratios are exactly 0 and 1.
-void stretch(std::vector<double>& field, double cutOff) {
-    for (double& a : field) a = std::clamp((a - cutOff) / (1.0 - 2.0 * cutOff), 0.0, 1.0);
-}
 
 bool hasBoundaries(const PlannedJoint& joint) {
     return joint.options.bendUpper || joint.options.bendLower;
@@ -39,15 +31,6 @@ std::vector<double> boundedField(const HardField& hard, const SkinSmoother& smoo
     return field;
 }
 
-std::vector<double> smoothField(const HardField& hard, const SkinSmoother& smoother,
-                                std::size_t joint, double radius, const BindOptions& options) {
-    const double width = options.smoothing * radius;
-    std::vector<double> field = hard.divided(joint);
-    smoother.smooth(field, hard.joints[joint].rigid >= 0 ? kRigidNarrowing * width : width);
-    stretch(field, options.cutOff);
-    return field;
-}
-
 void raise(std::vector<double>& field, const std::vector<double>& other) {
     for (std::size_t v = 0; v < field.size(); ++v) field[v] = std::max(field[v], other[v]);
 }
@@ -62,10 +45,9 @@ JointFields bendFields(const HardField& hard, const std::vector<double>& radii,
     fields[0].assign(hard.mesh.vertexCount(), 1.0);
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!joints[j].holdsRegion) continue;
-        const double radius = bendingRadius(joints[j].boneLength, radii[j]);
         fields[j] = hasBoundaries(joints[j])
-                        ? boundedField(hard, smoother, j, radius, options.smoothing)
-                        : smoothField(hard, smoother, j, radius, options);
+                        ? boundedField(hard, smoother, j, radii[j], options.smoothing)
+                        : smoothBend(hard, smoother, j, radii, options);
     }
     // Along a chain no joint turns skin that its parent leaves behind. A joint without a region (of
     // no length, or skipped) turns what its children turn.

@@ -6,16 +6,6 @@
 #include <algorithm>
 
 namespace osgSkin {
-namespace {
-
-/// Unit normal of the joint's plane, towards the child.
-glm::dvec3 planeNormal(const PlannedJoint& joint) {
-    const glm::dvec3 sum = joint.comingFrom + joint.boneAxis;
-    const double length = glm::length(sum);
-    return length > 1e-6 ? sum / length : joint.boneAxis; // a bone that folds straight back
-}
-
-} // namespace
 
 double hermite(double t) {
     t = std::clamp(t, 0.0, 1.0);
@@ -37,14 +27,17 @@ std::vector<double> HardField::subtree(std::size_t joint) const {
     return field;
 }
 
-std::vector<double> HardField::divided(std::size_t joint) const {
+std::vector<double> HardField::divided(std::size_t joint, double shift) const {
     const PlannedJoint& planned = joints[joint];
     std::vector<double> field = subtree(joint);
     if (planned.rigid >= 0 && planned.lengthAbove < planned.boneLength) return field;
     const glm::dvec3 normal = planeNormal(planned);
-    for (std::size_t v = 0; v < field.size(); ++v)
-        if (regions[v] == joint && glm::dot(mesh.positions[v] - planned.centre, normal) <= 0.0)
-            field[v] = 0.0;
+    const std::size_t above = regionAbove(joints, joint);
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        if (regions[v] != joint && (shift >= 0.0 || regions[v] != above)) continue;
+        const double along = glm::dot(mesh.positions[v] - planned.centre, normal);
+        field[v] = along > shift ? 1.0 : 0.0;
+    }
     return field;
 }
 

@@ -27,7 +27,10 @@ struct HardField {
     /// A rigid part behind a bone that is shorter than its own (a head on its neck) takes its whole
     /// region: there the region's border, along the jaw, is as near to the joint as the plane is,
     /// and follows the body better.
-    std::vector<double> divided(std::size_t joint) const;
+    /// \param shift of the plane, towards the child; a plane that is shifted towards the parent
+    /// also
+    ///        divides the region above
+    std::vector<double> divided(std::size_t joint, double shift = 0.0) const;
 
     /// The paper's two boundaries (section 3) instead of one plane: eq. 5 between them in the
     /// regions of the joint and of the one above. In units of the bone's length.

@@ -5,6 +5,7 @@
 #include "JointAxes.h"
 #include "JointNames.h"
 #include "RigidJoints.h"
+#include "TrunkJoints.h"
 
 #include <glm/geometric.hpp>
 
@@ -84,6 +85,12 @@ void giveRegionsToRigidJoints(std::vector<PlannedJoint>& joints) {
 
 } // namespace
 
+glm::dvec3 planeNormal(const PlannedJoint& joint) {
+    const glm::dvec3 sum = joint.comingFrom + joint.boneAxis;
+    const double length = glm::length(sum);
+    return length > 1e-6 ? sum / length : joint.boneAxis; // a bone that folds straight back
+}
+
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint) {
     int above = joints[joint].parent;
     while (above > 0 && !joints[static_cast<std::size_t>(above)].holdsRegion)
@@ -105,6 +112,7 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
             skeleton.joints[j].parent >= 0 && hasParentPole(joints[j].options, name);
     }
     setJointAxes(skeleton, tolerance, joints);
+    markTrunk(skeleton, joints);
 
     giveRegions(skeleton, tolerance, joints);
     findSeeding(skeleton, mesh, joints, notes);

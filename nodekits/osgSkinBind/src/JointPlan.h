@@ -27,6 +27,8 @@ struct PlannedJoint {
     int parent = -1;
     int child = -1;           ///< the child that continues the chain, -1 for a leaf
     int rigid = -1;           ///< the rigid joint at or above, -1 where there is none
+    bool extremity = false;   ///< head, hand or foot by its name
+    bool trunk = false;       ///< of the trunk: spine, hips, collar bones
     bool seeds = false;       ///< its centre takes part in the Delaunay step
     bool claims = false;      ///< outside the skin: takes the skin nearest to it
     bool holdsRegion = false; ///< has a region, so its field is its own; else its children's
@@ -35,6 +37,9 @@ struct PlannedJoint {
 
     bool belowRigid(int index) const { return rigid >= 0 && rigid != index; }
 };
+
+/// Unit normal of the joint's plane, which bisects the bone above and its own, towards the child.
+glm::dvec3 planeNormal(const PlannedJoint& joint);
 
 /// The nearest joint above that has a region; the root where none has.
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint);

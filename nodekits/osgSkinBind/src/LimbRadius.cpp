@@ -8,10 +8,8 @@
 namespace osgSkin {
 namespace {
 
-/// Bone length over radius: from the first a bone is less and less stout, from the second slender.
-constexpr double kStoutRatio = 2.2;
-constexpr double kSlenderRatio = 2.8;
-constexpr double kSlenderRadius = 0.2; ///< of the bone's length
+/// A limb's length is at least this many radii: upper arms have three to four, necks less than two.
+constexpr double kLimbLength = 2.2;
 
 double limbRadius(const HardField& hard, std::size_t joint) {
     const WeldedMesh& mesh = hard.mesh;
@@ -42,16 +40,9 @@ std::vector<double> limbRadii(const HardField& hard) {
     return radii;
 }
 
-bool isSlender(double boneLength, double radius) {
-    return boneLength > kSlenderRatio * radius;
-}
-
-double bendingRadius(double boneLength, double radius) {
-    if (!(radius > 0.0)) return 0.0;
-    const double slenderness =
-        std::clamp((boneLength / radius - kStoutRatio) / (kSlenderRatio - kStoutRatio), 0.0, 1.0);
-    const double capped = std::min(radius, kSlenderRadius * boneLength);
-    return radius + slenderness * (capped - radius);
+bool isLimb(const PlannedJoint& joint, double radius) {
+    return !joint.trunk && !joint.extremity && joint.rigid < 0 && joint.holdsRegion &&
+           joint.boneLength > kLimbLength * radius;
 }
 
 } // namespace osgSkin

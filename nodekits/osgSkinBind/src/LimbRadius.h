@@ -13,12 +13,9 @@ namespace osgSkin {
 /// one.
 std::vector<double> limbRadii(const HardField& hard);
 
-/// True where the bone is long for its radius: a limb, not the trunk.
-bool isSlender(double boneLength, double radius);
-
-/// The radius that sets the width of a bend. A shoulder's or hip's is the trunk's, which would
-/// soften half of the limb; a slender bone has a fifth of its length at most.
-double bendingRadius(double boneLength, double radius);
+/// True where the bone is long for its radius and not of the trunk: upper arm, forearm, thigh,
+/// shin.
+bool isLimb(const PlannedJoint& joint, double radius);
 
 } // namespace osgSkin
 

@@ -2,7 +2,6 @@
 #include "PaperBoundaries.h"
 
 #include "BoundarySpan.h"
-#include "LimbRadius.h"
 
 #include <glm/geometric.hpp>
 
@@ -14,6 +13,9 @@ namespace {
 
 /// Largest default distance of a bend boundary from the joint, in bone lengths.
 constexpr double kBendShare = 0.3;
+
+/// From this many radii a bone is a limb's, whose boundaries stand square to it.
+constexpr double kSlenderLength = 2.8;
 
 /// The author's boundaries, else the defaults. One that was set beyond the other's default pushes
 /// that one on.
@@ -38,18 +40,13 @@ double unitLength(const PlannedJoint& joint) {
     return joint.boneLength > 0.0 ? joint.boneLength : joint.lengthAbove;
 }
 
-glm::dvec3 bisector(const PlannedJoint& joint) {
-    const glm::dvec3 sum = joint.comingFrom + joint.boneAxis;
-    const double length = glm::length(sum);
-    return length > 1e-6 ? sum / length : joint.boneAxis; // a bone that folds straight back
-}
-
 /// The plane at `along` (in `unit`s) from the joint: negative on the bone above, else on its own.
 BoundaryPlane bendPlane(const PlannedJoint& joint, double radius, double along, double unit) {
     const bool above = along < 0.0;
     const glm::dvec3& bone = above ? joint.comingFrom : joint.boneAxis;
-    const bool limb = isSlender(above ? joint.lengthAbove : joint.boneLength, radius);
-    return {joint.centre + along * unit * bone, limb && along != 0.0 ? bone : bisector(joint)};
+    const double length = above ? joint.lengthAbove : joint.boneLength;
+    const bool limb = length > kSlenderLength * radius;
+    return {joint.centre + along * unit * bone, limb && along != 0.0 ? bone : planeNormal(joint)};
 }
 
 } // namespace
@@ -61,7 +58,7 @@ BoundarySpan paperBendSpan(const PlannedJoint& joint, double radius) {
 }
 
 std::optional<BoundarySpan> paperTwistSpan(const PlannedJoint& joint, double radius) {
-    const bool alongBone = joint.poleIsParent || (joint.child >= 0 && joint.rigid < 0);
+    const bool alongBone = joint.poleIsParent || (!joint.extremity && joint.rigid < 0);
     if (!(joint.poleLength > 0.0) || (!alongBone && !hasOwnTwistRegion(joint))) return std::nullopt;
     const BoundarySpan defaults =
         joint.poleIsParent ? BoundarySpan{-1.0, reach(unitLength(joint), radius) / joint.poleLength}

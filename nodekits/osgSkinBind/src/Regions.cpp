@@ -16,6 +16,7 @@ Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
     // What moves with a rigid joint is one region, the rigid joint's.
     for (std::uint32_t& joint : regions.jointOf)
         if (joints[joint].rigid >= 0) joint = static_cast<std::uint32_t>(joints[joint].rigid);
+    trimRegions(mesh, joints, regions.jointOf);
     removeIslands(mesh, isSeed, regions.jointOf);
     return regions;
 }

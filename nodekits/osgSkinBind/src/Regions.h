@@ -43,6 +43,11 @@ void spreadRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf);
 void claimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
                   std::vector<std::uint32_t>& jointOf);
 
+/// Gives what lies well above a joint's plane, where it does not bend, to the region above: the
+/// torso's side below a shoulder.
+void trimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                 std::vector<std::uint32_t>& jointOf);
+
 /// Joins each region's islands to the regions around them: of a region's connected patches on one
 /// shell the one with most seeds (then most vertices) stays.
 void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,

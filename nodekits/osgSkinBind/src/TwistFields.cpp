@@ -2,6 +2,7 @@
 #include "BoundarySpan.h"
 #include "LimbRadius.h"
 #include "RatioFields.h"
+#include "TwistProfile.h"
 
 #include <glm/geometric.hpp>
 
@@ -28,13 +29,32 @@ BoundarySpan twistRegion(const PlannedJoint& joint, double radius) {
 }
 
 /// True where the twist has a region of its own; elsewhere it goes with the bend. It builds up
-/// along limbs; the trunk's bones are shorter than they are thick, and a last bone leads to no
-/// joint.
+/// along limbs, to the next joint or to a last bone's tip.
 bool buildsUp(const PlannedJoint& joint, double radius) {
     if (!(joint.poleLength > 0.0)) return false;
     if (joint.options.twistUpper || joint.options.twistLower || joint.poleIsParent) return true;
-    return joint.child >= 0 && joint.rigid < 0 && joint.holdsRegion &&
-           isSlender(joint.boneLength, radius);
+    return isLimb(joint, radius);
+}
+
+/// The field along the pole bone, which is the joint's own or the one above; its skin is what that
+/// bone's joint bends. By eq. 5, but along a forearm, whose hand turns far, at even shear.
+std::vector<double> alongBone(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                              std::size_t j, double radius, const JointFields& bend) {
+    const PlannedJoint& joint = joints[j];
+    const BoundarySpan region = twistRegion(joint, radius);
+    const std::vector<double>& onBone = bend[joint.poleIsParent ? regionAbove(joints, j) : j];
+    std::optional<TwistProfile> even;
+    if (joint.poleIsParent && !joint.options.twistUpper && !joint.options.twistLower)
+        even.emplace(mesh, joint, region, onBone, bend[j]);
+    std::vector<double> field(mesh.vertexCount());
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        const double along =
+            glm::dot(mesh.positions[v] - joint.centre, joint.twistAxis) / joint.poleLength;
+        const double t = (along - region.upper) / (region.lower - region.upper);
+        field[v] = std::min(even ? (*even)(t) : hermite(t), onBone[v]);
+        if (joint.poleIsParent) field[v] = std::max(field[v], bend[j][v]);
+    }
+    return field;
 }
 
 } // namespace
@@ -50,18 +70,7 @@ JointFields twistFields(const WeldedMesh& mesh, const std::vector<PlannedJoint>&
     for (std::size_t j = joints.size(); j-- > 1;) {
         const PlannedJoint& joint = joints[j];
         if (joint.belowRigid(static_cast<int>(j))) continue;
-        if (buildsUp(joint, radii[j])) {
-            const BoundarySpan region = twistRegion(joint, radii[j]);
-            // The pole bone is the joint's own or the one above; its skin is what its joint bends.
-            const std::size_t carrier = joint.poleIsParent ? regionAbove(joints, j) : j;
-            for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
-                const double along =
-                    glm::dot(mesh.positions[v] - joint.centre, joint.twistAxis) / joint.poleLength;
-                const double t = (along - region.upper) / (region.lower - region.upper); // eq. 5
-                const double onBone = std::min(hermite(t), bend[carrier][v]);
-                twist[j][v] = joint.poleIsParent ? std::max(bend[j][v], onBone) : onBone;
-            }
-        }
+        if (buildsUp(joint, radii[j])) twist[j] = alongBone(mesh, joints, j, radii[j], bend);
         // Where a child's turn begins, this joint's twist must have got at least as far.
         for (std::size_t child = j + 1; child < joints.size(); ++child) {
             if (joints[child].parent != static_cast<int>(j)) continue;

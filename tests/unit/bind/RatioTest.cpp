@@ -77,6 +77,7 @@ TEST(Ratios, CutOffStiffensTheLimb) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.1}, 7.0);
     BindOptions none, much;
+    none.smoothing = much.smoothing = 0.5;
     none.cutOff = 0.0;
     much.cutOff = 0.2;
     EXPECT_LT(ringBend(mesh, bind(mesh, skeleton, none), 1, 5.0), 0.97f);
