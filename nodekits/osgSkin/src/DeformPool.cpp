@@ -39,8 +39,12 @@ void DeformPool::callEach(std::size_t count, Call call, const void* function) co
         for (std::size_t i = 0; i < count; ++i) call(function, i);
         return;
     }
+    // Isolated: a thread that waits for the rest of a skin must not begin with another one, whose
+    // lock somebody may hold who waits for a thread.
     _arena->arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { call(function, i); });
+        tbb::this_task_arena::isolate([&] {
+            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { call(function, i); });
+        });
     });
 }
 

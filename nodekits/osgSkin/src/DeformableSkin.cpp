@@ -31,7 +31,8 @@ DeformableSkin::DeformableSkin() {
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _rest(other._rest), _shared(other._shared),
       _model(other._model), _pose(other._pose), _skinning(other._skinning), _twist(other._twist),
-      _eager(other._eager), _tangentAttribute(other._tangentAttribute), _tangents(other._tangents) {
+      _eager(other._eager), _pool(other._pool), _tangentAttribute(other._tangentAttribute),
+      _tangents(other._tangents) {
     makeBuffers();
     poseChanged();
 }
@@ -200,7 +201,10 @@ void DeformableSkin::deform() const {
         job.tangentCount = tangents.size();
         tangents.dirty();
     }
-    job.run();
+    if (_pool)
+        _pool->run(&job, 1);
+    else
+        job.run();
     vertices.dirty();
     normals.dirty();
     buffer.dirtyGLObjects(); // a vertex array object looks at its arrays only when told to

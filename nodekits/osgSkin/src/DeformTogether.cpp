@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/DeformTogether>
+
+#include <osg/Group>
+#include <osg/NodeVisitor>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+class FindSkins : public osg::NodeVisitor {
+public:
+    explicit FindSkins(std::vector<osg::ref_ptr<DeformableSkin>>& skins)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _skins(skins) {
+        setNodeMaskOverride(~0u); // skins that are switched off may be switched on later
+    }
+    void apply(osg::Drawable& drawable) override {
+        if (auto* skin = dynamic_cast<DeformableSkin*>(&drawable)) _skins.emplace_back(skin);
+    }
+
+private:
+    std::vector<osg::ref_ptr<DeformableSkin>>& _skins;
+};
+
+unsigned int childrenOf(const osg::Node& node) {
+    const osg::Group* group = node.asGroup();
+    return group ? group->getNumChildren() : 0;
+}
+
+} // namespace
+
+DeformTogether::DeformTogether(DeformPool* pool) : _pool(pool ? pool : new DeformPool) {}
+
+DeformTogether::DeformTogether(const DeformTogether& other, const osg::CopyOp& copyop)
+    // Skins are not copied: the copy finds those below the node that it comes to be set on.
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
+      _pool(other._pool), _onlySeen(other._onlySeen) {}
+
+DeformTogether::~DeformTogether() = default;
+
+void DeformTogether::find(osg::Node& node) {
+    _skins.clear();
+    FindSkins visitor(_skins);
+    node.accept(visitor);
+    // One that stands in several places is deformed once.
+    std::sort(_skins.begin(), _skins.end());
+    _skins.erase(std::unique(_skins.begin(), _skins.end()), _skins.end());
+    _now.reserve(_skins.size());
+    _children = childrenOf(node);
+    _known = true;
+}
+
+void DeformTogether::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    traverse(node, nv);
+    if (!node) return;
+    if (!_known || childrenOf(*node) != _children) find(*node);
+    _now.clear();
+    for (const osg::ref_ptr<DeformableSkin>& skin : _skins) {
+        if (skin->getNumParents() == 0) _known = false;
+        if (skin->needsDeform() && (skin->wasSeen() || !_onlySeen)) _now.push_back(skin.get());
+    }
+    _pool->forEach(_now.size(), [this](std::size_t i) { _now[i]->getDeformedGeometry(); });
+}
+
+} // namespace osgSkin
