@@ -34,6 +34,7 @@ osgskin_osg_target(osgText osgDB)
 osgskin_osg_target(osgGA osgDB)
 osgskin_osg_target(osgViewer osgGA osgText)
 osgskin_osg_target(osgShadow osgUtil)
+
 osgskin_osg_target(osgAnimation osgDB osgText osgGA osgViewer)
 
 # What a plug-in's folder must be called for this OSG to find it.

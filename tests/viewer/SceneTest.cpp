@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// What applications do to a scene that a skin stands in: several skins and parents, parts that go
+// away while it runs, time that stops and goes back, masks and levels of detail, picking.
+#include "TubeSkin.h"
+
+#include <osgSkin/UpdateDeformableSkin>
+
+#include <osg/LOD>
+#include <osg/Switch>
+#include <osgAnimation/BasicAnimationManager>
+#include <osgDB/ReadFile>
+#include <osgUtil/LineSegmentIntersector>
+#include <osgUtil/PolytopeIntersector>
+#include <osgUtil/UpdateVisitor>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using osgSkin::DeformableSkin;
+using Vertices = std::vector<osg::Vec3>;
+
+void update(osg::Node& scene, double time) {
+    osgUtil::UpdateVisitor visitor;
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    stamp->setSimulationTime(time);
+    visitor.setFrameStamp(stamp);
+    scene.accept(visitor);
+}
+
+Vertices vertices(const DeformableSkin& skin) {
+    const auto& array =
+        static_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray());
+    return {array.begin(), array.end()};
+}
+
+void collect(osg::Node& node, std::vector<DeformableSkin*>& skins) {
+    if (auto* skin = dynamic_cast<DeformableSkin*>(&node)) skins.push_back(skin);
+    if (osg::Group* group = node.asGroup())
+        for (unsigned int i = 0; i < group->getNumChildren(); ++i)
+            collect(*group->getChild(i), skins);
+}
+
+/// The thrower; `skin` is its skin.
+struct Thrower {
+    osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(OSGSKIN_DATA "/thrower.skin");
+    DeformableSkin* skin = nullptr;
+
+    Thrower() {
+        std::vector<DeformableSkin*> skins;
+        if (scene) collect(*scene, skins);
+        if (!skins.empty()) skin = skins.front();
+    }
+    Vertices at(double time) {
+        update(*scene, time);
+        return vertices(*skin);
+    }
+};
+
+/// A skeleton whose middle bone is bent by `angle`.
+void bendBones(osgAnimation::Skeleton& skeleton, double angle) {
+    auto& root = static_cast<osgAnimation::Bone&>(*skeleton.getChild(0));
+    auto& middle = static_cast<osgAnimation::Bone&>(*root.getChild(0));
+    auto& end = static_cast<osgAnimation::Bone&>(*middle.getChild(0));
+    middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(angle, osg::Vec3d(1, 0, 0)) *
+                                    osg::Matrix::translate(0, 2, 0));
+    end.setMatrixInSkeletonSpace(osg::Matrix::translate(0, 2, 0) *
+                                 middle.getMatrixInSkeletonSpace());
+}
+
+osg::ref_ptr<DeformableSkin> makeFollower() {
+    osg::ref_ptr<DeformableSkin> skin = test::makeSkin();
+    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
+    return skin;
+}
+
+double bendOf(const DeformableSkin& skin) {
+    return skin.getPose().turn(1).split.bendAngle;
+}
+
+} // namespace
+
+TEST(Scene, SeveralSkinsUnderOneSkeleton) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
+    std::vector<osg::ref_ptr<DeformableSkin>> skins;
+    for (int i = 0; i < 3; ++i) {
+        skins.push_back(makeFollower());
+        skeleton->addChild(skins.back());
+    }
+    bendBones(*skeleton, 0.7);
+    update(*skeleton, 0.0);
+    test::cull(*skeleton, true);
+    for (const auto& skin : skins) {
+        EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
+        EXPECT_EQ(skin->getDeformCount(), 1u);
+    }
+}
+
+TEST(Scene, OneSkinUnderSeveralParents) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
+    const auto skin = makeFollower();
+    for (int i = 0; i < 3; ++i) {
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrix::translate(2.0 * i - 2.0, 0, 0));
+        place->addChild(skin);
+        skeleton->addChild(place);
+    }
+    bendBones(*skeleton, 0.7);
+    update(*skeleton, 0.0);
+    test::cull(*skeleton, true);
+    EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
+    EXPECT_EQ(skin->getDeformCount(), 1u);
+}
+
+TEST(Scene, SkeletonReplacedWhileRunning) {
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
+    root->addChild(skeleton);
+    const auto skin = makeFollower();
+    skeleton->addChild(skin);
+    bendBones(*skeleton, 0.7);
+    update(*root, 0.0);
+    skeleton->removeChild(skin);
+    root->removeChild(skeleton);
+    skeleton = nullptr;
+    root->addChild(skin);
+    update(*root, 0.1); // no skeleton: the pose stays
+    test::cull(*root, true);
+    EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
+    root->removeChild(skin);
+    skeleton = test::makeBones();
+    skeleton->addChild(skin);
+    root->addChild(skeleton);
+    bendBones(*skeleton, 0.2);
+    update(*root, 0.2);
+    EXPECT_NEAR(bendOf(*skin), 0.2, 1e-9);
+}
+
+TEST(Scene, BonesRemovedWhileRunning) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
+    const auto skin = makeFollower();
+    skeleton->addChild(skin);
+    update(*skeleton, 0.0);
+    skeleton->removeChild(skeleton->getChild(0)); // the bones; the callback keeps them alive
+    update(*skeleton, 0.1);
+    test::cull(*skeleton, true);
+    EXPECT_NEAR(bendOf(*skin), 0.0, 1e-9);
+}
+
+TEST(Scene, CallbackRemovedAndSetAgain) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
+    const auto skin = makeFollower();
+    skeleton->addChild(skin);
+    bendBones(*skeleton, 0.7);
+    update(*skeleton, 0.0);
+    skin->setUpdateCallback(nullptr);
+    bendBones(*skeleton, 0.3);
+    update(*skeleton, 0.1);
+    EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
+    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
+    update(*skeleton, 0.2);
+    EXPECT_NEAR(bendOf(*skin), 0.3, 1e-9);
+}
+
+TEST(Scene, TimeMayStopAndGoBack) {
+    Thrower forwards, about;
+    ASSERT_NE(forwards.skin, nullptr);
+    forwards.at(0.0);
+    about.at(0.0);
+    const std::vector<double> times = {0.3, 0.8, 1.3, 1.8};
+    std::vector<Vertices> poses;
+    for (const double time : times) poses.push_back(forwards.at(time));
+    EXPECT_NE(poses[0], poses[1]);
+    for (const std::size_t i : {3u, 1u, 1u, 0u, 2u, 3u, 2u, 1u, 0u})
+        EXPECT_EQ(about.at(times[i]), poses[i]) << times[i];
+}
+
+TEST(Scene, APauseCostsNoDeformation) {
+    Thrower thrower;
+    ASSERT_NE(thrower.skin, nullptr);
+    thrower.at(0.5);
+    const unsigned int count = thrower.skin->getDeformCount();
+    for (int i = 0; i < 5; ++i) thrower.at(0.5);
+    EXPECT_EQ(thrower.skin->getDeformCount(), count);
+}
+
+TEST(Scene, MaskedSkinsAreNotDeformed) {
+    const osg::ref_ptr<osg::Switch> scene = new osg::Switch;
+    const auto skin = test::makeSkin();
+    const auto other = test::makeSkin();
+    scene->addChild(skin, true);
+    scene->addChild(other, false);
+    skin->setNodeMask(0);
+    test::bend(*skin, 0.3);
+    test::cull(*scene, true);
+    EXPECT_EQ(skin->getDeformCount(), 0u);
+    EXPECT_EQ(other->getDeformCount(), 0u);
+    skin->setNodeMask(~0u);
+    test::cull(*scene, true);
+    EXPECT_EQ(skin->getDeformCount(), 1u);
+}
+
+TEST(Scene, OnlyTheLevelInUseIsDeformed) {
+    const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+    const auto close = test::makeSkin();
+    const auto distant = test::makeSkin();
+    lod->addChild(close, 0.0f, 10.0f);
+    lod->addChild(distant, 10.0f, 1000.0f);
+    for (const auto& skin : {close, distant}) test::bend(*skin, 0.3);
+    test::cull(*lod, true); // from 30 away
+    EXPECT_EQ(close->getDeformCount(), 0u);
+    EXPECT_EQ(distant->getDeformCount(), 1u);
+}
+
+TEST(Scene, OutOfViewFiguresAreNotDeformed) {
+    Thrower thrower;
+    ASSERT_NE(thrower.skin, nullptr);
+    update(*thrower.scene, 1.0);
+    test::cull(*thrower.scene, false);
+    EXPECT_EQ(thrower.skin->getDeformCount(), 0u);
+}
+
+TEST(Scene, PickingHitsThePosedArm) {
+    const auto skin = test::makeSkin();
+    const auto line = [&](const osg::Vec3d& from, const osg::Vec3d& to) {
+        const osg::ref_ptr<osgUtil::LineSegmentIntersector> pick =
+            new osgUtil::LineSegmentIntersector(from, to);
+        osgUtil::IntersectionVisitor visitor(pick);
+        skin->accept(visitor);
+        return pick->containsIntersections();
+    };
+    const auto box = [&](const osg::Vec3d& centre) {
+        osg::Polytope polytope;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double side : {-1.0, 1.0}) {
+                osg::Vec3d normal;
+                normal[axis] = side;
+                polytope.add(osg::Plane(normal, centre - normal * 1.2));
+            }
+        const osg::ref_ptr<osgUtil::PolytopeIntersector> pick =
+            new osgUtil::PolytopeIntersector(polytope);
+        osgUtil::IntersectionVisitor visitor(pick);
+        skin->accept(visitor);
+        return pick->containsIntersections();
+    };
+    const osg::Vec3d restEnd(0, 5, 0), posedEnd(0, 2, 3), aside(5, 0, 0);
+    EXPECT_TRUE(line(restEnd - aside, restEnd + aside));
+    EXPECT_TRUE(box(restEnd));
+    EXPECT_FALSE(line(posedEnd - aside, posedEnd + aside));
+    EXPECT_FALSE(box(posedEnd));
+    test::bend(*skin, osg::PI_2);
+    EXPECT_FALSE(line(restEnd - aside, restEnd + aside));
+    EXPECT_FALSE(box(restEnd));
+    EXPECT_TRUE(line(posedEnd - aside, posedEnd + aside));
+    EXPECT_TRUE(box(posedEnd));
+}

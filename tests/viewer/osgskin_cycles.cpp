@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Loads a character, plays it, saves it and lets go of it, again and again: for the sanitizers,
+// which see leaks and what is used after it has been freed. No display needed.
+#include <osgSkin/DeformableSkin>
+
+#include <osg/observer_ptr>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgDB/WriteFile>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/UpdateVisitor>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+namespace {
+
+/// One frame's update and cull, with everything in view.
+void frame(osg::Node& scene, unsigned int number) {
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    stamp->setFrameNumber(number);
+    stamp->setSimulationTime(number / 60.0);
+    osgUtil::UpdateVisitor update;
+    update.setFrameStamp(stamp);
+    update.setTraversalNumber(number);
+    scene.accept(update);
+    const osg::ref_ptr<osgUtil::CullVisitor> cull = new osgUtil::CullVisitor;
+    cull->setFrameStamp(stamp);
+    cull->setTraversalNumber(number);
+    cull->setStateGraph(new osgUtil::StateGraph);
+    const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+    cull->setRenderStage(stage);
+    const osg::BoundingSphere all = scene.getBound();
+    cull->pushViewport(new osg::Viewport(0, 0, 100, 100));
+    cull->pushProjectionMatrix(
+        new osg::RefMatrix(osg::Matrix::perspective(60, 1, 0.01, 100.0 * all.radius())));
+    cull->pushModelViewMatrix(
+        new osg::RefMatrix(osg::Matrix::lookAt(all.center() - osg::Vec3d(0, 4.0 * all.radius(), 0),
+                                               all.center(), {0, 0, 1})),
+        osg::Transform::ABSOLUTE_RF);
+    scene.accept(*cull);
+}
+
+unsigned int posesOf(osg::Node& node) {
+    if (const auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&node))
+        return skin->getDeformCount();
+    unsigned int poses = 0;
+    if (osg::Group* group = node.asGroup())
+        for (unsigned int i = 0; i < group->getNumChildren(); ++i)
+            poses += posesOf(*group->getChild(i));
+    return poses;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 5) {
+        std::cerr << "usage: osgskin_cycles CHARACTER SAVED.osgb FRAMES CYCLES" << std::endl;
+        return 2;
+    }
+    const auto frames = static_cast<unsigned int>(std::atoi(argv[3]));
+    const auto cycles = static_cast<unsigned int>(std::atoi(argv[4]));
+    std::string file = argv[1];
+    for (unsigned int cycle = 0; cycle < cycles; ++cycle) {
+        osg::ref_ptr<osg::Node> character = osgDB::readRefNodeFile(file);
+        if (!character) return 1;
+        for (unsigned int i = 1; i <= frames; ++i) frame(*character, i);
+        if (posesOf(*character) != frames) {
+            std::cerr << "cycle " << cycle << ": " << posesOf(*character) << " poses in " << frames
+                      << " frames" << std::endl;
+            return 1;
+        }
+        if (!osgDB::writeNodeFile(*character, argv[2])) return 1;
+        const osg::observer_ptr<osg::Node> seen = character;
+        character = nullptr;
+        if (seen.valid()) {
+            std::cerr << "cycle " << cycle << ": something still holds the character" << std::endl;
+            return 1;
+        }
+        // Both ways in, by turns: from its files, and as saved.
+        file = file == argv[1] ? argv[2] : argv[1];
+    }
+    std::cout << cycles << " times loaded, " << frames << " frames, saved and let go" << std::endl;
+    return 0;
+}
