@@ -12,7 +12,7 @@ namespace example {
 namespace {
 
 /// Pictures are drawn this many times larger and averaged down: smooth edges on every driver.
-constexpr int kFiner = 2;
+constexpr unsigned int kFiner = 2;
 
 /// Reads the picture back at the end of a draw, while the context is current.
 struct ReadBack : osg::Camera::DrawCallback {
@@ -27,12 +27,15 @@ struct ReadBack : osg::Camera::DrawCallback {
 /// The means of `image`'s blocks of kFiner x kFiner pixels.
 osg::ref_ptr<osg::Image> averaged(const osg::Image& image) {
     osg::ref_ptr<osg::Image> result = new osg::Image;
-    result->allocateImage(image.s() / kFiner, image.t() / kFiner, 1, GL_RGB, GL_UNSIGNED_BYTE);
-    for (int y = 0; y < result->t(); ++y) {
+    result->allocateImage(image.s() / int(kFiner), image.t() / int(kFiner), 1, GL_RGB,
+                          GL_UNSIGNED_BYTE);
+    const auto width = unsigned(result->s());
+    const auto height = unsigned(result->t());
+    for (unsigned int y = 0; y < height; ++y) {
         unsigned char* out = result->data(0, y);
-        for (int x = 0; x < result->s(); ++x, out += 3) {
-            int sum[3] = {};
-            for (int k = 0; k < kFiner * kFiner; ++k) {
+        for (unsigned int x = 0; x < width; ++x, out += 3) {
+            unsigned int sum[3] = {};
+            for (unsigned int k = 0; k < kFiner * kFiner; ++k) {
                 const unsigned char* in =
                     image.data(x * kFiner + k % kFiner, y * kFiner + k / kFiner);
                 for (int c = 0; c < 3; ++c) sum[c] += in[c];
@@ -58,8 +61,8 @@ Snapshots::Snapshots(osg::Node* scene, const View& view, int width, int height)
     const osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
     traits->readDISPLAY();
     traits->setUndefinedScreenDetailsToDefaultScreen();
-    traits->width = width * kFiner;
-    traits->height = height * kFiner;
+    traits->width = width * int(kFiner);
+    traits->height = height * int(kFiner);
     traits->pbuffer = true; // may be larger than the screen
     traits->doubleBuffer = false;
     osg::ref_ptr<osg::GraphicsContext> context =
@@ -67,7 +70,7 @@ Snapshots::Snapshots(osg::Node* scene, const View& view, int width, int height)
     if (!context) throw std::runtime_error("no picture can be drawn; is DISPLAY set?");
     osg::Camera& camera = *viewer.getCamera();
     camera.setGraphicsContext(context);
-    camera.setViewport(0, 0, width * kFiner, height * kFiner);
+    camera.setViewport(0, 0, traits->width, traits->height);
     camera.setDrawBuffer(GL_FRONT);
     camera.setReadBuffer(GL_FRONT);
     camera.setClearColor(osg::Vec4(0.13f, 0.145f, 0.16f, 1.0f));

@@ -38,13 +38,13 @@ void straysOf(const BoundSkin& skin, const BoundSkin::Run& run, std::uint32_t fr
         const float twist = static_cast<float>(std::abs(split.twistAngle));
         const float* slack = skin.slack.data() + run.firstSlack + from +
                              std::size_t(k) * BoundSkin::SlackKinds * run.patchCount;
-        const float* bendReach = slack + BoundSkin::BendReach * run.patchCount;
-        const float* twistReach = slack + BoundSkin::TwistReach * run.patchCount;
+        const float* bendReach = slack + std::size_t(BoundSkin::BendReach) * run.patchCount;
+        const float* twistReach = slack + std::size_t(BoundSkin::TwistReach) * run.patchCount;
         for (std::uint32_t i = 0; i < count; ++i)
             stray[i] += bend * bendReach[i] + twist * twistReach[i];
         if (travel <= skin.rounding) continue;
-        const float* bendSpread = slack + BoundSkin::BendSpread * run.patchCount;
-        const float* twistSpread = slack + BoundSkin::TwistSpread * run.patchCount;
+        const float* bendSpread = slack + std::size_t(BoundSkin::BendSpread) * run.patchCount;
+        const float* twistSpread = slack + std::size_t(BoundSkin::TwistSpread) * run.patchCount;
         for (std::uint32_t i = 0; i < count; ++i)
             stray[i] += travel * ((1.0f + bend) * bendSpread[i] + twist * twistSpread[i]);
     }

@@ -47,7 +47,7 @@ private:
 
 glm::dvec3 boundCentre(const osgAnimation::Bone& bone) {
     osg::Matrixd bind;
-    const osg::Matrixd inverse = bone.getInvBindMatrixInSkeletonSpace();
+    const osg::Matrixd& inverse = bone.getInvBindMatrixInSkeletonSpace();
     if (!inverse.valid() || !bind.invert(inverse))
         throw Error("bone \"" + bone.getName() + "\": its inverse bind matrix cannot be inverted");
     return toGlm(bind.getTrans());

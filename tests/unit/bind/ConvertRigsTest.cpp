@@ -313,7 +313,9 @@ TEST(ConvertRigs, LeaveAloneWhatTheyCannotConvertAndSayWhy) {
         {"points", "no triangles"}, {"infinite", "not finite"},  {"lost", "no skeleton"},
     };
     EXPECT_EQ(report.notes.size(), std::size(expected));
-    for (const auto& [name, reason] : expected) {
+    for (const auto& pair : expected) {
+        const std::string name = pair.first;
+        const std::string reason = pair.second;
         const bool found =
             std::any_of(report.notes.begin(), report.notes.end(), [&](const std::string& note) {
                 return note.find(name) != std::string::npos &&
