@@ -54,9 +54,11 @@ void loadMotions(Character& character) {
         motion.name = entry.name;
         RetargetOptions options;
         options.joints = entry.joints;
+        options.names = character.file.names;
         character.motions.push_back(inFile(entry.file, [&] {
             Character::Motion loaded;
             loaded.clip = retarget(motion, character.rig, options, &loaded.report);
+            OSG_INFO << entry.file << ":\n" << loaded.report.text();
             return loaded;
         }));
     }

@@ -34,6 +34,7 @@ public:
     bool boolean() const;
     std::size_t count() const; ///< a whole number, not negative
 
+    bool isList() const { return _value.is_array(); }
     std::vector<JsonReader> items() const; ///< of a list
     void forEachItem(const std::function<void(const JsonReader&)>& visit) const;
     void

@@ -39,6 +39,24 @@ SkinFile::Motion readMotion(const JsonReader& reader, const std::string& folder)
     return motion;
 }
 
+/// A family of names: role -> a joint's name, or a list of them.
+JointNames readNames(const std::string& family, const JsonReader& reader) {
+    std::set<std::string> roles;
+    for (const JointNames& known : knownJointNames())
+        for (const auto& [role, members] : known.roles) roles.insert(role);
+    JointNames names{family, {}};
+    reader.forEachMember([&](const std::string& role, const JsonReader& value) {
+        if (roles.count(role) == 0)
+            value.complain("no such part of a body, expected Hips, Spine, LeftUpperArm, ...");
+        if (value.isList())
+            value.forEachItem(
+                [&](const JsonReader& name) { names.roles[role].push_back(name.string()); });
+        else
+            names.roles[role].push_back(value.string());
+    });
+    return names;
+}
+
 SkinFile::Prop readProp(const JsonReader& reader, const SkinFile& skin, const std::string& folder) {
     reader.warnUnknown({"mesh", "motion", "file"});
     SkinFile::Prop prop;
@@ -118,7 +136,7 @@ SkinFile SkinFile::read(const std::string& file) {
     const std::string folder = osgDB::getFilePath(file);
     checkVersion(root);
     root.warnUnknown({"osgskin", "mesh", "skeleton", "motions", "props", "rigid", "bind", "weights",
-                      "joints", "up"});
+                      "joints", "up", "names"});
 
     SkinFile skin;
     skin.file = file;
@@ -134,6 +152,10 @@ SkinFile SkinFile::read(const std::string& file) {
                                 "\" is taken, expected a \"name\" of its own");
         });
     }
+    if (const auto names = root.find("names"))
+        names->forEachMember([&](const std::string& family, const JsonReader& value) {
+            skin.names.push_back(readNames(family, value));
+        });
     if (const auto props = root.find("props"))
         props->forEachItem([&](const JsonReader& reader) {
             skin.props.push_back(readProp(reader, skin, folder));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgSkinBind/BindOptions>
+#include <osgSkinImport/JointNames>
 
 #include <cstddef>
 #include <map>
@@ -33,6 +34,7 @@ struct SkinFile {
     std::string mesh;
     std::string skeleton; ///< the mesh's own file where the description names none
     std::vector<Motion> motions;
+    std::vector<JointNames> names; ///< families of joint names beside the known ones
     std::vector<Prop> props;
     BindOptions bind;
     bool paintedWeights = false; ///< the binding comes from painted weights

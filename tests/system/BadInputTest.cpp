@@ -59,6 +59,8 @@ const BadFile kBadFiles[] = {
     {"weights_negative", "weights_negative.json", "weights.arm[0][1]", "0 or more"},
     {"weights_as_text", "weights_as_text.json", "weights.arm[0][1]", "expected a number"},
     {"weights_all_zero", "weights_all_zero.skin", "weights", "above 0"},
+    {"names_of_unknown_role", "names_of_unknown_role.skin", "names.robot.Elbow", "expected Hips"},
+    {"names_as_number", "names_as_number.skin", "names.robot.Hips", "expected a string"},
     {"unknown_pole", "unknown_pole.skin", "joints.arm.twist.along", "expected"},
     {"crossed_boundaries", "crossed_boundaries.skin", "joints.arm.bend", "expected"},
     {"unknown_up", "unknown_up.skin", "up", "expected"},

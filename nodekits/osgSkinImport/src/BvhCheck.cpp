@@ -4,6 +4,8 @@
 #include "BvhTokens.h"
 #include "FileText.h"
 
+#include <osg/Notify>
+
 #include <cmath>
 #include <set>
 #include <vector>
@@ -158,9 +160,11 @@ private:
             failLine(_path, _words.line(),
                      "the motion ends after " + std::to_string(found.size()) +
                          " frame(s), expected the declared " + std::to_string(frames));
+        // Some recorders count from 0 here: what is declared can be read.
         if (found.size() > frames)
-            failLine(_path, found[frames].line,
-                     "a frame beyond the declared " + std::to_string(frames));
+            OSG_NOTICE << _path << ": line " << found[frames].line << ": " << found.size() - frames
+                       << " frame(s) beyond the declared " << frames << ", passed over"
+                       << std::endl;
     }
 
     const std::string& _path;

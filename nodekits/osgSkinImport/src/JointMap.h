@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgSkin/RestSkeleton>
+#include "JointRoles.h"
 
-#include <map>
-#include <string>
+#include <osgSkin/RestSkeleton>
+#include <osgSkinImport/Retarget>
+
 #include <vector>
 
 namespace osgSkin {
 
-/// For each rig joint, the index of the motion joint that drives it, or -1.
-///
-/// The caller's map comes first (an empty motion name leaves the joint at rest), then the joint of
-/// equal name, then the built-in other names of the same joint.
-/// \throw osgSkin::Error where the map names a joint that is not there, or no joint matches.
-std::vector<int> mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
-                           const std::map<std::string, std::string>& names);
+/// Which motion joint drives which rig joint.
+struct JointMap {
+    std::vector<int> motionJoint; ///< [rig joint], -1 for none
+    JointRoles rig, motion;
+};
 
-/// Other names of the joint `name` in the dialects of motion capture files; empty where none are
-/// known.
-std::vector<std::string> aliasesOf(const std::string& name);
+/// The caller's map comes first (an empty motion name leaves the joint at rest), then the joint of
+/// the same role, as the skeletons' families of names have it, then the joint of equal name, unless
+/// it is known to be another part of the body. Spines and necks of different length are stretched
+/// over each other, end to end.
+/// \throw osgSkin::Error where the map names a joint that is not there, or no joint matches.
+JointMap mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
+                   const RetargetOptions& options);
 
 } // namespace osgSkin

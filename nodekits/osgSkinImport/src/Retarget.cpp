@@ -59,7 +59,8 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
               RetargetReport* report) {
     rig.validate();
     motion.skeleton.validate();
-    const std::vector<int> motionJoint = mapJoints(rig, motion.skeleton, options.joints);
+    const JointMap map = mapJoints(rig, motion.skeleton, options);
+    const std::vector<int>& motionJoint = map.motionJoint;
     const SkeletonTree rigTree(rig);
     const SkeletonTree motionTree(motion.skeleton);
     const std::vector<glm::dquat> alignment = alignBones(rigTree, motionTree, motionJoint);
@@ -89,6 +90,8 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
 
     if (report != nullptr) {
         fillReport(*report, motion, rig, motionJoint, alignment);
+        report->rigNames = map.rig.family;
+        report->motionNames = map.motion.family;
         report->scale = root.scale();
         report->offset = root.offset();
     }

@@ -95,4 +95,9 @@ TEST(ImportSkeleton, ReadsAMakeHumanRig) {
     EXPECT_NEAR(rig.joints[static_cast<std::size_t>(head)].tip->y, 8.4044, 1e-4);
 }
 
+TEST(ImportMotion, PassesOverFramesBeyondTheDeclared) {
+    const osgSkin::Motion motion = osgSkin::importMotion(testData("bvh/more_rows.bvh"));
+    EXPECT_EQ(motion.frames, 2u);
+}
+
 } // namespace
