@@ -104,7 +104,8 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.add_option("CHARACTER", arguments.character, "a .skin file");
     app.add_option("--motion", arguments.motion, "a motion's name; the first one by default");
     app.add_option("--frames", frames, "A, A:B or A:B:STEP; all by default");
-    app.add_option("--out", arguments.out, "the frames' OBJ files, like frame_%04d.obj");
+    app.add_option("--out", arguments.out,
+                   "the frames' files, like frame_%04d.obj or .ply; or one for all: .pc2, .glb");
     CLI::Option* rest =
         app.add_option("--rest", arguments.rest, "write the bind pose")->expected(0, 1);
     app.add_option("--binding", arguments.binding, "write joints, regions and ratios (JSON)");

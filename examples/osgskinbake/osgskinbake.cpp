@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Arguments.h"
 #include "Character.h"
+#include "FrameWriter.h"
 #include "PosedMesh.h"
 #include "Progress.h"
 #include "Writers.h"
@@ -9,6 +10,7 @@
 
 #include <exception>
 #include <iostream>
+#include <memory>
 
 namespace {
 
@@ -42,9 +44,14 @@ void bakeFrames(const Arguments& arguments, Character& character) {
     const osgSkin::Clip& clip = motion.clip;
     const bake::FrameRange range = chooseFrames(arguments, clip);
     const std::size_t total = (range.last - range.first) / range.step + 1;
-    if (total > 1 && !arguments.out.empty() && !bake::hasNumber(arguments.out))
+    if (total > 1 && !arguments.out.empty() && bake::FrameWriter::isSequence(arguments.out) &&
+        !bake::hasNumber(arguments.out))
         throw UsageError{"--out: " + std::to_string(total) +
                          " frames need a %d in the name, found \"" + arguments.out + "\""};
+    bake::FrameSeries series{&character.body.mesh, range.first, total,
+                             clip.frameTime * static_cast<double>(range.step), character.file.zUp};
+    std::unique_ptr<bake::FrameWriter> writer;
+    if (!arguments.out.empty()) writer = bake::FrameWriter::make(arguments.out, series);
     bake::Progress progress("frame", total, arguments.quiet);
     nlohmann::json poses = nlohmann::json::array();
     double seamGap = 0.0;
@@ -52,12 +59,12 @@ void bakeFrames(const Arguments& arguments, Character& character) {
         character.pose(motion, frame);
         const bake::PosedMesh posed = bake::PosedMesh::read(character);
         seamGap = std::max(seamGap, posed.seamGap);
-        if (!arguments.out.empty())
-            bake::writeObj(bake::frameName(arguments.out, frame), character.body.mesh, posed);
+        if (writer) writer->add(frame, posed);
         if (!arguments.pose.empty())
             poses.push_back(bake::poseJson(frame, character.binding, bake::currentPose(character)));
         progress.step();
     }
+    if (writer) writer->finish();
     if (!arguments.pose.empty()) bake::writeJson(arguments.pose, poses);
     if (!arguments.quiet)
         std::cerr << total << " frames of \"" << clip.name << "\", largest seam gap "
