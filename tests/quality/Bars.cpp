@@ -53,6 +53,7 @@ std::vector<Bar> bars(const Report& report) {
     bars.push_back(
         {"influences, most", static_cast<double>(report.binding.mostInfluences), true, 4});
     bars.push_back({"influences, mean", report.binding.meanInfluences, true, 2.1});
+    bars.push_back({"capping costs at most", report.capping.share, true, 0.02});
     // A second for 4,000 vertices, growing with their number.
     bars.push_back({"binding, seconds", report.binding.seconds, true,
                     std::max(1.0, 0.25e-3 * static_cast<double>(report.vertices))});

@@ -76,7 +76,7 @@ CrossSections::CrossSections(const Subject& subject, std::size_t joint,
     _fine.rest = onEdges(subject.rest, _points);
     _fine.weights = weightsOf(subject.weights, _points);
     _fine.binding = bindingOf(subject, joint, _points);
-    _fine.model = modelOf(_fine.binding, _fine.rest);
+    _fine.model = modelOf(_fine);
 }
 
 CrossSections::Least CrossSections::leastAreas(Method method,

@@ -51,7 +51,7 @@ Subject makeCylinder() {
     cylinder.rig.joints.back().tip = glm::dvec3(0, 4, 0);
     cylinder.binding = osgSkin::bind(cylinder.mesh, cylinder.rig, {}, &cylinder.report);
     cylinder.rest = cylinder.mesh.positions;
-    cylinder.model = modelOf(cylinder.binding, cylinder.rest);
+    cylinder.model = modelOf(cylinder);
     cylinder.triangles = cylinder.mesh.triangles();
     cylinder.edges = compare::faceEdges(cylinder.mesh.faceSizes, cylinder.mesh.faceVertices);
     for (const glm::dvec3& p : cylinder.rest) {

@@ -13,15 +13,26 @@ Json posesJson(const std::vector<PoseFigure>& poses) {
                         {"edgeStrainRms", pose.strain.rms},
                         {"edge999", pose.strain.percentile999},
                         {"longestEdge", pose.strain.largest},
-                        {"volumeError", pose.volumeError}});
+                        {"volumeError", pose.volumeError},
+                        {"normalErrorMean", pose.normals.mean},
+                        {"normalError95", pose.normals.percentile95},
+                        {"limbBulge", pose.bulge},
+                        {"selfIntersections", pose.intersections}});
     return json;
 }
 
 Json motionJson(const PerMethod<PoseFigures>& motion) {
     return perMethod([&](Method m) {
-        return Json{{"edgeStrainRms", motion[m].strain},    {"edge999", motion[m].percentile999},
-                    {"longestEdge", motion[m].longest},     {"longestEdgeIn", motion[m].longestIn},
-                    {"volumeError", motion[m].volumeError}, {"poses", posesJson(motion[m].poses)}};
+        return Json{{"edgeStrainRms", motion[m].strain},
+                    {"edge999", motion[m].percentile999},
+                    {"longestEdge", motion[m].longest},
+                    {"longestEdgeIn", motion[m].longestIn},
+                    {"volumeError", motion[m].volumeError},
+                    {"normalErrorMean", motion[m].normals.mean},
+                    {"normalError95", motion[m].normals.percentile95},
+                    {"limbBulge", motion[m].bulge},
+                    {"selfIntersections", motion[m].intersections},
+                    {"poses", posesJson(motion[m].poses)}};
     });
 }
 
@@ -75,6 +86,8 @@ nlohmann::ordered_json toJson(const Report& report) {
                        {"meanInfluences", report.binding.meanInfluences},
                        {"mostInfluences", report.binding.mostInfluences},
                        {"cappedShare", report.binding.cappedShare},
+                       {"cappingCost", report.capping.share},
+                       {"cappingCostOf", report.capping.figure},
                        {"seconds", report.binding.seconds}};
     json["bars"] = barsJson(report);
     return json;

@@ -12,18 +12,32 @@
 namespace quality {
 namespace {
 
-compare::Points deformOurs(const Subject& subject, const std::vector<glm::dmat4>& skinning) {
+PosedSkin deformOurs(const Subject& subject, const std::vector<glm::dmat4>& skinning,
+                     bool withNormals) {
     osgSkin::Pose pose(subject.binding.joints);
     if (!pose.set(skinning.data(), skinning.size()))
         throw std::runtime_error("a pose cannot be set: expected finite matrices, one a joint");
-    std::vector<glm::vec3> posed(subject.rest.size());
+    std::vector<glm::vec3> posed(subject.rest.size()), normals(withNormals ? posed.size() : 0);
     osgSkin::DeformJob job;
     job.model = subject.model.get();
     job.pose = &pose;
     job.positions = posed.data();
     job.positionCount = posed.size();
+    job.normals = withNormals ? normals.data() : nullptr;
+    job.normalCount = normals.size();
     if (!job.run()) throw std::runtime_error(job.validate());
-    return {posed.begin(), posed.end()};
+    return {{posed.begin(), posed.end()}, {normals.begin(), normals.end()}};
+}
+
+/// Points moved and normals turned by a matrix for each vertex.
+PosedSkin deformBy(const std::vector<glm::dmat4>& matrices, const Subject& subject) {
+    PosedSkin posed{compare::transformPoints(matrices, subject.rest), {}};
+    for (std::size_t v = 0; v < matrices.size(); ++v) {
+        const glm::dvec3 turned = glm::dmat3(matrices[v]) * subject.normals[v];
+        const double length = glm::length(turned);
+        posed.normals.push_back(length > 0.0 ? turned / length : turned);
+    }
+    return posed;
 }
 
 } // namespace
@@ -43,7 +57,20 @@ compare::Points deform(const Subject& subject, Method method,
     case Method::Ours:
         break;
     }
-    return deformOurs(subject, skinning);
+    return deformOurs(subject, skinning, false).points;
+}
+
+PosedSkin deformWithNormals(const Subject& subject, Method method,
+                            const std::vector<glm::dmat4>& skinning) {
+    switch (method) {
+    case Method::Linear:
+        return deformBy(compare::linearBlendMatrices(subject.weights, skinning), subject);
+    case Method::DualQuaternion:
+        return deformBy(compare::dualQuaternionBlendMatrices(subject.weights, skinning), subject);
+    case Method::Ours:
+        break;
+    }
+    return deformOurs(subject, skinning, true);
 }
 
 std::vector<glm::dmat4> singleTurn(const Subject& subject, std::size_t joint,

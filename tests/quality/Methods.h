@@ -25,6 +25,11 @@ const char* nameOf(Method method);
 compare::Points deform(const Subject& subject, Method method,
                        const std::vector<glm::dmat4>& skinning);
 
+/// The same with normals. Those of linear blending are turned by the blended matrix, as renderers
+/// do.
+PosedSkin deformWithNormals(const Subject& subject, Method method,
+                            const std::vector<glm::dmat4>& skinning);
+
 /// Joint `joint` alone turned about its centre, with all that hangs on it; radians.
 std::vector<glm::dmat4> singleTurn(const Subject& subject, std::size_t joint,
                                    const glm::dvec3& axis, double angle);

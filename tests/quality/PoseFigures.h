@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Methods.h"
+#include "NormalError.h"
 #include "PoseSet.h"
 
 namespace quality {
@@ -11,6 +12,9 @@ struct PoseFigure {
     std::string name;
     compare::EdgeStrain strain;
     double volumeError = 0.0; ///< abs(V'/V - 1)
+    NormalError normals;
+    double bulge = 0.0;            ///< see LimbBulge
+    std::size_t intersections = 0; ///< pairs of triangles, beyond those at rest
 };
 
 /// What a set of poses does to it.
@@ -20,8 +24,14 @@ struct PoseFigures {
     double longest = 0.0;       ///< largest l'/l of any edge in any pose
     std::string longestIn;      ///< that pose's name
     double volumeError = 0.0;   ///< mean over the poses
+    NormalError normals;        ///< mean over the poses
+    double bulge = 0.0;         ///< mean over the poses
+    double intersections = 0.0; ///< pairs of triangles beyond those at rest, mean over the poses
     std::vector<PoseFigure> poses;
 };
+
+/// Ours alone, and of each pose only strain and volume.
+PoseFigures measureOurs(const Subject& subject, const std::vector<NamedPose>& poses);
 
 PerMethod<PoseFigures> measurePoses(const Subject& subject, const std::vector<NamedPose>& poses);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BindFigures.h"
+#include "CappingCost.h"
 #include "Continuity.h"
 #include "Format.h"
 #include "PoseFigures.h"
@@ -24,6 +25,7 @@ struct Report {
     std::vector<WristTwist> wrist;
     std::optional<Continuity> continuity; ///< takes longest; may be left out
     BindFigures binding;
+    CappingCost capping;
 };
 
 /// The limits that hold for every body with default settings.

@@ -6,6 +6,8 @@
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/Motion>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -50,13 +52,12 @@ Subject loadSubject(const SubjectFiles& files) {
     const osgSkin::VertexWeights painted =
         osgSkin::readWeights(files.weights, subject.rig, mesh.positions.size());
     subject.weights = normalised(painted);
-    osgSkin::BindOptions options;
-    if (files.bindAsPrinted) options.method = osgSkin::BindOptions::Method::Paper;
-    subject.binding = files.bindByWeights
-                          ? osgSkin::bindWeights(mesh, subject.rig, painted, {}, &subject.report)
-                          : osgSkin::bind(mesh, subject.rig, options, &subject.report);
+    if (!files.bindByWeights) subject.options.emplace();
+    if (files.bindAsPrinted) subject.options->method = osgSkin::BindOptions::Method::Paper;
+    subject.binding = subject.options
+                          ? osgSkin::bind(mesh, subject.rig, *subject.options, &subject.report)
+                          : osgSkin::bindWeights(mesh, subject.rig, painted, {}, &subject.report);
     subject.rest = mesh.positions;
-    subject.model = modelOf(subject.binding, subject.rest);
 
     const std::vector<std::uint32_t> first = firstCopies(subject.rest);
     std::vector<std::uint32_t> corners = mesh.faceVertices;
@@ -64,15 +65,34 @@ Subject loadSubject(const SubjectFiles& files) {
     subject.edges = compare::faceEdges(mesh.faceSizes, corners);
     subject.triangles = mesh.triangles();
     for (std::uint32_t& corner : subject.triangles) corner = first[corner];
+    subject.normals = skinNormals(subject.rest, subject.triangles);
+    subject.model = modelOf(subject);
     return subject;
 }
 
-std::shared_ptr<const osgSkin::SkinModel> modelOf(const osgSkin::Binding& binding,
-                                                  const compare::Points& rest) {
+std::shared_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject) {
+    const compare::Points& rest = subject.rest;
     std::vector<std::uint32_t> source(rest.size());
     std::iota(source.begin(), source.end(), 0u);
-    const std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0));
-    return osgSkin::SkinModel::create(binding, {rest.begin(), rest.end()}, normals, source);
+    std::vector<glm::vec3> normals(subject.normals.begin(), subject.normals.end());
+    normals.resize(rest.size(), glm::vec3(0.0f));
+    for (glm::vec3& normal : normals)
+        if (normal == glm::vec3(0.0f)) normal = glm::vec3(0, 1, 0); // nobody looks at it
+    return osgSkin::SkinModel::create(subject.binding, {rest.begin(), rest.end()}, normals, source);
+}
+
+compare::Points skinNormals(const compare::Points& points,
+                            const std::vector<std::uint32_t>& triangles) {
+    compare::Points normals(points.size(), glm::dvec3(0.0));
+    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+        const glm::dvec3& a = points[triangles[t]];
+        const glm::dvec3 area =
+            glm::cross(points[triangles[t + 1]] - a, points[triangles[t + 2]] - a);
+        for (std::size_t k = 0; k < 3; ++k) normals[triangles[t + k]] += area;
+    }
+    for (glm::dvec3& normal : normals)
+        if (const double length = glm::length(normal); length > 0.0) normal /= length;
+    return normals;
 }
 
 int Subject::joint(const std::string& wanted) const {

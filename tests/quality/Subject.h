@@ -7,9 +7,11 @@
 #include <osgSkin/RestSkeleton>
 #include <osgSkin/SkinMesh>
 #include <osgSkin/SkinModel>
+#include <osgSkinBind/BindOptions>
 #include <osgSkinBind/BindReport>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +30,11 @@ struct Subject {
     osgSkin::RestSkeleton rig;
     osgSkin::Binding binding;
     osgSkin::BindReport report;
-    compare::SkinWeights weights; ///< over the rig's joints
+    std::optional<osgSkin::BindOptions> options; ///< unset where bound by weights
+    compare::SkinWeights weights;                ///< over the rig's joints
 
     compare::Points rest;
+    compare::Points normals; ///< at rest; zero where the measured skin has no triangle
     /// The skin that is measured: corners name the first of the vertices that share a position.
     std::vector<std::uint32_t> triangles;
     std::vector<compare::Edge> edges;
@@ -47,8 +51,16 @@ struct Subject {
 /// \throw osgSkin::Error where a file cannot be read or does not fit the others
 Subject loadSubject(const SubjectFiles& files);
 
-/// The model of a binding's own vertices, with normals that mean nothing.
-std::shared_ptr<const osgSkin::SkinModel> modelOf(const osgSkin::Binding& binding,
-                                                  const compare::Points& rest);
+/// The model of the subject's binding.
+std::shared_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject);
+
+/// A posed skin with the normals that its method gives.
+struct PosedSkin {
+    compare::Points points, normals;
+};
+
+/// Area-weighted normals, unit; zero at vertices without triangles.
+compare::Points skinNormals(const compare::Points& points,
+                            const std::vector<std::uint32_t>& triangles);
 
 } // namespace quality

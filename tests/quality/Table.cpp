@@ -29,6 +29,12 @@ void printTable(const Report& report, std::ostream& out) {
     motion("longest edge", "%.2f", &PoseFigures::longest);
     printRow(out, "  in pose", "%s", [&](Method m) { return report.motion[m].longestIn.c_str(); });
     motion("volume error, mean", "%.4f", &PoseFigures::volumeError);
+    printRow(out, "normal error, mean, degrees", "%.2f",
+             [&](Method m) { return report.motion[m].normals.mean; });
+    printRow(out, "  95 %", "%.2f",
+             [&](Method m) { return report.motion[m].normals.percentile95; });
+    motion("bulge of limbs, mean", "%.3f", &PoseFigures::bulge);
+    motion("self-intersections, mean", "%.1f", &PoseFigures::intersections);
     for (const WristTwist& twist : report.wrist) {
         const std::string name = format("wrist %.0f: ", twist.degrees);
         printRow(out, name + "strain RMS", "%.4f", [&](Method m) { return twist.strain[m]; });
@@ -51,6 +57,9 @@ void printTable(const Report& report, std::ostream& out) {
                       limb.paintedNext, limb.own, limb.next, limb.vertices);
     out << format("  vertices with more than 4 partial joints: %.1f %%\n",
                   100.0 * report.binding.cappedShare);
+    if (!report.capping.figure.empty())
+        out << format("  rounding the fifth and further ones costs most of: %s\n",
+                      report.capping.figure.c_str());
     std::size_t passed = 0;
     const std::vector<Bar> all = bars(report);
     for (const Bar& bar : all) {

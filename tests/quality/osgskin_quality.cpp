@@ -67,6 +67,7 @@ Report measure(SubjectFiles files, const Options& options) {
     report.rigidity = measureRigidity(subject);
     report.wrist = measureWristTwists(subject);
     report.binding = measureBinding(subject);
+    report.capping = measureCapping(subject, poses, report.motion[Method::Ours], report.wrist);
     if (!options.noSweeps) {
         std::cerr << subject.name << ": sweeping every joint\n";
         report.continuity = measureContinuity(subject);

@@ -118,7 +118,8 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     for (const std::uint32_t welded : skin.weldedOf) {
         const std::uint32_t v = shown[welded];
         binding.regions.push_back(regions.jointOf[v]);
-        if (packInfluences(joints, bend, twist, v, binding.influences)) ++found.cappedVertices;
+        if (packInfluences(joints, bend, twist, v, options.mostPartialJoints, binding.influences))
+            ++found.cappedVertices;
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
             if (isPartial(binding.influences[i])) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));

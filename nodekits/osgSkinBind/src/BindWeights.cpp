@@ -135,7 +135,9 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
         const auto heaviest = std::max_element(shares[v].begin(), shares[v].end());
         binding.regions.push_back(static_cast<std::uint32_t>(heaviest - shares[v].begin()));
         const JointFields ratios = ratiosFrom(shares[v], joints);
-        if (packInfluences(joints, ratios, ratios, 0, binding.influences)) ++found.cappedVertices;
+        if (packInfluences(joints, ratios, ratios, 0, options.mostPartialJoints,
+                           binding.influences))
+            ++found.cappedVertices;
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
             if (isPartial(binding.influences[i])) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));

@@ -2,11 +2,14 @@
 #include "CheckOptions.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/SkinModel>
 
 #include <cmath>
 
 namespace osgSkin {
 namespace {
+
+static_assert(BindOptions::kMostPartialJoints == SkinModel::kMaxPartial);
 
 void checkBoundaries(const std::string& joint, const char* what, const std::optional<double>& upper,
                      const std::optional<double>& lower) {
@@ -27,6 +30,10 @@ void checkOptions(const RestSkeleton& skeleton, const BindOptions& options) {
     if (!(options.cutOff >= 0.0 && options.cutOff < 0.5))
         throw Error("bind: cutOff is " + std::to_string(options.cutOff) +
                     ", expected 0 <= cutOff < 0.5");
+    if (options.mostPartialJoints < 1 ||
+        options.mostPartialJoints > BindOptions::kMostPartialJoints)
+        throw Error("bind: mostPartialJoints is " + std::to_string(options.mostPartialJoints) +
+                    ", expected 1 to " + std::to_string(BindOptions::kMostPartialJoints));
     for (const auto& [name, joint] : options.joints) {
         if (skeleton.find(name) < 0)
             throw Error("bind: joint \"" + name +

@@ -25,12 +25,12 @@ float partialness(const Influence& i) {
 }
 
 /// Partialness of the joint that is one too many, 0 where there is none.
-float excess(const std::vector<Influence>& all) {
+float excess(const std::vector<Influence>& all, std::size_t mostPartial) {
     std::vector<float> partial;
     for (const Influence& influence : all)
         if (isPartial(influence)) partial.push_back(partialness(influence));
-    if (partial.size() <= kMostPartialJoints) return 0.0f;
-    const auto extra = partial.begin() + kMostPartialJoints;
+    if (partial.size() <= mostPartial) return 0.0f;
+    const auto extra = partial.begin() + static_cast<std::ptrdiff_t>(mostPartial);
     std::nth_element(partial.begin(), extra, partial.end(), std::greater<>());
     return *extra;
 }
@@ -48,13 +48,13 @@ bool isPartial(const Influence& influence) {
 }
 
 bool packInfluences(const std::vector<PlannedJoint>& joints, const JointFields& bend,
-                    const JointFields& twist, std::size_t vertex,
+                    const JointFields& twist, std::size_t vertex, std::size_t mostPartial,
                     std::vector<Influence>& influences) {
     std::vector<Influence> all(joints.size());
     for (std::size_t j = 0; j < joints.size(); ++j)
         all[j] = {static_cast<std::uint32_t>(j), ratio(bend[j][vertex]), ratio(twist[j][vertex])};
 
-    const float margin = excess(all);
+    const float margin = excess(all, mostPartial);
     if (margin > 0.0f)
         for (Influence& influence : all) {
             influence.bend = stretched(influence.bend, margin);

@@ -12,17 +12,14 @@
 
 namespace osgSkin {
 
-/// Joints that may lie strictly between 0 and 1 at one vertex: each costs work in every frame.
-constexpr std::size_t kMostPartialJoints = 4;
-
-/// One vertex's influences out of the fields, in joint order, at most kMostPartialJoints of them
+/// One vertex's influences out of the fields, in joint order, at most `mostPartial` of them
 /// partial. Returns whether there were more.
 ///
 /// Where there were, all ratios are stretched by as much as rounds the fifth to 0 or 1. That is as
 /// continuous over the skin as the fields are (rounding the extra ones alone would tear it), and
 /// keeps each joint's ratios below its parent's.
 bool packInfluences(const std::vector<PlannedJoint>& joints, const JointFields& bend,
-                    const JointFields& twist, std::size_t vertex,
+                    const JointFields& twist, std::size_t vertex, std::size_t mostPartial,
                     std::vector<Influence>& influences);
 
 bool isPartial(const Influence& influence);

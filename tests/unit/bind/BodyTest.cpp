@@ -151,7 +151,7 @@ TEST_P(CmuBody, RegionsAgreeWithPaintedWeights) {
         const std::size_t ours = shown[binding.regions[v]];
         if (ours != painted && parent(ours) != painted && parent(painted) != ours) ++far;
     }
-    EXPECT_LT(static_cast<double>(far), 0.035 * static_cast<double>(mesh.positions.size()));
+    EXPECT_LT(static_cast<double>(far), 0.025 * static_cast<double>(mesh.positions.size()));
 }
 
 TEST_P(CmuBody, WristTwistSpreadsOverTheForearm) {

@@ -153,6 +153,10 @@ TEST(Ratios, StayContinuousWhereManyJointsMeet) {
     const Binding binding = bind(ball, skeleton, options, &report);
     expectSound(binding);
     EXPECT_GT(report.cappedVertices, 50u);
+    options.mostPartialJoints = 8;
+    BindReport free;
+    bind(ball, skeleton, options, &free);
+    EXPECT_EQ(free.cappedVertices, 0u);
     std::size_t corner = 0;
     float steepest = 0.0f;
     for (const std::uint32_t size : ball.faceSizes) {
