@@ -6,29 +6,32 @@
 
 namespace osgSkin {
 
-BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skeleton& skeleton)
-    : _skinning(joints.size(), glm::dmat4(1.0)) {
+BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skeleton& skeleton) {
     osgAnimation::BoneMapVisitor visitor;
     skeleton.accept(visitor);
     const osgAnimation::BoneMap& bones = visitor.getBoneMap();
+    _bones.reserve(joints.size());
     for (const BoundJoint& joint : joints) {
         const auto found = bones.find(joint.name);
-        _entries.push_back({found != bones.end() ? found->second : nullptr, joint.parent});
-        if (found == bones.end()) _missing.push_back(joint.name);
+        if (found != bones.end()) {
+            _bones.push_back(found->second);
+            continue;
+        }
+        _missing.push_back(joint.name);
+        _bones.push_back(joint.parent < 0 ? nullptr
+                                          : _bones[static_cast<std::size_t>(joint.parent)]);
     }
 }
 
-const std::vector<glm::dmat4>& BoneReader::read() {
-    for (std::size_t j = 0; j < _entries.size(); ++j) {
-        const Entry& entry = _entries[j];
-        if (const osgAnimation::Bone* bone = entry.bone.get())
-            _skinning[j] =
+const std::vector<glm::dmat4>& BoneReader::read() const {
+    // Not the reader's own: a crowd has many of them.
+    static thread_local std::vector<glm::dmat4> skinning;
+    skinning.assign(_bones.size(), glm::dmat4(1.0));
+    for (std::size_t j = 0; j < _bones.size(); ++j)
+        if (const osgAnimation::Bone* bone = _bones[j].get())
+            skinning[j] =
                 toGlm(bone->getInvBindMatrixInSkeletonSpace() * bone->getMatrixInSkeletonSpace());
-        else
-            _skinning[j] = entry.parent < 0 ? glm::dmat4(1.0)
-                                            : _skinning[static_cast<std::size_t>(entry.parent)];
-    }
-    return _skinning;
+    return skinning;
 }
 
 } // namespace osgSkin

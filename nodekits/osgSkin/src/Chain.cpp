@@ -46,7 +46,7 @@ Chain::Chain(const SkinModel& model, const SkinModel::Group& group, const Pose& 
     Fold fold;
     for (std::uint32_t i = group.firstLink; i < group.firstLink + group.linkCount; ++i) {
         const SkinModel::Link& link = model.links()[i];
-        const Pose::Turn& turn = pose.turn(link.joint);
+        const Pose::Turn turn = pose.turn(link.joint);
         if (!link.partial) {
             fold.append(turn);
             continue;

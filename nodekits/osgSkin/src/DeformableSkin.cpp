@@ -5,20 +5,12 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkin/PoseBounds>
 
-#include <OpenThreads/ScopedLock>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <utility>
 
 namespace osgSkin {
-
-/// The buffers' bounds are the skin's: known from the pose, before any vertex has been deformed.
-class DeformableSkin::CurrentBound : public osg::Drawable::ComputeBoundingBoxCallback {
-public:
-    osg::BoundingBox box;
-    osg::BoundingBox computeBound(const osg::Drawable&) const override { return box; }
-};
 
 DeformableSkin::DeformableSkin() {
     setUseDisplayList(false);
@@ -30,9 +22,8 @@ DeformableSkin::DeformableSkin() {
 
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _rest(other._rest), _shared(other._shared),
-      _model(other._model), _pose(other._pose), _skinning(other._skinning), _twist(other._twist),
-      _eager(other._eager), _pool(other._pool), _tangentAttribute(other._tangentAttribute),
-      _tangents(other._tangents) {
+      _model(other._model), _pose(other._pose), _eager(other._eager), _pool(other._pool),
+      _tangentAttribute(other._tangentAttribute), _tangents(other._tangents) {
     makeBuffers();
     poseChanged();
 }
@@ -59,7 +50,6 @@ void DeformableSkin::setSkin(osg::Geometry* rest, SharedSkinModel* shared) {
     _shared = shared;
     _model = model;
     _pose = Pose(_model->joints());
-    _skinning.clear();
     setStateSet(rest->getStateSet());
     makeBuffers();
     poseChanged();
@@ -108,7 +98,7 @@ osg::ref_ptr<Array> stream(const osg::Array& source, osg::VertexBufferObject& vb
 void DeformableSkin::makeBuffers() {
     releaseGLObjects();
     _buffers = {};
-    _bound = new CurrentBound;
+    _box.init();
     _current = 0;
     _handedOut = false;
     if (!_rest) return;
@@ -133,21 +123,20 @@ void DeformableSkin::makeBuffers() {
             buffer->setVertexAttribArray(
                 index, stream<osg::Vec4Array>(*_rest->getVertexAttribArray(index), *vbo));
         }
-        buffer->setComputeBoundingBoxCallback(_bound);
+        // Bounds are the skin's, known from the pose before any vertex is deformed: set as initial
+        // ones, to which the callback adds nothing.
+        static const osg::ref_ptr<osg::Drawable::ComputeBoundingBoxCallback> nothing =
+            new osg::Drawable::ComputeBoundingBoxCallback;
+        buffer->setComputeBoundingBoxCallback(nothing);
         // Culled by the outer drawable already, before it was deformed.
         buffer->setCullingActive(false);
     }
 }
 
 bool DeformableSkin::setPose(const glm::dmat4* skinning, std::size_t count, Pose::Twist twist) {
-    if (!_model) return false;
-    if (twist == _twist && count == _skinning.size() &&
-        std::equal(_skinning.begin(), _skinning.end(), skinning))
-        return true;
-    if (!_pose.set(skinning, count, twist)) return false;
-    _skinning.assign(skinning, skinning + count);
-    _twist = twist;
-    poseChanged();
+    bool changed = false;
+    if (!_model || !_pose.set(skinning, count, twist, &changed)) return false;
+    if (changed) poseChanged();
     return true;
 }
 
@@ -165,11 +154,10 @@ void DeformableSkin::poseChanged() {
     _dirty = true;
     if (!_model) return;
     const PoseBounds bounds = computePoseBounds(*_model, _pose);
-    _bound->box.set(bounds.low.x, bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y,
-                    bounds.high.z);
+    _box.set(bounds.low.x, bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y, bounds.high.z);
     fitBuffers();
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
-        buffer->dirtyBound();
+        buffer->setInitialBound(_box);
         buffer->getBound(); // now: several cull threads may ask for it at once
     }
     dirtyBound();
@@ -178,7 +166,7 @@ void DeformableSkin::poseChanged() {
 
 void DeformableSkin::deform() const {
     if (!_dirty.load(std::memory_order_acquire)) return;
-    const OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
+    const std::lock_guard<std::mutex> lock(_mutex);
     if (!_dirty.load(std::memory_order_relaxed) || !_model) return;
     // A draw may still read the buffer that a cull has handed out last; any other is free, since no
     // update begins before the draw of the frame before the last one has ended.
@@ -268,7 +256,7 @@ void DeformableSkin::setUseVertexBufferObjects(bool flag) {
 }
 
 osg::BoundingBox DeformableSkin::computeBoundingBox() const {
-    return _model ? _bound->box : osg::BoundingBox();
+    return _model ? _box : osg::BoundingBox();
 }
 
 void DeformableSkin::drawImplementation(osg::RenderInfo& renderInfo) const {

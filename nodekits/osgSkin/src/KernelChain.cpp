@@ -37,7 +37,7 @@ std::size_t KernelChain::sharedLinks(const SkinModel::Group& group) const noexce
 }
 
 void KernelChain::append(const SkinModel::Link& link, State& state) noexcept {
-    const Pose::Turn& turn = _pose.turn(link.joint);
+    const Pose::Turn turn = _pose.turn(link.joint);
     if (!link.partial) {
         state.map.move += state.map.turn * turn.offset;
         state.map.turn = state.map.turn * glm::mat3_cast(turn.rotation);
@@ -76,7 +76,7 @@ void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexc
         return;
     }
     const std::uint32_t joint = _model.links()[group.firstLink + group.linkCount - 1].joint;
-    const glm::dvec3& v = _pose.turn(joint).split.bendAxis;
+    const glm::dvec3 v = _pose.turn(joint).split.bendAxis;
     const glm::dmat3& frame = _model.blocks().jointFrames[joint];
     call.azimuthCosine = glm::dot(v, frame[0]);
     call.azimuthSine = glm::dot(v, frame[1]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Pose>
 
+#include "SkinBlocks.h"
 #include "SplitUnit.h"
 
 #include <glm/geometric.hpp>
@@ -42,47 +43,58 @@ double continued(double before, double twist) noexcept {
 
 } // namespace
 
-Pose::Pose(const std::vector<BoundJoint>& joints)
-    : _frames(joints.size(), Frame{{1.0, 0.0, 0.0, 0.0}, glm::dvec3(0.0)}), _turns(joints.size()) {
-    _rest.reserve(joints.size());
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        _rest.push_back({joints[j].parent, joints[j].centre, glm::normalize(joints[j].twistAxis)});
-        _turns[j].split = splitUnit(_turns[j].rotation, _rest[j].twistAxis);
+Pose::Pose(const std::vector<BoundJoint>& joints) : _splits(joints.size()) {
+    const auto rest = std::make_shared<std::vector<Rest>>();
+    rest->reserve(joints.size());
+    for (const BoundJoint& joint : joints) {
+        const glm::dmat3 frame = jointFrame(joint);
+        rest->push_back({joint.parent, joint.centre, frame[2], frame[0], frame[1]});
     }
+    _rest = rest;
 }
 
-bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist) noexcept {
-    if (count != _turns.size()) return false;
+bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool* changed) noexcept {
+    if (count != _splits.size()) return false;
+    struct Frame { // of G_j
+        glm::dquat rotation;
+        glm::dvec3 offset;
+    };
+    static thread_local std::vector<Frame> frames;
+    if (frames.size() < count) frames.resize(count, Frame{{1.0, 0.0, 0.0, 0.0}, glm::dvec3(0.0)});
     for (std::size_t j = 0; j < count; ++j) {
-        Frame frame;
+        Frame& frame = frames[j];
         if (!rotationOf(glm::dmat3(skinning[j]), frame.rotation)) return false;
         // The joint centre goes where the whole matrix, scale included, puts it.
-        const glm::dvec3 centre = _rest[j].centre;
+        const glm::dvec3& centre = (*_rest)[j].centre;
         frame.offset = glm::dvec3(skinning[j] * glm::dvec4(centre, 1.0)) - frame.rotation * centre;
         if (!isFinite(frame.offset)) return false;
-        _frames[j] = frame;
     }
+    bool other = false;
     for (std::size_t j = 0; j < count; ++j) {
         // D_j = G_parent^-1 G_j; the root has no parent.
-        const Rest& rest = _rest[j];
-        const Frame& frame = _frames[j];
-        Turn& turn = _turns[j];
-        if (rest.parent < 0) {
-            turn.rotation = frame.rotation;
-            turn.offset = frame.offset;
-            turn.translation = frame.offset;
-        } else {
-            const Frame& parent = _frames[static_cast<std::size_t>(rest.parent)];
+        const Rest& rest = (*_rest)[j];
+        Split now;
+        now.rotation = frames[j].rotation;
+        now.offset = frames[j].offset;
+        if (rest.parent >= 0) {
+            const Frame& parent = frames[static_cast<std::size_t>(rest.parent)];
             const glm::dquat back = glm::conjugate(parent.rotation);
-            turn.rotation = back * frame.rotation;
-            turn.offset = back * (frame.offset - parent.offset);
-            turn.translation = turn.offset + turn.rotation * rest.centre - rest.centre;
+            now.rotation = back * now.rotation;
+            now.offset = back * (now.offset - parent.offset);
         }
-        const double before = turn.split.twistAngle;
-        turn.split = splitUnit(turn.rotation, rest.twistAxis);
+        const BendTwist split = splitUnit(now.rotation, rest.twistAxis);
+        now.azimuthCosine = glm::dot(split.bendAxis, rest.e1);
+        now.azimuthSine = glm::dot(split.bendAxis, rest.e2);
+        now.bendAngle = split.bendAngle;
+        now.twistAngle = split.twistAngle;
+        Split& before = _splits[j];
         if (twist == Twist::Continued)
-            turn.split.twistAngle = continued(before, turn.split.twistAngle);
+            now.twistAngle = continued(before.twistAngle, now.twistAngle);
+        other = other || now.rotation != before.rotation || now.offset != before.offset ||
+                now.twistAngle != before.twistAngle;
+        before = now;
     }
+    if (changed) *changed = other;
     return true;
 }
 

@@ -1,57 +1,70 @@
 // SPDX-License-Identifier: MIT
 //
 // Counts what a frame takes from the heap; a program of its own, because it replaces operator new.
-#include <osgSkin/DeformJob>
+#include <osgSkin/DeformPool>
 #include <osgSkin/PoseBounds>
+#include <osgSkin/UpdateDeformableSkin>
 
 #include "Tube.h"
 #include "Turns.h"
 
+#include <osg/Geometry>
+#include <osgAnimation/Bone>
+
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <malloc.h>
 #include <new>
+#include <thread>
 
 namespace {
 std::atomic<std::size_t> allocations{0};
+std::atomic<std::size_t> bytesInUse{0};
 
-void* counted(std::size_t size) {
+void* counted(void* memory) {
+    if (!memory) throw std::bad_alloc();
     ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
+    bytesInUse += malloc_usable_size(memory);
+    return memory;
+}
+
+void release(void* memory) {
+    if (memory) bytesInUse -= malloc_usable_size(memory);
+    std::free(memory);
 }
 } // namespace
 
 void* operator new(std::size_t size) {
-    return counted(size);
+    return counted(std::malloc(size));
 }
 void* operator new[](std::size_t size) {
-    return counted(size);
+    return counted(std::malloc(size));
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
-    ++allocations;
     const std::size_t step = static_cast<std::size_t>(alignment);
-    if (void* memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
-    throw std::bad_alloc();
+    return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
 }
 void operator delete(void* memory) noexcept {
-    std::free(memory);
+    release(memory);
 }
 void operator delete[](void* memory) noexcept {
-    std::free(memory);
+    release(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
+    release(memory);
 }
 void operator delete[](void* memory, std::size_t) noexcept {
-    std::free(memory);
+    release(memory);
 }
 void operator delete(void* memory, std::align_val_t) noexcept {
-    std::free(memory);
+    release(memory);
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
+    release(memory);
 }
 
 TEST(Allocation, CounterWorks) {
@@ -60,32 +73,163 @@ TEST(Allocation, CounterWorks) {
     EXPECT_GT(allocations, before) << some.size();
 }
 
+namespace {
+
+/// Skins that go through some poses, frame after frame.
+struct Frames {
+    explicit Frames(std::size_t count, int rings) : model(test::Tube(rings).model()) {
+        for (std::size_t i = 0; i < count; ++i) {
+            poses.emplace_back(model->joints());
+            outputs.emplace_back(2 * model->vertexCount());
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            osgSkin::DeformJob job;
+            job.model = model.get();
+            job.pose = &poses[i];
+            job.positions = outputs[i].data();
+            job.normals = outputs[i].data() + model->vertexCount();
+            job.positionCount = job.normalCount = model->vertexCount();
+            jobs.push_back(job);
+        }
+        std::mt19937_64 random(3);
+        for (std::vector<glm::dmat4>& matrices : skinning)
+            matrices = test::skinningFrom(model->joints(), {test::randomRotation(random),
+                                                            test::randomRotation(random),
+                                                            test::randomRotation(random)});
+    }
+    bool setPose(std::size_t skin, std::size_t frame) {
+        const auto& matrices = skinning[(frame + skin) % skinning.size()];
+        return poses[skin].set(matrices.data(), matrices.size());
+    }
+
+    std::shared_ptr<const osgSkin::SkinModel> model;
+    std::vector<osgSkin::Pose> poses;
+    std::vector<std::vector<glm::vec3>> outputs;
+    std::vector<osgSkin::DeformJob> jobs;
+    std::array<std::vector<glm::dmat4>, 20> skinning;
+};
+
+} // namespace
+
 TEST(Allocation, NoneInAThousandFrames) {
-    const test::Tube tube;
-    const auto model = tube.model();
-    osgSkin::Pose pose(model->joints());
-    std::vector<glm::vec3> positions(model->vertexCount()), normals(model->vertexCount());
-    osgSkin::DeformJob job;
-    job.model = model.get();
-    job.pose = &pose;
-    job.positions = positions.data();
-    job.normals = normals.data();
-    job.positionCount = job.normalCount = positions.size();
-    std::mt19937_64 random(3);
-    std::vector<std::vector<glm::dmat4>> frames(20);
-    for (std::vector<glm::dmat4>& frame : frames)
-        frame = test::skinningFrom(model->joints(),
-                                   {test::randomRotation(random), test::randomRotation(random),
-                                    test::randomRotation(random)});
+    Frames frames(1, 25);
+    bool good = frames.setPose(0, 0); // takes this thread's memory
     const std::size_t before = allocations;
-    bool good = true;
     for (std::size_t frame = 0; frame < 1000; ++frame) {
-        const auto& skinning = frames[frame % frames.size()];
-        good = pose.set(skinning.data(), skinning.size()) && good;
-        good = job.run() && good;
-        const osgSkin::PoseBounds bounds = osgSkin::computePoseBounds(*model, pose);
+        good = frames.setPose(0, frame) && good;
+        good = frames.jobs[0].run() && good;
+        const osgSkin::PoseBounds bounds =
+            osgSkin::computePoseBounds(*frames.model, frames.poses[0]);
         good = bounds.low.x <= bounds.high.x && good;
     }
     EXPECT_EQ(allocations, before);
     EXPECT_TRUE(good);
+}
+
+TEST(Allocation, NoneInAThousandFramesOfAPool) {
+    Frames frames(4, 900);
+    const osg::ref_ptr<osgSkin::DeformPool> pool = new osgSkin::DeformPool(2);
+    pool->setMinimumVertices(10000); // so that each skin is shared among threads, too
+    std::atomic<bool> good{true};
+    const auto run = [&](std::size_t frame) {
+        pool->forEach(frames.poses.size(), [&](std::size_t i) {
+            if (!frames.setPose(i, frame)) good = false;
+        });
+        if (!pool->run(frames.jobs.data(), frames.jobs.size())) good = false;
+    };
+    // Both threads take their own memory: each has to wait for the other to begin.
+    pool->forEach(50, [&](std::size_t) {
+        osgSkin::Pose pose = frames.poses[0];
+        pose.set(frames.skinning[0].data(), frames.skinning[0].size());
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    });
+    for (std::size_t frame = 0; frame < 20; ++frame) run(frame);
+    const std::size_t before = allocations;
+    for (std::size_t frame = 0; frame < 1000; ++frame) run(frame);
+    EXPECT_EQ(allocations, before);
+    EXPECT_TRUE(good);
+}
+
+namespace {
+
+constexpr unsigned int kVertices = 4000;
+constexpr unsigned int kJoints = 31;
+
+osg::ref_ptr<osg::Geometry> makeGeometry() {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(new osg::Vec3Array(osg::Array::BIND_PER_VERTEX, kVertices));
+    geometry->setNormalArray(new osg::Vec3Array(osg::Array::BIND_PER_VERTEX, kVertices));
+    return geometry;
+}
+
+/// A skin of as many vertices and joints as a character has.
+osg::ref_ptr<osgSkin::DeformableSkin> makeCharacter() {
+    osgSkin::Binding binding;
+    const glm::dvec3 axis(0, 1, 0);
+    for (unsigned int j = 0; j < kJoints; ++j)
+        binding.joints.push_back(
+            {"joint" + std::to_string(j), static_cast<int>(j) - 1, {0, j, 0}, axis, axis});
+    binding.firstInfluence.push_back(0);
+    std::vector<std::uint32_t> source;
+    for (unsigned int v = 0; v < kVertices; ++v) {
+        binding.influences.push_back({0, 1.0f, 1.0f});
+        binding.regions.push_back(0);
+        binding.firstInfluence.push_back(v + 1);
+        source.push_back(v);
+    }
+    const std::vector<glm::vec3> vectors(kVertices, glm::vec3(0, 1, 0));
+    osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    skin->setSkin(makeGeometry(), osgSkin::SkinModel::create(binding, vectors, vectors, source));
+    return skin;
+}
+
+osg::ref_ptr<osgAnimation::Skeleton> makeBones() {
+    osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    osg::Group* parent = skeleton;
+    for (unsigned int j = 0; j < kJoints; ++j) {
+        const osg::ref_ptr<osgAnimation::Bone> bone =
+            new osgAnimation::Bone("joint" + std::to_string(j));
+        bone->setMatrixInSkeletonSpace(osg::Matrix::rotate(0.1 * j, osg::Vec3(1, 0, 0)));
+        parent->addChild(bone);
+        parent = bone;
+    }
+    return skeleton;
+}
+
+} // namespace
+
+TEST(Memory, AFurtherCharacterTakesTwoBuffersAndFourKibibytes) {
+    const osg::ref_ptr<osgSkin::DeformableSkin> first = makeCharacter();
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
+    osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    ASSERT_TRUE(update->pose(*first, *skeleton));
+    first->getDeformedGeometry();
+
+    // What OSG takes for two geometries of their own vertices and normals in a buffer object.
+    std::size_t before = bytesInUse;
+    std::vector<osg::ref_ptr<osg::Geometry>> buffers;
+    buffers.reserve(2);
+    for (int i = 0; i < 2; ++i) {
+        buffers.push_back(makeGeometry());
+        const osg::ref_ptr<osg::VertexBufferObject> vbo = new osg::VertexBufferObject;
+        buffers.back()->getVertexArray()->setVertexBufferObject(vbo);
+        buffers.back()->getNormalArray()->setVertexBufferObject(vbo);
+        buffers.back()->setUseVertexBufferObjects(true);
+        buffers.back()->getBound();
+    }
+    const std::size_t twoBuffers = bytesInUse - before;
+    EXPECT_GE(twoBuffers, 2 * 2 * kVertices * sizeof(osg::Vec3));
+
+    before = bytesInUse;
+    const osg::ref_ptr<osgSkin::DeformableSkin> further =
+        osg::clone(first.get(), osg::CopyOp::SHALLOW_COPY);
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> furtherUpdate =
+        osg::clone(update.get(), osg::CopyOp::SHALLOW_COPY);
+    ASSERT_TRUE(furtherUpdate->pose(*further, *skeleton));
+    further->getDeformedGeometry();
+    const std::size_t character = bytesInUse - before;
+    EXPECT_GE(character, twoBuffers);
+    EXPECT_LE(character, twoBuffers + 4096)
+        << character - twoBuffers << " bytes beside the buffers";
+    RecordProperty("bytesBesideBuffers", static_cast<int>(character - twoBuffers));
 }
