@@ -17,16 +17,6 @@ constexpr int kWidth = 760;
 const osg::Vec4 kBare(0.62f, 0.60f, 0.58f, 1.0f);
 constexpr int kHeight = 860;
 
-/// Hues a golden angle apart: neighbours in the list look different.
-osg::Vec4 colourOf(std::size_t joint) {
-    const double hue = std::fmod(0.618 * double(joint), 1.0) * 6.0;
-    const auto channel = [hue](double shift) {
-        const double k = std::fmod(hue + shift, 6.0);
-        return float(0.92 - 0.55 * std::max(0.0, std::min({k, 4.0 - k, 1.0})));
-    };
-    return {channel(5.0), channel(3.0), channel(1.0), 1.0f};
-}
-
 /// The seed's joint, or the rigid joint above it, whose region takes the seed in.
 std::size_t rigidOf(const Body& body, std::size_t vertex) {
     const auto& report = body.character.report;
@@ -48,7 +38,7 @@ osg::ref_ptr<osg::Node> makeSeeds(const Body& body) {
         if (body.character.report.seeds[v] >= 0)
             points[rigidOf(body, v)].push_back(toScene(body.toWorld(body.rest()[v])));
     for (const auto& [joint, places] : points)
-        group->addChild(makeLines(places, colourOf(joint), GL_POINTS, 5.0f));
+        group->addChild(makeLines(places, jointColour(joint), GL_POINTS, 5.0f));
     return group;
 }
 
@@ -101,7 +91,7 @@ Tile regionFigure(const Body& body) {
                           " vertices\nthat the Delaunay step gives to one of them: seeds",
                       true),
                   picture(
-                      body, [&](std::size_t v) { return colourOf(regions[v]); },
+                      body, [&](std::size_t v) { return jointColour(regions[v]); },
                       "Fig. 1b  Flooded from the seeds:\n" + std::to_string(count) +
                           " regions, each of one piece",
                       false)},

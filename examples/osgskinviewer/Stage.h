@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Body.h"
+#include "Clock.h"
+#include "Settings.h"
+#include "Snapshots.h"
+
+#include <osg/Group>
+#include <osg/MatrixTransform>
+#include <osg/Timer>
+#include <osgSkin/BoneReader>
+#include <osgText/Text>
+
+#include <string>
+
+namespace viewer {
+
+/// The scene: a character as the `.skin` plug-in makes it, or in its place the same body deformed
+/// by a peer or coloured by what binding found; its skeleton, its bounds, and a line that says what
+/// is shown. One update traversal brings all of it to the simulation time that it is given.
+class Stage {
+public:
+    /// \throw std::exception where a file cannot be used
+    Stage(const std::string& character, const std::string& weights, int width, int height);
+
+    Settings settings;
+    Clock clock;
+
+    osg::Group* root() const { return _root.get(); }
+    example::View view() const; ///< that shows all of the motion
+
+    std::size_t motionCount() const { return _body.character.motions.size(); }
+    std::size_t motion() const { return _motion; }
+    void setMotion(std::size_t index);
+    /// \throw std::runtime_error where there is none of that name
+    void setMotion(const std::string& name);
+    /// \throw std::runtime_error where there is none of that name
+    void setJoint(const std::string& name) { settings.joint = _body.find(name); }
+    /// Goes on to the next joint that skin follows in part, or to the one before.
+    void changeJoint(int step);
+
+    /// What the viewer's frame() is to be given, so that the motion is where the clock says.
+    double simulationTime() const { return _start + clock.time(); }
+    /// The status line, without the times that differ from run to run.
+    std::string summary() const;
+
+private:
+    class Update;
+    void update();
+    double motionLength(std::size_t index) const;
+    void updateFigure(const std::vector<glm::dmat4>& skinning);
+    void updateSkeleton(const std::vector<glm::dmat4>& skinning);
+    void updateBounds();
+    osg::Vec4 colourOf(std::size_t vertex) const;
+
+    figures::Body _body;
+    osgSkin::BoneReader _bones;
+    std::size_t _motion = 0;
+    double _start = 0.0;       ///< simulation time of the motion's beginning
+    double _given = 0.0;       ///< the last simulation time that was given
+    bool _productShown = true; ///< and not the body in its place
+    double _skinTime = 0.0;    ///< milliseconds that this frame's skin took
+    double _frameTime = 0.0;   ///< milliseconds from frame to frame, a mean of late
+    osg::Timer_t _lastFrame = 0;
+
+    osg::ref_ptr<osg::Group> _root, _study, _lines, _boxes;
+    osg::ref_ptr<osg::StateSet> _look;
+    osg::ref_ptr<osg::Node> _help;
+    osg::ref_ptr<osgText::Text> _status;
+};
+
+} // namespace viewer
