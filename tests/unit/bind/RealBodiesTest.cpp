@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Real bodies as people have them, bound without a setting.
+#include "Patches.h"
+#include "Ratios.h"
+#include "Shapes.h"
+#include "SharedBody.h"
+
+#include <osgSkin/DeformJob>
+#include <osgSkinBind/Bind>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <ostream>
+
+using namespace osgSkin;
+
+namespace {
+
+struct BodyCase {
+    const char* name;
+    const char* mesh; ///< below the shared data
+    const char* rig;  ///< joints_*.json of MakeHuman; ours where it has a folder
+    SkinMesh (*change)(const SkinMesh&, const RestSkeleton&);
+    std::size_t shells;
+    double longestReach; ///< l'/l with the arms raised; they may rest anywhere below
+};
+
+void PrintTo(const BodyCase& body, std::ostream* out) {
+    *out << body.name;
+}
+
+SkinMesh asItIs(const SkinMesh& mesh, const RestSkeleton&) {
+    return mesh;
+}
+
+/// As with texture seams along every edge.
+SkinMesh exploded(const SkinMesh& mesh, const RestSkeleton&) {
+    return shapes::exploded(mesh);
+}
+
+/// A copy of the faces between two heights and not far from the middle, a little outside of the
+/// skin: trousers, without the hands beside them.
+SkinMesh garment(const SkinMesh& body, double low, double high, double width, double distance) {
+    std::vector<glm::dvec3> normals(body.positions.size(), glm::dvec3(0.0));
+    const std::vector<std::uint32_t> corners = body.triangles();
+    for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
+        const glm::dvec3& a = body.positions[corners[t]];
+        const glm::dvec3 n =
+            glm::cross(body.positions[corners[t + 1]] - a, body.positions[corners[t + 2]] - a);
+        for (std::size_t k = 0; k < 3; ++k) normals[corners[t + k]] += n;
+    }
+    SkinMesh result;
+    std::vector<std::uint32_t> placed(body.positions.size(), 0xffffffffu);
+    for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
+        const bool inside =
+            std::all_of(corners.begin() + static_cast<std::ptrdiff_t>(t),
+                        corners.begin() + static_cast<std::ptrdiff_t>(t + 3), [&](std::uint32_t v) {
+                            return body.positions[v].y > low && body.positions[v].y < high &&
+                                   std::abs(body.positions[v].x) < width;
+                        });
+        if (!inside) continue;
+        result.faceSizes.push_back(3);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = corners[t + k];
+            if (placed[v] == 0xffffffffu) {
+                placed[v] = static_cast<std::uint32_t>(result.positions.size());
+                result.positions.push_back(body.positions[v] +
+                                           distance * glm::normalize(normals[v]));
+            }
+            result.faceVertices.push_back(placed[v]);
+        }
+    }
+    return result;
+}
+
+/// Two eyes inside the head and trousers outside of the legs.
+SkinMesh dressed(const SkinMesh& body, const RestSkeleton& skeleton) {
+    const SkinMesh ball = shapes::voxelSurface(
+        [](int x, int y, int z) {
+            return (x + .5) * (x + .5) + (y + .5) * (y + .5) + (z + .5) * (z + .5) < 9.0;
+        },
+        4, 0.05);
+    const auto at = [&](const char* joint) {
+        return skeleton.joints[static_cast<std::size_t>(skeleton.find(joint))].centre;
+    };
+    const glm::dvec3 head = at("Head") + glm::dvec3(0.0, 0.6, 0.6);
+    SkinMesh all = shapes::joined(body, shapes::moved(ball, head + glm::dvec3(0.3, 0, 0)));
+    all = shapes::joined(all, shapes::moved(ball, head - glm::dvec3(0.3, 0, 0)));
+    return shapes::joined(
+        all, garment(body, at("LeftFoot").y + 1.0, at("LowerBack").y - 0.3, 2.2, 0.08));
+}
+
+const BodyCase kBodies[] = {
+    {"Quads", "makehuman/body/body_neutral.obj", "cmu_mb_neutral", asItIs, 1, 3.5},
+    {"AnotherAuthors", "human_blend/human_4282.obj", "skeleton/human_4282", asItIs, 1, 5.5},
+    {"SparseAndOpen", "makehuman/body/proxy_male1591_on_male_skin.obj", "cmu_mb_male", asItIs, 1,
+     3.5},
+    {"SplitVertices", "makehuman/body/body4k_neutral.obj", "cmu_mb_neutral", exploded, 1, 3.5},
+    {"EyesAndTrousers", "makehuman/body/body4k_male.obj", "cmu_mb_male", dressed, 4, 3.5},
+};
+
+class RealBody : public testing::TestWithParam<BodyCase> {
+protected:
+    void SetUp() override {
+        const std::filesystem::path shared = shared::makehuman().parent_path();
+        const auto meshFile = shared / GetParam().mesh;
+        const std::string rig = GetParam().rig;
+        const auto rigFile = rig.find('/') != std::string::npos
+                                 ? std::filesystem::path(OSGSKIN_TEST_DATA) / (rig + ".json")
+                                 : shared::makehuman() / "rig" / ("joints_" + rig + ".json");
+        if (!std::filesystem::exists(meshFile) || !std::filesystem::exists(rigFile))
+            GTEST_SKIP() << "needs " << meshFile << " and " << rigFile;
+        skeleton = shared::readJoints(rigFile);
+        mesh = GetParam().change(shared::readObj(meshFile), skeleton);
+        binding = bind(mesh, skeleton, {}, &report);
+    }
+
+    /// The skin with the given joints turned by degrees about x or z, parents first.
+    std::vector<glm::vec3>
+    posed(const std::vector<std::pair<std::string, glm::dvec2>>& turns) const {
+        std::vector<glm::dmat4> skinning(skeleton.joints.size(), glm::dmat4(1.0));
+        for (std::size_t j = 1; j < skinning.size(); ++j) {
+            skinning[j] = skinning[static_cast<std::size_t>(skeleton.joints[j].parent)];
+            for (const auto& [name, degrees] : turns) {
+                if (skeleton.joints[j].name != name) continue;
+                const glm::dmat4 unit(1.0);
+                skinning[j] *= glm::translate(unit, skeleton.joints[j].centre) *
+                               glm::rotate(unit, glm::radians(degrees.x), glm::dvec3(1, 0, 0)) *
+                               glm::rotate(unit, glm::radians(degrees.y), glm::dvec3(0, 0, 1)) *
+                               glm::translate(unit, -skeleton.joints[j].centre);
+            }
+        }
+        std::vector<std::uint32_t> source(mesh.positions.size());
+        std::iota(source.begin(), source.end(), 0u);
+        const std::vector<glm::vec3> rest(mesh.positions.begin(), mesh.positions.end());
+        const std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not looked at
+        const auto model = SkinModel::create(binding, rest, normals, source);
+        Pose pose(binding.joints);
+        EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
+        std::vector<glm::vec3> result(rest.size());
+        DeformJob job;
+        job.model = model.get();
+        job.pose = &pose;
+        job.positions = result.data();
+        job.positionCount = result.size();
+        EXPECT_TRUE(job.run()) << job.validate();
+        return result;
+    }
+
+    /// Largest l'/l of the edges that are not tiny.
+    double longestEdge(const std::vector<glm::vec3>& points) const {
+        const double least = 1e-3 * mesh.size();
+        double longest = 0.0;
+        std::size_t corner = 0;
+        for (const std::uint32_t size : mesh.faceSizes) {
+            for (std::uint32_t k = 0; k < size; ++k) {
+                const std::uint32_t a = mesh.faceVertices[corner + k];
+                const std::uint32_t b = mesh.faceVertices[corner + (k + 1) % size];
+                const double rest = glm::distance(mesh.positions[a], mesh.positions[b]);
+                if (rest < least) continue;
+                longest = std::max(longest,
+                                   static_cast<double>(glm::distance(points[a], points[b])) / rest);
+            }
+            corner += size;
+        }
+        return longest;
+    }
+
+    SkinMesh mesh;
+    RestSkeleton skeleton;
+    Binding binding;
+    BindReport report;
+};
+
+} // namespace
+
+TEST_P(RealBody, IsBoundWhole) {
+    expectSound(binding);
+    EXPECT_EQ(report.unassigned, 0u);
+    EXPECT_EQ(report.shells, GetParam().shells) << report.text();
+    EXPECT_LE(report.influencesPerVertex, 2.1) << report.text();
+    for (const char* name : {"Head", "LeftHand", "RightHand", "LeftFoot", "RightFoot", "LeftArm",
+                             "RightForeArm", "LeftUpLeg", "RightLeg"})
+        EXPECT_GT(
+            std::count(binding.regions.begin(), binding.regions.end(), jointCalled(binding, name)),
+            10)
+            << name << "\n"
+            << report.text();
+}
+
+TEST_P(RealBody, HasOnePatchOfARegionOnEachShell) {
+    EXPECT_EQ(severedPatches(mesh, binding.regions), 0u);
+}
+
+TEST_P(RealBody, DoesNotTearInExtremePoses) {
+    const auto reach = posed({{"LeftArm", {0, 110}}, {"RightArm", {0, -110}}, {"Spine", {-30, 0}}});
+    EXPECT_LT(longestEdge(reach), GetParam().longestReach);
+    const auto crouch = posed({{"LeftUpLeg", {-110, 0}},
+                               {"RightUpLeg", {-60, -30}},
+                               {"LeftLeg", {120, 0}},
+                               {"RightLeg", {90, 0}},
+                               {"LeftForeArm", {-100, 0}},
+                               {"Neck", {30, 0}}});
+    EXPECT_LT(longestEdge(crouch), 3.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RealBody, testing::ValuesIn(kBodies),
+                         [](const auto& body) { return std::string(body.param.name); });
