@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// What binding costs, once a character: seconds by the number of vertices.
+#include "Subdivide.h"
+
+#include <osgSkinBind/Bind>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/Motion>
+
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace {
+
+struct Size {
+    const char* name;
+    const char* body;
+    std::uint32_t parts; ///< that every edge is split into
+};
+const Size kSizes[] = {
+    {"4k", "body4k", 1}, {"13k", "body", 1}, {"53k", "body", 2}, {"400k", "body4k", 10}};
+
+const std::string kMakeHuman = std::string(OSGSKIN_SHARED_DATA) + "/makehuman/";
+
+osgSkin::SkinMesh meshOf(const Size& size) {
+    const osgSkin::SkinMesh body =
+        osgSkin::importMesh(kMakeHuman + "body/" + size.body + "_neutral.obj").mesh;
+    if (size.parts == 1) return body; // as it is, quads and all
+    const bench::Subdivided fine =
+        bench::subdivide(body.triangles(), body.positions.size(), size.parts);
+    osgSkin::SkinMesh mesh;
+    for (const bench::Blend& vertex : fine.vertices) {
+        glm::dvec3& p = mesh.positions.emplace_back(0.0);
+        for (std::size_t k = 0; k < 3; ++k) p += vertex.share[k] * body.positions[vertex.corner[k]];
+    }
+    mesh.faceVertices = fine.triangles;
+    mesh.faceSizes.assign(fine.triangles.size() / 3, 3);
+    return mesh;
+}
+
+void bindBody(benchmark::State& state, const Size& size) {
+    const osgSkin::SkinMesh mesh = meshOf(size);
+    const osgSkin::RestSkeleton rig =
+        osgSkin::importSkeleton(kMakeHuman + "rig/cmu_mb_neutral.bvh");
+    for ([[maybe_unused]] auto iteration : state)
+        benchmark::DoNotOptimize(osgSkin::bind(mesh, rig));
+    const auto vertices = static_cast<double>(mesh.positions.size());
+    state.counters["vertices"] = vertices;
+    state.counters["vertices/s"] =
+        benchmark::Counter(vertices, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+    if (!std::filesystem::exists(kMakeHuman)) {
+        std::printf("Nothing to bind: needs %s\n", kMakeHuman.c_str());
+        return 0;
+    }
+    for (const Size& size : kSizes)
+        benchmark::RegisterBenchmark((std::string("bind/") + size.name).c_str(), bindBody, size)
+            ->Unit(benchmark::kMillisecond);
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
