@@ -101,7 +101,7 @@ void bringIntoOrder(Body& body) {
     body.binding = blend(body.binding, vertices);
     body.positions = blend(body.positions, vertices);
     body.normals = blend(body.normals, vertices);
-    body.weights = blend(body.weights, vertices);
+    if (!body.weights.vertices.empty()) body.weights = blend(body.weights, vertices);
     for (std::uint32_t& corner : body.triangles) corner = source[corner];
 }
 
@@ -130,15 +130,19 @@ Body load() {
     return body;
 }
 
+/// Finer than this, nothing is compared with osgAnimation: its weights would fill the memory.
+constexpr std::uint32_t kMostWeighted = 10;
+
 Body refine(const Body& coarse, std::uint32_t parts) {
     const Subdivided mesh = subdivide(coarse.triangles, coarse.positions.size(), parts);
     Body body = coarse;
+    body.weights.vertices.clear();
     body.binding = blend(coarse.binding, mesh.vertices);
     body.positions = blend(coarse.positions, mesh.vertices);
     body.normals = blend(coarse.normals, mesh.vertices);
     for (glm::vec3& n : body.normals) n = glm::normalize(n);
     body.triangles = mesh.triangles;
-    body.weights = blend(coarse.weights, mesh.vertices);
+    if (parts <= kMostWeighted) body.weights = blend(coarse.weights, mesh.vertices);
     bringIntoOrder(body);
     return body;
 }

@@ -2,10 +2,11 @@
 //
 // What one frame of a skin costs: ours, osgAnimation's software rig, and a plain copy, in one run.
 #include "BenchBody.h"
+#include "CrowdBench.h"
 #include "OsgRig.h"
 #include "RatioTable.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/DeformPool>
 
 #include <benchmark/benchmark.h>
 #include <hwy/highway.h>
@@ -20,7 +21,7 @@ struct Size {
     const char* name;
     std::uint32_t parts;
 };
-const Size kSizes[] = {{"4k", 1}, {"40k", 3}, {"400k", 10}};
+const Size kSizes[] = {{"4k", 1}, {"40k", 3}, {"400k", 10}, {"1600k", 20}};
 
 void count(benchmark::State& state, std::size_t vertices) {
     state.counters["vertices"] = static_cast<double>(vertices);
@@ -39,7 +40,8 @@ void copy(benchmark::State& state, std::uint32_t parts) {
 }
 
 /// Ours. `target` is one of Highway's instruction sets, 0 for the best, -1 for the plain reference.
-void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target) {
+void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target,
+          const osgSkin::DeformPool* pool) {
     const bench::Body& body = bench::body(parts);
     const auto model = body.model();
     osgSkin::Pose pose(model->joints());
@@ -55,7 +57,10 @@ void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target) {
     for ([[maybe_unused]] auto iteration : state) {
         const auto& skinning = body.skinning[frame++ % body.skinning.size()];
         pose.set(skinning.data(), skinning.size());
-        target < 0 ? job.runReference() : job.run();
+        if (pool)
+            pool->run(&job, 1);
+        else
+            target < 0 ? job.runReference() : job.run();
         benchmark::ClobberMemory();
     }
     hwy::SetSupportedTargetsForTest(0);
@@ -107,18 +112,35 @@ int main(int argc, char** argv) {
     std::vector<std::int64_t> targets;
     for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
         targets.push_back(rest & -rest);
+    // A pool takes its second thread only where that pays: at 4k it does not.
+    const osg::ref_ptr<osgSkin::DeformPool> one = new osgSkin::DeformPool(1);
+    const osg::ref_ptr<osgSkin::DeformPool> two = new osgSkin::DeformPool(2);
     for (const Size& size : kSizes) {
         const auto add = [&size](const std::string& what, auto run, auto... more) {
             return benchmark::RegisterBenchmark((what + "/" + size.name).c_str(), run, size.parts,
                                                 more...)
                 ->Unit(benchmark::kMicrosecond);
         };
+        const auto alone = static_cast<const osgSkin::DeformPool*>(nullptr);
         add("memcpy", copy);
-        for (const std::int64_t target : targets)
-            add(std::string("ours ") + hwy::TargetName(target), ours, target);
-        add("ours reference", ours, std::int64_t{-1});
-        add("osgAnimation", osgAnimationRig)->UseManualTime();
+        if (size.parts > 10) {
+            add("ours", ours, std::int64_t{0}, alone);
+        } else {
+            for (const std::int64_t target : targets)
+                add(std::string("ours ") + hwy::TargetName(target), ours, target, alone);
+            add("ours reference", ours, std::int64_t{-1}, alone);
+            add("osgAnimation", osgAnimationRig)->UseManualTime();
+        }
+        add("ours, 1 thread", ours, std::int64_t{0}, one.get())->UseRealTime();
+        add("ours, 2 threads", ours, std::int64_t{0}, two.get())->UseRealTime();
     }
+    for (const unsigned int threads : {1u, 2u})
+        benchmark::RegisterBenchmark(("crowd, " + std::to_string(threads) +
+                                      (threads == 1 ? " thread" : " threads") + "/1000")
+                                         .c_str(),
+                                     bench::crowd, threads)
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime();
     bench::RatioTable table;
     benchmark::RunSpecifiedBenchmarks(&table);
     return 0;

@@ -42,7 +42,7 @@ void RatioTable::ReportRuns(const std::vector<Run>& runs) {
 
 void RatioTable::Finalize() {
     ConsoleReporter::Finalize();
-    std::printf("\nMedians, one thread, positions and normals, pose set-up included\n"
+    std::printf("\nMedians, positions and normals, pose set-up included\n"
                 "%-24s %8s %12s %10s %12s %18s\n",
                 "", "vertices", "us/update", "ns/vertex", "x memcpy", "x osgAnimation");
     for (const Row& row : _rows) {

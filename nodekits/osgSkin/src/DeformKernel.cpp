@@ -8,6 +8,8 @@
 // Must follow foreach_target.h.
 #include <hwy/highway.h>
 
+#include <hwy/cache_control.h>
+
 #include "DeformKernel.h"
 #include "KernelPasses-inl.h"
 #include "KernelStore-inl.h"
@@ -16,6 +18,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
+
+/// How far ahead of what is being written the outputs' lines are asked for, in floats: a crowd's
+/// outputs are in no cache.
+constexpr std::size_t kAhead = 512;
 
 struct Outputs {
     Output positions, normals, tangents;
@@ -62,6 +68,10 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
         apply(link->out, x, y, z);
         if (kNormals) turn(link->out, nx, ny, nz);
         if (kTangents) turn(link->out, tx, ty, tz);
+    }
+    for (std::size_t i = 0; i < 3 * hn::Lanes(d); i += 16) {
+        hwy::Prefetch(out.positions.to + 3 * first + kAhead + i);
+        if (kNormals) hwy::Prefetch(out.normals.to + 3 * first + kAhead + i);
     }
     store(out.positions, first, x, y, z);
     if (kNormals) store(out.normals, first, nx, ny, nz);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "SampledCharacter.h"
+
+#include <osgSkin/DeformPool>
+
+#include <osg/Group>
+#include <osg/NodeCallback>
+#include <osg/ref_ptr>
+
+#include <cstddef>
+#include <vector>
+
+/// Characters side by side, each in its own phase of its clip; all that come from one file share
+/// its skin models.
+///
+/// The update callback of its own scene: it sets the poses on the pool's threads, and with the same
+/// threads an osgSkin::DeformTogether deforms the skins that are in view.
+class Crowd : public osg::NodeCallback {
+public:
+    /// \param characters at least one; they take turns. They must outlive the crowd.
+    Crowd(const std::vector<SampledCharacter>& characters, std::size_t count,
+          osgSkin::DeformPool* pool);
+
+    osg::Group* getScene() const { return _scene.get(); }
+    float getRadius() const { return _radius; } ///< of the ground that it covers
+    std::size_t getVertexCount() const { return _vertices; }
+
+    /// Milliseconds that updates to the present simulation time took for poses, and for skins.
+    double getPoseTime() const { return _poseTime; }
+    double getDeformTime() const { return _deformTime; }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+private:
+    struct Member {
+        const SampledCharacter* character;
+        std::size_t phase; ///< in samples
+        std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins;
+        std::vector<osg::ref_ptr<osg::MatrixTransform>> rigids;
+    };
+    Member makeMember(const SampledCharacter& character, const osg::Matrix& place,
+                      std::size_t phase);
+    static void pose(const Member& member, double time);
+
+    osg::ref_ptr<osg::Group> _scene;
+    osg::ref_ptr<osgSkin::DeformPool> _pool;
+    std::vector<Member> _members;
+    float _radius = 0.0f;
+    std::size_t _vertices = 0;
+    double _time = -1.0, _poseTime = 0.0, _deformTime = 0.0;
+};

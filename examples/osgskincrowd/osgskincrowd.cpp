@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "Crowd.h"
+#include "FrameTime.h"
+#include "Ground.h"
+#include "Snapshots.h"
+
+#include <osgGA/TrackballManipulator>
+#include <osgViewer/Viewer>
+#include <osgViewer/ViewerEventHandlers>
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+namespace {
+
+example::View viewOf(const Crowd& crowd) {
+    const auto r = static_cast<double>(crowd.getRadius());
+    return {{0.15 * r, -1.5 * r - 4.0, 0.45 * r + 1.5}, {0.0, -0.15 * r, 0.5}};
+}
+
+/// Pictures at the scene's 60 frames a second, and what the updates took.
+void takePictures(const Crowd& crowd, osg::Node* scene, unsigned int frames,
+                  const std::string& folder) {
+    example::Snapshots snapshots(scene, viewOf(crowd), 1000, 800);
+    double pose = 0.0, deform = 0.0;
+    for (unsigned int i = 0; i < frames; ++i) {
+        snapshots.write(i / 60.0, example::pictureName(folder, "crowd", i));
+        pose += crowd.getPoseTime() / frames;
+        deform += crowd.getDeformTime() / frames;
+    }
+    std::printf("%u frames in %s; in an update, poses took %.2f ms and skins %.2f ms\n", frames,
+                folder.c_str(), pose, deform);
+}
+
+int show(const Crowd& crowd, osg::Group* scene, unsigned int threads) {
+    scene->addChild(makeFrameTime(crowd, threads));
+    osgViewer::Viewer viewer;
+    viewer.setUpViewInWindow(100, 100, 1000, 800);
+    viewer.setSceneData(scene);
+    viewer.addEventHandler(new osgViewer::StatsHandler);
+    const osg::ref_ptr<osgGA::TrackballManipulator> camera = new osgGA::TrackballManipulator;
+    const example::View view = viewOf(crowd);
+    camera->setHomePosition(view.eye, view.centre, view.up);
+    viewer.setCameraManipulator(camera);
+    return viewer.run();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Many characters, each in its own phase of its own clip.", "osgskincrowd");
+    std::vector<std::string> files = {std::string(OSGSKIN_DATA) + "/thrower.skin"};
+    std::string pictures;
+    std::size_t count = 1000;
+    unsigned int threads = 0;
+    unsigned int frames = 12;
+    app.add_option("characters", files,
+                   ".skin or any file with a deformable skin; they take turns");
+    app.add_option("--count", count, "how many characters")->check(CLI::Range(1, 100000));
+    app.add_option("--threads", threads, "most threads that pose and deform; 0: all processors");
+    app.add_option("--pictures", pictures, "write pictures to this folder; no window to look at");
+    app.add_option("--frames", frames, "how many pictures")->check(CLI::Range(1u, 99u));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        std::vector<SampledCharacter> characters;
+        for (const std::string& file : files) characters.emplace_back(file);
+        const osg::ref_ptr<osgSkin::DeformPool> pool = new osgSkin::DeformPool(threads);
+        const osg::ref_ptr<Crowd> crowd = new Crowd(characters, count, pool);
+        std::cout << count << " characters, " << crowd->getVertexCount() << " skin vertices, "
+                  << pool->getThreadCount() << " threads" << std::endl;
+        const osg::ref_ptr<osg::Group> scene = new osg::Group;
+        scene->addChild(crowd->getScene());
+        scene->addChild(example::makeFloor(std::ceil(1.5f * crowd->getRadius())));
+        if (pictures.empty()) return show(*crowd, scene, pool->getThreadCount());
+        takePictures(*crowd, scene, frames, pictures);
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "osgskincrowd: " << error.what() << std::endl;
+        return 1;
+    }
+}
