@@ -4,7 +4,6 @@
 
 #include "WeldedMesh.h"
 
-#include <memory>
 #include <vector>
 
 namespace osgSkin {
@@ -16,12 +15,15 @@ namespace osgSkin {
 /// divided by the width and the edges' weights are multiplied with it, so that an edge between two
 /// widths keeps its middle where it was.
 ///
+/// Only the skin near where the field changes is computed: a solver's time grows faster than the
+/// number of its vertices.
+///
 /// Values never leave the range of the input: weights that degenerate or obtuse triangles would
 /// make negative or huge are clamped.
 class SkinSmoother {
 public:
+    /// \param mesh must outlive the smoother
     explicit SkinSmoother(const WeldedMesh& mesh);
-    ~SkinSmoother();
 
     /// \param width square root of the heat's total time, above 0; an edge of the field becomes
     /// about
@@ -31,8 +33,9 @@ public:
     void smooth(std::vector<double>& field, const std::vector<double>& widths) const;
 
 private:
-    struct System;
-    std::unique_ptr<System> _system;
+    const WeldedMesh& _mesh;
+    std::vector<double> _mass;
+    std::vector<double> _weights; ///< one for each of the mesh's neighbours
 };
 
 } // namespace osgSkin
