@@ -57,7 +57,7 @@ install(FILES
   DESTINATION "${osgskin_cmake_dir}" COMPONENT dev)
 
 set(CPACK_PACKAGE_NAME osgskin)
-set(CPACK_PACKAGE_CONTACT "osgSkin maintainers <maintainers@osgskin.invalid>")
+set(CPACK_PACKAGE_CONTACT "osgSkin developers <noreply@osgskin.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
 set(CPACK_COMPONENTS_ALL runtime dev)

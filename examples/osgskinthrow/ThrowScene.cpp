@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ThrowScene.h"
 
+#include <osgSkin/AutoPlayManager>
 #include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/Bind>
 #include <osgSkinImport/Clip>
@@ -10,7 +11,6 @@
 #include <osgSkinImport/Retarget>
 
 #include <osg/MatrixTransform>
-#include <osgAnimation/BasicAnimationManager>
 
 osg::ref_ptr<osg::Group> makeThrowScene(const std::string& folder, double* seconds) {
     // [readme] A body, a skeleton, and the skin that follows it.
@@ -19,15 +19,13 @@ osg::ref_ptr<osg::Group> makeThrowScene(const std::string& folder, double* secon
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(rig);
     osgSkin::attachSkin(*skeleton, body.mesh, body.parts, osgSkin::bind(body.mesh, rig));
 
-    // A motion for this skeleton, played by osgAnimation's own manager.
+    // A motion for this skeleton. The manager plays it by itself, also when saved and read again.
     const osgSkin::Motion motion = osgSkin::importMotion(folder + "/throw.bvh");
     osgSkin::RetargetReport report;
     const osgSkin::Clip clip = osgSkin::retarget(motion, rig, {}, &report);
     const osg::ref_ptr<osgAnimation::Animation> animation = osgSkin::makeAnimation(clip, rig);
-    const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
-        new osgAnimation::BasicAnimationManager;
+    const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
     manager->registerAnimation(animation);
-    manager->playAnimation(animation);
     // [readme]
     if (seconds) *seconds = clip.frameTime * static_cast<double>(clip.frames);
 

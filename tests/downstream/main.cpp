@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The README's example as a program, against an installed osgSkin: the skin must follow the motion.
+#include <osgSkin/AutoPlayManager>
 #include <osgSkin/DeformableSkin>
 #include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/Bind>
@@ -8,7 +9,6 @@
 #include <osgSkinImport/Motion>
 #include <osgSkinImport/Retarget>
 
-#include <osgAnimation/BasicAnimationManager>
 #include <osgUtil/UpdateVisitor>
 
 #include <iostream>

@@ -267,6 +267,8 @@ void DeformableSkin::drawImplementation(osg::RenderInfo& renderInfo) const {
 }
 
 void DeformableSkin::compileGLObjects(osg::RenderInfo& renderInfo) const {
+    // One context's thread may compile while another's deforms.
+    const std::lock_guard<std::mutex> lock(_mutex);
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
         if (buffer) buffer->compileGLObjects(renderInfo);
 }
