@@ -25,7 +25,7 @@ const Size kSizes[] = {
 const std::string kMakeHuman = std::string(OSGSKIN_SHARED_DATA) + "/makehuman/";
 
 osgSkin::SkinMesh meshOf(const Size& size) {
-    const osgSkin::SkinMesh body =
+    osgSkin::SkinMesh body =
         osgSkin::importMesh(kMakeHuman + "body/" + size.body + "_neutral.obj").mesh;
     if (size.parts == 1) return body; // as it is, quads and all
     const bench::Subdivided fine =
