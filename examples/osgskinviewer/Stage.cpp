@@ -154,7 +154,7 @@ void Stage::changeJoint(int step) {
 
 example::View Stage::view() const {
     const osg::BoundingSphere& all = _body.character.root->getBound();
-    return {all.center() + osg::Vec3d(0.35, -0.95, 0.2) * (2.3 * all.radius()), all.center()};
+    return {all.center() + osg::Vec3d(0.35, -0.95, 0.2) * (2.9 * all.radius()), all.center()};
 }
 
 osg::Vec4 Stage::colourOf(std::size_t vertex) const {
@@ -227,7 +227,9 @@ void Stage::update() {
     char times[80];
     std::snprintf(times, sizeof times, "\n%.1f ms a frame, the skin %.3f ms; h: keys", _frameTime,
                   _skinTime);
-    _status->setText(summary() + times);
+    std::string text = summary();
+    text.replace(text.find("; "), 2, "\n");
+    _status->setText(text + times);
 }
 
 std::string Stage::summary() const {
