@@ -48,6 +48,18 @@ Binding bindBody(Character& character) {
     });
 }
 
+RestSkeleton findRig(Character& character) {
+    const SkinFile& file = character.file;
+    if (!file.fit) return importSkeleton(file.skeleton);
+    RestSkeleton rig = inFile(file.mesh, [&] {
+        return fitSkeleton(character.body.mesh, *file.fit, &character.fitReport);
+    });
+    OSG_INFO << file.file << ":\n" << character.fitReport.text();
+    for (const std::string& note : character.fitReport.notes)
+        OSG_NOTICE << file.file << ": fitted skeleton: " << note << std::endl;
+    return rig;
+}
+
 void loadMotions(Character& character) {
     for (const SkinFile::Motion& entry : character.file.motions) {
         osgSkin::Motion motion = importMotion(entry.file, entry.skipFrames);
@@ -142,7 +154,7 @@ Character Character::load(const std::string& file, const osgDB::Options* options
     character.file = SkinFile::read(file);
     change(character.file, wanted, options);
     character.body = importMesh(character.file.mesh, options);
-    character.rig = importSkeleton(character.file.skeleton);
+    character.rig = findRig(character);
     character.binding = bindBody(character);
     OSG_INFO << file << ":\n" << character.report.text();
     loadMotions(character);

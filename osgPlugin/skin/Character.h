@@ -34,6 +34,7 @@ struct Character {
     std::vector<Motion> motions;
     Binding binding;
     BindReport report;
+    FitReport fitReport; ///< of a skeleton that was fitted
 
     osg::ref_ptr<osg::Group> root; ///< Z up; its animation manager plays the first motion
     osg::ref_ptr<osgAnimation::Skeleton> skeleton; ///< rest space below it

@@ -29,6 +29,7 @@ public:
     /// The member `key`, or an Error that says what it should have been.
     JsonReader require(const std::string& key, const std::string& expected) const;
 
+    bool isObject() const { return _value.is_object(); }
     std::string string() const;
     double number() const;
     bool boolean() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "SkinFile.h"
 
+#include "FitSettings.h"
 #include "JsonReader.h"
 
 #include <osgDB/FileNameUtils>
@@ -142,7 +143,10 @@ SkinFile SkinFile::read(const std::string& file) {
     skin.file = file;
     skin.mesh = path(root.require("mesh", "a mesh file's name"), folder);
     const auto skeleton = root.find("skeleton");
-    skin.skeleton = skeleton ? path(*skeleton, folder) : skin.mesh;
+    if (skeleton && skeleton->isObject())
+        skin.fit = readFit(*skeleton);
+    else
+        skin.skeleton = skeleton ? path(*skeleton, folder) : skin.mesh;
     if (const auto motions = root.find("motions")) {
         std::set<std::string> names;
         motions->forEachItem([&](const JsonReader& reader) {
@@ -165,6 +169,7 @@ SkinFile SkinFile::read(const std::string& file) {
             up->complain("expected \"y\" or \"z\", found \"" + up->string() + "\"");
         skin.zUp = up->string() == "z";
     }
+    if (skin.fit && skin.zUp) skin.fit->up = {0.0, 0.0, 1.0};
     readMethod(root, folder, skin);
     readBinding(root, skin.bind);
     return skin;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <osgSkinBind/BindOptions>
+#include <osgSkinBind/FitSkeleton>
 #include <osgSkinImport/JointNames>
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +34,8 @@ struct SkinFile {
 
     std::string file; ///< the .skin file itself
     std::string mesh;
-    std::string skeleton; ///< the mesh's own file where the description names none
+    std::string skeleton;          ///< the mesh's own file where the description names none
+    std::optional<FitOptions> fit; ///< instead of a skeleton file
     std::vector<Motion> motions;
     std::vector<JointNames> names; ///< families of joint names beside the known ones
     std::vector<Prop> props;

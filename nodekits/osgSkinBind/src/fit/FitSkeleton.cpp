@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinBind/FitSkeleton>
+
+#include "PlaceJoints.h"
+
+#include <osgSkin/Error>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <initializer_list>
+
+namespace osgSkin {
+namespace {
+
+bool isFinite(const glm::dvec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+bool isDirection(const glm::dvec3& d) {
+    return isFinite(d) && glm::length(d) > 0.0;
+}
+
+void check(const FitOptions& options) {
+    if (!isDirection(options.up))
+        throw Error("cannot fit a skeleton: expected an up axis with a length");
+    if (options.facing && !isDirection(*options.facing))
+        throw Error("cannot fit a skeleton: expected a facing with a length");
+    const std::vector<std::string>& names = fittedJointNames();
+    for (const auto& [name, centre] : options.landmarks) {
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            throw Error("cannot fit a skeleton: landmark " + name +
+                        ": expected the name of a CMU joint, such as LeftHand or Head");
+        if (!isFinite(centre))
+            throw Error("cannot fit a skeleton: landmark " + name +
+                        ": expected finite coordinates");
+    }
+}
+
+/// Whether landmarks give a limb's ends, on one side at least.
+bool areGiven(const FitOptions& options, const char* from, const char* to) {
+    for (const std::string side : {"Left", "Right"})
+        if (options.landmarks.count(side + from) > 0 && options.landmarks.count(side + to) > 0)
+            return true;
+    return false;
+}
+
+/// From the body's right to its left, as far as landmarks tell.
+std::optional<glm::dvec3> leftOf(const FitOptions& options, const FitBody& body) {
+    glm::dvec3 sum(0.0);
+    const glm::dvec3 middle = body.toRest(body.branches.trunk.back());
+    for (const auto& [name, centre] : options.landmarks) {
+        if (mirroredName(name) == name) continue;
+        sum += name[0] == 'L' ? centre - middle : middle - centre;
+    }
+    sum -= glm::dot(sum, options.up) / glm::dot(options.up, options.up) * options.up;
+    if (glm::length(sum) < 0.03 * body.height()) return std::nullopt;
+    return sum;
+}
+
+void requireLimb(const BodyBranches::Path& path, const JointSheet& sheet,
+                 std::initializer_list<std::string> names) {
+    for (const std::string& name : names)
+        if (path.empty() && !sheet.has(name))
+            throw Error("cannot fit a skeleton: " + name +
+                        " cannot be told from the rest of the body; give a landmark for it");
+}
+
+void placeJoints(const FitBody& body, JointSheet& sheet, std::vector<std::string>& notes) {
+    if (body.isSymmetric()) mirrorLandmarks(sheet);
+    for (const std::size_t side : {0u, 1u}) {
+        const std::string& prefix = sidePrefix(side);
+        requireLimb(body.branches.legs[side], sheet, {prefix + "UpLeg", prefix + "Foot"});
+        requireLimb(body.branches.arms[side], sheet, {prefix + "Arm", prefix + "Hand"});
+        placeLeg(body, side, sheet);
+    }
+    placeTrunk(body, sheet);
+    for (const std::size_t side : {0u, 1u}) {
+        placeArm(body, side, sheet);
+        placeHand(body, side, sheet);
+    }
+    if (body.isSymmetric()) symmetrise(sheet);
+    checkProportions(sheet);
+    pushInside(body, sheet, notes);
+}
+
+RestSkeleton skeletonOf(const FitBody& body, JointSheet& sheet, FitReport& report) {
+    RestSkeleton skeleton;
+    for (const FittedJoint& joint : fittedTree()) {
+        const JointSheet::Entry& entry = sheet.entries().at(joint.name);
+        RestJoint& added = skeleton.joints.emplace_back();
+        added.name = joint.name;
+        added.parent = joint.parent;
+        added.centre = body.toRest(entry.centre);
+        if (entry.tip) added.tip = body.toRest(*entry.tip);
+        report.joints.push_back({joint.name, entry.how, entry.pushed});
+    }
+    skeleton.validate();
+    return skeleton;
+}
+
+} // namespace
+
+RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& options, FitReport* report) {
+    const auto start = std::chrono::steady_clock::now();
+    mesh.validate();
+    check(options);
+    FitReport found;
+    FitBody body(WeldedMesh(mesh), options.up, areGiven(options, "UpLeg", "Foot"),
+                 areGiven(options, "Arm", "Hand"), found.notes);
+    found.facing = body.face(options.facing, leftOf(options, body));
+    if (found.facing == "assumed")
+        found.notes.push_back("feet, face and elbows do not tell where the body faces: give a "
+                              "facing if left and right are exchanged");
+    found.height = body.height();
+    found.symmetryError = body.symmetryError;
+
+    JointSheet sheet;
+    for (const auto& [name, centre] : options.landmarks)
+        sheet.addLandmark(name, body.toBody(centre));
+    placeJoints(body, sheet, found.notes);
+    RestSkeleton skeleton = skeletonOf(body, sheet, found);
+    found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (report) *report = found;
+    return skeleton;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Motions on bodies whose skeleton was fitted: they play, and the skin holds together.
+#include "Character.h"
+#include "Command.h"
+
+#include <glm/geometric.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+
+namespace {
+
+using osgSkin::Character;
+
+struct Play {
+    const char* name;
+    const char* mesh;   ///< below OSGSKIN_SHARED_DATA; null: the thrower
+    const char* motion; ///< below OSGSKIN_SHARED_DATA; null: the project's own throw
+    std::size_t skipFrames;
+};
+
+void PrintTo(const Play& play, std::ostream* out) {
+    *out << play.name;
+}
+
+std::string meshFile(const Play& play) {
+    return play.mesh ? std::string(OSGSKIN_SHARED_DATA "/") + play.mesh
+                     : OSGSKIN_DATA "/thrower.obj";
+}
+
+std::string motionFile(const Play& play) {
+    return play.motion ? std::string(OSGSKIN_SHARED_DATA "/") + play.motion
+                       : OSGSKIN_DATA "/throw.bvh";
+}
+
+/// Where the skin's vertices are now, in the mesh's own order.
+std::vector<glm::dvec3> posedSkin(const Character& character) {
+    std::vector<glm::dvec3> result(character.body.mesh.positions.size());
+    const auto put = [&](std::uint32_t vertex, const osg::Vec3d& p) {
+        result[vertex] = {p.x(), p.y(), p.z()};
+    };
+    for (const auto& skin : character.skin.skins) {
+        const auto& vertices = static_cast<const osg::Vec3Array&>(
+            *skin.drawable->getDeformedGeometry()->getVertexArray());
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            put(skin.part.sourceVertex[i], vertices[i]);
+    }
+    for (const auto& rigid : character.skin.rigids) {
+        const auto& vertices =
+            static_cast<const osg::Vec3Array&>(*rigid.part.geometry->getVertexArray());
+        const osg::Matrixd matrix =
+            rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace();
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            put(rigid.part.sourceVertex[i], osg::Vec3d(vertices[i]) * matrix);
+    }
+    return result;
+}
+
+/// Each edge's length over its length at rest, in rising order.
+std::vector<double> stretches(const osgSkin::SkinMesh& mesh, const std::vector<glm::dvec3>& posed) {
+    std::vector<double> result;
+    std::size_t corner = 0;
+    for (const std::uint32_t size : mesh.faceSizes) {
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::uint32_t a = mesh.faceVertices[corner + i];
+            const std::uint32_t b = mesh.faceVertices[corner + (i + 1) % size];
+            const double rest = glm::distance(mesh.positions[a], mesh.positions[b]);
+            if (rest > 0.0) result.push_back(glm::distance(posed[a], posed[b]) / rest);
+        }
+        corner += size;
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+class FitPlay : public testing::TestWithParam<Play> {
+protected:
+    void SetUp() override {
+        for (const std::string& file : {meshFile(GetParam()), motionFile(GetParam())})
+            if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+    }
+
+    static Character load() {
+        const std::string file = test::makeTestFolder() + "/fitted.skin";
+        std::ofstream(file) << R"({ "osgskin": 1, "mesh": ")" << meshFile(GetParam())
+                            << R"(", "skeleton": { "fit": true }, "motions": [ { "file": ")"
+                            << motionFile(GetParam()) << R"(", "skipFrames": )"
+                            << GetParam().skipFrames << " } ] }";
+        return Character::load(file);
+    }
+};
+
+} // namespace
+
+TEST_P(FitPlay, SkinHoldsTogether) {
+    Character character = load();
+    ASSERT_EQ(character.rig.joints.size(), 31u);
+    EXPECT_EQ(character.fitReport.joints.size(), 31u);
+    const Character::Motion& motion = character.motions.front();
+    for (const auto& entry : motion.report.entries)
+        EXPECT_FALSE(entry.motionJoint.empty()) << entry.rigJoint;
+    const std::size_t step = std::max<std::size_t>(1, motion.clip.frames / 24);
+    for (std::size_t frame = 0; frame < motion.clip.frames; frame += step) {
+        character.pose(motion, frame);
+        const std::vector<double> edges = stretches(character.body.mesh, posedSkin(character));
+        // Armpits stretch most where arms rest low and are raised. A tear would be far beyond.
+        EXPECT_LT(edges.back(), 10.0) << "frame " << frame;
+        EXPECT_LT(edges[edges.size() * 999 / 1000], 4.5) << "frame " << frame;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, FitPlay,
+    testing::Values(Play{"thrower_throws", nullptr, nullptr, 0},
+                    Play{"human_throws", "human_blend/human_4282.obj", nullptr, 0},
+                    Play{"human_pitches", "human_blend/human_4282.obj",
+                         "cmu/mb/124_01_pitch_excerpt_120hz.bvh", 1},
+                    Play{"human_walks", "human_blend/human_4282.obj", "cmu/mb/12_01_walk_pybvh.bvh",
+                         1},
+                    Play{"human_climbs", "human_blend/human_4282.obj", "cmu/mb/01_03.bvh", 1},
+                    Play{"human_jumps", "human_blend/human_4282.obj", "cmu/mb/01_01.bvh", 1},
+                    Play{"body_throws", "makehuman/body/body4k_neutral.obj", nullptr, 0}),
+    [](const auto& play) { return std::string(play.param.name); });
+
+TEST(FitPlayThrower, ThrowsAsItDoesWithItsOwnSkeleton) {
+    const std::string file = test::makeTestFolder() + "/fitted.skin";
+    std::ofstream(file) << R"({ "osgskin": 1, "mesh": ")" OSGSKIN_DATA
+                           R"(/thrower.obj", "skeleton": { "fit": true },
+                              "motions": [ { "file": ")" OSGSKIN_DATA R"(/throw.bvh" } ] })";
+    Character fitted = Character::load(file);
+    Character own = Character::load(OSGSKIN_DATA "/thrower.skin");
+    for (std::size_t frame = 0; frame < 360; frame += 30) {
+        fitted.pose(fitted.motions.front(), frame);
+        own.pose(own.motions.front(), frame);
+        const std::vector<glm::dvec3> a = posedSkin(fitted), b = posedSkin(own);
+        double mean = 0.0;
+        for (std::size_t v = 0; v < a.size(); ++v)
+            mean += glm::distance(a[v], b[v]) / static_cast<double>(a.size());
+        EXPECT_LT(mean, 0.04 * 1.8) << "frame " << frame;
+    }
+}

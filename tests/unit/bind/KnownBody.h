@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <osgSkin/RestSkeleton>
+#include <osgSkin/SkinMesh>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <functional>
+#include <map>
+#include <string>
+
+/// Bodies whose joints are known, for tests that let fitSkeleton() find them.
+struct KnownBody {
+    osgSkin::SkinMesh mesh;
+    osgSkin::RestSkeleton truth; ///< with a fitted skeleton's joint names
+
+    /// The project's own figure.
+    static KnownBody thrower();
+
+    /// A body and its rig of the shared data; empty where they are missing.
+    static KnownBody shared(const std::string& mesh, const std::string& rig);
+
+    /// Every point of mesh and skeleton mapped.
+    KnownBody mapped(const std::function<glm::dvec3(const glm::dvec3&)>& map) const;
+
+    /// The skin bent by turning joints about their centres, in rest space's axes.
+    KnownBody posed(const std::map<std::string, glm::dquat>& turns) const;
+};
+
+/// How far a fitted skeleton is from the truth, in shares of the body's height (its extent in y, or
+/// in z where `zUp`).
+struct FitErrors {
+    double mean = 0.0;
+    double worst = 0.0;
+    std::string worstJoint;
+    std::size_t joints = 0;
+    std::size_t inside = 0; ///< joints inside the skin
+};
+
+FitErrors fitErrors(const osgSkin::RestSkeleton& fitted, const KnownBody& body, bool zUp = false);
