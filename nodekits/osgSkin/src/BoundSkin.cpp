@@ -229,7 +229,7 @@ std::shared_ptr<const BoundSkin> SkinModel::makeBoundSkin(const SkinModel& model
     if (model.vertexCount() == 0) return nullptr;
     const float extent = extentOf(model.positions());
     // Finer patches give tighter bounds and cost more.
-    Fineness fineness{extent / 24.0f, extent / 60.0f};
+    Fineness fineness{extent / 24.0f, extent / 90.0f};
     for (int attempt = 0;; ++attempt) {
         const std::shared_ptr<BoundSkin> skin = std::make_shared<BoundSkin>();
         Binding binding;
