@@ -23,6 +23,10 @@ namespace HWY_NAMESPACE {
 /// outputs are in no cache.
 constexpr std::size_t kAhead = 512;
 
+/// The same for the skin's rows, this group's and the next one's, where a skin is larger than the
+/// caches.
+constexpr std::size_t kRowsAhead = 32;
+
 struct Outputs {
     Output positions, normals, tangents;
 };
@@ -84,10 +88,14 @@ void deformByVectors(const KernelCall& call) {
     const Outputs out{Output(call, call.positions), Output(call, call.normals),
                       Output(call, call.tangents)};
     const std::size_t blockRows = SkinBlocks::rowsPerBlock(call.linkCount);
-    for (std::size_t first = 0; first < call.vertexCount; first += hn::Lanes(D()))
-        deformVector<kNormals, kTangents>(
-            call, out, first, call.rows[first / kBlock * blockRows].lane + first % kBlock,
-            kTangents ? tangentLanes(call, first) : nullptr);
+    const BlockRow* rows = call.rows;
+    for (std::size_t first = 0; first < call.vertexCount; first += kBlock, rows += blockRows) {
+        for (std::size_t i = 0; i < blockRows; ++i) hwy::Prefetch(rows + kRowsAhead + i);
+        const std::size_t end = HWY_MIN(first + kBlock, call.vertexCount);
+        for (std::size_t v = first; v < end; v += hn::Lanes(D()))
+            deformVector<kNormals, kTangents>(call, out, v, rows->lane + v % kBlock,
+                                              kTangents ? tangentLanes(call, v) : nullptr);
+    }
 }
 
 void deform(const KernelCall& call) {

@@ -56,11 +56,18 @@ void DeformTogether::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     if (!node) return;
     if (!_known || childrenOf(*node) != _children) find(*node);
     _now.clear();
+    std::size_t vertices = 0;
     for (const osg::ref_ptr<DeformableSkin>& skin : _skins) {
         if (skin->getNumParents() == 0) _known = false;
-        if (skin->needsDeform() && (skin->wasSeen() || !_onlySeen)) _now.push_back(skin.get());
+        if (!skin->needsDeform() || (_onlySeen && !skin->wasSeen())) continue;
+        _now.push_back(skin.get());
+        vertices += skin->getModel()->vertexCount();
     }
-    _pool->forEach(_now.size(), [this](std::size_t i) { _now[i]->getDeformedGeometry(); });
+    const auto deform = [this](std::size_t i) { _now[i]->getDeformedGeometry(); };
+    if (vertices < _pool->getMinimumVertices())
+        for (std::size_t i = 0; i < _now.size(); ++i) deform(i);
+    else
+        _pool->forEach(_now.size(), deform);
 }
 
 } // namespace osgSkin

@@ -20,6 +20,7 @@ struct Crowd {
             between->addChild(skins.back());
             group->addChild(between);
         }
+        together->getPool()->setMinimumVertices(0);
         group->setUpdateCallback(together);
     }
     void update() {
