@@ -2,6 +2,7 @@
 #include "Character.h"
 
 #include "ClipBounds.h"
+#include "LoadSteps.h"
 #include "MeshWeights.h"
 #include "Props.h"
 #include "WeightsFile.h"
@@ -60,8 +61,9 @@ RestSkeleton findRig(Character& character) {
     return rig;
 }
 
-void loadMotions(Character& character) {
+void loadMotions(Character& character, LoadSteps& steps) {
     for (const SkinFile::Motion& entry : character.file.motions) {
+        steps.begin("motion " + entry.name);
         osgSkin::Motion motion = importMotion(entry.file, entry.skipFrames);
         motion.name = entry.name;
         RetargetOptions options;
@@ -153,16 +155,22 @@ Character Character::load(const std::string& file, const osgDB::Options* options
     Character character;
     character.file = SkinFile::read(file);
     change(character.file, wanted, options);
+    LoadSteps steps(file, 4 + character.file.motions.size(), options);
+    steps.begin("mesh");
     character.body = importMesh(character.file.mesh, options);
+    steps.begin("skeleton");
     character.rig = findRig(character);
+    steps.begin("binding");
     character.binding = bindBody(character);
     OSG_INFO << file << ":\n" << character.report.text();
-    loadMotions(character);
+    loadMotions(character, steps);
+    steps.begin("scene");
     inFile(file, [&] {
         if (wanted.showRegions) showRegions(character.body.parts, character.binding);
         buildScene(character, options);
         return 0;
     });
+    steps.finish();
     return character;
 }
 

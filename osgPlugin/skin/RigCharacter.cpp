@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "RigCharacter.h"
 
+#include "LoadSteps.h"
 #include "MeshWeights.h"
 #include "PlayedBounds.h"
 
@@ -83,8 +84,12 @@ osgAnimation::AnimationList chooseMotion(const std::string& file, ImportedRig& r
 
 osg::ref_ptr<osg::Group> loadByAssimp(const std::string& file, const osgDB::Options* options,
                                       const SkinOptions& wanted) {
+    LoadSteps steps(file, 3, options);
+    steps.begin("model");
     ImportedRig rig = importRig(file, options);
+    steps.begin("binding");
     const Binding binding = bindRig(file, rig, wanted);
+    steps.begin("scene");
     const osgAnimation::AnimationList clips = chooseMotion(file, rig, wanted, options);
     if (wanted.showRegions) showRegions(rig.body.parts, binding);
     const std::vector<std::string> rigid =
@@ -100,6 +105,7 @@ osg::ref_ptr<osg::Group> loadByAssimp(const std::string& file, const osgDB::Opti
     root->setName(osgDB::getStrippedName(file));
     root->addChild(upright);
     root->setInitialBound(playedBounds(*root, clips));
+    steps.finish();
     if (clips.empty()) return root;
     const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
     for (const auto& clip : clips) manager->registerAnimation(clip);
