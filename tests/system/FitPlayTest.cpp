@@ -108,8 +108,8 @@ TEST_P(FitPlay, SkinHoldsTogether) {
         character.pose(motion, frame);
         const std::vector<double> edges = stretches(character.body.mesh, posedSkin(character));
         // Armpits stretch most where arms rest low and are raised. A tear would be far beyond.
-        EXPECT_LT(edges.back(), 10.0) << "frame " << frame;
-        EXPECT_LT(edges[edges.size() * 999 / 1000], 4.5) << "frame " << frame;
+        EXPECT_LT(edges.back(), 5.0) << "frame " << frame;
+        EXPECT_LT(edges[edges.size() * 999 / 1000], 3.2) << "frame " << frame;
     }
 }
 

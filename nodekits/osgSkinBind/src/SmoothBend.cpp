@@ -29,6 +29,10 @@ constexpr double kNextRigidity = 0.003;
 constexpr double kTolerance = 1.1;
 constexpr int kTries = 6;
 
+/// The least that a width may be narrowed to. Where an arm hangs so low that the armpit reaches
+/// into its middle third, no width leaves that third rigid, and a narrow one tears the armpit.
+constexpr double kNarrowest = 0.5;
+
 /// Width of a field on the two sides of its joint's plane.
 struct Widths {
     double above, below;
@@ -52,11 +56,11 @@ std::vector<double> spread(const SkinSmoother& smoother, const std::vector<doubl
     return field;
 }
 
-/// Narrows a width where `excess`, what the middle third has too much, is above `most`. What a
-/// field has left a distance away goes about with the fourth power of its width.
-bool narrow(double& width, double excess, double most) {
-    if (excess <= kTolerance * most) return false;
-    width *= std::max(0.6, std::pow(most / excess, 0.25));
+/// Narrows a width, down to `least`, where `excess`, what the middle third has too much, is above
+/// `most`. What a field has left a distance away goes about with the fourth power of its width.
+bool narrow(double& width, double least, double excess, double most) {
+    if (width <= least || excess <= kTolerance * most) return false;
+    width = std::max(least, width * std::max(0.6, std::pow(most / excess, 0.25)));
     return true;
 }
 
@@ -80,14 +84,16 @@ std::vector<double> smoothBend(const HardField& hard, const SkinSmoother& smooth
     const MiddleThird own = limb ? MiddleThird(hard, joint) : MiddleThird();
     const MiddleThird previous = onLimb ? MiddleThird(hard, above) : MiddleThird();
     Widths widths = firstWidths(planned, radius, options.smoothing);
+    const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
         field = spread(smoother, start, widths, options.cutOff);
         bool narrower = false;
         if (!own.empty())
-            narrower = narrow(widths.below, 1.0 - own.mean(field), 1.0 - kOwnRigidity);
+            narrower = narrow(widths.below, least.below, 1.0 - own.mean(field), 1.0 - kOwnRigidity);
         if (!previous.empty())
-            narrower = narrow(widths.above, previous.mean(field), kNextRigidity) || narrower;
+            narrower =
+                narrow(widths.above, least.above, previous.mean(field), kNextRigidity) || narrower;
         if (!narrower) break;
     }
     return field;
