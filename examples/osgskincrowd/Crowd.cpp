@@ -21,8 +21,9 @@ Crowd::Crowd(const std::vector<SampledCharacter>& characters, std::size_t count,
     std::size_t phase = 0;
     for (std::size_t i = 0; i < count; ++i) {
         // Rows stand half a place apart, and phases differ from one neighbour to the next.
-        const double row = static_cast<double>(i / side);
-        const double column = static_cast<double>(i % side) + (i / side % 2 == 0 ? 0.0 : 0.5);
+        const std::size_t line = i / side;
+        const double row = static_cast<double>(line);
+        const double column = static_cast<double>(i % side) + (line % 2 == 0 ? 0.0 : 0.5);
         const osg::Matrix place = osg::Matrix::translate(
             static_cast<double>(width) * (column - 0.5 * static_cast<double>(side)),
             static_cast<double>(width) * (row - 0.5 * static_cast<double>(side)), 0.0);

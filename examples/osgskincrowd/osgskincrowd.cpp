@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
     }
     try {
         std::vector<SampledCharacter> characters;
+        characters.reserve(files.size());
         for (const std::string& file : files) characters.emplace_back(file);
         const osg::ref_ptr<osgSkin::DeformPool> pool = new osgSkin::DeformPool(threads);
         const osg::ref_ptr<Crowd> crowd = new Crowd(characters, count, pool);

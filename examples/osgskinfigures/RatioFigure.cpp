@@ -127,7 +127,7 @@ Tile twistPicture(const Body& body, const Arm& arm) {
         }
     }
     plot.dots.push_back(dotsOf(body, arm, character.binding, arm.hand, true));
-    plot.dots.back().name = "vertices, as the character is bound";
+    plot.dots.back().name = "vertices, as the character is bound: at even shear";
     plot.dots.back().colour = kSmooth;
     return picture(
         body, arm, plot, [&](std::size_t v) { return ratio(character.binding, v, arm.hand, true); },

@@ -169,6 +169,7 @@ TEST(Scene, TimeMayStopAndGoBack) {
     about.at(0.0);
     const std::vector<double> times = {0.3, 0.8, 1.3, 1.8};
     std::vector<Vertices> poses;
+    poses.reserve(times.size());
     for (const double time : times) poses.push_back(forwards.at(time));
     EXPECT_NE(poses[0], poses[1]);
     for (const std::size_t i : {3u, 1u, 1u, 0u, 2u, 3u, 2u, 1u, 0u})

@@ -44,8 +44,9 @@ public:
 osg::ref_ptr<osg::Group> makeCrowd(const osg::Node& character, unsigned int count) {
     osg::ref_ptr<osg::Group> crowd = new osg::Group;
     for (unsigned int i = 0; i < count; ++i) {
-        const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
-            osg::Matrix::translate(1.5 * (i % 10) - 7.0, 1.5 * (i / 10), 0.0));
+        const unsigned int row = i / 10;
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrix::translate(1.5 * (i % 10) - 7.0, 1.5 * row, 0.0));
         const osg::CopyOp own(osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES |
                               osg::CopyOp::DEEP_COPY_CALLBACKS);
         place->addChild(osg::clone(&character, own));

@@ -218,7 +218,7 @@ TEST(Memory, AFurtherCharacterTakesTwoBuffersAndFourKibibytes) {
         buffers.back()->getBound();
     }
     const std::size_t twoBuffers = bytesInUse - before;
-    EXPECT_GE(twoBuffers, 2 * 2 * kVertices * sizeof(osg::Vec3));
+    EXPECT_GE(twoBuffers, 4 * std::size_t(kVertices) * sizeof(osg::Vec3));
 
     before = bytesInUse;
     const osg::ref_ptr<osgSkin::DeformableSkin> further =

@@ -68,7 +68,7 @@ TEST_F(TwistUnwrap, SkinRunsOnToo) {
         // 2 pi too. The ring of vertices at the joint has ratio one half.
         const auto& vertices =
             static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
-        const osg::Vec3 at = vertices[8 * 12]; // height 2, at angle 0
+        const osg::Vec3 at = vertices[std::size_t(8) * 12]; // height 2, at angle 0
         const double half = 0.5 * degrees * kDegree;
         ASSERT_NEAR(at.x(), std::cos(half), 1e-5) << degrees;
         ASSERT_NEAR(at.z(), -std::sin(half), 1e-5) << degrees;
