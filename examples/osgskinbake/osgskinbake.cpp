@@ -68,7 +68,8 @@ void bakeFrames(const Arguments& arguments, Character& character) {
     if (!arguments.pose.empty()) bake::writeJson(arguments.pose, poses);
     if (!arguments.quiet)
         std::cerr << total << " frames of \"" << clip.name << "\", largest seam gap "
-                  << seamGap / character.body.mesh.size() << " of the body's size" << std::endl;
+                  << seamGap / character.body.mesh.size() << " of the body's size\n"
+                  << motion.report.feetText() << std::flush;
 }
 
 int run(const Arguments& arguments) {

@@ -12,7 +12,7 @@
 
 #include <osg/MatrixTransform>
 
-osg::ref_ptr<osg::Group> makeThrowScene(const std::string& folder, double* seconds) {
+osg::ref_ptr<osg::Group> makeThrowScene(const std::string& folder, ThrowFacts* facts) {
     // [readme] A body, a skeleton, and the skin that follows it.
     const osgSkin::ImportedMesh body = osgSkin::importMesh(folder + "/thrower.obj");
     const osgSkin::RestSkeleton rig = osgSkin::importSkeleton(folder + "/thrower.bvh");
@@ -27,7 +27,10 @@ osg::ref_ptr<osg::Group> makeThrowScene(const std::string& folder, double* secon
     const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
     manager->registerAnimation(animation);
     // [readme]
-    if (seconds) *seconds = clip.frameTime * static_cast<double>(clip.frames);
+    if (facts) {
+        facts->seconds = clip.frameTime * static_cast<double>(clip.frames);
+        facts->feet = report.feetText();
+    }
 
     // The files have Y up and face +Z; OSG's world has Z up.
     const osg::ref_ptr<osg::MatrixTransform> upright =

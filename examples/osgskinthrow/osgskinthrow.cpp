@@ -60,11 +60,12 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        double seconds = 0.0;
-        const osg::ref_ptr<osg::Group> scene = example::withShadow(makeThrowScene(data, &seconds));
+        ThrowFacts facts;
+        const osg::ref_ptr<osg::Group> scene = example::withShadow(makeThrowScene(data, &facts));
+        std::cout << facts.feet << std::flush;
         scene->addChild(example::makeFloor(8.0f));
         if (pictures.empty()) return show(scene);
-        takePictures(scene, from * seconds, to * seconds, count, pictures);
+        takePictures(scene, from * facts.seconds, to * facts.seconds, count, pictures);
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "osgskinthrow: " << error.what() << std::endl;

@@ -55,7 +55,10 @@ std::string clipNames(const osgAnimation::AnimationList& clips) {
 /// A motion of another skeleton, which moves the joints of makeSkeleton().
 osg::ref_ptr<osgAnimation::Animation> carriedOver(const std::string& file, const ImportedRig& rig) {
     try {
-        return makeAnimation(retarget(importMotion(file), rig.rest), rig.rest);
+        RetargetReport report;
+        const Clip clip = retarget(importMotion(file), rig.rest, {}, &report);
+        OSG_INFO << file << ":\n" << report.text();
+        return makeAnimation(clip, rig.rest);
     } catch (const Error& error) {
         const std::string what = error.what();
         throw Error(what.rfind(file, 0) == 0 ? what : file + ": " + what);

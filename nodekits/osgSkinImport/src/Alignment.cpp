@@ -7,16 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace osgSkin {
 namespace {
-
-/// A bone in both skeletons, each as a direction of any length.
-struct BonePair {
-    glm::dvec3 rig;
-    glm::dvec3 motion;
-};
 
 bool hasLength(const glm::dvec3& bone, const SkeletonTree& tree) {
     return glm::length(bone) > 1e-6 * tree.reach();
@@ -60,8 +53,6 @@ public:
                const std::vector<int>& motionJoint)
         : _rig(rig), _motion(motion), _motionJoint(motionJoint) {}
 
-    /// The same bone in both skeletons: to a joint below that both have, or else each to its own
-    /// end.
     std::optional<BonePair> find(int j) const {
         std::optional<BonePair> result;
         int best = 3;
@@ -106,6 +97,11 @@ private:
 
 } // namespace
 
+std::optional<BonePair> findBone(const SkeletonTree& rig, const SkeletonTree& motion,
+                                 const std::vector<int>& motionJoint, int j) {
+    return BoneFinder(rig, motion, motionJoint).find(j);
+}
+
 glm::dquat shortestTurn(const glm::dvec3& from, const glm::dvec3& to) {
     const glm::dvec3 a = glm::normalize(from);
     const glm::dvec3 b = glm::normalize(to);
@@ -122,14 +118,13 @@ glm::dquat shortestTurn(const glm::dvec3& from, const glm::dvec3& to) {
 std::vector<glm::dquat> alignBones(const SkeletonTree& rig, const SkeletonTree& motion,
                                    const std::vector<int>& motionJoint) {
     const BodyParts parts = findBodyParts(rig);
-    const BoneFinder finder(rig, motion, motionJoint);
     const glm::dquat identity(1.0, 0.0, 0.0, 0.0);
     std::vector<glm::dquat> result(motionJoint.size(), identity);
     for (int j = 0; j < rig.size(); ++j) {
         const auto index = static_cast<std::size_t>(j);
         if (!parts.isLimb[index]) continue;
         std::optional<BonePair> bone;
-        if (motionJoint[index] >= 0) bone = finder.find(j);
+        if (motionJoint[index] >= 0) bone = findBone(rig, motion, motionJoint, j);
         if (bone && std::count(parts.feet.begin(), parts.feet.end(), j) > 0)
             bone = alongFloor(*bone);
         if (bone)

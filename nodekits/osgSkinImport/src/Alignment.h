@@ -4,10 +4,24 @@
 #include "SkeletonTree.h"
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace osgSkin {
+
+/// A bone in both skeletons, from the joint to its end in their zero poses.
+struct BonePair {
+    glm::dvec3 rig;
+    glm::dvec3 motion;
+};
+
+/// The bone of rig joint `j`, which the motion drives: to a joint below that both skeletons have,
+/// or else each to its own end. Nothing where either has no length.
+/// \param motionJoint for each rig joint, the motion joint that drives it, or -1
+std::optional<BonePair> findBone(const SkeletonTree& rig, const SkeletonTree& motion,
+                                 const std::vector<int>& motionJoint, int j);
 
 /// The turns A that take the rig's rest bones to the motion's zero-pose bones, one a rig joint.
 ///

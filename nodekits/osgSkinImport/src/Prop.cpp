@@ -18,8 +18,9 @@ Clip makeWay(const Motion& way, const RetargetReport& report) {
     clip.frames = way.frames;
     clip.joints = 1;
     for (std::size_t frame = 0; frame < way.frames; ++frame) {
-        clip.rotations.push_back(way.rotation(frame, 0));
-        clip.rootPositions.push_back(report.scale * way.rootPositions[frame] + report.offset);
+        clip.rotations.push_back(report.turn * way.rotation(frame, 0));
+        clip.rootPositions.push_back(report.scale * (report.turn * way.rootPositions[frame]) +
+                                     report.offset);
     }
     return clip;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Alignment.h"
-#include "BodyParts.h"
+#include "Bearing.h"
 #include "JointMap.h"
+#include "MeasureFeet.h"
 #include "RootMotion.h"
 #include "SkeletonTree.h"
 
@@ -53,6 +54,21 @@ void turnRig(const RestSkeleton& rig, const std::vector<int>& motionJoint,
     }
 }
 
+/// The turns as they are in the space that `back` leads to.
+void turnSpace(const glm::dquat& back, std::vector<glm::dquat>& turns) {
+    if (isIdentity(back)) return; // to the last bit
+    for (glm::dquat& turn : turns) turn = glm::normalize(back * turn * glm::conjugate(back));
+}
+
+void addLocal(const RestSkeleton& rig, const std::vector<glm::dquat>& world, Clip& clip) {
+    for (std::size_t j = 0; j < world.size(); ++j) {
+        const int parent = rig.joints[j].parent;
+        clip.rotations.push_back(glm::normalize(
+            parent < 0 ? world[j]
+                       : glm::conjugate(world[static_cast<std::size_t>(parent)]) * world[j]));
+    }
+}
+
 } // namespace
 
 Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptions& options,
@@ -61,9 +77,13 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     motion.skeleton.validate();
     const JointMap map = mapJoints(rig, motion.skeleton, options);
     const std::vector<int>& motionJoint = map.motionJoint;
-    const SkeletonTree rigTree(rig);
-    const SkeletonTree motionTree(motion.skeleton);
+    const Bearing bearing = findBearing(SkeletonTree(rig), SkeletonTree(motion.skeleton), map);
+    const RestSkeleton uprightRig = turned(rig, bearing.rigUpright);
+    const RestSkeleton uprightMotion = turned(motion.skeleton, bearing.motionUpright);
+    const SkeletonTree rigTree(uprightRig);
+    const SkeletonTree motionTree(uprightMotion);
     const std::vector<glm::dquat> alignment = alignBones(rigTree, motionTree, motionJoint);
+    const glm::dquat back = glm::conjugate(bearing.rigUpright);
 
     Clip clip;
     clip.name = motion.name;
@@ -73,27 +93,29 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     clip.rotations.reserve(clip.frames * clip.joints);
 
     RootMotion root(rigTree, motionTree, motionJoint);
+    MeasureFeet feet(rigTree, motionTree, motionJoint);
     std::vector<glm::dquat> motionWorld;
     std::vector<glm::dquat> world;
     for (std::size_t f = 0; f < motion.frames; ++f) {
         worldRotations(motion.skeleton, &motion.rotation(f, 0), motionWorld);
+        turnSpace(bearing.motionUpright, motionWorld);
         turnRig(rig, motionJoint, alignment, motionWorld, world);
-        for (std::size_t j = 0; j < clip.joints; ++j) {
-            const int parent = rig.joints[j].parent;
-            clip.rotations.push_back(glm::normalize(
-                parent < 0 ? world[j]
-                           : glm::conjugate(world[static_cast<std::size_t>(parent)]) * world[j]));
-        }
-        root.add(motion.rootPositions[f], motionWorld, world);
+        root.add(bearing.motionUpright * motion.rootPositions[f], motionWorld, world);
+        feet.add({root.rigPlaces(), world}, {root.motionPlaces(), motionWorld});
+        turnSpace(back, world);
+        addLocal(rig, world, clip);
     }
     clip.rootPositions = root.finish();
+    for (glm::dvec3& place : clip.rootPositions) place = back * place;
 
     if (report != nullptr) {
         fillReport(*report, motion, rig, motionJoint, alignment);
         report->rigNames = map.rig.family;
         report->motionNames = map.motion.family;
         report->scale = root.scale();
-        report->offset = root.offset();
+        report->turn = back * bearing.motionUpright;
+        report->offset = back * root.offset();
+        report->feet = feet.finish(motion.frameTime, root.scale());
     }
     return clip;
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/Retarget>
 
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+
 #include <iomanip>
 #include <sstream>
 
@@ -10,7 +13,14 @@ std::string RetargetReport::text() const {
     std::ostringstream out;
     out << "names: rig " << (rigNames.empty() ? "of no known family" : rigNames) << ", motion "
         << (motionNames.empty() ? "of no known family" : motionNames) << "\n"
-        << std::setprecision(4) << "way scaled by " << scale << "\n";
+        << std::setprecision(4) << "way scaled by " << scale;
+    const double degrees = glm::degrees(glm::angle(turn.w < 0.0 ? -turn : turn));
+    if (degrees > 1e-6) {
+        const glm::dvec3 axis = glm::axis(turn.w < 0.0 ? -turn : turn);
+        out << ", turned by " << degrees << " degrees about " << axis.x << " " << axis.y << " "
+            << axis.z;
+    }
+    out << "\n";
     for (const Entry& entry : entries) {
         out << "joint " << entry.rigJoint << ": ";
         if (entry.motionJoint.empty())
@@ -20,6 +30,31 @@ std::string RetargetReport::text() const {
         out << "\n";
     }
     for (const std::string& joint : unusedMotionJoints) out << "not used: " << joint << "\n";
+    return out.str() + feetText();
+}
+
+std::string RetargetReport::feetText() const {
+    std::ostringstream out;
+    out << std::fixed;
+    for (const FootSliding& foot : feet) {
+        out << "foot " << foot.rigJoint << ": ";
+        const auto share = [&](double length) {
+            out << std::setprecision(1) << 100.0 * length / foot.leg << " %";
+        };
+        if (foot.stances == 0) {
+            out << "never planted\n";
+            continue;
+        }
+        out << foot.stances << (foot.stances == 1 ? " stance" : " stances") << ", slides by ";
+        share(foot.mean);
+        out << " of the leg in the mean, ";
+        share(foot.worst);
+        out << " at worst (from frame " << foot.worstFrame << "); the actor's own: ";
+        share(foot.actorMean);
+        out << ", ";
+        share(foot.actorWorst);
+        out << "\n";
+    }
     return out.str();
 }
 

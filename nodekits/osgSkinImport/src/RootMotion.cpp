@@ -43,13 +43,14 @@ RootMotion::RootMotion(const SkeletonTree& rig, const SkeletonTree& motion,
 
 void RootMotion::add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
                      const std::vector<glm::dquat>& rigWorld) {
-    worldPositions(_motion.rest(), motionWorld, motionRoot, _places);
-    const glm::dvec3 hips = _scale * _places[static_cast<std::size_t>(_motionHips)] + _offset;
+    worldPositions(_motion.rest(), motionWorld, motionRoot, _motionPlaces);
+    const glm::dvec3 hips = _scale * _motionPlaces[static_cast<std::size_t>(_motionHips)] + _offset;
 
-    worldPositions(_rig.rest(), rigWorld, glm::dvec3(0.0), _places);
-    const glm::dvec3 root = hips - _places[static_cast<std::size_t>(_rigHips)];
+    worldPositions(_rig.rest(), rigWorld, glm::dvec3(0.0), _rigPlaces);
+    const glm::dvec3 root = hips - _rigPlaces[static_cast<std::size_t>(_rigHips)];
+    for (glm::dvec3& place : _rigPlaces) place += root;
     _roots.push_back(root);
-    if (!_rigParts.feet.empty()) _feet.push_back(root.y + lowestFoot(rigWorld));
+    if (!_rigParts.feet.empty()) _feet.push_back(lowestFoot(rigWorld));
 }
 
 double RootMotion::lowestFoot(const std::vector<glm::dquat>& rigWorld) const {
@@ -57,7 +58,7 @@ double RootMotion::lowestFoot(const std::vector<glm::dquat>& rigWorld) const {
     for (const int j : _rigParts.feet) {
         const auto index = static_cast<std::size_t>(j);
         const RestJoint& joint = _rig.joint(j);
-        const glm::dvec3& place = _places[index];
+        const glm::dvec3& place = _rigPlaces[index];
         lowest = std::min(lowest, place.y - joint.centre.y);
         if (joint.tip) {
             const glm::dvec3 tip = place + rigWorld[index] * (*joint.tip - joint.centre);

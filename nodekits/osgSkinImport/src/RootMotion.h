@@ -29,6 +29,11 @@ public:
     void add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
              const std::vector<glm::dquat>& rigWorld);
 
+    /// Where the joints are in the sample added last; the rig's before finish() puts it on its
+    /// floor.
+    const std::vector<glm::dvec3>& motionPlaces() const { return _motionPlaces; }
+    const std::vector<glm::dvec3>& rigPlaces() const { return _rigPlaces; }
+
     /// What is added to the scaled way, after finish(): hips = scale * motion's hips + offset.
     const glm::dvec3& offset() const { return _offset; }
 
@@ -47,8 +52,8 @@ private:
     glm::dvec3 _offset{0.0};
     BodyParts _rigParts;
     std::vector<glm::dvec3> _roots;
-    std::vector<double> _feet;       ///< height of the lowest foot above its rest height, [sample]
-    std::vector<glm::dvec3> _places; ///< of the joints in the current sample
+    std::vector<double> _feet; ///< height of the lowest foot above its rest height, [sample]
+    std::vector<glm::dvec3> _motionPlaces, _rigPlaces;
 };
 
 } // namespace osgSkin
