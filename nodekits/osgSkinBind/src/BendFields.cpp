@@ -40,7 +40,8 @@ void raise(std::vector<double>& field, const std::vector<double>& other) {
 JointFields bendFields(const HardField& hard, const std::vector<double>& radii,
                        const BindOptions& options) {
     const std::vector<PlannedJoint>& joints = hard.joints;
-    const SkinSmoother smoother(hard.mesh);
+    const double widest = options.smoothing * *std::max_element(radii.begin(), radii.end());
+    const SkinSmoother smoother(hard.mesh, widest);
     JointFields fields(joints.size(), std::vector<double>(hard.mesh.vertexCount(), 0.0));
     fields[0].assign(hard.mesh.vertexCount(), 1.0);
     for (std::size_t j = 1; j < joints.size(); ++j) {

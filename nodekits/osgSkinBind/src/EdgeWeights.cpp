@@ -21,24 +21,29 @@ double cotangent(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) 
     return twiceArea > 0.0 ? glm::dot(b - a, c - a) / twiceArea : 0.0;
 }
 
-std::size_t entry(const WeldedMesh& mesh, std::uint32_t from, std::uint32_t to) {
-    const auto begin = mesh.neighbours.begin();
-    const auto found = std::lower_bound(begin + mesh.firstNeighbour[from],
-                                        begin + mesh.firstNeighbour[from + 1], to);
-    return static_cast<std::size_t>(found - begin);
-}
-
 } // namespace
 
 std::vector<double> edgeWeights(const WeldedMesh& mesh) {
-    std::vector<double> weights(mesh.neighbours.size(), 0.0);
-    for (const auto& t : mesh.triangles)
+    return edgeWeights(mesh.positions, mesh.triangles, mesh.firstNeighbour, mesh.neighbours);
+}
+
+std::vector<double> edgeWeights(const std::vector<glm::dvec3>& positions,
+                                const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                const std::vector<std::uint32_t>& firstNeighbour,
+                                const std::vector<std::uint32_t>& neighbours) {
+    const auto entry = [&](std::uint32_t from, std::uint32_t to) {
+        const auto begin = neighbours.begin();
+        const auto found =
+            std::lower_bound(begin + firstNeighbour[from], begin + firstNeighbour[from + 1], to);
+        return static_cast<std::size_t>(found - begin);
+    };
+    std::vector<double> weights(neighbours.size(), 0.0);
+    for (const auto& t : triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = t[k], b = t[(k + 1) % 3], opposite = t[(k + 2) % 3];
-            const double half =
-                0.5 * cotangent(mesh.positions[opposite], mesh.positions[a], mesh.positions[b]);
-            weights[entry(mesh, a, b)] += half;
-            weights[entry(mesh, b, a)] += half;
+            const double half = 0.5 * cotangent(positions[opposite], positions[a], positions[b]);
+            weights[entry(a, b)] += half;
+            weights[entry(b, a)] += half;
         }
     for (double& weight : weights) weight = std::clamp(weight, kLowestWeight, kHighestWeight);
     return weights;

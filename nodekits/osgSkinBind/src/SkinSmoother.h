@@ -2,8 +2,9 @@
 #ifndef OSGSKINBIND_SKINSMOOTHER_H
 #define OSGSKINBIND_SKINSMOOTHER_H
 
-#include "WeldedMesh.h"
+#include "CoarseGraph.h"
 
+#include <memory>
 #include <vector>
 
 namespace osgSkin {
@@ -22,8 +23,10 @@ namespace osgSkin {
 /// make negative or huge are clamped.
 class SkinSmoother {
 public:
-    /// \param mesh must outlive the smoother
-    explicit SkinSmoother(const WeldedMesh& mesh);
+    /// \param widest the widest spread that will be asked for; where the skin's edges are much
+    ///        shorter, coarser copies of it are prepared. Any other width works too.
+    explicit SkinSmoother(const WeldedMesh& mesh, double widest = 0.0);
+    SkinSmoother(const SkinSmoother&) = delete;
 
     /// \param width square root of the heat's total time, above 0; an edge of the field becomes
     /// about
@@ -33,9 +36,11 @@ public:
     void smooth(std::vector<double>& field, const std::vector<double>& widths) const;
 
 private:
-    const WeldedMesh& _mesh;
-    std::vector<double> _mass;
-    std::vector<double> _weights; ///< one for each of the mesh's neighbours
+    void smooth(std::vector<double>& field, const std::vector<double>& widths,
+                std::size_t level) const;
+
+    HeatGraph _skin;
+    std::vector<std::unique_ptr<CoarseGraph>> _coarser; ///< each of the one before
 };
 
 } // namespace osgSkin
