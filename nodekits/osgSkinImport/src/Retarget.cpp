@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Alignment.h"
 #include "Bearing.h"
+#include "FootRoll.h"
 #include "JointMap.h"
 #include "MeasureFeet.h"
 #include "RootMotion.h"
@@ -26,7 +27,7 @@ void fillReport(RetargetReport& report, const Motion& motion, const RestSkeleton
     report.unusedMotionJoints.clear();
     std::vector<bool> used(motion.skeleton.joints.size(), false);
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
-        RetargetReport::Entry entry{rig.joints[j].name, {}, 0.0};
+        RetargetReport::Entry entry{rig.joints[j].name, {}, 0.0, 0};
         if (motionJoint[j] >= 0) {
             const auto m = static_cast<std::size_t>(motionJoint[j]);
             used[m] = true;
@@ -92,6 +93,7 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     clip.joints = rig.joints.size();
     clip.rotations.reserve(clip.frames * clip.joints);
 
+    FootRoll feetRoll(rigTree, motionTree, motionJoint, alignment);
     RootMotion root(rigTree, motionTree, motionJoint);
     MeasureFeet feet(rigTree, motionTree, motionJoint);
     std::vector<glm::dquat> motionWorld;
@@ -100,6 +102,7 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
         worldRotations(motion.skeleton, &motion.rotation(f, 0), motionWorld);
         turnSpace(bearing.motionUpright, motionWorld);
         turnRig(rig, motionJoint, alignment, motionWorld, world);
+        feetRoll.straighten(world);
         root.add(bearing.motionUpright * motion.rootPositions[f], motionWorld, world);
         feet.add({root.rigPlaces(), world}, {root.motionPlaces(), motionWorld});
         turnSpace(back, world);
@@ -110,6 +113,8 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
 
     if (report != nullptr) {
         fillReport(*report, motion, rig, motionJoint, alignment);
+        for (std::size_t j = 0; j < clip.joints; ++j)
+            report->entries[j].turnedOver = feetRoll.turnedOver(j);
         report->rigNames = map.rig.family;
         report->motionNames = map.motion.family;
         report->scale = root.scale();

@@ -27,6 +27,8 @@ std::string RetargetReport::text() const {
             out << "at rest";
         else
             out << entry.motionJoint << ", aligned by " << entry.alignmentDegrees << " degrees";
+        if (entry.turnedOver > 0)
+            out << ", upside down in " << entry.turnedOver << " samples: turned back";
         out << "\n";
     }
     for (const std::string& joint : unusedMotionJoints) out << "not used: " << joint << "\n";
