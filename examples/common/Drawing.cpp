@@ -35,15 +35,6 @@ osg::Vec3 toScene(const glm::dvec3& v) {
     return {float(v.x), float(v.y), float(v.z)};
 }
 
-osg::Vec4 jointColour(std::size_t joint) {
-    const double hue = std::fmod(0.618 * double(joint), 1.0) * 6.0;
-    const auto channel = [hue](double shift) {
-        const double k = std::fmod(hue + shift, 6.0);
-        return float(0.92 - 0.55 * std::max(0.0, std::min({k, 4.0 - k, 1.0})));
-    };
-    return {channel(5.0), channel(3.0), channel(1.0), 1.0f};
-}
-
 osg::Vec4 ratioColour(double ratio) {
     const float t = float(ratio);
     const osg::Vec4 blue(0.13f, 0.33f, 0.85f, 1.0f);

@@ -42,8 +42,6 @@ osg::ref_ptr<osg::Camera> makeCaption(const std::string& text, int width, int he
                                       float size = 20.0f);
 
 osg::Vec3 toScene(const glm::dvec3& v);
-/// Hues a golden angle apart: neighbours in the list look different.
-osg::Vec4 jointColour(std::size_t joint);
 /// 0 blue, 1 red, by way of a light grey.
 osg::Vec4 ratioColour(double ratio);
 

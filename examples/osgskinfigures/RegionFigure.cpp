@@ -4,6 +4,7 @@
 
 #include <osg/BoundingBox>
 #include <osg/PolygonOffset>
+#include <osgSkinBind/ShowRegions>
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +39,7 @@ osg::ref_ptr<osg::Node> makeSeeds(const Body& body) {
         if (body.character.report.seeds[v] >= 0)
             points[rigidOf(body, v)].push_back(toScene(body.toWorld(body.rest()[v])));
     for (const auto& [joint, places] : points)
-        group->addChild(makeLines(places, jointColour(joint), GL_POINTS, 5.0f));
+        group->addChild(makeLines(places, osgSkin::regionColor(joint), GL_POINTS, 5.0f));
     return group;
 }
 
@@ -91,7 +92,7 @@ Tile regionFigure(const Body& body) {
                           " vertices\nthat the Delaunay step gives to one of them: seeds",
                       true),
                   picture(
-                      body, [&](std::size_t v) { return jointColour(regions[v]); },
+                      body, [&](std::size_t v) { return osgSkin::regionColor(regions[v]); },
                       "Fig. 1b  Flooded from the seeds:\n" + std::to_string(count) +
                           " regions, each of one piece",
                       false)},

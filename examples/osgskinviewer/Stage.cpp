@@ -10,6 +10,7 @@
 #include <osg/PolygonMode>
 #include <osg/Timer>
 #include <osgSkin/GlmOsg>
+#include <osgSkinBind/ShowRegions>
 
 #include <algorithm>
 #include <cmath>
@@ -159,7 +160,7 @@ example::View Stage::view() const {
 
 osg::Vec4 Stage::colourOf(std::size_t vertex) const {
     const osgSkin::Binding& binding = _body.character.binding;
-    if (settings.colours == Colours::Regions) return figures::jointColour(binding.regions[vertex]);
+    if (settings.colours == Colours::Regions) return osgSkin::regionColor(binding.regions[vertex]);
     if (settings.colours == Colours::Own) return figures::kSkin;
     const osgSkin::Influence share = figures::influenceOf(binding, vertex, settings.joint);
     return figures::ratioColour(
