@@ -44,7 +44,8 @@ osg::ref_ptr<osg::Node> makeArc(const osg::Vec3& centre, const osg::Vec3& from,
 void addArrow(osg::Group& group, const osg::Vec3& to, const osg::Vec4& colour, const char* name) {
     group.addChild(makeLines({osg::Vec3(), to}, colour, GL_LINES, 3.0f));
     group.addChild(makeBall(to, 0.03f, colour));
-    const auto label = makeText(name, to * 1.06f, 0.10f, colour);
+    const osg::Vec3 besideBall(0.06f, 0.0f, 0.0f); // where an axis points at the camera too
+    const auto label = makeText(name, to * 1.03f + besideBall, 0.10f, colour);
     label->setAxisAlignment(osgText::Text::SCREEN);
     group.addChild(label);
 }
