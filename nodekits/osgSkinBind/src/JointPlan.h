@@ -29,6 +29,7 @@ struct PlannedJoint {
     int rigid = -1;           ///< the rigid joint at or above, -1 where there is none
     bool extremity = false;   ///< head, hand or foot by its name
     bool trunk = false;       ///< of the trunk: spine, hips, collar bones
+    bool collarBone = false;  ///< between the spine and an upper arm
     bool seeds = false;       ///< its centre takes part in the Delaunay step
     bool claims = false;      ///< outside the skin: takes the skin nearest to it
     bool holdsRegion = false; ///< has a region, so its field is its own; else its children's

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "TrunkJoints.h"
 
+#include "JointNames.h"
+
 #include <osgSkinBind/Bind>
 
 namespace osgSkin {
@@ -9,12 +11,25 @@ namespace {
 /// A collar bone's length over that of the upper arm, at most. Hips, whose bone is the thigh, have
 /// about 1.
 constexpr double kCollarLength = 0.8;
+/// The same where just an upper arm, a forearm and a hand follow. An upper arm whose forearm has
+/// two bones is twice as long as the first of them.
+constexpr double kCollarLengthBeforeArm = 1.3;
 
-bool isCollarBone(const std::vector<PlannedJoint>& joints, const PlannedJoint& joint) {
-    if (joint.parent < 0 || joint.child < 0 || joint.rigid >= 0) return false;
+/// True where the joint's bone and one more lead to a hand.
+bool isUpperArm(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                const PlannedJoint& joint) {
+    if (joint.child < 0) return false;
+    const int end = joints[static_cast<std::size_t>(joint.child)].child;
+    return end >= 0 && isHandName(skeleton.joints[static_cast<std::size_t>(end)].name);
+}
+
+bool isCollarBone(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                  const PlannedJoint& joint) {
+    if (joint.trunk || joint.parent < 0 || joint.child < 0 || joint.rigid >= 0) return false;
     const PlannedJoint& next = joints[static_cast<std::size_t>(joint.child)];
-    return joints[static_cast<std::size_t>(joint.parent)].trunk && next.rigid < 0 &&
-           joint.boneLength < kCollarLength * next.boneLength;
+    if (!joints[static_cast<std::size_t>(joint.parent)].trunk || next.rigid >= 0) return false;
+    const double most = isUpperArm(skeleton, joints, next) ? kCollarLengthBeforeArm : kCollarLength;
+    return joint.boneLength < most * next.boneLength;
 }
 
 } // namespace
@@ -30,7 +45,8 @@ void markTrunk(const RestSkeleton& skeleton, std::vector<PlannedJoint>& joints) 
         ends[static_cast<std::size_t>(joints[j].parent)] += ends[j];
     for (std::size_t j = 0; j < joints.size(); ++j) joints[j].trunk = ends[j] > 1;
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (!joints[j].trunk && isCollarBone(joints, joints[j])) joints[j].trunk = true;
+        if (isCollarBone(skeleton, joints, joints[j]))
+            joints[j].trunk = joints[j].collarBone = true;
 }
 
 } // namespace osgSkin

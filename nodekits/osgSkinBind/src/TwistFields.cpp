@@ -11,11 +11,16 @@
 namespace osgSkin {
 namespace {
 
+/// How far beyond the elbow a forearm's twist begins, in lengths of the forearm; the more skin
+/// takes part, the less of it is strained. Of the upper arm's skin none turns more than it bends
+/// with the elbow.
+constexpr double kBeyondElbow = 0.2;
+
 /// The boundaries of a twist region, along the pole bone.
 BoundarySpan twistRegion(const PlannedJoint& joint, double radius) {
     // A forearm turns with its hand one radius behind the wrist, where the hand's own bend ends
     // too.
-    const double upper = joint.poleIsParent ? -1.0 : 0.0;
+    const double upper = joint.poleIsParent ? -1.0 - kBeyondElbow : 0.0;
     const double lower = joint.poleIsParent ? std::min(radius / joint.poleLength, 0.5) : 1.0;
     BoundarySpan region{joint.options.twistUpper.value_or(upper),
                         joint.options.twistLower.value_or(lower)};

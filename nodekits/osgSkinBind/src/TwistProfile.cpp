@@ -9,8 +9,10 @@
 namespace osgSkin {
 namespace {
 
-/// Share of the region over which the rate of the twist fades in, and out again.
-constexpr double kFade = 0.2;
+/// Shares of the region over which the rate of the twist fades in below the elbow, where the skin
+/// is thick and its rows of vertices stand far apart, and out again above the wrist.
+constexpr double kFadeIn = 0.4;
+constexpr double kFadeOut = 0.15;
 
 /// The limb's radius in stretches of the region; each takes the mean over skin within two of them.
 constexpr std::size_t kStretches = 16;
@@ -56,7 +58,7 @@ TwistProfile::TwistProfile(const WeldedMesh& mesh, const PlannedJoint& joint,
     const Radii radii = limbRadiiAlong(mesh, joint, region, onBone, beyond);
     for (std::size_t i = 0; i < kSteps; ++i) {
         const double t = (static_cast<double>(i) + 0.5) / kSteps;
-        const double fade = std::min(1.0, std::min(t, 1.0 - t) / kFade);
+        const double fade = std::min({1.0, t / kFadeIn, (1.0 - t) / kFadeOut});
         _ratio[i + 1] = _ratio[i] + fade / radiusAt(radii, t);
     }
     const double whole = _ratio.back();
