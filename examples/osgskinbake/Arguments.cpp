@@ -101,9 +101,11 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.footer(kFooter);
     Arguments arguments;
     std::string frames;
-    app.add_option("CHARACTER", arguments.character, "a .skin file");
+    app.add_option("CHARACTER", arguments.character, "a .skin file, or a rigged model");
     app.add_option("--motion", arguments.motion, "a motion's name; the first one by default");
     app.add_option("--frames", frames, "A, A:B or A:B:STEP; all by default");
+    app.add_option("--rate", arguments.rate, "frames a second of a rigged model's clips; 30")
+        ->check(CLI::Range(1e-3, 1e6));
     app.add_option("--out", arguments.out,
                    "the frames' files, like frame_%04d.obj or .ply; or one for all: .pc2, .glb");
     CLI::Option* rest =
@@ -122,7 +124,8 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     if (!frames.empty()) arguments.frames = parseRange(frames);
     checkPattern(arguments.out);
     settleRest(*rest, arguments);
-    if (arguments.character.empty()) throw UsageError{"expected a CHARACTER, a .skin file"};
+    if (arguments.character.empty())
+        throw UsageError{"expected a CHARACTER, a .skin file or a rigged model"};
     const bool other = rest->count() > 0 || !arguments.binding.empty() || !arguments.pose.empty();
     if (arguments.out.empty() && !other) arguments.out = kDefaultOut;
     return arguments;

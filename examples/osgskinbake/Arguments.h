@@ -19,9 +19,10 @@ struct Arguments {
     std::string character;
     std::string motion; ///< empty: the first one
     std::optional<FrameRange> frames;
-    std::string out;     ///< pattern of the frames' files; empty: no frames wanted
-    std::string rest;    ///< file for the bind pose; empty: not wanted
-    std::string binding; ///< JSON files; empty: not wanted
+    std::optional<double> rate; ///< samples a second of a rigged model's clips
+    std::string out;            ///< pattern of the frames' files; empty: no frames wanted
+    std::string rest;           ///< file for the bind pose; empty: not wanted
+    std::string binding;        ///< JSON files; empty: not wanted
     std::string pose;
     bool quiet = false;
 };

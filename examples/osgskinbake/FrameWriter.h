@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Character.h"
 #include "PosedMesh.h"
-
-#include <osgSkin/SkinMesh>
 
 #include <cstddef>
 #include <memory>
@@ -13,11 +12,11 @@ namespace bake {
 
 /// What the frames have in common.
 struct FrameSeries {
-    const osgSkin::SkinMesh* mesh = nullptr;
+    const osgSkin::Character* character = nullptr;
+    std::string name;      ///< of the motion
     std::size_t first = 0; ///< number of the first frame
     std::size_t count = 0; ///< how many frames are to come
     double seconds = 0.0;  ///< from one of them to the next
-    bool zUp = false;
 };
 
 /// Takes a motion's posed meshes, one after the other, and writes them.
@@ -25,7 +24,8 @@ class FrameWriter {
 public:
     virtual ~FrameWriter() = default;
 
-    /// \throw osgSkin::Error where it cannot be written
+    /// While the character is in the pose of `posed`. \throw osgSkin::Error where it cannot be
+    /// written
     virtual void add(std::size_t frame, const PosedMesh& posed) = 0;
 
     /// After the last frame. \throw osgSkin::Error where it cannot be written

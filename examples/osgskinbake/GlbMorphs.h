@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Bytes.h"
 #include "FrameWriter.h"
+#include "GlbBuffer.h"
+#include "GlbMaterials.h"
+#include "Surface.h"
 
 #include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
 
 namespace bake {
 
 /// A binary glTF file whose mesh is the first frame, with a morph target for each further one, and
 /// an animation that goes from one to the next: between two frames vertices go straight. Anything
-/// that plays glTF plays it, without a skin model and without a skeleton.
+/// that plays glTF plays it, without a skin model and without a skeleton. A primitive for each
+/// material, with its texture.
 class GlbMorphs : public FrameWriter {
 public:
     GlbMorphs(std::string file, const FrameSeries& series);
@@ -18,22 +24,23 @@ public:
     void finish() override;
 
 private:
-    enum class Use { Vertices, Indices, Data };
-    /// Adds what has been put into the buffer since `begin`. Returns the accessor's index.
-    std::size_t accessor(std::size_t begin, std::size_t count, const char* type, int component,
-                         Use use);
-    std::size_t addVectors(const std::vector<glm::dvec3>& vectors, bool withRange);
-    std::size_t addIndices();
+    /// A surface while its frames come in.
+    struct Primitive {
+        Surface surface;
+        SurfaceLook look;
+        std::vector<glm::dvec3> positions, normals; ///< of the first frame
+        nlohmann::json attributes;
+        nlohmann::json targets = nlohmann::json::array();
+    };
+    void addFirst(Primitive& primitive, const PosedMesh& posed);
+    void addTarget(Primitive& primitive, const PosedMesh& posed);
     nlohmann::json animation();
 
     std::string _file;
     FrameSeries _series;
-    PosedMesh _base;
-    Bytes _buffer;
-    nlohmann::json _views = nlohmann::json::array();
-    nlohmann::json _accessors = nlohmann::json::array();
-    nlohmann::json _attributes;
-    nlohmann::json _targets = nlohmann::json::array();
+    GlbBuffer _buffer;
+    GlbMaterials _materials;
+    std::vector<Primitive> _primitives;
     std::size_t _frames = 0;
 };
 

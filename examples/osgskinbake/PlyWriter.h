@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Character.h"
 #include "PosedMesh.h"
 
-#include <osgSkin/SkinMesh>
+#include <osg/Vec4>
 
 #include <string>
+#include <vector>
 
 namespace bake {
 
-/// Writes the posed vertices and normals with the mesh's own faces, as bytes.
-/// \throw osgSkin::Error where it cannot
-void writePly(const std::string& file, const osgSkin::SkinMesh& mesh, const PosedMesh& posed);
+/// Writes PLY files of one body in its poses, as bytes: vertices, normals, colours where the body
+/// has them, and the mesh's own faces.
+class PlyWriter {
+public:
+    explicit PlyWriter(const osgSkin::Character& character);
+
+    /// Writes the posed vertices. \throw osgSkin::Error where it cannot
+    void write(const std::string& file, const PosedMesh& posed) const;
+
+private:
+    const osgSkin::SkinMesh& _mesh;
+    std::vector<osg::Vec4> _colours; ///< one a vertex of the mesh, or none
+};
 
 } // namespace bake

@@ -12,7 +12,7 @@ PointCache::PointCache(const std::string& file, const FrameSeries& series)
     Bytes header;
     header.data = std::string("POINTCACHE2\0", 12);
     header.add(std::int32_t(1)); // version
-    header.add(static_cast<std::int32_t>(series.mesh->positions.size()));
+    header.add(static_cast<std::int32_t>(series.character->body.mesh.positions.size()));
     header.add(static_cast<float>(series.first));
     header.add(1.0f); // frames from one sample to the next
     header.add(static_cast<std::int32_t>(series.count));

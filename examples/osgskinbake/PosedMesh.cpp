@@ -61,6 +61,12 @@ public:
             add(source[i], glm::dvec3(rest[i]), glm::dvec3(0.0, 1.0, 0.0));
     }
 
+    /// Vertices that no face uses, where the bind pose has them.
+    void addUndrawn(const osgSkin::SkinMesh& mesh) {
+        for (std::size_t v = 0; v < _seen.size(); ++v)
+            if (!_seen[v]) add(v, mesh.positions[v], glm::dvec3(0.0, 1.0, 0.0));
+    }
+
     PosedMesh finish() {
         for (glm::dvec3& normal : _mesh.normals) {
             const double length = glm::length(normal);
@@ -92,6 +98,14 @@ PosedMesh PosedMesh::read(const osgSkin::Character& character) {
         collector.add(*rigid.part.geometry, rigid.part.sourceVertex,
                       rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace());
     collector.addUndrawn(character);
+    return collector.finish();
+}
+
+PosedMesh PosedMesh::rest(const osgSkin::Character& character) {
+    Collector collector(character.body.mesh.positions.size());
+    for (const osgSkin::MeshPart& part : character.body.parts)
+        collector.add(*part.geometry, part.sourceVertex, {});
+    collector.addUndrawn(character.body.mesh);
     return collector.finish();
 }
 

@@ -20,6 +20,9 @@ struct PosedMesh {
 
     /// Reads the character's drawables in the pose that their bones are in now.
     static PosedMesh read(const osgSkin::Character& character);
+
+    /// The same in the bind pose, whatever pose the bones are in.
+    static PosedMesh rest(const osgSkin::Character& character);
 };
 
 /// The joints' turns in the pose that the character's bones are in now.

@@ -3,10 +3,7 @@
 
 #include <osgSkin/Error>
 
-#include <cinttypes>
-#include <cstdio>
 #include <fstream>
-#include <memory>
 
 namespace bake {
 namespace {
@@ -20,26 +17,6 @@ nlohmann::json array(const glm::dvec3& v) {
 }
 
 } // namespace
-
-void writeObj(const std::string& file, const osgSkin::SkinMesh& mesh, const PosedMesh& posed) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(file.c_str(), "wb"),
-                                                              std::fclose);
-    if (!out) failToWrite(file);
-    for (const glm::dvec3& p : posed.positions)
-        std::fprintf(out.get(), "v %.9g %.9g %.9g\n", p.x, p.y, p.z);
-    for (const glm::dvec3& n : posed.normals)
-        std::fprintf(out.get(), "vn %.5f %.5f %.5f\n", n.x, n.y, n.z);
-    std::size_t corner = 0;
-    for (const std::uint32_t size : mesh.faceSizes) {
-        std::fputc('f', out.get());
-        for (std::uint32_t k = 0; k < size; ++k, ++corner) {
-            const std::uint32_t v = mesh.faceVertices[corner] + 1;
-            std::fprintf(out.get(), " %" PRIu32 "//%" PRIu32, v, v);
-        }
-        std::fputc('\n', out.get());
-    }
-    if (std::ferror(out.get()) || std::fflush(out.get()) != 0) failToWrite(file);
-}
 
 nlohmann::json bindingJson(const osgSkin::Binding& binding) {
     nlohmann::json joints = nlohmann::json::array();

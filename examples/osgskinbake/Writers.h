@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "PosedMesh.h"
-
 #include <osgSkin/Binding>
 #include <osgSkin/Pose>
-#include <osgSkin/SkinMesh>
 
 #include <nlohmann/json.hpp>
 
 #include <string>
 
 namespace bake {
-
-/// Writes the posed vertices with the mesh's own faces. \throw osgSkin::Error where it cannot
-void writeObj(const std::string& file, const osgSkin::SkinMesh& mesh, const PosedMesh& posed);
 
 /// Joints in the product's order, and each vertex's region and ratios.
 nlohmann::json bindingJson(const osgSkin::Binding& binding);

@@ -2,8 +2,10 @@
 #include "Arguments.h"
 #include "Character.h"
 #include "FrameWriter.h"
+#include "ObjWriter.h"
 #include "PosedMesh.h"
 #include "Progress.h"
+#include "Take.h"
 #include "Writers.h"
 
 #include <osgSkin/Error>
@@ -15,48 +17,52 @@
 namespace {
 
 using bake::Arguments;
+using bake::Take;
 using bake::UsageError;
 using osgSkin::Character;
 
-const Character::Motion& chooseMotion(const Character& character, const Arguments& arguments) {
-    if (character.motions.empty())
+Take chooseTake(Character& character, const Arguments& arguments) {
+    const std::vector<Take> takes = bake::takesOf(character, arguments.rate.value_or(30.0));
+    if (arguments.rate && character.clips.empty())
+        throw UsageError{"--rate: " + arguments.character + " has no clips of its own; a motion " +
+                         "file's own samples are baked"};
+    if (takes.empty())
         throw UsageError{arguments.character + " has no motion, so there are no frames"};
-    if (arguments.motion.empty()) return character.motions.front();
+    if (arguments.motion.empty()) return takes.front();
     std::string known;
-    for (const Character::Motion& motion : character.motions) {
-        if (motion.clip.name == arguments.motion) return motion;
-        known += (known.empty() ? "\"" : ", \"") + motion.clip.name + "\"";
+    for (const Take& take : takes) {
+        if (take.name == arguments.motion) return take;
+        known += (known.empty() ? "\"" : ", \"") + take.name + "\"";
     }
     throw UsageError{"--motion: expected one of " + known + ", found \"" + arguments.motion + "\""};
 }
 
-bake::FrameRange chooseFrames(const Arguments& arguments, const osgSkin::Clip& clip) {
-    if (!arguments.frames) return {0, clip.frames - 1, 1};
-    if (arguments.frames->last >= clip.frames)
-        throw UsageError{"--frames: motion \"" + clip.name + "\" has frames 0 to " +
-                         std::to_string(clip.frames - 1) + ", found " +
+bake::FrameRange chooseFrames(const Arguments& arguments, const Take& take) {
+    if (!arguments.frames) return {0, take.frames - 1, 1};
+    if (arguments.frames->last >= take.frames)
+        throw UsageError{"--frames: motion \"" + take.name + "\" has frames 0 to " +
+                         std::to_string(take.frames - 1) + ", found " +
                          std::to_string(arguments.frames->last)};
     return *arguments.frames;
 }
 
 void bakeFrames(const Arguments& arguments, Character& character) {
-    const Character::Motion& motion = chooseMotion(character, arguments);
-    const osgSkin::Clip& clip = motion.clip;
-    const bake::FrameRange range = chooseFrames(arguments, clip);
+    const Take take = chooseTake(character, arguments);
+    const bake::FrameRange range = chooseFrames(arguments, take);
     const std::size_t total = (range.last - range.first) / range.step + 1;
     if (total > 1 && !arguments.out.empty() && bake::FrameWriter::isSequence(arguments.out) &&
         !bake::hasNumber(arguments.out))
         throw UsageError{"--out: " + std::to_string(total) +
                          " frames need a %d in the name, found \"" + arguments.out + "\""};
-    bake::FrameSeries series{&character.body.mesh, range.first, total,
-                             clip.frameTime * static_cast<double>(range.step), character.file.zUp};
+    const bake::FrameSeries series{&character, take.name, range.first, total,
+                                   take.frameTime * static_cast<double>(range.step)};
     std::unique_ptr<bake::FrameWriter> writer;
     if (!arguments.out.empty()) writer = bake::FrameWriter::make(arguments.out, series);
     bake::Progress progress("frame", total, arguments.quiet);
     nlohmann::json poses = nlohmann::json::array();
     double seamGap = 0.0;
     for (std::size_t frame = range.first; frame <= range.last; frame += range.step) {
-        character.pose(motion, frame);
+        take.pose(frame);
         const bake::PosedMesh posed = bake::PosedMesh::read(character);
         seamGap = std::max(seamGap, posed.seamGap);
         if (writer) writer->add(frame, posed);
@@ -67,17 +73,18 @@ void bakeFrames(const Arguments& arguments, Character& character) {
     if (writer) writer->finish();
     if (!arguments.pose.empty()) bake::writeJson(arguments.pose, poses);
     if (!arguments.quiet)
-        std::cerr << total << " frames of \"" << clip.name << "\", largest seam gap "
+        std::cerr << total << " frames of \"" << take.name << "\", largest seam gap "
                   << seamGap / character.body.mesh.size() << " of the body's size\n"
-                  << motion.report.feetText() << std::flush;
+                  << take.notes << std::flush;
 }
 
 int run(const Arguments& arguments) {
-    Character character = Character::load(arguments.character);
+    Character character = bake::loadCharacter(arguments.character);
     if (!arguments.binding.empty())
         bake::writeJson(arguments.binding, bake::bindingJson(character.binding));
     if (!arguments.rest.empty())
-        bake::writeObj(arguments.rest, character.body.mesh, bake::PosedMesh::read(character));
+        bake::ObjWriter(character, arguments.rest)
+            .write(arguments.rest, bake::PosedMesh::rest(character));
     if (!arguments.out.empty() || !arguments.pose.empty()) bakeFrames(arguments, character);
     return 0;
 }

@@ -12,6 +12,7 @@
 #include <osgSkinImport/Retarget>
 
 #include <osg/Group>
+#include <osgAnimation/Animation>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgDB/Options>
 
@@ -20,7 +21,8 @@
 
 namespace osgSkin {
 
-/// A character read from a `.skin` file: what its files hold and the scene made of them.
+/// A character read from a `.skin` file or a rigged model: what its files hold and the scene made
+/// of them.
 struct Character {
     /// A motion carried over to the rig.
     struct Motion {
@@ -31,7 +33,8 @@ struct Character {
     SkinFile file;
     ImportedMesh body;
     RestSkeleton rig;
-    std::vector<Motion> motions;
+    std::vector<Motion> motions;       ///< of a `.skin` file
+    osgAnimation::AnimationList clips; ///< of a rigged model, for its `skeleton`
     Binding binding;
     BindReport report;
     FitReport fitReport; ///< of a skeleton that was fitted

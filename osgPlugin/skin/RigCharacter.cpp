@@ -29,7 +29,8 @@ namespace {
 
 using Bind = SkinOptions::Bind;
 
-Binding bindRig(const std::string& file, const ImportedRig& rig, const SkinOptions& wanted) {
+Binding bindRig(const std::string& file, const ImportedRig& rig, const SkinOptions& wanted,
+                BindReport& report) {
     BindOptions options;
     options.rigid = wanted.rigid;
     if (wanted.bind == Bind::Paper) options.method = BindOptions::Method::Paper;
@@ -37,7 +38,6 @@ Binding bindRig(const std::string& file, const ImportedRig& rig, const SkinOptio
     bool painted = wanted.bind == Bind::Weights;
     if (painted || wanted.bind == Bind::Default) weights = meshWeights(file, rig.body, rig.rest);
     if (wanted.bind == Bind::Default) painted = isWellPainted(weights);
-    BindReport report;
     Binding binding = painted ? bindWeights(rig.body.mesh, rig.rest, weights, options, &report)
                               : bind(rig.body.mesh, rig.rest, options, &report);
     OSG_INFO << file << ": bound by " << (painted ? "its own weights" : "regions") << "\n"
@@ -85,38 +85,6 @@ osgAnimation::AnimationList chooseMotion(const std::string& file, ImportedRig& r
     return {carriedOver(found, rig)};
 }
 
-osg::ref_ptr<osg::Group> loadByAssimp(const std::string& file, const osgDB::Options* options,
-                                      const SkinOptions& wanted) {
-    LoadSteps steps(file, 3, options);
-    steps.begin("model");
-    ImportedRig rig = importRig(file, options);
-    steps.begin("binding");
-    const Binding binding = bindRig(file, rig, wanted);
-    steps.begin("scene");
-    const osgAnimation::AnimationList clips = chooseMotion(file, rig, wanted, options);
-    if (wanted.showRegions) showRegions(rig.body.parts, binding);
-    const std::vector<std::string> rigid =
-        wanted.rigid ? *wanted.rigid : automaticRigidJoints(rig.rest);
-    attachSkin(*rig.skeleton, rig.body.mesh, rig.body.parts, binding,
-               splitRigid(rig.body.mesh, binding, rigid));
-
-    const osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(rig.toWorld);
-    upright->setName("upright");
-    upright->setDataVariance(osg::Object::DYNAMIC); // the bones below are rewritten every frame
-    upright->addChild(rig.skeleton);
-    osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->setName(osgDB::getStrippedName(file));
-    root->addChild(upright);
-    root->setInitialBound(playedBounds(*root, clips));
-    steps.finish();
-    if (clips.empty()) return root;
-    const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
-    for (const auto& clip : clips) manager->registerAnimation(clip);
-    root->setUpdateCallback(manager);
-    manager->playAnimation(clips.front());
-    return root;
-}
-
 osg::ref_ptr<osg::Group> loadByOsg(const std::string& file, const osgDB::Options* options,
                                    const SkinOptions& wanted) {
     osgDB::ReaderWriter::ReadResult read = osgDB::Registry::instance()->readNode(file, options);
@@ -146,10 +114,48 @@ osg::ref_ptr<osg::Group> loadByOsg(const std::string& file, const osgDB::Options
 
 } // namespace
 
+Character loadRig(const std::string& file, const osgDB::Options* options,
+                  const SkinOptions& wanted) {
+    LoadSteps steps(file, 3, options);
+    steps.begin("model");
+    ImportedRig rig = importRig(file, options);
+    steps.begin("binding");
+    Character result;
+    result.binding = bindRig(file, rig, wanted, result.report);
+    steps.begin("scene");
+    result.clips = chooseMotion(file, rig, wanted, options);
+    if (wanted.showRegions) showRegions(rig.body.parts, result.binding);
+    const std::vector<std::string> rigid =
+        wanted.rigid ? *wanted.rigid : automaticRigidJoints(rig.rest);
+    result.skin = attachSkin(*rig.skeleton, rig.body.mesh, rig.body.parts, result.binding,
+                             splitRigid(rig.body.mesh, result.binding, rigid));
+    result.file.file = result.file.mesh = result.file.skeleton = file;
+    result.file.zUp = rig.toWorld.isIdentity();
+    result.body = std::move(rig.body);
+    result.rig = std::move(rig.rest);
+    result.skeleton = rig.skeleton;
+
+    const osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(rig.toWorld);
+    upright->setName("upright");
+    upright->setDataVariance(osg::Object::DYNAMIC); // the bones below are rewritten every frame
+    upright->addChild(result.skeleton);
+    result.root = new osg::Group;
+    result.root->setName(osgDB::getStrippedName(file));
+    result.root->addChild(upright);
+    result.root->setInitialBound(playedBounds(*result.root, result.clips));
+    steps.finish();
+    if (result.clips.empty()) return result;
+    result.manager = new AutoPlayManager;
+    for (const auto& clip : result.clips) result.manager->registerAnimation(clip);
+    result.root->setUpdateCallback(result.manager);
+    result.manager->playAnimation(result.clips.front());
+    return result;
+}
+
 osg::ref_ptr<osg::Group> loadRigCharacter(const std::string& file, const osgDB::Options* options,
                                           const SkinOptions& wanted) {
     const std::string found = osgDB::findDataFile(file, options);
-    if (!found.empty() && isReadByAssimp(found)) return loadByAssimp(found, options, wanted);
+    if (!found.empty() && isReadByAssimp(found)) return loadRig(found, options, wanted).root;
     return loadByOsg(file, options, wanted); // which may be a pseudo-loader's name and no file
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `model.glb.skin`: any rigged model, re-skinned, as a viewer reads it.
+#include "RiggedModels.h"
+
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/RigidPart>
 
@@ -17,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 namespace {
@@ -196,6 +199,21 @@ TEST(PseudoLoader, ConvertsRigsThatOsgReads) {
     ASSERT_NE(scene, nullptr);
     EXPECT_EQ(Parts(*scene).skins.size(), 1u);
     EXPECT_EQ(Parts(*scene).rigs, 0u);
+}
+
+TEST(PseudoLoader, LoadsEveryRiggedTestModel) {
+    if (!std::filesystem::exists(test::kModels)) GTEST_SKIP() << test::kModels << " is missing";
+    for (const test::Rigged& rigged : test::kRigged) {
+        SCOPED_TRACE(rigged.file);
+        const osg::ref_ptr<osg::Node> scene =
+            read(std::string(test::kModels) + rigged.file + ".skin");
+        ASSERT_NE(scene, nullptr);
+        Parts parts(*scene);
+        EXPECT_GT(parts.skins.size() + parts.rigid, 0u);
+        EXPECT_EQ(parts.manager != nullptr, rigged.clips > 0);
+        update(*scene, 0.25);
+        EXPECT_EQ(posedBox(*scene).valid(), !parts.skins.empty());
+    }
 }
 
 TEST(PseudoLoader, RefusesWithAReason) {

@@ -2,6 +2,7 @@
 #include "AssimpScene.h"
 
 #include "FileText.h"
+#include "MissingBones.h"
 #include "OffCheck.h"
 #include "PlyCheck.h"
 
@@ -29,7 +30,7 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     checkBefore(path);
-    const aiScene* scene = nullptr;
+    const aiScene* scene = nullptr; // the importer owns it
     std::string reason;
     try {
         scene = importer.ReadFile(path, 0);
@@ -39,6 +40,8 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
     }
     if (scene == nullptr || scene->mRootNode == nullptr)
         failFile(path, reason.empty() ? "cannot be read" : reason);
+    addMissingBones(const_cast<aiScene&>(*scene),
+                    path); // NOLINT(cppcoreguidelines-pro-type-const-cast)
     return *scene;
 }
 

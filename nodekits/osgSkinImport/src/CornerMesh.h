@@ -9,6 +9,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -21,6 +22,7 @@ struct CornerMesh {
     SkinMesh mesh;
     std::vector<glm::vec3> normals;       ///< one a corner
     std::vector<glm::vec2> texCoords;     ///< one a corner
+    std::vector<glm::vec4> colours;       ///< one a corner, or none: what a display takes
     std::vector<std::uint32_t> materials; ///< one a face: index in stateSets
     std::vector<osg::ref_ptr<osg::StateSet>> stateSets;
     std::vector<BoneWeights> weights; ///< one a bone

@@ -47,6 +47,9 @@ ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
     if (!normalise(read.normals)) read.normals = smoothNormals(read.mesh);
     for (glm::vec2& t : read.texCoords)
         if (!std::isfinite(t.x) || !std::isfinite(t.y)) t = glm::vec2(0.0f);
+    for (glm::vec4& c : read.colours)
+        for (int k = 0; k < 4; ++k)
+            c[k] = std::isfinite(c[k]) ? std::clamp(c[k], 0.0f, 1.0f) : 1.0f;
 
     ImportedMesh result;
     result.parts = makeMeshParts(read);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "Materials.h"
 
+#include <osg/AlphaFunc>
+#include <osg/CullFace>
+#include <osg/LightModel>
 #include <osg/Material>
 #include <osg/Notify>
 #include <osg/Texture2D>
@@ -12,6 +15,29 @@
 
 namespace osgSkin {
 
+namespace {
+
+void setSides(osg::StateSet& state, bool two) {
+    if (two) {
+        const osg::ref_ptr<osg::LightModel> light = new osg::LightModel;
+        light->setTwoSided(true);
+        state.setAttributeAndModes(light);
+    } else {
+        state.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+    }
+}
+
+void setAlpha(osg::StateSet& state, const Look& look) {
+    if (look.alpha == Look::Alpha::Mask)
+        state.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, look.alphaCutOff));
+    const bool transparent = look.alpha == Look::Alpha::ByOpacity && look.diffuse.a() < 1.0f;
+    if (!transparent && look.alpha != Look::Alpha::Blend) return;
+    state.setMode(GL_BLEND, osg::StateAttribute::ON);
+    state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+}
+
+} // namespace
+
 osg::ref_ptr<osg::StateSet> makeStateSet(const Look& look) {
     osg::ref_ptr<osg::StateSet> result = new osg::StateSet;
     osg::ref_ptr<osg::Material> material = new osg::Material;
@@ -20,17 +46,16 @@ osg::ref_ptr<osg::StateSet> makeStateSet(const Look& look) {
     material->setSpecular(osg::Material::FRONT_AND_BACK, look.specular);
     material->setEmission(osg::Material::FRONT_AND_BACK, look.emission);
     material->setShininess(osg::Material::FRONT_AND_BACK, std::clamp(look.shininess, 0.0f, 128.0f));
+    if (look.vertexColours) material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
     result->setAttributeAndModes(material);
     if (look.image.valid()) {
         osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(look.image);
-        texture->setWrap(osg::Texture::WRAP_S, osg::Texture::REPEAT);
-        texture->setWrap(osg::Texture::WRAP_T, osg::Texture::REPEAT);
+        texture->setWrap(osg::Texture::WRAP_S, look.wrapS);
+        texture->setWrap(osg::Texture::WRAP_T, look.wrapT);
         result->setTextureAttributeAndModes(0, texture);
     }
-    if (look.diffuse.a() < 1.0f) {
-        result->setMode(GL_BLEND, osg::StateAttribute::ON);
-        result->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-    }
+    setSides(*result, look.twoSided.value_or(true));
+    setAlpha(*result, look);
     return result;
 }
 

@@ -32,6 +32,7 @@ public:
         geometry.setNormalArray(_normals, osg::Array::BIND_PER_VERTEX);
         if (_source.hasTexCoords)
             geometry.setTexCoordArray(0, _texCoords, osg::Array::BIND_PER_VERTEX);
+        if (!_colours->empty()) geometry.setColorArray(_colours, osg::Array::BIND_PER_VERTEX);
         geometry.addPrimitiveSet(_triangles);
         geometry.setUseDisplayList(false);
         geometry.setUseVertexBufferObjects(true);
@@ -46,18 +47,21 @@ private:
         const std::uint32_t source = _source.mesh.faceVertices[corner];
         const glm::vec3& n = _source.normals[corner];
         const glm::vec2& t = _source.texCoords[corner];
-        const Key key{source, {n.x, n.y, n.z, t.x, t.y}};
+        const bool coloured = !_source.colours.empty();
+        const glm::vec4 c = coloured ? _source.colours[corner] : glm::vec4(1.0f);
+        const Key key{source, {n.x, n.y, n.z, t.x, t.y, c.r, c.g, c.b, c.a}};
         const auto [entry, isNew] = _copies.emplace(key, static_cast<unsigned>(_positions->size()));
         if (isNew) {
             _positions->push_back(osg::Vec3(toOsg(_source.mesh.positions[source])));
             _normals->push_back(osg::Vec3(toOsg(glm::dvec3(n))));
             _texCoords->push_back({t.x, t.y});
+            if (coloured) _colours->push_back({c.r, c.g, c.b, c.a});
             _part.sourceVertex.push_back(source);
         }
         return entry->second;
     }
 
-    using Key = std::pair<std::uint32_t, std::array<float, 5>>;
+    using Key = std::pair<std::uint32_t, std::array<float, 9>>;
 
     const CornerMesh& _source;
     MeshPart _part;
@@ -65,6 +69,7 @@ private:
     osg::ref_ptr<osg::Vec3Array> _positions = new osg::Vec3Array;
     osg::ref_ptr<osg::Vec3Array> _normals = new osg::Vec3Array;
     osg::ref_ptr<osg::Vec2Array> _texCoords = new osg::Vec2Array;
+    osg::ref_ptr<osg::Vec4Array> _colours = new osg::Vec4Array;
     osg::ref_ptr<osg::DrawElementsUInt> _triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
 };
 

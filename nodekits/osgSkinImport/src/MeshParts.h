@@ -14,7 +14,7 @@ namespace osgSkin {
 std::vector<glm::vec3> smoothNormals(const SkinMesh& mesh);
 
 /// Builds a drawable part for each material in use. A vertex is copied where its corners differ in
-/// normal or texture coordinates.
+/// normal, texture coordinates or colour.
 std::vector<MeshPart> makeMeshParts(const CornerMesh& source);
 
 } // namespace osgSkin

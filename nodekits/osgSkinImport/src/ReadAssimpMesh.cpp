@@ -1,62 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "AssimpScene.h"
 #include "FileText.h"
-#include "Materials.h"
 #include "MeshReaders.h"
 #include "SceneBind.h"
+#include "SceneLooks.h"
 
 #include <osgDB/FileNameUtils>
-#include <osgDB/Registry>
 
-#include <assimp/material.h>
+#include <assimp/scene.h>
 
 #include <glm/matrix.hpp>
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace osgSkin {
 namespace {
 
-osg::Vec4 colour(const aiMaterial& material, const char* key, unsigned type, unsigned index,
-                 const osg::Vec4& otherwise) {
-    aiColor4D value;
-    if (material.Get(key, type, index, value) != AI_SUCCESS) return otherwise;
-    return {value.r, value.g, value.b, otherwise.a()};
-}
-
-/// A texture that is packed into the scene's own file, as in .glb; null where it cannot be decoded.
-osg::ref_ptr<osg::Image> embeddedImage(const aiTexture& texture) {
-    if (texture.mHeight != 0) return nullptr; // raw texels: no format in use stores them
-    osgDB::ReaderWriter* reader =
-        osgDB::Registry::instance()->getReaderWriterForExtension(texture.achFormatHint);
-    if (reader == nullptr) return nullptr;
-    std::istringstream stream(
-        std::string(reinterpret_cast<const char*>(texture.pcData), texture.mWidth));
-    return reader->readImage(stream).getImage();
-}
-
-Look lookOf(const aiScene& scene, const aiMaterial& material, const std::string& path,
-            const osgDB::Options* options) {
-    Look look;
-    look.diffuse = colour(material, AI_MATKEY_COLOR_DIFFUSE, look.diffuse);
-    look.specular = colour(material, AI_MATKEY_COLOR_SPECULAR, look.specular);
-    look.emission = colour(material, AI_MATKEY_COLOR_EMISSIVE, look.emission);
-    float opacity = 1.0f;
-    if (material.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) look.diffuse.a() = opacity;
-    material.Get(AI_MATKEY_SHININESS, look.shininess);
-    aiString name;
-    if (material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS) return look;
-    const aiTexture* embedded = scene.GetEmbeddedTexture(name.C_Str());
-    look.image =
-        embedded != nullptr ? embeddedImage(*embedded) : readTexture(name.C_Str(), path, options);
-    return look;
-}
-
 /// Adds one mesh of the scene, moved to its place.
-void addMesh(const aiMesh& source, const glm::dmat4& place, const std::string& where,
-             CornerMesh& result) {
+void addMesh(const aiMesh& source, const glm::dmat4& place, const SceneLooks& looks,
+             const std::string& where, CornerMesh& result) {
     const std::size_t first = result.mesh.positions.size();
     if (first + source.mNumVertices > std::numeric_limits<std::uint32_t>::max())
         failFile(where, "more vertices than 32-bit indices reach");
@@ -70,7 +33,7 @@ void addMesh(const aiMesh& source, const glm::dmat4& place, const std::string& w
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
         const aiFace& face = source.mFaces[f];
         if (face.mNumIndices < 3) continue; // points and lines
-        result.addFace(source.mMaterialIndex);
+        result.addFace(looks.indexOf(source));
         for (unsigned k = 0; k < face.mNumIndices; ++k) {
             // A mirrored face keeps its outside when its corners run the other way round.
             const unsigned v = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
@@ -83,6 +46,7 @@ void addMesh(const aiMesh& source, const glm::dmat4& place, const std::string& w
             if (hasTexCoords)
                 texCoord = {source.mTextureCoords[0][v].x, source.mTextureCoords[0][v].y};
             result.addCorner(static_cast<std::uint32_t>(first) + v, glm::vec3(normal), texCoord);
+            if (looks.hasColours()) result.colours.push_back(looks.colour(source, v));
         }
         result.hasTexCoords = result.hasTexCoords || hasTexCoords;
     }
@@ -129,19 +93,16 @@ CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options
 
 CornerMesh meshOf(const aiScene& scene, const std::string& path, const osgDB::Options* options) {
     CornerMesh result;
-    for (unsigned m = 0; m < scene.mNumMaterials; ++m)
-        result.stateSets.push_back(
-            makeStateSet(lookOf(scene, *scene.mMaterials[m], path, options)));
+    const SceneLooks looks(scene, path, options);
+    result.stateSets = looks.stateSets();
 
     const SceneBind bind(scene);
     for (const aiNode* node : bind.nodes())
         for (unsigned m = 0; m < node->mNumMeshes; ++m) {
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
-            if (mesh.mMaterialIndex >= result.stateSets.size())
-                result.stateSets.resize(mesh.mMaterialIndex + 1, makeStateSet(Look()));
             const std::string where = path + ": mesh \"" + mesh.mName.C_Str() + "\"";
             const std::size_t first = result.mesh.positions.size();
-            addMesh(mesh, bind.mesh(*node, node->mMeshes[m]), where, result);
+            addMesh(mesh, bind.mesh(*node, node->mMeshes[m]), looks, where, result);
             addWeights(mesh, *node, bind, first, where, result);
         }
     return result;

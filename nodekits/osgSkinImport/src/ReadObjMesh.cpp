@@ -36,17 +36,20 @@ Look lookOf(const tinyobj::material_t& material, const std::string& path,
 class MaterialTable {
 public:
     MaterialTable(const std::vector<tinyobj::material_t>& materials, const std::string& path,
-                  const osgDB::Options* options, CornerMesh& mesh)
-        : _materials(materials), _path(path), _options(options), _mesh(mesh) {}
+                  const osgDB::Options* options, bool vertexColours, CornerMesh& mesh)
+        : _materials(materials), _path(path), _options(options), _vertexColours(vertexColours),
+          _mesh(mesh) {}
 
     std::uint32_t index(int material) {
         const auto [entry, isNew] =
             _indices.emplace(material, static_cast<std::uint32_t>(_mesh.stateSets.size()));
         if (isNew) {
             const bool known = material >= 0 && material < static_cast<int>(_materials.size());
-            _mesh.stateSets.push_back(makeStateSet(
-                known ? lookOf(_materials[static_cast<std::size_t>(material)], _path, _options)
-                      : Look()));
+            Look look;
+            if (known)
+                look = lookOf(_materials[static_cast<std::size_t>(material)], _path, _options);
+            look.vertexColours = _vertexColours;
+            _mesh.stateSets.push_back(makeStateSet(look));
         }
         return entry->second;
     }
@@ -55,6 +58,7 @@ private:
     const std::vector<tinyobj::material_t>& _materials;
     const std::string& _path;
     const osgDB::Options* _options;
+    bool _vertexColours;
     CornerMesh& _mesh;
     std::map<int, std::uint32_t> _indices;
 };
@@ -82,6 +86,10 @@ void addShape(const tinyobj::mesh_t& shape, const tinyobj::attrib_t& attributes,
             result.addCorner(static_cast<std::uint32_t>(index.vertex_index),
                              normalAt(attributes, index.normal_index),
                              texCoordAt(attributes, index.texcoord_index));
+            if (attributes.colors.size() != attributes.vertices.size()) continue;
+            const tinyobj::real_t* c =
+                &attributes.colors[3 * static_cast<std::size_t>(index.vertex_index)];
+            result.colours.emplace_back(c[0], c[1], c[2], 1.0f);
         }
     }
 }
@@ -102,7 +110,7 @@ CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
     tinyobj::MaterialFileReader materialReader(folder);
     std::istringstream stream(text);
     const bool read = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
-                                       &materialReader, false);
+                                       &materialReader, false, false);
     if (!read) failFile(path, error.empty() ? "cannot be parsed" : error);
     // A missing .mtl file is no failure: the body is drawn in the default colour.
     while (!warning.empty() && warning.back() == '\n') warning.pop_back();
@@ -112,7 +120,9 @@ CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
     for (std::size_t k = 0; k + 2 < attributes.vertices.size(); k += 3)
         result.mesh.positions.emplace_back(attributes.vertices[k], attributes.vertices[k + 1],
                                            attributes.vertices[k + 2]);
-    MaterialTable table(materials, path, options, result);
+    // Not in the standard, and written by many: three more numbers after a vertex's place.
+    const bool coloured = attributes.colors.size() == attributes.vertices.size();
+    MaterialTable table(materials, path, options, coloured, result);
     for (const tinyobj::shape_t& shape : shapes) addShape(shape.mesh, attributes, table, result);
     return result;
 }

@@ -46,6 +46,17 @@ const Array* perVertex(const osg::Array* array, std::size_t vertices) {
     return fits ? typed : nullptr;
 }
 
+/// The colours of a geometry's vertices; none where it has not one a vertex.
+std::vector<glm::vec4> coloursOf(const osg::Geometry& geometry, std::size_t vertices) {
+    std::vector<glm::vec4> result;
+    if (const auto* floats = perVertex<osg::Vec4Array>(geometry.getColorArray(), vertices))
+        for (const osg::Vec4& c : *floats) result.emplace_back(c.r(), c.g(), c.b(), c.a());
+    else if (const auto* bytes = perVertex<osg::Vec4ubArray>(geometry.getColorArray(), vertices))
+        for (const osg::Vec4ub& c : *bytes)
+            result.push_back(glm::vec4(c.r(), c.g(), c.b(), c.a()) / 255.0f);
+    return result;
+}
+
 /// Collects the triangles of all geometries, moved to their place.
 class GeometryCollector : public osg::NodeVisitor {
 public:
@@ -95,9 +106,10 @@ private:
         const auto* normals = perVertex<osg::Vec3Array>(geometry.getNormalArray(), vertices);
         const auto* texCoords = perVertex<osg::Vec2Array>(geometry.getTexCoordArray(0), vertices);
         _result.hasTexCoords = _result.hasTexCoords || texCoords != nullptr;
+        const std::vector<glm::vec4> colours = coloursOf(geometry, vertices);
         const glm::dmat3 normalTurn = glm::transpose(glm::inverse(glm::dmat3(place)));
         const bool mirrored = glm::determinant(glm::dmat3(place)) < 0.0;
-        const std::uint32_t material = materialHere();
+        const std::uint32_t material = materialHere(!colours.empty());
         for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
             _result.addFace(material);
             for (std::size_t k = 0; k < 3; ++k) {
@@ -112,19 +124,26 @@ private:
                 glm::vec2 texCoord(0.0f);
                 if (texCoords != nullptr) texCoord = {(*texCoords)[v].x(), (*texCoords)[v].y()};
                 _result.addCorner(first + v, glm::vec3(normal), texCoord);
+                if (!colours.empty())
+                    _result.colours.resize(_result.normals.size() - 1, glm::vec4(1.0f));
+                if (!colours.empty()) _result.colours.push_back(colours[v]);
             }
         }
+        if (!_result.colours.empty())
+            _result.colours.resize(_result.normals.size(), glm::vec4(1.0f));
     }
 
     /// The state that all nodes down to this one set together.
-    std::uint32_t materialHere() {
+    std::uint32_t materialHere(bool coloured) {
         osg::ref_ptr<osg::StateSet> merged;
         for (const osg::Node* node : getNodePath()) {
             if (node->getStateSet() == nullptr) continue;
             if (!merged) merged = new osg::StateSet;
             merged->merge(*node->getStateSet());
         }
-        _result.stateSets.push_back(merged.valid() ? merged : makeStateSet(Look()));
+        Look look;
+        look.vertexColours = coloured;
+        _result.stateSets.push_back(merged.valid() ? merged : makeStateSet(look));
         return static_cast<std::uint32_t>(_result.stateSets.size() - 1);
     }
 

@@ -73,6 +73,21 @@ TEST(ImportObj, MakesOnePartForEachMaterial) {
     EXPECT_EQ(red->getDiffuse(osg::Material::FRONT), osg::Vec4(0.75f, 0.25f, 0.125f, 1.0f));
 }
 
+TEST(ImportObj, ReadsVertexColours) {
+    const osgSkin::ImportedMesh imported = osgSkin::importMesh(testData("mesh/coloured.obj"));
+    ASSERT_EQ(imported.parts.size(), 1u);
+    const auto& colours =
+        dynamic_cast<const osg::Vec4Array&>(*imported.parts[0].geometry->getColorArray());
+    ASSERT_EQ(colours.size(), 3u);
+    EXPECT_EQ(colours[1], osg::Vec4(0.0f, 0.5f, 0.25f, 1.0f));
+    const auto* material = dynamic_cast<const osg::Material*>(
+        imported.parts[0].geometry->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
+    ASSERT_NE(material, nullptr);
+    EXPECT_EQ(material->getColorMode(), osg::Material::AMBIENT_AND_DIFFUSE);
+    EXPECT_EQ(osgSkin::importMesh(testData("mesh/quads.obj")).parts[0].geometry->getColorArray(),
+              nullptr);
+}
+
 TEST(ImportObj, CopiesAVertexOnlyWhereItsAttributesDiffer) {
     const osgSkin::ImportedMesh imported = osgSkin::importMesh(testData("mesh/quads.obj"));
     // Corner 2/2 of the first face and 2/5 of the second lie in different parts; within the first

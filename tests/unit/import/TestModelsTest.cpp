@@ -2,53 +2,22 @@
 // What becomes of the test models of Assimp's makers (Debian: assimp-testmodels), the broken ones
 // among them: read, or refused with a reason, and never a crash.
 #include "Paths.h"
+#include "RiggedModels.h"
 
 #include <osgSkin/Error>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportRig>
+
+#include <osg/Texture2D>
 
 #include <algorithm>
 #include <map>
 
 namespace {
 
-const char* const kModels = "/usr/share/assimp/models/";
-
-/// A rigged model and what is read from it.
-struct Rigged {
-    const char* file;
-    std::size_t joints, vertices, clips;
-};
-
-const Rigged kRigged[] = {
-    {"Collada/box_nested_animation.dae", 1, 36, 1},
-    {"FBX/animation_with_skeleton.fbx", 15, 4224, 1},
-    {"FBX/huesitos.fbx", 10, 256, 1},
-    {"MD5/SimpleCube.md5mesh", 2, 36, 0},
-    {"MDL/MDL (HL1)/alpha_test.mdl", 1, 24, 1},
-    {"MDL/MDL (HL1)/blend_additive.mdl", 1, 6, 1},
-    {"MDL/MDL (HL1)/chrome_sphere.mdl", 1, 242, 1},
-    {"MDL/MDL (HL1)/duplicate_bodyparts.mdl", 1, 27, 1},
-    {"MDL/MDL (HL1)/duplicate_sequence_groups/duplicate_sequence_groups.mdl", 1, 3, 9},
-    {"MDL/MDL (HL1)/duplicate_sequences.mdl", 1, 3, 9},
-    {"MDL/MDL (HL1)/duplicate_submodels.mdl", 1, 18, 1},
-    {"MDL/MDL (HL1)/man.mdl", 7, 239, 6},
-    {"MDL/MDL (HL1)/sequence_transitions.mdl", 1, 3, 7},
-    {"MDL/MDL (HL1)/unnamed_bodyparts.mdl", 1, 27, 1},
-    {"MDL/MDL (HL1)/unnamed_bones.mdl", 9, 192, 1},
-    {"MDL/MDL (HL1)/unnamed_sequence_groups/unnamed_sequence_groups.mdl", 1, 3, 9},
-    {"MDL/MDL (HL1)/unnamed_sequences.mdl", 1, 3, 9},
-    {"SMD/WusonSMD.smd", 1, 11196, 1},
-    {"SMD/holy_grailref.smd", 1, 2688, 1},
-    {"SMD/triangle.smd", 1, 3, 1},
-    {"X/BCN_Epileptic.X", 54, 15378, 1},
-    {"X/Testwuson.X", 38, 11196, 3},
-    {"X/anim_test.x", 2, 2520, 1},
-    {"X/test_cube_binary.x", 1, 36, 0},
-    {"X/test_cube_compressed.x", 1, 36, 0},
-    {"X/test_cube_text.x", 1, 36, 0},
-    {"glTF2/simple_skin/simple_skin.gltf", 2, 10, 1},
-};
+using test::kModels;
+using test::kRigged;
+using test::Rigged;
 
 /// Files of other makers that Assimp 5.2.5 takes seconds to read; they are not rigged.
 bool isSlow(const std::filesystem::path& file) {
@@ -80,6 +49,43 @@ TEST(TestModels, RiggedOnesAreReadWhole) {
             ADD_FAILURE() << error.what();
         }
     }
+}
+
+/// The file has weights for joint3 and joint4, and no frames for them.
+TEST(TestModels, BonesWithoutANodeFollowTheirNeighbours) {
+    OSGSKIN_NEEDS(kModels);
+    const osgSkin::ImportedRig rig = osgSkin::importRig(std::string(kModels) + "X/anim_test.x");
+    const std::vector<osgSkin::RestJoint>& joints = rig.rest.joints;
+    ASSERT_EQ(joints.size(), 4u);
+    double height = -4.8; // of a cylinder from -5 to 5: joint1's
+    for (int j = 0; j < 4; ++j) {
+        const osgSkin::RestJoint& joint = joints[std::size_t(j)];
+        EXPECT_EQ(joint.name, "joint" + std::to_string(j + 1));
+        EXPECT_EQ(joint.parent, j - 1);
+        EXPECT_NEAR(joint.centre.x, 0.0, 1e-3);
+        EXPECT_GT(joint.centre.y, height + (j > 0 ? 1.0 : -0.1));
+        height = joint.centre.y;
+    }
+    EXPECT_LT(height, 5.0);
+    // Whole weights: what the file paints, it paints in full.
+    std::vector<double> sums(rig.body.mesh.positions.size(), 0.0);
+    for (const osgSkin::BoneWeights& weights : rig.body.weights)
+        for (const auto& entry : weights.entries) sums[entry.vertex] += entry.weight;
+    for (const double sum : sums) EXPECT_NEAR(sum, 1.0, 1e-3);
+}
+
+TEST(TestModels, TexturesInsideTheFileAreRead) {
+    OSGSKIN_NEEDS(kModels);
+    const osgSkin::ImportedRig rig =
+        osgSkin::importRig(std::string(kModels) + "MDL/MDL (HL1)/alpha_test.mdl");
+    ASSERT_EQ(rig.body.parts.size(), 1u);
+    const auto* texture = dynamic_cast<const osg::Texture2D*>(
+        rig.body.parts[0].geometry->getStateSet()->getTextureAttribute(
+            0, osg::StateAttribute::TEXTURE));
+    ASSERT_NE(texture, nullptr);
+    ASSERT_EQ(texture->getImage()->s(), 512);
+    EXPECT_EQ(texture->getImage()->getColor(0, 0), osg::Vec4(0.0f, 0.0f, 1.0f, 1.0f));
+    EXPECT_GT(texture->getImage()->getColor(256, 256).r(), 0.7f);
 }
 
 TEST(TestModels, AllOthersAreRefusedWithAReason) {

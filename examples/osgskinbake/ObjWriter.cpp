@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ObjWriter.h"
+
+#include "MaterialLibrary.h"
+
+#include <osgDB/FileNameUtils>
+#include <osgSkin/Error>
+
+#include <cinttypes>
+#include <cstdio>
+#include <memory>
+
+namespace bake {
+
+ObjWriter::ObjWriter(const osgSkin::Character& character, const std::string& name)
+    : _character(character), _mesh(character.body.mesh), _library(libraryName(name)),
+      _surfaces(surfacesOf(character)), _materials(_mesh.faceSizes.size(), 0),
+      _texCoordOf(_mesh.faceVertices.size(), kNone), _colours(vertexColoursOf(_surfaces, _mesh)) {
+    std::size_t corner = 0;
+    for (const std::uint32_t size : _mesh.faceSizes) {
+        _firstCorner.push_back(corner);
+        corner += size;
+    }
+    for (std::uint32_t k = 0; k < _surfaces.size(); ++k) addSurface(_surfaces[k], k);
+}
+
+void ObjWriter::addSurface(const Surface& surface, std::uint32_t material) {
+    const std::size_t first = _texCoords.size();
+    _texCoords.insert(_texCoords.end(), surface.texCoords.begin(), surface.texCoords.end());
+    for (std::size_t t = 0; t < surface.sourceFace.size(); ++t) {
+        const std::uint32_t face = surface.sourceFace[t];
+        _materials[face] = material;
+        if (surface.texCoords.empty()) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = surface.triangles[3 * t + k];
+            for (std::size_t c = 0; c < _mesh.faceSizes[face]; ++c)
+                if (_mesh.faceVertices[_firstCorner[face] + c] == surface.sourceVertex[v])
+                    _texCoordOf[_firstCorner[face] + c] = static_cast<std::uint32_t>(first + v);
+        }
+    }
+}
+
+void ObjWriter::write(const std::string& file, const PosedMesh& posed) {
+    const auto fail = [&file] {
+        throw osgSkin::Error(file + ": cannot be written, expected a writable file");
+    };
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(file.c_str(), "wb"),
+                                                              std::fclose);
+    if (!out) fail();
+    std::fprintf(out.get(), "mtllib %s\n", osgDB::getSimpleFileName(_library).c_str());
+    for (std::size_t v = 0; v < posed.positions.size(); ++v) {
+        const glm::dvec3& p = posed.positions[v];
+        std::fprintf(out.get(), "v %.9g %.9g %.9g", p.x, p.y, p.z);
+        if (!_colours.empty())
+            std::fprintf(out.get(), " %.4f %.4f %.4f", double(_colours[v].r()),
+                         double(_colours[v].g()), double(_colours[v].b()));
+        std::fputc('\n', out.get());
+    }
+    for (const osg::Vec2& t : _texCoords)
+        std::fprintf(out.get(), "vt %.9g %.9g\n", double(t.x()), double(t.y()));
+    for (const glm::dvec3& n : posed.normals)
+        std::fprintf(out.get(), "vn %.5f %.5f %.5f\n", n.x, n.y, n.z);
+    writeFaces(out.get());
+    if (std::ferror(out.get()) || std::fflush(out.get()) != 0) fail();
+    if (!_hasLibrary) writeLibrary(_library, _surfaces, osgDB::getFilePath(_character.file.mesh));
+    _hasLibrary = true;
+}
+
+void ObjWriter::writeFaces(std::FILE* out) const {
+    for (std::size_t f = 0; f < _mesh.faceSizes.size(); ++f) {
+        if (f == 0 || _materials[f] != _materials[f - 1])
+            std::fprintf(out, "usemtl %s\n", materialName(_materials[f]).c_str());
+        std::fputc('f', out);
+        for (std::uint32_t k = 0; k < _mesh.faceSizes[f]; ++k) {
+            const std::size_t corner = _firstCorner[f] + k;
+            const std::uint32_t v = _mesh.faceVertices[corner] + 1;
+            if (_texCoordOf[corner] == kNone)
+                std::fprintf(out, " %" PRIu32 "//%" PRIu32, v, v);
+            else
+                std::fprintf(out, " %" PRIu32 "/%" PRIu32 "/%" PRIu32, v, _texCoordOf[corner] + 1,
+                             v);
+        }
+        std::fputc('\n', out);
+    }
+}
+
+} // namespace bake

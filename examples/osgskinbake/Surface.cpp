@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Surface.h"
+
+#include <osgSkin/GlmOsg>
+
+#include <osg/Geometry>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+
+namespace bake {
+namespace {
+
+using osgSkin::Character;
+using osgSkin::MeshPart;
+
+std::vector<const MeshPart*> piecesOf(const Character& character) {
+    std::vector<const MeshPart*> pieces;
+    for (const auto& skin : character.skin.skins) pieces.push_back(&skin.part);
+    for (const auto& rigid : character.skin.rigids) pieces.push_back(&rigid.part);
+    return pieces;
+}
+
+template <typename Array>
+const Array* perVertex(const osg::Array* array, std::size_t vertices) {
+    const auto* typed = dynamic_cast<const Array*>(array);
+    return typed != nullptr && typed->size() == vertices ? typed : nullptr;
+}
+
+/// Gathers the pieces that share a state set.
+class Gatherer {
+public:
+    void add(std::uint32_t piece, const MeshPart& part) {
+        const osg::Geometry& geometry = *part.geometry;
+        const std::size_t count = part.sourceVertex.size();
+        const auto* normals = perVertex<osg::Vec3Array>(geometry.getNormalArray(), count);
+        const auto* texCoords = perVertex<osg::Vec2Array>(geometry.getTexCoordArray(0), count);
+        const auto* colours = perVertex<osg::Vec4Array>(geometry.getColorArray(), count);
+        std::vector<std::uint32_t> indices(count);
+        for (std::uint32_t v = 0; v < count; ++v) {
+            Vertex vertex;
+            vertex.source = part.sourceVertex[v];
+            vertex.drawn = {piece, v};
+            if (normals != nullptr) vertex.normal = (*normals)[v];
+            if (texCoords != nullptr) vertex.texCoord = (*texCoords)[v];
+            if (colours != nullptr) vertex.colour = (*colours)[v];
+            indices[v] = add(vertex);
+        }
+        _hasTexCoords = _hasTexCoords || texCoords != nullptr;
+        _hasColours = _hasColours || colours != nullptr;
+        const auto& corners =
+            static_cast<const osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        for (std::size_t t = 0; t < part.sourceFace.size(); ++t)
+            _triangles.push_back({part.sourceFace[t],
+                                  {indices[corners[3 * t]], indices[corners[3 * t + 1]],
+                                   indices[corners[3 * t + 2]]}});
+    }
+
+    Surface finish(osg::StateSet* state) {
+        std::vector<std::uint32_t> order(_vertices.size()), place(_vertices.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return _vertices[a].source < _vertices[b].source;
+        });
+        Surface result;
+        result.state = state;
+        for (std::uint32_t k = 0; k < order.size(); ++k) {
+            const Vertex& vertex = _vertices[order[k]];
+            place[order[k]] = k;
+            result.sourceVertex.push_back(vertex.source);
+            result.drawn.push_back(vertex.drawn);
+            if (_hasTexCoords) result.texCoords.push_back(vertex.texCoord);
+            if (_hasColours) result.colours.push_back(vertex.colour);
+        }
+        std::stable_sort(_triangles.begin(), _triangles.end(),
+                         [](const Triangle& a, const Triangle& b) { return a.face < b.face; });
+        for (const Triangle& triangle : _triangles) {
+            for (const std::uint32_t v : triangle.vertices) result.triangles.push_back(place[v]);
+            result.sourceFace.push_back(triangle.face);
+        }
+        return result;
+    }
+
+private:
+    struct Vertex {
+        std::uint32_t source = 0;
+        Surface::Drawn drawn;
+        osg::Vec3 normal;
+        osg::Vec2 texCoord;
+        osg::Vec4 colour{1.0f, 1.0f, 1.0f, 1.0f};
+    };
+    struct Triangle {
+        std::uint32_t face;
+        std::array<std::uint32_t, 3> vertices;
+    };
+
+    std::uint32_t add(const Vertex& vertex) {
+        const osg::Vec3& n = vertex.normal;
+        const osg::Vec2& t = vertex.texCoord;
+        const osg::Vec4& c = vertex.colour;
+        const Key key{vertex.source,
+                      {n.x(), n.y(), n.z(), t.x(), t.y(), c.r(), c.g(), c.b(), c.a()}};
+        const auto [entry, isNew] =
+            _indices.emplace(key, static_cast<std::uint32_t>(_vertices.size()));
+        if (isNew) _vertices.push_back(vertex);
+        return entry->second;
+    }
+
+    using Key = std::pair<std::uint32_t, std::array<float, 9>>;
+    std::map<Key, std::uint32_t> _indices;
+    std::vector<Vertex> _vertices;
+    std::vector<Triangle> _triangles;
+    bool _hasTexCoords = false, _hasColours = false;
+};
+
+} // namespace
+
+std::vector<glm::dvec3> Surface::normals(const Character& character) const {
+    const std::size_t skins = character.skin.skins.size();
+    std::vector<const osg::Vec3Array*> arrays;
+    std::vector<osg::Matrixd> matrices(skins);
+    for (const auto& skin : character.skin.skins)
+        arrays.push_back(static_cast<const osg::Vec3Array*>(
+            skin.drawable->getDeformedGeometry()->getNormalArray()));
+    for (const auto& rigid : character.skin.rigids) {
+        arrays.push_back(static_cast<const osg::Vec3Array*>(rigid.part.geometry->getNormalArray()));
+        matrices.push_back(rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace());
+    }
+    std::vector<glm::dvec3> result;
+    result.reserve(drawn.size());
+    for (const Drawn& at : drawn) {
+        const glm::dvec3 turned = osgSkin::toGlm(osg::Matrixd::transform3x3(
+            osg::Vec3d((*arrays[at.piece])[at.vertex]), matrices[at.piece]));
+        const double length = glm::length(turned);
+        result.push_back(length > 0.0 ? turned / length : glm::dvec3(0.0, 1.0, 0.0));
+    }
+    return result;
+}
+
+std::vector<Surface> surfacesOf(const Character& character) {
+    const std::vector<const MeshPart*> pieces = piecesOf(character);
+    std::vector<osg::StateSet*> states;
+    for (const MeshPart& part : character.body.parts)
+        if (osg::StateSet* state = part.geometry->getStateSet();
+            std::find(states.begin(), states.end(), state) == states.end())
+            states.push_back(state);
+    std::vector<Surface> result;
+    for (osg::StateSet* state : states) {
+        Gatherer gatherer;
+        for (std::uint32_t p = 0; p < pieces.size(); ++p)
+            if (pieces[p]->geometry->getStateSet() == state) gatherer.add(p, *pieces[p]);
+        result.push_back(gatherer.finish(state));
+    }
+    return result;
+}
+
+} // namespace bake
