@@ -36,9 +36,10 @@ osg::ref_ptr<osg::Image> plain(const osg::Image& image) {
     osg::ref_ptr<osg::Image> result = new osg::Image;
     result->allocateImage(image.s(), image.t(), 1, GL_RGBA, GL_UNSIGNED_BYTE);
     const bool flip = image.getOrigin() == osg::Image::TOP_LEFT;
-    for (int t = 0; t < image.t(); ++t)
-        for (int s = 0; s < image.s(); ++s)
-            result->setColor(image.getColor(s, flip ? image.t() - 1 - t : t), s, t);
+    const auto columns = static_cast<unsigned>(image.s()), rows = static_cast<unsigned>(image.t());
+    for (unsigned t = 0; t < rows; ++t)
+        for (unsigned s = 0; s < columns; ++s)
+            result->setColor(image.getColor(s, flip ? rows - 1 - t : t), s, t);
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinImport/ImportRig>
+#include <osgSkinImport/LoadProgress>
 
 #include <osg/FrameStamp>
 #include <osgAnimation/Channel>
@@ -19,6 +20,11 @@ namespace bake {
 namespace {
 
 using osgSkin::Character;
+
+/// Takes the terminal's place.
+struct Silence : osgSkin::LoadProgress {
+    void step(const std::string&, const std::string&, std::size_t, std::size_t) override {}
+};
 
 /// Puts bones and skins where a clip of the character's own has them after `seconds`.
 void poseAt(Character& character, osgAnimation::Animation& clip, double seconds) {
@@ -61,16 +67,18 @@ std::vector<Take> takesOf(Character& character, double rate) {
     return takes;
 }
 
-Character loadCharacter(const std::string& file) {
+Character loadCharacter(const std::string& file, bool quiet) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    if (quiet) osgSkin::setLoadProgress(*options, new Silence);
     if (osgDB::getLowerCaseFileExtension(file) == "skin") {
         const std::string model = osgDB::getNameLessExtension(file);
         if (osgDB::fileExists(file) || osgDB::getFileExtension(model).empty())
-            return Character::load(file);
-        return loadCharacter(model);
+            return Character::load(file, options);
+        return loadCharacter(model, quiet);
     }
     if (!osgSkin::isReadByAssimp(file))
         throw osgSkin::Error(file + ": expected a .skin file, or a rigged model that Assimp reads");
-    return osgSkin::loadRig(file, nullptr, {});
+    return osgSkin::loadRig(file, options, {});
 }
 
 } // namespace bake

@@ -35,26 +35,33 @@ auto inFile(const std::string& file, const Step& step) {
     }
 }
 
-Binding bindBody(Character& character) {
+Binding bindBody(Character& character, LoadSteps& steps) {
     const SkinFile& file = character.file;
+    BindOptions options = file.bind;
+    options.progress = [&steps](const std::string& what, double share) {
+        steps.within(what, share);
+    };
     const SkinMesh& mesh = character.body.mesh;
     if (!file.paintedWeights)
         return inFile(file.file,
-                      [&] { return bind(mesh, character.rig, file.bind, &character.report); });
+                      [&] { return bind(mesh, character.rig, options, &character.report); });
     const VertexWeights weights =
         file.weights.empty() ? meshWeights(file.mesh, character.body, character.rig)
                              : readWeights(file.weights, character.rig, mesh.positions.size());
     return inFile(file.file, [&] {
-        return bindWeights(mesh, character.rig, weights, file.bind, &character.report);
+        return bindWeights(mesh, character.rig, weights, options, &character.report);
     });
 }
 
-RestSkeleton findRig(Character& character) {
+RestSkeleton findRig(Character& character, LoadSteps& steps) {
     const SkinFile& file = character.file;
     if (!file.fit) return importSkeleton(file.skeleton);
-    RestSkeleton rig = inFile(file.mesh, [&] {
-        return fitSkeleton(character.body.mesh, *file.fit, &character.fitReport);
-    });
+    FitOptions options = *file.fit;
+    options.progress = [&steps](const std::string& what, double share) {
+        steps.within(what, share);
+    };
+    RestSkeleton rig = inFile(
+        file.mesh, [&] { return fitSkeleton(character.body.mesh, options, &character.fitReport); });
     OSG_INFO << file.file << ":\n" << character.fitReport.text();
     for (const std::string& note : character.fitReport.notes)
         OSG_NOTICE << file.file << ": fitted skeleton: " << note << std::endl;
@@ -159,9 +166,9 @@ Character Character::load(const std::string& file, const osgDB::Options* options
     steps.begin("mesh");
     character.body = importMesh(character.file.mesh, options);
     steps.begin("skeleton");
-    character.rig = findRig(character);
+    character.rig = findRig(character, steps);
     steps.begin("binding");
-    character.binding = bindBody(character);
+    character.binding = bindBody(character, steps);
     OSG_INFO << file << ":\n" << character.report.text();
     loadMotions(character, steps);
     steps.begin("scene");

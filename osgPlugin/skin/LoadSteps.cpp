@@ -17,7 +17,15 @@ LoadSteps::~LoadSteps() {
 void LoadSteps::begin(const std::string& what) {
     if (_begun) ++_done;
     _begun = true;
+    _step = what;
     tell(what);
+}
+
+void LoadSteps::within(const std::string& what, double share) {
+    if (_progress != nullptr)
+        _progress->within(_file, what, share);
+    else
+        show(_step + ": " + what + ", " + std::to_string(int(100.0 * share)) + " %");
 }
 
 void LoadSteps::finish() {
@@ -30,8 +38,13 @@ void LoadSteps::tell(const std::string& what) {
         _progress->step(_file, what, _done, _total);
         return;
     }
-    const auto passed = std::chrono::steady_clock::now() - _start;
-    if (passed < std::chrono::seconds(1) || isatty(STDERR_FILENO) != 1) return;
+    show(what);
+}
+
+void LoadSteps::show(const std::string& what) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < _next || isatty(STDERR_FILENO) != 1) return;
+    _next = now + std::chrono::milliseconds(100);
     // The rest of a longer line before is wiped.
     std::cerr << "\r\033[K" << _file << ": " << what << " (" << _done << " of " << _total << ")"
               << std::flush;

@@ -22,19 +22,26 @@ public:
 
     /// The next step begins.
     void begin(const std::string& what);
+    /// Within the step: what of it begins, and how much of it is done, 0 to 1.
+    void within(const std::string& what, double share);
     /// All is done.
     void finish();
 
 private:
     void tell(const std::string& what);
+    /// One line on the terminal, over the one before; later ones only where they can be read.
+    void show(const std::string& what);
 
     std::string _file;
+    std::string _step;
     std::size_t _total;
     std::size_t _done = 0;
     bool _begun = false;
     bool _shown = false;
     LoadProgress* _progress; ///< the options own it
-    std::chrono::steady_clock::time_point _start = std::chrono::steady_clock::now();
+    /// When the terminal may be written to.
+    std::chrono::steady_clock::time_point _next =
+        std::chrono::steady_clock::now() + std::chrono::seconds(1);
 };
 
 } // namespace osgSkin

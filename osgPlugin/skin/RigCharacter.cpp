@@ -30,8 +30,11 @@ namespace {
 using Bind = SkinOptions::Bind;
 
 Binding bindRig(const std::string& file, const ImportedRig& rig, const SkinOptions& wanted,
-                BindReport& report) {
+                BindReport& report, LoadSteps& steps) {
     BindOptions options;
+    options.progress = [&steps](const std::string& what, double share) {
+        steps.within(what, share);
+    };
     options.rigid = wanted.rigid;
     if (wanted.bind == Bind::Paper) options.method = BindOptions::Method::Paper;
     VertexWeights weights;
@@ -87,6 +90,8 @@ osgAnimation::AnimationList chooseMotion(const std::string& file, ImportedRig& r
 
 osg::ref_ptr<osg::Group> loadByOsg(const std::string& file, const osgDB::Options* options,
                                    const SkinOptions& wanted) {
+    LoadSteps steps(file, 2, options);
+    steps.begin("model");
     osgDB::ReaderWriter::ReadResult read = osgDB::Registry::instance()->readNode(file, options);
     const osg::ref_ptr<osg::Node> node = read.getNode();
     if (!node) {
@@ -100,11 +105,16 @@ osg::ref_ptr<osg::Group> loadByOsg(const std::string& file, const osgDB::Options
     if (wanted.bind == Bind::Paper) convert.bind.method = BindOptions::Method::Paper;
     convert.bind.rigid = wanted.rigid;
     convert.showRegions = wanted.showRegions;
+    steps.begin("binding");
+    convert.bind.progress = [&steps](const std::string& what, double share) {
+        steps.within(what, share);
+    };
     const ConvertReport report = convertRigs(*node, convert);
     if (report.skins.empty())
         throw Error(file + ": " +
                     (report.notes.empty() ? "no osgAnimation::RigGeometry, expected a rigged model"
                                           : report.notes.front()));
+    steps.finish();
     osg::ref_ptr<osg::Group> root = node->asGroup();
     if (root) return root;
     root = new osg::Group;
@@ -121,7 +131,7 @@ Character loadRig(const std::string& file, const osgDB::Options* options,
     ImportedRig rig = importRig(file, options);
     steps.begin("binding");
     Character result;
-    result.binding = bindRig(file, rig, wanted, result.report);
+    result.binding = bindRig(file, rig, wanted, result.report, steps);
     steps.begin("scene");
     result.clips = chooseMotion(file, rig, wanted, options);
     if (wanted.showRegions) showRegions(rig.body.parts, result.binding);

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <stdexcept>
 #include <vector>
 
@@ -20,9 +22,16 @@ struct Recorder : osgSkin::LoadProgress {
         dones.push_back(done);
         totals.push_back(total);
     }
+    void within(const std::string&, const std::string& what, double share) override {
+        if (what == giveUpAt) throw std::runtime_error("given up");
+        parts.push_back(what);
+        shares.push_back(share);
+    }
     std::string giveUpAt;
     std::vector<std::string> steps;
     std::vector<std::size_t> dones, totals;
+    std::vector<std::string> parts; ///< of long steps
+    std::vector<double> shares;
 };
 
 osg::ref_ptr<osg::Node> read(const std::string& file, osgSkin::LoadProgress* progress) {
@@ -48,6 +57,40 @@ TEST(LoadProgress, IsToldTheStepsOfACharacter) {
               (std::vector<std::string>{"mesh", "skeleton", "binding", "motion move",
                                         "motion later", "scene", "done"}));
     expectCounts(*recorder);
+}
+
+TEST(LoadProgress, IsToldTheJointsWithinABinding) {
+    const osg::ref_ptr<Recorder> recorder = new Recorder;
+    ASSERT_NE(read(OSGSKIN_DATA "/thrower.skin", recorder), nullptr);
+    EXPECT_GT(recorder->parts.size(), 15u);
+    EXPECT_NE(std::find(recorder->parts.begin(), recorder->parts.end(), "bend of LeftForeArm"),
+              recorder->parts.end());
+    EXPECT_TRUE(std::is_sorted(recorder->shares.begin(), recorder->shares.end()));
+    EXPECT_EQ(recorder->shares.front(), 0.0);
+    EXPECT_EQ(recorder->shares.back(), 1.0);
+
+    const osg::ref_ptr<Recorder> leaver = new Recorder;
+    leaver->giveUpAt = "bend of LeftForeArm";
+    EXPECT_EQ(read(OSGSKIN_DATA "/thrower.skin", leaver), nullptr);
+    EXPECT_EQ(leaver->steps.back(), "binding");
+}
+
+TEST(LoadProgress, IsToldTheStagesOfAFit) {
+    const std::string file = testing::TempDir() + "fitted_progress.skin";
+    std::ofstream(file) << R"({"osgskin": 1, "mesh": ")" OSGSKIN_DATA
+                           R"(/thrower.obj", "skeleton": {"fit": true}})";
+    const osg::ref_ptr<Recorder> recorder = new Recorder;
+    ASSERT_NE(read(file, recorder), nullptr);
+    const std::vector<std::string> stages{"surface", "medial curves", "facing", "joints", "done"};
+    const auto binding = std::find(recorder->parts.begin(), recorder->parts.end(), "welding");
+    ASSERT_NE(binding, recorder->parts.end());
+    std::vector<std::string> fit(recorder->parts.begin(), binding);
+    EXPECT_GT(std::count(fit.begin(), fit.end(), "medial curves"), 10) << "the longest stage";
+    EXPECT_TRUE(std::is_sorted(recorder->shares.begin(),
+                               recorder->shares.begin() + std::ptrdiff_t(fit.size())));
+    EXPECT_EQ(recorder->shares[fit.size() - 1], 1.0);
+    fit.erase(std::unique(fit.begin(), fit.end()), fit.end());
+    EXPECT_EQ(fit, stages);
 }
 
 TEST(LoadProgress, IsToldTheStepsOfARiggedModel) {

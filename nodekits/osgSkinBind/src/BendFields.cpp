@@ -38,7 +38,7 @@ void raise(std::vector<double>& field, const std::vector<double>& other) {
 } // namespace
 
 JointFields bendFields(const HardField& hard, const std::vector<double>& radii,
-                       const BindOptions& options) {
+                       const BindOptions& options, const std::function<void(std::size_t)>& begin) {
     const std::vector<PlannedJoint>& joints = hard.joints;
     const double widest = options.smoothing * *std::max_element(radii.begin(), radii.end());
     const SkinSmoother smoother(hard.mesh, widest);
@@ -46,6 +46,7 @@ JointFields bendFields(const HardField& hard, const std::vector<double>& radii,
     fields[0].assign(hard.mesh.vertexCount(), 1.0);
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!joints[j].holdsRegion) continue;
+        begin(j);
         fields[j] = hasBoundaries(joints[j])
                         ? boundedField(hard, smoother, j, radii[j], options.smoothing)
                         : smoothBend(hard, smoother, j, radii, options);

@@ -18,6 +18,12 @@
 namespace osgSkin {
 namespace {
 
+/// Shares of the time that are over when the steps begin, measured at 280,000 vertices.
+constexpr double kRegionsBegin = 0.2;
+constexpr double kBendsBegin = 0.8;
+constexpr double kTwistsBegin = 0.96;
+constexpr double kRatiosBegin = 0.98;
+
 /// Vertices that no face uses do as the nearest vertex of the skin does.
 std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
     std::vector<std::uint32_t> result(mesh.vertexCount()), used;
@@ -92,24 +98,38 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     skeleton.validate();
     checkOptions(skeleton, options);
 
+    const auto tell = [&options](const std::string& what, double share) {
+        if (options.progress) options.progress(what, share);
+    };
     BindReport found;
+    tell("welding", 0.0);
     const WeldedMesh skin(mesh);
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
-    const Regions regions = findRegions(skin, joints); // section 1
+    const Regions regions =
+        findRegions(skin, joints, [&tell](const std::string& what, double share) { // section 1
+            tell(what, kRegionsBegin + share * (kBendsBegin - kRegionsBegin));
+        });
 
     // Section 3: what share of each joint's turn each vertex takes.
     const HardField hard{skin, joints, regions.jointOf};
     const std::vector<double> radii = limbRadii(hard);
     JointFields bend, twist;
     if (options.method == BindOptions::Method::Paper) {
+        tell("bend and twist between boundaries", kBendsBegin);
         PaperFields printed(hard, radii);
         bend.swap(printed.bend);
         twist.swap(printed.twist);
     } else {
-        bend = bendFields(hard, radii, options);
+        bend = bendFields(hard, radii, options, [&](std::size_t joint) {
+            const double share = double(joint - 1) / double(joints.size() - 1);
+            tell("bend of " + skeleton.joints[joint].name,
+                 kBendsBegin + share * (kTwistsBegin - kBendsBegin));
+        });
+        tell("twists", kTwistsBegin);
         twist = twistFields(skin, joints, radii, bend);
     }
 
+    tell("ratios", kRatiosBegin);
     const std::vector<std::uint32_t> shown = representatives(skin);
     Binding binding;
     binding.joints = boundJoints(skeleton, joints);
@@ -136,6 +156,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     reportRegions(skeleton, joints, regions, found);
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (report) *report = found;
+    tell("done", 1.0);
     return binding;
 }
 

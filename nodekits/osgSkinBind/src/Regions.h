@@ -5,6 +5,8 @@
 #include "JointPlan.h"
 #include "WeldedMesh.h"
 
+#include <osgSkinBind/BindProgress>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,8 +24,10 @@ struct Regions {
 };
 
 /// Delaunay step, flooding step, and what real meshes need beside them: shells that no Delaunay
-/// edge reaches and islands.
-Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints);
+/// edge reaches and islands. \param tell is called as each of these begins, with its name and the
+/// share of the time that is over
+Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                    const BindProgress& tell);
 
 /// The Delaunay step alone: seeds labelled, all other vertices kNone.
 Regions seedRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints);

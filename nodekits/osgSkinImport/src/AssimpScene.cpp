@@ -10,7 +10,9 @@
 
 #include <assimp/config.h>
 
+#include <algorithm>
 #include <exception>
+#include <vector>
 
 namespace osgSkin {
 
@@ -23,6 +25,27 @@ void checkBefore(const std::string& path) {
     if (extension == "off") checkOff(path, readText(path));
 }
 
+/// Makes a scene safe to walk: some readers of Assimp's leave null among a node's children.
+void checkAfter(aiScene& scene, const std::string& path) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        if (scene.mMeshes[m] == nullptr) failFile(path, "Assimp reads a mesh that is not there");
+    std::vector<aiNode*> open{scene.mRootNode};
+    while (!open.empty()) {
+        aiNode& node = *open.back();
+        open.pop_back();
+        for (unsigned m = 0; m < node.mNumMeshes; ++m)
+            if (node.mMeshes[m] >= scene.mNumMeshes)
+                failFile(path, "node " + quoted(node.mName.C_Str()) + " names mesh " +
+                                   std::to_string(node.mMeshes[m]) + ", expected less than " +
+                                   std::to_string(scene.mNumMeshes));
+        if (node.mChildren == nullptr) node.mNumChildren = 0;
+        aiNode** const end = node.mChildren + node.mNumChildren;
+        aiNode** const kept = std::remove(node.mChildren, end, nullptr);
+        node.mNumChildren = static_cast<unsigned>(kept - node.mChildren);
+        open.insert(open.end(), node.mChildren, kept);
+    }
+}
+
 } // namespace
 
 const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path) {
@@ -30,7 +53,7 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     checkBefore(path);
-    const aiScene* scene = nullptr; // the importer owns it
+    const aiScene* scene = nullptr;
     std::string reason;
     try {
         scene = importer.ReadFile(path, 0);
@@ -40,9 +63,10 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
     }
     if (scene == nullptr || scene->mRootNode == nullptr)
         failFile(path, reason.empty() ? "cannot be read" : reason);
-    addMissingBones(const_cast<aiScene&>(*scene),
-                    path); // NOLINT(cppcoreguidelines-pro-type-const-cast)
-    return *scene;
+    auto& owned = const_cast<aiScene&>(*scene); // the importer's, which nobody else sees
+    checkAfter(owned, path);
+    addMissingBones(owned, path);
+    return owned;
 }
 
 glm::dvec3 toGlm(const aiVector3D& v) {

@@ -7,6 +7,7 @@
 #include <osgSkin/Error>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportRig>
+#include <osgSkinImport/Motion>
 
 #include <osg/Texture2D>
 
@@ -19,15 +20,10 @@ using test::kModels;
 using test::kRigged;
 using test::Rigged;
 
-/// Files of other makers that Assimp 5.2.5 takes seconds to read; they are not rigged.
-bool isSlow(const std::filesystem::path& file) {
-    return std::filesystem::file_size(file) > (4u << 20);
-}
-
 std::vector<std::filesystem::path> allModels() {
     std::vector<std::filesystem::path> result;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(kModels))
-        if (entry.is_regular_file() && !isSlow(entry.path())) result.push_back(entry.path());
+        if (entry.is_regular_file()) result.push_back(entry.path());
     std::sort(result.begin(), result.end());
     return result;
 }
@@ -111,6 +107,30 @@ TEST(TestModels, AllOthersAreRefusedWithAReason) {
     }
     EXPECT_EQ(read, std::size(kRigged));
     EXPECT_GT(reasons["no mesh with bones, expected a"], 200u);
+}
+
+/// Whatever a `.skin` file may name for its mesh, its skeleton and its motions.
+TEST(TestModels, NoneDoesHarmAsAMeshASkeletonOrAMotion) {
+    OSGSKIN_NEEDS(kModels);
+    std::size_t read = 0, refused = 0;
+    const auto attempt = [&](const std::string& file, const auto& import) {
+        try {
+            import(file);
+            ++read;
+        } catch (const osgSkin::Error& error) {
+            const std::string what = error.what();
+            EXPECT_EQ(what.rfind(file, 0), 0u) << what;
+            EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+            ++refused;
+        }
+    };
+    for (const std::filesystem::path& file : allModels()) {
+        attempt(file.string(), [](const std::string& f) { osgSkin::importMesh(f); });
+        attempt(file.string(), [](const std::string& f) { osgSkin::importSkeleton(f); });
+        attempt(file.string(), [](const std::string& f) { osgSkin::importMotion(f); });
+    }
+    EXPECT_GT(read, 300u);
+    EXPECT_GT(refused, 300u);
 }
 
 TEST(TestModels, BrokenOnesAreRefusedAsMeshesToo) {

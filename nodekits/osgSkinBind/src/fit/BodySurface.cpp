@@ -107,8 +107,8 @@ glm::dvec3 BodySurface::nearest(const glm::dvec3& point) const {
     return fit::vector(_surface->tree->closest_point(fit::point(point)));
 }
 
-CurveSkeleton BodySurface::curveSkeleton() const {
-    return fit::contract(_surface->mesh);
+CurveSkeleton BodySurface::curveSkeleton(const std::function<void(double)>& tell) const {
+    return fit::contract(_surface->mesh, tell);
 }
 
 } // namespace osgSkin

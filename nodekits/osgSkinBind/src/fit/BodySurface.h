@@ -8,6 +8,7 @@
 
 #include <glm/mat3x3.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,7 +44,7 @@ public:
     glm::dvec3 nearest(const glm::dvec3& point) const;
 
     /// Curve skeleton by mean curvature flow, of a simplified copy where the surface is fine.
-    CurveSkeleton curveSkeleton() const;
+    CurveSkeleton curveSkeleton(const std::function<void(double)>& tell) const;
 
 private:
     struct Surface;

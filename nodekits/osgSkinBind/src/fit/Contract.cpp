@@ -14,10 +14,10 @@ namespace {
 using Contraction = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
 } // namespace
 
-CurveSkeleton contract(const Mesh& mesh) {
+CurveSkeleton contract(const Mesh& mesh, const std::function<void(double)>& tell) {
     const OrderedMemory memory;
     Contraction::Skeleton graph;
-    Contraction contraction(simplified(mesh));
+    Contraction contraction(simplified(mesh, tell));
     contraction.contract_until_convergence();
     contraction.convert_to_skeleton(graph);
 

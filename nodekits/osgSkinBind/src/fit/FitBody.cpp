@@ -15,6 +15,10 @@ namespace {
 /// Clues that add up to less than this say nothing.
 constexpr double kFacingThreshold = 0.012;
 
+/// Shares of the whole fit's time before and after the curves are looked for.
+constexpr double kCurvesBegin = 0.2;
+constexpr double kCurvesEnd = 0.85;
+
 /// Rows x, y, z: the rotation that makes `up` the y axis and turns little else.
 glm::dmat3 standUp(const glm::dvec3& up) {
     const glm::dvec3 y = glm::normalize(up);
@@ -33,10 +37,10 @@ glm::dmat3 yaw(const glm::dvec3& ahead) {
 
 } // namespace
 
-FitBody::FitBody(const WeldedMesh& mesh, const glm::dvec3& up, bool legsGiven, bool armsGiven,
+FitBody::FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiven, bool armsGiven,
                  std::vector<std::string>& notes)
     : surface(mesh, notes) {
-    const glm::dmat3 turn = standUp(up);
+    const glm::dmat3 turn = standUp(options.up);
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const glm::dvec3& p : surface.points()) {
         low = glm::min(low, turn * p);
@@ -53,7 +57,12 @@ FitBody::FitBody(const WeldedMesh& mesh, const glm::dvec3& up, bool legsGiven, b
         glm::transpose(turn) * glm::dvec3(0.5 * (low.x + high.x), low.y, 0.5 * (low.z + high.z));
     _scale = 1.0 / tall;
     surface.transform(_turn, _origin, _scale);
-    branches = BodyBranches::find(surface.curveSkeleton(), legsGiven, armsGiven);
+    const auto tell = [&options](double share) {
+        if (options.progress)
+            options.progress("medial curves", kCurvesBegin + share * (kCurvesEnd - kCurvesBegin));
+    };
+    tell(0.0);
+    branches = BodyBranches::find(surface.curveSkeleton(tell), legsGiven, armsGiven);
 }
 
 void FitBody::move(const glm::dmat3& turn, const glm::dvec3& origin) {

@@ -5,6 +5,8 @@
 #include "BodyBranches.h"
 #include "BodySurface.h"
 
+#include <osgSkinBind/FitSkeleton>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,12 +20,13 @@ struct FitBody {
     BodyBranches branches;
     double symmetryError = 0.0; ///< RMS distance between the skin and its mirror image
 
-    /// Stands the body up along `up` and finds its branches; which way it faces is not known yet.
+    /// Stands the body up along the options' axis and finds its branches; which way it faces is not
+    /// known yet.
     ///
     /// \param legsGiven, armsGiven landmarks stand in for limbs that are not found
     ///
     /// \throw Error where the surface is not that of a body that stands
-    FitBody(const WeldedMesh& mesh, const glm::dvec3& up, bool legsGiven, bool armsGiven,
+    FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiven, bool armsGiven,
             std::vector<std::string>& notes);
 
     /// Turns the body about its up axis until it faces +z.

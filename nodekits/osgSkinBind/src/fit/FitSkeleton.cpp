@@ -15,6 +15,10 @@
 namespace osgSkin {
 namespace {
 
+/// Shares of the time that are over when the steps begin.
+constexpr double kFacingBegins = 0.85;
+constexpr double kJointsBegin = 0.95;
+
 bool isFinite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
@@ -107,9 +111,14 @@ RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& options, FitRep
     const auto start = std::chrono::steady_clock::now();
     mesh.validate();
     check(options);
+    const auto tell = [&options](const char* what, double share) {
+        if (options.progress) options.progress(what, share);
+    };
     FitReport found;
-    FitBody body(WeldedMesh(mesh), options.up, areGiven(options, "UpLeg", "Foot"),
+    tell("surface", 0.0);
+    FitBody body(WeldedMesh(mesh), options, areGiven(options, "UpLeg", "Foot"),
                  areGiven(options, "Arm", "Hand"), found.notes);
+    tell("facing", kFacingBegins);
     found.facing = body.face(options.facing, leftOf(options, body));
     if (found.facing == "assumed")
         found.notes.push_back("feet, face and elbows do not tell where the body faces: give a "
@@ -120,10 +129,12 @@ RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& options, FitRep
     JointSheet sheet;
     for (const auto& [name, centre] : options.landmarks)
         sheet.addLandmark(name, body.toBody(centre));
+    tell("joints", kJointsBegin);
     placeJoints(body, sheet, found.notes);
     RestSkeleton skeleton = skeletonOf(body, sheet, found);
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (report) *report = found;
+    tell("done", 1.0);
     return skeleton;
 }
 

@@ -8,6 +8,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,12 @@ Mesh closedSurface(const WeldedMesh& mesh, std::vector<std::string>& notes);
 
 /// The surface with fewer triangles, where it has many: the flow costs time with every vertex, and
 /// medial curves need no detail.
-Mesh simplified(const Mesh& mesh);
+/// \param tell is called with the share that is done, 0 to 1; may be empty
+Mesh simplified(const Mesh& mesh, const std::function<void(double)>& tell);
 
 /// Mean curvature flow skeleton (Tagliasacchi, Alhashim, Olson & Zhang 2012) of a closed surface.
-CurveSkeleton contract(const Mesh& mesh);
+/// \param tell as with simplified(), which comes first
+CurveSkeleton contract(const Mesh& mesh, const std::function<void(double)>& tell);
 
 } // namespace osgSkin::fit
 
