@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "ProgressLine.h"
+
 #include <osgSkinImport/LoadProgress>
 
 #include <osgDB/Options>
 
-#include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace osgSkin {
@@ -16,9 +18,6 @@ namespace osgSkin {
 class LoadSteps {
 public:
     LoadSteps(std::string file, std::size_t total, const osgDB::Options* options);
-    ~LoadSteps();
-    LoadSteps(const LoadSteps&) = delete;
-    LoadSteps& operator=(const LoadSteps&) = delete;
 
     /// The next step begins.
     void begin(const std::string& what);
@@ -29,19 +28,14 @@ public:
 
 private:
     void tell(const std::string& what);
-    /// One line on the terminal, over the one before; later ones only where they can be read.
-    void show(const std::string& what);
 
     std::string _file;
     std::string _step;
     std::size_t _total;
     std::size_t _done = 0;
     bool _begun = false;
-    bool _shown = false;
-    LoadProgress* _progress; ///< the options own it
-    /// When the terminal may be written to.
-    std::chrono::steady_clock::time_point _next =
-        std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    LoadProgress* _progress;           ///< the options own it
+    std::optional<ProgressLine> _line; ///< without a LoadProgress
 };
 
 } // namespace osgSkin

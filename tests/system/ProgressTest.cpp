@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who loads a character through osgDB can be told how far it has come.
+#include "LoadSteps.h"
+
 #include <osgSkinImport/LoadProgress>
 
 #include <osgDB/ReadFile>
@@ -7,9 +9,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 #include <vector>
+
+#include <poll.h>
+#include <pty.h>
+#include <unistd.h>
 
 namespace {
 
@@ -47,6 +55,39 @@ void expectCounts(const Recorder& recorder) {
         EXPECT_EQ(recorder.totals[i], recorder.dones.size() - 1);
     }
 }
+
+/// Standard error is a terminal while this lives.
+class Terminal {
+public:
+    Terminal() : _before(dup(STDERR_FILENO)) {
+        int slave = -1;
+        if (openpty(&_master, &slave, nullptr, nullptr, nullptr) != 0) return;
+        dup2(slave, STDERR_FILENO);
+        close(slave);
+    }
+    ~Terminal() {
+        dup2(_before, STDERR_FILENO);
+        close(_before);
+        close(_master);
+    }
+    bool works() const { return _master >= 0; }
+
+    /// What has been written to it.
+    std::string text() const {
+        std::string result;
+        pollfd ready{_master, POLLIN, 0};
+        char part[1024];
+        while (poll(&ready, 1, 0) > 0) {
+            const ssize_t length = ::read(_master, part, sizeof part);
+            if (length <= 0) break;
+            result.append(part, std::size_t(length));
+        }
+        return result;
+    }
+
+private:
+    int _before, _master = -1;
+};
 
 } // namespace
 
@@ -98,6 +139,35 @@ TEST(LoadProgress, IsToldTheStepsOfARiggedModel) {
     ASSERT_NE(read(OSGSKIN_TEST_DATA "/rig/tube.gltf.skin", recorder), nullptr);
     EXPECT_EQ(recorder->steps, (std::vector<std::string>{"model", "binding", "scene", "done"}));
     expectCounts(*recorder);
+}
+
+TEST(LoadProgress, ALongStepIsShownOnATerminalWhileItLasts) {
+    const Terminal terminal;
+    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
+    {
+        osgSkin::LoadSteps steps("body.skin", 2, nullptr);
+        steps.begin("mesh");
+        // One second of nothing is not shown; then it is, though the step says nothing itself.
+        while (terminal.text().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        steps.begin("binding");
+        steps.within("bend of Spine", 0.425);
+        std::string text;
+        while (text.find("binding: bend of Spine, 42 % (1 of 2), ") == std::string::npos)
+            text += terminal.text();
+        steps.finish();
+    }
+    EXPECT_NE(terminal.text().find("body.skin: done (2 of 2)"), std::string::npos);
+}
+
+TEST(LoadProgress, AShortLoadIsSilent) {
+    const Terminal terminal;
+    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
+    {
+        osgSkin::LoadSteps steps("body.skin", 1, nullptr);
+        steps.begin("mesh");
+        steps.finish();
+    }
+    EXPECT_EQ(terminal.text(), "");
 }
 
 TEST(LoadProgress, MayGiveUp) {
