@@ -11,6 +11,7 @@
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/ConvertRigs>
 #include <osgSkinBind/ShowRegions>
+#include <osgSkinBind/UnevenScale>
 #include <osgSkinImport/Clip>
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/Retarget>
@@ -134,6 +135,9 @@ Character loadRig(const std::string& file, const osgDB::Options* options,
     result.binding = bindRig(file, rig, wanted, result.report, steps);
     steps.begin("scene");
     result.clips = chooseMotion(file, rig, wanted, options);
+    for (const std::string& bone : findUnevenScale(*rig.skeleton, result.clips))
+        OSG_NOTICE << file << ": " << bone
+                   << " scaled unevenly or mirrored, which the skin does not follow" << std::endl;
     if (wanted.showRegions) showRegions(rig.body.parts, result.binding);
     const std::vector<std::string> rigid =
         wanted.rigid ? *wanted.rigid : automaticRigidJoints(rig.rest);

@@ -9,17 +9,19 @@
 namespace osgSkin {
 namespace {
 
-/// A rigid map in double precision, while a run of joints is being folded.
+/// A map in double precision, while a run of joints is being folded.
 struct Fold {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 offset{0.0};
+    double scale = 1.0;
 
     void append(const Pose::Turn& turn) {
-        offset += rotation * turn.offset;
+        offset += scale * (rotation * turn.offset);
         rotation = rotation * turn.rotation;
+        scale *= turn.scale;
     }
     Chain::Rigid rounded() const {
-        return {glm::mat3(glm::mat3_cast(rotation)), glm::vec3(offset)};
+        return {glm::mat3(glm::mat3_cast(rotation)), glm::vec3(offset), static_cast<float>(scale)};
     }
 };
 
@@ -32,7 +34,8 @@ Chain::Partial makePartial(const BoundJoint& joint, const Pose::Turn& turn) {
             glm::vec3(w),
             glm::vec3(glm::cross(v, w)),
             static_cast<float>(0.5 * turn.split.bendAngle),
-            static_cast<float>(0.5 * turn.split.twistAngle)};
+            static_cast<float>(0.5 * turn.split.twistAngle),
+            static_cast<float>(turn.scale - 1.0)};
 }
 
 glm::vec3 rotate(float s, const glm::vec3& u, const glm::vec3& x) {
@@ -74,8 +77,9 @@ void Chain::apply(const SkinModel::Ratio* ratios, glm::vec3& position, glm::vec3
         const glm::vec3 u =
             (sa * cb) * joint.bendAxis + (ca * sb) * joint.twistAxis + (sa * sb) * joint.crossAxis;
         const float s = ca * cb;
-        // A translation of the joint, where the motion has one, comes in with the bend.
-        x = joint.centre + ratios[k].bend * joint.translation + rotate(s, u, x - joint.centre);
+        // A translation and a scale of the joint, where the motion has them, come in with the bend.
+        x = joint.centre + ratios[k].bend * joint.translation +
+            (1.0f + ratios[k].bend * joint.growth) * rotate(s, u, x - joint.centre);
         x = full[k] * x;
         if (normal) n = full[k].rotation * rotate(s, u, n);
         if (tangent) t = full[k].rotation * rotate(s, u, t);

@@ -15,14 +15,15 @@ namespace osgSkin {
 /// The turns that all vertices of one group go through, for one pose.
 ///
 /// full[0] partial[0] full[1] partial[1] ... full[n], outermost first: the runs of joints that the
-/// group follows fully are folded into one rigid map each, so only partial joints cost work at a
+/// group follows fully are folded into one map each, so only partial joints cost work at a
 /// vertex.
 struct Chain {
     struct Rigid {
         glm::mat3 rotation;
         glm::vec3 offset;
+        float scale;
 
-        glm::vec3 operator*(const glm::vec3& x) const { return rotation * x + offset; }
+        glm::vec3 operator*(const glm::vec3& x) const { return scale * (rotation * x) + offset; }
     };
 
     struct Partial {
@@ -33,6 +34,7 @@ struct Chain {
         glm::vec3 crossAxis; ///< v x w
         float halfBend;      ///< psi / 2
         float halfTwist;     ///< phi / 2
+        float growth;        ///< scale - 1
     };
 
     Chain(const SkinModel& model, const SkinModel::Group& group, const Pose& pose) noexcept;

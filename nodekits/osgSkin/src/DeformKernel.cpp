@@ -49,6 +49,7 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
         tz = hn::Load(d, tangentRows + 2 * kBlock);
     }
     if (call.lead) {
+        if (HWY_UNLIKELY(call.leadScaled)) scaleBy(constant(call.leadScale), x, y, z);
         apply(*call.lead, x, y, z);
         if (kNormals) turn(*call.lead, nx, ny, nz);
         if (kTangents) turn(*call.lead, tx, ty, tz);
@@ -68,7 +69,7 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
         turnPlane(sine, cosine, y, z);
         if (kNormals) turnPlane(sine, cosine, ny, nz);
         if (kTangents) turnPlane(sine, cosine, ty, tz);
-        if (HWY_UNLIKELY(link->moved)) moveBy(*link, bendRatio, x, y, z);
+        if (HWY_UNLIKELY(link->adjusted)) adjust(*link, bendRatio, x, y, z);
         apply(link->out, x, y, z);
         if (kNormals) turn(link->out, nx, ny, nz);
         if (kTangents) turn(link->out, tx, ty, tz);

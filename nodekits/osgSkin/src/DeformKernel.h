@@ -55,8 +55,10 @@ struct KernelAngle {
 struct KernelLink {
     KernelAngle bend;  ///< psi
     KernelAngle twist; ///< phi
-    bool moved;        ///< move is not 0
+    bool adjusted;     ///< the joint is moved or scaled, or joints further out are scaled
     Splat move[3];     ///< the joint's translation, in its frame; comes in with the bend ratio
+    Splat growth;      ///< the joint's scale less 1; the same
+    Splat outScale;    ///< of positions, before `out`
     KernelMap out; ///< from this frame to that of the next partial joint outwards, or rest space
 };
 
@@ -68,6 +70,8 @@ struct KernelCall {
     std::size_t linkCount;   ///< partial links
     const KernelLink* links; ///< outermost first
     const KernelMap* lead;   ///< applied first; null where the blocks are in a joint's frame
+    Splat leadScale;         ///< of positions, before lead
+    bool leadScaled;         ///< leadScale is not 1; else it is not set
     Splat azimuthCosine;     ///< of v in that frame; where lead is null
     Splat azimuthSine;
     float* positions; ///< x, y, z of the group's first vertex

@@ -39,8 +39,9 @@ std::size_t KernelChain::sharedLinks(const SkinModel::Group& group) const noexce
 void KernelChain::append(const SkinModel::Link& link, State& state) noexcept {
     const Pose::Turn turn = _pose.turn(link.joint);
     if (!link.partial) {
-        state.map.move += state.map.turn * turn.offset;
+        state.map.move += state.map.scale * (state.map.turn * turn.offset);
         state.map.turn = state.map.turn * glm::mat3_cast(turn.rotation);
+        state.map.scale *= turn.scale;
         return;
     }
     const BoundJoint& joint = _model.joints()[link.joint];
@@ -50,12 +51,17 @@ void KernelChain::append(const SkinModel::Link& link, State& state) noexcept {
     out.bend = orNothing(turn.split.bendAngle);
     out.twist = orNothing(turn.split.twistAngle);
     const glm::dvec3 move = turn.translation * frame; // transposed: into the frame
-    for (int axis = 0; axis < 3; ++axis) out.move[axis] = move[axis];
     const double smallMove = _model.blocks().smallMove;
-    out.moved = glm::dot(move, move) > smallMove * smallMove;
-    write(state.map.turn * frame, state.map.turn * joint.centre + state.map.move, out.out);
-    state.map.turn = glm::transpose(frame);
-    state.map.move = -(joint.centre * frame);
+    out.adjusted =
+        glm::dot(move, move) > smallMove * smallMove || turn.scale != 1.0 || state.map.scale != 1.0;
+    if (out.adjusted) {
+        for (int axis = 0; axis < 3; ++axis) out.move[axis] = move[axis];
+        out.growth = turn.scale - 1.0;
+        out.outScale = state.map.scale;
+    }
+    write(state.map.turn * frame,
+          state.map.scale * (state.map.turn * joint.centre) + state.map.move, out.out);
+    state.map = {glm::transpose(frame), -(joint.centre * frame), 1.0};
 }
 
 void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexcept {
@@ -72,6 +78,8 @@ void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexc
     call.lead = nullptr;
     if (!isInJointFrame(_model, group)) {
         write(state.map.turn, state.map.move, _lead);
+        call.leadScaled = state.map.scale != 1.0;
+        if (call.leadScaled) call.leadScale = state.map.scale;
         call.lead = &_lead;
         return;
     }

@@ -26,10 +26,11 @@ public:
     void prepare(const SkinModel::Group& group, KernelCall& call) noexcept;
 
 private:
-    /// A rigid map, x -> turn x + move.
+    /// x -> scale * turn x + move.
     struct Map {
         glm::dmat3 turn{1.0};
         glm::dvec3 move{0.0};
+        double scale = 1.0;
     };
 
     /// State behind a link: the full turns since the last partial one, multiplied out, into that

@@ -117,9 +117,11 @@ HWY_NOINLINE void pass(const KernelCall& call, const Chunk& chunk, const KernelM
                 turnPlane(hn::Load(d, chunk.twistSine + v), hn::Load(d, chunk.twistCosine + v), x,
                           y);
                 turnPlane(hn::Load(d, chunk.bendSine + v), hn::Load(d, chunk.bendCosine + v), y, z);
-                if (kStream == Stream::Positions && HWY_UNLIKELY(link->moved))
-                    moveBy(*link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane), x, y,
+                if (kStream == Stream::Positions && HWY_UNLIKELY(link->adjusted))
+                    adjust(*link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane), x, y,
                            z);
+            } else if (kStream == Stream::Positions && HWY_UNLIKELY(call.leadScaled)) {
+                scaleBy(constant(call.leadScale), x, y, z);
             }
             kStream == Stream::Positions ? apply(map, x, y, z) : turn(map, x, y, z);
             if (!kLast) {

@@ -122,11 +122,20 @@ HWY_INLINE void apply(const KernelMap& map, V& x, V& y, V& z) {
     y = b;
 }
 
-/// A translation of the joint, where the motion has one, comes in with the bend.
-HWY_INLINE void moveBy(const KernelLink& link, V bendRatio, V& x, V& y, V& z) {
-    x = hn::MulAdd(bendRatio, constant(link.move[0]), x);
-    y = hn::MulAdd(bendRatio, constant(link.move[1]), y);
-    z = hn::MulAdd(bendRatio, constant(link.move[2]), z);
+HWY_INLINE void scaleBy(V factor, V& x, V& y, V& z) {
+    x = hn::Mul(x, factor);
+    y = hn::Mul(y, factor);
+    z = hn::Mul(z, factor);
+}
+
+/// A translation and a scale of the joint, where the motion has them, come in with the bend; about
+/// its centre, the frame's origin.
+HWY_INLINE void adjust(const KernelLink& link, V bendRatio, V& x, V& y, V& z) {
+    const V factor = hn::MulAdd(bendRatio, constant(link.growth), hn::Set(D(), 1.0f));
+    x = hn::MulAdd(bendRatio, constant(link.move[0]), hn::Mul(factor, x));
+    y = hn::MulAdd(bendRatio, constant(link.move[1]), hn::Mul(factor, y));
+    z = hn::MulAdd(bendRatio, constant(link.move[2]), hn::Mul(factor, z));
+    scaleBy(constant(link.outScale), x, y, z);
 }
 
 } // namespace HWY_NAMESPACE

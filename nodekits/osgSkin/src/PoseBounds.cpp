@@ -28,14 +28,23 @@ float travelOf(const Pose& pose) {
     return static_cast<float>(travel);
 }
 
+/// By how much the joints that a group follows scale its vertices at most.
+float scaleOf(const SkinModel& model, const SkinModel::Group& group, const Pose& pose) {
+    double scale = 1.0;
+    for (std::uint32_t i = group.firstLink; i < group.firstLink + group.linkCount; ++i)
+        scale *= std::max(1.0, pose.turn(model.links()[i].joint).scale);
+    return static_cast<float>(scale);
+}
+
 /// How far vertices may stray from each patch of a run, which has the mean ratios.
 void straysOf(const BoundSkin& skin, const BoundSkin::Run& run, std::uint32_t from,
               std::uint32_t count, const Pose& pose, float travel, Floats& stray) {
     std::fill_n(stray.begin(), count, skin.rounding);
     for (std::uint32_t k = 0; k < run.jointCount; ++k) {
-        const BendTwist& split = pose.turn(skin.joints[run.firstJoint + k]).split;
-        const float bend = static_cast<float>(split.bendAngle);
-        const float twist = static_cast<float>(std::abs(split.twistAngle));
+        const Pose::Turn turn = pose.turn(skin.joints[run.firstJoint + k]);
+        // A share of the scale comes in with the bend, and takes a vertex as far as it reaches.
+        const float bend = static_cast<float>(turn.split.bendAngle + std::abs(turn.scale - 1.0));
+        const float twist = static_cast<float>(std::abs(turn.split.twistAngle));
         const float* slack = skin.slack.data() + run.firstSlack + from +
                              std::size_t(k) * BoundSkin::SlackKinds * run.patchCount;
         const float* bendReach = slack + std::size_t(BoundSkin::BendReach) * run.patchCount;
@@ -53,14 +62,14 @@ void straysOf(const BoundSkin& skin, const BoundSkin::Run& run, std::uint32_t fr
 /// Adds patches `first` to `first + count` of the posed `centres` and `normals` to `box`.
 void addPatches(const BoundSkin& skin, std::uint32_t first, std::uint32_t count,
                 const glm::vec3* centres, const glm::vec3* normals, const Floats& stray,
-                PoseBounds& box) {
+                float scale, PoseBounds& box) {
     glm::vec3 low = box.low, high = box.high;
     for (std::uint32_t i = 0; i < count; ++i) {
         const glm::vec3 centre = centres[i];
         const glm::vec3 tilt = glm::min(glm::abs(normals[i]), 1.0f);
-        const glm::vec3 half = skin.across[first + i] * glm::sqrt(1.0f - tilt * tilt) +
-                               skin.along[first + i] * tilt +
-                               (stray[i] + kRounding * glm::abs(centre));
+        const glm::vec3 half = scale * (skin.across[first + i] * glm::sqrt(1.0f - tilt * tilt) +
+                                        skin.along[first + i] * tilt + stray[i]) +
+                               kRounding * glm::abs(centre);
         low = glm::min(low, centre - half);
         high = glm::max(high, centre + half);
     }
@@ -88,13 +97,17 @@ PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept 
                    glm::vec3(-std::numeric_limits<float>::max())};
     const float travel = travelOf(pose);
     Floats stray;
-    for (const BoundSkin::Run& run : skin->runs)
+    for (std::size_t r = 0; r < skin->runs.size(); ++r) { // one a group
+        const BoundSkin::Run& run = skin->runs[r];
+        const float scale = scaleOf(model, model.groups()[r], pose);
         for (std::uint32_t from = 0; from < run.patchCount; from += kChunk) {
             const std::uint32_t count = std::min<std::uint32_t>(run.patchCount - from, kChunk);
             const std::uint32_t first = run.firstPatch + from;
             straysOf(*skin, run, from, count, pose, travel, stray);
-            addPatches(*skin, first, count, job.positions + first, job.normals + first, stray, box);
+            addPatches(*skin, first, count, job.positions + first, job.normals + first, stray,
+                       scale, box);
         }
+    }
     return box;
 }
 

@@ -9,6 +9,7 @@
 #include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/ShowRegions>
+#include <osgSkinBind/UnevenScale>
 
 #include <osg/Notify>
 #include <osg/Transform>
@@ -104,10 +105,20 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
     }
 }
 
+void noteUnevenScale(osgAnimation::Skeleton& skeleton, const osgAnimation::AnimationList& clips,
+                     ConvertReport& report) {
+    const std::vector<std::string> bones = findUnevenScale(skeleton, clips);
+    if (bones.empty()) return;
+    std::string note = "skeleton \"" + skeleton.getName() + "\": " + bones.front();
+    if (bones.size() > 1) note += " and " + std::to_string(bones.size() - 1) + " more";
+    report.notes.push_back(note + " scaled unevenly or mirrored, which skins do not follow");
+}
+
 } // namespace
 
 ConvertReport convertRigs(osg::Node& scene, const ConvertOptions& options) {
     RigCollector collector;
+    collector.lookAbove(scene);
     scene.accept(collector);
     ConvertReport report;
     std::vector<osgAnimation::Skeleton*> skeletons; // in the scene's order
@@ -123,7 +134,9 @@ ConvertReport convertRigs(osg::Node& scene, const ConvertOptions& options) {
     }
     for (osgAnimation::Skeleton* skeleton : skeletons) {
         try {
+            const std::size_t before = report.skins.size();
             convertSkeleton(*skeleton, rigs[skeleton], options, report);
+            if (report.skins.size() > before) noteUnevenScale(*skeleton, collector.clips, report);
         } catch (const Error& error) {
             for (const Rig* rig : rigs[skeleton])
                 report.notes.push_back(nameOf(*rig) + " is left as it is: " + error.what());

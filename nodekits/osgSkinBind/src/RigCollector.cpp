@@ -1,9 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "RigCollector.h"
 
+#include <osgAnimation/AnimationManagerBase>
+
 #include <algorithm>
 
 namespace osgSkin {
+
+void RigCollector::addClips(osg::Node& node) {
+    for (osg::Callback* callback = node.getUpdateCallback(); callback != nullptr;
+         callback = callback->getNestedCallback()) {
+        const auto* manager = dynamic_cast<osgAnimation::AnimationManagerBase*>(callback);
+        if (manager == nullptr) continue;
+        for (const auto& clip : manager->getAnimationList())
+            if (clip && std::find(clips.begin(), clips.end(), clip) == clips.end())
+                clips.push_back(clip);
+    }
+}
+
+void RigCollector::lookAbove(osg::Node& scene) {
+    for (const osg::NodePath& way : scene.getParentalNodePaths())
+        for (osg::Node* node : way) addClips(*node);
+}
+
+void RigCollector::apply(osg::Node& node) {
+    addClips(node);
+    traverse(node);
+}
 
 void RigCollector::apply(osg::Drawable& drawable) {
     auto* geometry = dynamic_cast<osgAnimation::RigGeometry*>(&drawable);

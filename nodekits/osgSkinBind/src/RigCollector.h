@@ -3,6 +3,7 @@
 #define OSGSKINBIND_RIGCOLLECTOR_H
 
 #include <osg/NodeVisitor>
+#include <osgAnimation/Animation>
 #include <osgAnimation/RigGeometry>
 #include <osgAnimation/Skeleton>
 
@@ -25,11 +26,19 @@ public:
     };
     /// In the order in which the scene holds them.
     std::vector<Rig> rigs;
+    /// Of the animation managers met, and of those above the scene.
+    osgAnimation::AnimationList clips;
 
+    /// Looks at what stands above `scene`.
+    void lookAbove(osg::Node& scene);
+
+    void apply(osg::Node& node) override;
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Geometry& geometry) override { apply(static_cast<osg::Drawable&>(geometry)); }
 
 private:
+    void addClips(osg::Node& node);
+
     std::map<osgAnimation::RigGeometry*, std::size_t> _index;
 };
 

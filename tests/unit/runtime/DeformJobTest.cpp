@@ -200,15 +200,76 @@ TEST(Pose, RefusesWhatCannotBeUsedAndKeepsThePose) {
     EXPECT_EQ(pose.turn(1).rotation, before);
 }
 
-TEST(Pose, LeavesScaleOut) {
+TEST(Pose, TakesEvenScaleApart) {
     const test::Tube tube(3, 3);
     Pose pose(tube.binding.joints);
     const glm::dquat turn = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)));
-    const std::vector<glm::dmat4> skinning(3, glm::mat4_cast(turn) *
-                                                  glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
+    std::vector<glm::dmat4> skinning(3, glm::mat4_cast(turn) *
+                                            glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
+    skinning[2] = skinning[1] * glm::scale(glm::dmat4(1.0), glm::dvec3(1.5));
     ASSERT_TRUE(pose.set(skinning.data(), 3));
     EXPECT_NEAR(std::abs(glm::dot(pose.turn(0).rotation, turn)), 1.0, 1e-12);
     EXPECT_NEAR(std::abs(pose.turn(1).rotation.w), 1.0, 1e-12);
+    EXPECT_NEAR(pose.turn(0).scale, 2.0, 1e-12);
+    EXPECT_EQ(pose.turn(1).scale, 1.0) << "exactly: it costs nothing then";
+    EXPECT_NEAR(pose.turn(2).scale, 1.5, 1e-12);
+}
+
+TEST(Pose, LeavesUnevenScaleAndMirroringOut) {
+    const test::Tube tube(3, 3);
+    Pose pose(tube.binding.joints);
+    for (const glm::dvec3& scale : {glm::dvec3(2.0, 0.5, 1.0), glm::dvec3(-1.0, 1.0, 1.0)}) {
+        std::vector<glm::dmat4> skinning(3, glm::dmat4(1.0));
+        skinning[1] = glm::scale(glm::dmat4(1.0), scale);
+        ASSERT_TRUE(pose.set(skinning.data(), 3));
+        EXPECT_EQ(pose.turn(1).scale, 1.0);
+        const glm::dvec3 centre = tube.binding.joints[1].centre;
+        EXPECT_LT(glm::distance(pose.turn(1).translation,
+                                glm::dvec3(skinning[1] * glm::dvec4(centre, 1.0)) - centre),
+                  1e-12)
+            << "the joint itself goes where the bone puts it";
+    }
+}
+
+/// What follows the joints fully goes where their matrices put it, as linear blending has it.
+TEST(DeformJob, ScaledJointsTakeFullFollowersAlong) {
+    const test::Tube tube;
+    Deformed deformed(tube);
+    std::mt19937_64 random(16);
+    std::uniform_real_distribution<double> growth(0.25, 4.0);
+    for (int i = 0; i < 50; ++i) {
+        std::vector<glm::dmat4> skinning;
+        double size = 1.0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const glm::dvec3 c = deformed.model->joints()[j].centre;
+            const double s = growth(random);
+            size = std::max(size, s * size);
+            const glm::dmat4 own = glm::translate(glm::dmat4(1.0), c + test::randomUnit(random)) *
+                                   glm::mat4_cast(test::randomRotation(random)) *
+                                   glm::scale(glm::dmat4(1.0), glm::dvec3(s)) *
+                                   glm::translate(glm::dmat4(1.0), -c);
+            skinning.push_back(j == 0 ? own : skinning.back() * own);
+        }
+        ASSERT_TRUE(deformed.pose.set(skinning.data(), skinning.size()));
+        ASSERT_TRUE(deformed.job.run());
+        std::size_t full = 0;
+        for (std::uint32_t v = 0; v < tube.positions.size(); ++v) {
+            const std::uint32_t first = tube.binding.firstInfluence[v];
+            const std::uint32_t end = tube.binding.firstInfluence[v + 1];
+            bool fully = true;
+            for (std::uint32_t k = first; k < end; ++k)
+                fully = fully && tube.binding.influences[k].bend == 1.0f &&
+                        tube.binding.influences[k].twist == 1.0f;
+            EXPECT_NEAR(double(glm::length(deformed.normals[v])), 1.0, 1e-5);
+            if (!fully) continue;
+            ++full;
+            const glm::dmat4& g = skinning[tube.binding.influences[end - 1].joint];
+            ASSERT_LE(glm::distance(glm::dvec3(deformed.positions[v]),
+                                    glm::dvec3(g * glm::dvec4(glm::dvec3(tube.positions[v]), 1.0))),
+                      6.0 * 2e-6 * size);
+        }
+        EXPECT_GT(full, 0u);
+    }
 }
 
 TEST(SkinModel, RefusesWhatDoesNotFit) {

@@ -147,8 +147,10 @@ void reference(const osgSkin::Binding& binding, const osgSkin::Pose& pose, std::
                                                   static_cast<double>(influence.twist));
         n = q * n;
         t = q * t;
-        x = joint.parent < 0 ? turn.offset + q * x
-                             : joint.centre + bend * turn.translation + q * (x - joint.centre);
+        const double scale = 1.0 + bend * (turn.scale - 1.0);
+        x = joint.parent < 0
+                ? turn.offset + scale * (q * x)
+                : joint.centre + bend * turn.translation + scale * (q * (x - joint.centre));
     }
 }
 
@@ -212,13 +214,18 @@ void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const Model& mo
 }
 
 /// Poses that stay within the body's height: turns of any angle about joints inside the body.
-osgSkin::Pose randomPose(const osgSkin::Binding& binding, double moves, std::mt19937_64& random) {
+/// Each joint scales by up to `grows` more or less, evenly.
+osgSkin::Pose randomPose(const osgSkin::Binding& binding, double moves, std::mt19937_64& random,
+                         double grows = 0.0) {
+    std::uniform_real_distribution<double> growth(1.0 - grows, 1.0 + grows);
     std::vector<glm::dmat4> skinning;
     for (std::size_t j = 0; j < binding.joints.size(); ++j) {
         const glm::dvec3 c = binding.joints[j].centre;
         const glm::dmat4 turn =
             glm::translate(glm::dmat4(1.0), c + moves * test::randomUnit(random)) *
-            glm::mat4_cast(test::randomRotation(random)) * glm::translate(glm::dmat4(1.0), -c);
+            glm::mat4_cast(test::randomRotation(random)) *
+            glm::scale(glm::dmat4(1.0), glm::dvec3(grows > 0.0 ? growth(random) : 1.0)) *
+            glm::translate(glm::dmat4(1.0), -c);
         skinning.push_back(j == 0 ? turn : skinning.back() * turn);
     }
     osgSkin::Pose pose(binding.joints);
@@ -240,6 +247,20 @@ TEST_P(Kernel, AgreesWithDoublePrecisionForEveryGroupSize) {
             for (const Streams streams :
                  {Streams::None, Streams::Normals, Streams::NormalsAndTangents})
                 deform(skin, randomPose(skin.binding, moves, random), model, streams);
+    }
+}
+
+TEST_P(Kernel, FollowsEvenScale) {
+    std::mt19937_64 random(15);
+    const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
+    for (const std::size_t size : {1u, 7u, 33u}) {
+        const Skin skin(5, upToFour, size, size);
+        const Model model = modelOf(skin);
+        for (const double moves : {0.0, 0.5}) {
+            const osgSkin::Pose pose = randomPose(skin.binding, moves, random, 0.2);
+            EXPECT_GT(std::abs(pose.turn(2).scale - 1.0), 1e-3);
+            deform(skin, pose, model, Streams::NormalsAndTangents);
+        }
     }
 }
 
