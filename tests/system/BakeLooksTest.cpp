@@ -86,7 +86,7 @@ std::vector<float> tubeTexCoords() {
     return texCoords;
 }
 
-/// The tube with a texture, cut out where it is transparent.
+/// The tube with a texture, cut out where it is transparent, on its second texture coordinates.
 std::string texturedRig(const std::string& folder) {
     nlohmann::json gltf = readJson(OSGSKIN_TEST_DATA "/rig/tube.gltf");
     osgDB::writeImageFile(*smallImage(), folder + "/skin.png");
@@ -98,11 +98,13 @@ std::string texturedRig(const std::string& folder) {
                             {"emissiveFactor", {0.0, 0.1, 0.0}},
                             {"pbrMetallicRoughness",
                              {{"baseColorFactor", {0.5, 0.25, 1.0, 1.0}},
-                              {"baseColorTexture", {{"index", 0}}},
+                              {"baseColorTexture", {{"index", 0}, {"texCoord", 1}}},
                               {"metallicFactor", 0.0},
                               {"roughnessFactor", 0.7}}}};
-    gltf["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
-        addFloats(gltf, folder, "uv.bin", tubeTexCoords(), "VEC2", 2);
+    nlohmann::json& attributes = gltf["meshes"][0]["primitives"][0]["attributes"];
+    attributes["TEXCOORD_0"] = addFloats(gltf, folder, "other.bin",
+                                         std::vector<float>(2 * kTubeVertices, 0.5f), "VEC2", 2);
+    attributes["TEXCOORD_1"] = addFloats(gltf, folder, "uv.bin", tubeTexCoords(), "VEC2", 2);
     std::ofstream(folder + "/rig.gltf") << gltf;
     return folder + "/rig.gltf";
 }

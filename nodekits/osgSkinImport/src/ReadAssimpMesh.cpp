@@ -29,7 +29,8 @@ void addMesh(const aiMesh& source, const glm::dmat4& place, const SceneLooks& lo
     const glm::dmat3 turn(place);
     const glm::dmat3 normalTurn = glm::transpose(glm::inverse(turn));
     const bool mirrored = glm::determinant(turn) < 0.0;
-    const bool hasTexCoords = source.HasTextureCoords(0);
+    const unsigned set = looks.texCoordsOf(source);
+    const bool hasTexCoords = source.HasTextureCoords(set);
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
         const aiFace& face = source.mFaces[f];
         if (face.mNumIndices < 3) continue; // points and lines
@@ -44,7 +45,7 @@ void addMesh(const aiMesh& source, const glm::dmat4& place, const SceneLooks& lo
             if (source.HasNormals()) normal = normalTurn * toGlm(source.mNormals[v]);
             glm::vec2 texCoord(0.0f);
             if (hasTexCoords)
-                texCoord = {source.mTextureCoords[0][v].x, source.mTextureCoords[0][v].y};
+                texCoord = {source.mTextureCoords[set][v].x, source.mTextureCoords[set][v].y};
             result.addCorner(static_cast<std::uint32_t>(first) + v, glm::vec3(normal), texCoord);
             if (looks.hasColours()) result.colours.push_back(looks.colour(source, v));
         }

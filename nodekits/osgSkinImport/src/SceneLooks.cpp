@@ -122,9 +122,13 @@ SceneLooks::SceneLooks(const aiScene& scene, const std::string& path,
     for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
         _looks.push_back(lookOf(scene, *scene.mMaterials[m], path, options));
         _isLinear.push_back(isLinear(*scene.mMaterials[m]));
+        int set = 0;
+        scene.mMaterials[m]->Get(AI_MATKEY_UVWSRC_DIFFUSE(0), set);
+        _texCoords.push_back(static_cast<unsigned>(std::max(set, 0)));
     }
     _looks.emplace_back();
     _isLinear.push_back(false);
+    _texCoords.push_back(0);
     for (Look& look : _looks) {
         look.vertexColours = _hasColours;
         _stateSets.push_back(makeStateSet(look));
@@ -134,6 +138,11 @@ SceneLooks::SceneLooks(const aiScene& scene, const std::string& path,
 std::uint32_t SceneLooks::indexOf(const aiMesh& mesh) const {
     return static_cast<std::uint32_t>(
         std::min<std::size_t>(mesh.mMaterialIndex, _looks.size() - 1));
+}
+
+unsigned SceneLooks::texCoordsOf(const aiMesh& mesh) const {
+    const unsigned set = _texCoords[indexOf(mesh)];
+    return set < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(set) ? set : 0;
 }
 
 glm::vec4 SceneLooks::colour(const aiMesh& mesh, unsigned vertex) const {

@@ -27,6 +27,9 @@ public:
     /// The index of a mesh's state set.
     std::uint32_t indexOf(const aiMesh& mesh) const;
 
+    /// Which of the mesh's sets of texture coordinates its texture takes.
+    unsigned texCoordsOf(const aiMesh& mesh) const;
+
     /// Whether some mesh has vertex colours; then all have, some of them their material's.
     bool hasColours() const { return _hasColours; }
 
@@ -35,6 +38,7 @@ public:
 
 private:
     std::vector<Look> _looks;
+    std::vector<unsigned> _texCoords;
     std::vector<bool> _isLinear; ///< glTF's colours are, and are multiplied
     std::vector<osg::ref_ptr<osg::StateSet>> _stateSets;
     bool _hasColours = false;
