@@ -31,7 +31,7 @@ constexpr int kTries = 6;
 
 /// The least that a width may be narrowed to. Where an arm hangs so low that the armpit reaches
 /// into its middle third, no width leaves that third rigid, and a narrow one tears the armpit.
-constexpr double kNarrowest = 0.5;
+constexpr double kNarrowest = 0.4;
 
 /// Width of a field on the two sides of its joint's plane.
 struct Widths {

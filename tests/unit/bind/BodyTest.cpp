@@ -22,10 +22,26 @@ namespace {
 struct Named {
     const char* mesh;
     const char* rig;
+    /// How far every point goes from where it is on the neutral body to where it is on the male
+    /// one, in place of `mesh` as it is.
+    double towardsMale = 0.0;
+    const char* name = nullptr;
 };
 
 void PrintTo(const Named& named, std::ostream* out) {
     *out << named.mesh << " " << named.rig;
+}
+
+SkinMesh meshCalled(const std::string& name) {
+    return shared::readObj(shared::makehuman() / "body" / (name + ".obj"));
+}
+
+RestSkeleton skeletonCalled(const std::string& name) {
+    return shared::readJoints(shared::makehuman() / "rig" / ("joints_" + name + ".json"));
+}
+
+void move(glm::dvec3& from, const glm::dvec3& to, double share) {
+    from += share * (to - from);
 }
 
 /// Real bodies, bound as they come.
@@ -38,8 +54,9 @@ protected:
             shared::makehuman() / "rig" / ("joints_" + std::string(GetParam().rig) + ".json");
         if (!std::filesystem::exists(meshFile) || !std::filesystem::exists(rigFile))
             GTEST_SKIP() << "needs " << meshFile << " and " << rigFile;
-        mesh = shared::readObj(meshFile);
-        skeleton = shared::readJoints(rigFile);
+        mesh = meshCalled(GetParam().mesh);
+        skeleton = skeletonCalled(GetParam().rig);
+        if (GetParam().towardsMale != 0.0) goTowardsMale(GetParam().towardsMale);
         binding = bind(mesh, skeleton, {}, &report);
     }
 
@@ -59,6 +76,20 @@ protected:
             count += 1.0;
         }
         return sum / count;
+    }
+
+    void goTowardsMale(double share) {
+        const SkinMesh male = meshCalled("body4k_male");
+        const RestSkeleton bones = skeletonCalled("cmu_mb_male");
+        ASSERT_EQ(mesh.positions.size(), male.positions.size());
+        ASSERT_EQ(skeleton.joints.size(), bones.joints.size());
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+            move(mesh.positions[v], male.positions[v], share);
+        for (std::size_t j = 0; j < bones.joints.size(); ++j) {
+            RestJoint& joint = skeleton.joints[j];
+            move(joint.centre, bones.joints[j].centre, share);
+            if (joint.tip && bones.joints[j].tip) move(*joint.tip, *bones.joints[j].tip, share);
+        }
     }
 
     SkinMesh mesh;
@@ -202,7 +233,11 @@ TEST_P(CmuBody, WristTwistSpreadsOverTheForearm) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CmuBody,
-                         testing::Values(Named{"body4k_neutral", "cmu_mb_neutral"},
-                                         Named{"body4k_male", "cmu_mb_male"}),
-                         [](const auto& named) { return std::string(named.param.mesh); });
+INSTANTIATE_TEST_SUITE_P(
+    All, CmuBody,
+    testing::Values(Named{"body4k_neutral", "cmu_mb_neutral", 0.0, "Neutral"},
+                    Named{"body4k_male", "cmu_mb_male", 0.0, "Male"},
+                    Named{"body4k_neutral", "cmu_mb_neutral", -1.0, "AwayFromMale"},
+                    Named{"body4k_neutral", "cmu_mb_neutral", 0.5, "HalfWay"},
+                    Named{"body4k_neutral", "cmu_mb_neutral", 1.5, "BeyondMale"}),
+    [](const auto& named) { return std::string(named.param.name); });
