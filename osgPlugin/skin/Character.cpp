@@ -80,6 +80,8 @@ void loadMotions(Character& character, LoadSteps& steps) {
             Character::Motion loaded;
             loaded.clip = retarget(motion, character.rig, options, &loaded.report);
             OSG_INFO << entry.file << ":\n" << loaded.report.text();
+            for (const std::string& note : loaded.report.notes)
+                OSG_NOTICE << entry.file << ": " << note << std::endl;
             return loaded;
         }));
     }

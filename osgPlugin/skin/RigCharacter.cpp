@@ -62,6 +62,8 @@ osg::ref_ptr<osgAnimation::Animation> carriedOver(const std::string& file, const
         RetargetReport report;
         const Clip clip = retarget(importMotion(file), rig.rest, {}, &report);
         OSG_INFO << file << ":\n" << report.text();
+        for (const std::string& note : report.notes)
+            OSG_NOTICE << file << ": " << note << std::endl;
         return makeAnimation(clip, rig.rest);
     } catch (const Error& error) {
         const std::string what = error.what();

@@ -9,6 +9,7 @@
 
 #include <osgSkinImport/Motion>
 
+#include <osg/Notify>
 #include <osgDB/FileNameUtils>
 
 #include <cmath>
@@ -70,6 +71,9 @@ Motion importMotion(const std::string& path, std::size_t skipFrames) {
     const aiScene& scene = readAssimpScene(importer, path);
     if (scene.mNumAnimations == 0) failFile(path, "no animation, expected at least one");
 
+    if (scene.mNumAnimations > 1)
+        OSG_NOTICE << path << ": " << scene.mNumAnimations << " animations, of which the first, \""
+                   << scene.mAnimations[0]->mName.C_Str() << "\", is read" << std::endl;
     Motion motion = sampleTracks(*scene.mAnimations[0], skeletonOf(scene, path), path);
     motion.name = osgDB::getStrippedName(path);
     // Assimp holds the time as a float.

@@ -4,6 +4,7 @@
 #include "FootRoll.h"
 #include "JointMap.h"
 #include "MeasureFeet.h"
+#include "RetargetNotes.h"
 #include "RootMotion.h"
 #include "SkeletonTree.h"
 
@@ -115,6 +116,7 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
         fillReport(*report, motion, rig, motionJoint, alignment);
         for (std::size_t j = 0; j < clip.joints; ++j)
             report->entries[j].turnedOver = feetRoll.turnedOver(j);
+        report->notes = notesOf(map, rig, motion.skeleton, options);
         report->rigNames = map.rig.family;
         report->motionNames = map.motion.family;
         report->scale = root.scale();

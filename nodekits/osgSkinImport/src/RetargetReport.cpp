@@ -21,6 +21,7 @@ std::string RetargetReport::text() const {
             << axis.z;
     }
     out << "\n";
+    for (const std::string& note : notes) out << "note: " << note << "\n";
     for (const Entry& entry : entries) {
         out << "joint " << entry.rigJoint << ": ";
         if (entry.motionJoint.empty())

@@ -69,24 +69,68 @@ std::vector<const aiNodeAnim*> tracksOf(const aiAnimation& animation,
     return result;
 }
 
-/// The first joint below the root that its track moves from its place; empty where none does.
-std::string movedJoint(const std::vector<const aiNodeAnim*>& tracks,
-                       const SceneSkeleton& skeleton) {
-    for (std::size_t j = 1; j < tracks.size(); ++j) {
-        if (tracks[j] == nullptr) continue;
-        const glm::dvec3 place(toGlm(skeleton.nodes[j]->mTransformation)[3]);
-        const double tolerance = 1e-3 * (1.0 + glm::length(place));
-        for (unsigned k = 0; k < tracks[j]->mNumPositionKeys; ++k)
-            if (glm::distance(toGlm(tracks[j]->mPositionKeys[k].mValue), place) > tolerance)
-                return skeleton.rest.joints[j].name;
+/// Whether a track moves its joint from the place that its node has.
+bool moves(const aiNodeAnim* track, const aiNode& node) {
+    if (track == nullptr) return false;
+    const glm::dvec3 place(toGlm(node.mTransformation)[3]);
+    const double tolerance = 1e-3 * (1.0 + glm::length(place));
+    return std::any_of(track->mPositionKeys, track->mPositionKeys + track->mNumPositionKeys,
+                       [&](const aiVectorKey& key) {
+                           return glm::distance(toGlm(key.mValue), place) > tolerance;
+                       });
+}
+
+/// The joint that goes the motion's way: the root, or the last that moves of those that follow it
+/// one by one (the hips below a root on the ground).
+std::size_t wayJoint(const std::vector<const aiNodeAnim*>& tracks, const SceneSkeleton& skeleton) {
+    std::size_t result = 0;
+    for (int j = 0;;) {
+        const std::vector<int> children = skeleton.rest.children(j);
+        if (children.size() != 1) return result;
+        j = children[0];
+        const auto index = static_cast<std::size_t>(j);
+        if (moves(tracks[index], *skeleton.nodes[index])) result = index;
     }
+}
+
+/// The first joint below the way's that its track moves from its place; empty where none does.
+std::string movedJoint(const std::vector<const aiNodeAnim*>& tracks, const SceneSkeleton& skeleton,
+                       std::size_t way) {
+    for (std::size_t j = way + 1; j < tracks.size(); ++j)
+        if (moves(tracks[j], *skeleton.nodes[j])) return skeleton.rest.joints[j].name;
     return {};
+}
+
+/// The skeleton from `way` on: what is above it stands in a row.
+RestSkeleton below(const RestSkeleton& skeleton, std::size_t way) {
+    RestSkeleton result;
+    for (std::size_t j = way; j < skeleton.joints.size(); ++j) {
+        result.joints.push_back(skeleton.joints[j]);
+        result.joints.back().parent -= static_cast<int>(way);
+    }
+    result.joints[0].parent = -1;
+    return result;
 }
 
 glm::dquat localRotation(const aiNodeAnim* track, const aiNode& node, double time) {
     if (track == nullptr || track->mNumRotationKeys == 0)
         return rotationOf(toGlm(node.mTransformation));
     return glm::normalize(valueAt(track->mRotationKeys, track->mNumRotationKeys, time));
+}
+
+glm::dvec3 localPlace(const aiNodeAnim* track, const aiNode& node, double time) {
+    if (track == nullptr || track->mNumPositionKeys == 0)
+        return glm::dvec3(toGlm(node.mTransformation)[3]);
+    return valueAt(track->mPositionKeys, track->mNumPositionKeys, time);
+}
+
+/// A node's matrix as its track has it, with the scale that the node has.
+glm::dmat4 localMatrix(const aiNodeAnim* track, const aiNode& node, double time) {
+    const glm::dmat4 own = toGlm(node.mTransformation);
+    glm::dmat4 result = glm::mat4_cast(localRotation(track, node, time));
+    for (int axis = 0; axis < 3; ++axis) result[axis] *= glm::length(glm::dvec3(own[axis]));
+    result[3] = glm::dvec4(localPlace(track, node, time), 1.0);
+    return result;
 }
 
 } // namespace
@@ -104,19 +148,20 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
     const double rate = animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : 25.0;
 
     Motion motion;
-    motion.skeleton = skeleton.rest;
+    const std::size_t way = wayJoint(tracks, skeleton);
+    motion.skeleton = below(skeleton.rest, way);
     motion.frames = grid.samples;
     motion.frameTime = 1.0 / rate;
     if (grid.samples > 1)
         motion.frameTime = (grid.last - grid.first) / rate / static_cast<double>(grid.samples - 1);
     if (!std::isfinite(motion.frameTime) || !(motion.frameTime > 0.0))
         failFile(path, "the time between its samples is not positive");
-    if (const std::string joint = movedJoint(tracks, skeleton); !joint.empty())
-        OSG_NOTICE << path << ": joint \"" << joint
-                   << "\" moves from its place; only the root's moves are used" << std::endl;
+    if (const std::string joint = movedJoint(tracks, skeleton, way); !joint.empty())
+        OSG_NOTICE << path << ": joint \"" << joint << "\" moves from its place; only moves of \""
+                   << skeleton.rest.joints[way].name << "\" are used" << std::endl;
 
     const std::size_t joints = tracks.size();
-    const glm::dquat above = rotationOf(skeleton.aboveRoot);
+    const glm::dquat aboveTurn = rotationOf(skeleton.aboveRoot);
     std::vector<glm::dquat> world(joints);   // the nodes' own frames
     std::vector<glm::dquat> aligned(joints); // the same, as turns from rest
     for (std::size_t f = 0; f < motion.frames; ++f) {
@@ -124,18 +169,21 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
         for (std::size_t j = 0; j < joints; ++j) {
             const int up = skeleton.rest.joints[j].parent;
             const auto p = static_cast<std::size_t>(std::max(up, 0));
-            world[j] =
-                (up < 0 ? above : world[p]) * localRotation(tracks[j], *skeleton.nodes[j], time);
+            world[j] = (up < 0 ? aboveTurn : world[p]) *
+                       localRotation(tracks[j], *skeleton.nodes[j], time);
             aligned[j] = world[j] * glm::conjugate(skeleton.worldRotations[j]);
-            motion.rotations.push_back(
-                glm::normalize(up < 0 ? aligned[j] : glm::conjugate(aligned[p]) * aligned[j]));
+            if (j >= way)
+                motion.rotations.push_back(glm::normalize(
+                    j == way ? aligned[j] : glm::conjugate(aligned[p]) * aligned[j]));
         }
         glm::dvec3 place = skeleton.rest.joints[0].centre;
-        if (tracks[0] != nullptr && tracks[0]->mNumPositionKeys > 0)
+        if (way > 0 || (tracks[0] != nullptr && tracks[0]->mNumPositionKeys > 0)) {
+            glm::dmat4 above = skeleton.aboveRoot;
+            for (std::size_t j = 0; j < way; ++j)
+                above *= localMatrix(tracks[j], *skeleton.nodes[j], time);
             place = glm::dvec3(
-                skeleton.aboveRoot *
-                glm::dvec4(valueAt(tracks[0]->mPositionKeys, tracks[0]->mNumPositionKeys, time),
-                           1.0));
+                above * glm::dvec4(localPlace(tracks[way], *skeleton.nodes[way], time), 1.0));
+        }
         motion.rootPositions.push_back(place);
     }
     return motion;

@@ -49,6 +49,22 @@ TEST(ImportMotion, RootWithoutPositionChannelsStaysAtItsOffset) {
     EXPECT_LT(difference(motion.rotation(0, 0), turn(10, y) * turn(20, x) * turn(30, z)), 1e-6);
 }
 
+/// Of hips that move over a root on the ground, the way is the hips': turned by the root, from
+/// where it stands.
+TEST(ImportMotion, BeginsWithTheJointThatGoesTheWay) {
+    const osgSkin::Motion motion = osgSkin::importMotion(testData("root_on_ground.bvh"));
+    ASSERT_EQ(motion.skeleton.joints.size(), 3u);
+    EXPECT_EQ(motion.skeleton.joints[0].name, "pelvis");
+    EXPECT_EQ(motion.skeleton.joints[0].parent, -1);
+    EXPECT_EQ(motion.skeleton.joints[2].parent, 0);
+    EXPECT_NO_THROW(motion.skeleton.validate());
+    ASSERT_EQ(motion.rotations.size(), 6u);
+    EXPECT_LT(glm::distance(motion.rootPositions[0], glm::dvec3(0, 10, 0)), 1e-6);
+    EXPECT_LT(glm::distance(motion.rootPositions[1], glm::dvec3(5 + 3, 11, 0)), 1e-5);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, y)), 1e-5);
+    EXPECT_LT(difference(motion.rotation(1, 1), {1, 0, 0, 0}), 1e-5);
+}
+
 TEST(ImportMotion, LineEndsAndWrappedFramesDoNotMatter) {
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
     for (const char* name : {"bvh/two_joints_crlf.bvh", "bvh/wrapped_rows.bvh"}) {

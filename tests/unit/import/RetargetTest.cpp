@@ -182,6 +182,39 @@ TEST(Retarget, RigMayHaveARootOfItsOwn) {
     EXPECT_NEAR(angleBetween(placed.turns[1], {1, 0, 0, 0}), 90.0, 1e-9);
 }
 
+TEST(RetargetNotes, TellOfLimbsThatStayAtRest) {
+    const RestSkeleton figure = makeFigure(0.0);
+    RestSkeleton other = figure;
+    RetargetReport report;
+    osgSkin::retarget(standStill(figure, 1), figure, {}, &report);
+    EXPECT_TRUE(report.notes.empty());
+
+    other.joints[4].name = "Fin"; // the motion calls the upper arm something else
+    osgSkin::retarget(standStill(other, 1), figure, {}, &report);
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_EQ(report.notes[0].find("the motion has nothing for \"LeftArm\" of the rig"), 0u)
+        << report.notes[0];
+    EXPECT_NE(report.text().find("note: the motion has nothing"), std::string::npos);
+    osgSkin::retarget(standStill(other, 1), figure, {{{"LeftArm", ""}}}, &report);
+    EXPECT_TRUE(report.notes.empty()) << "wanted so";
+
+    for (osgSkin::RestJoint& joint : other.joints) joint.name = "part " + joint.name;
+    other.joints[2].name = "Head";
+    osgSkin::retarget(standStill(figure, 1), other, {}, &report);
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_EQ(report.notes[0].find("the rig has nothing for \"Hips\", \"LeftArm\", "
+                                   "\"LeftForeArm\", \"LeftUpLeg\" and 1 more of the motion"),
+              0u)
+        << report.notes[0];
+
+    RestSkeleton stranger = other;
+    for (osgSkin::RestJoint& joint : stranger.joints) joint.name = "x" + joint.name;
+    stranger.joints[2].name = "Head";
+    osgSkin::retarget(standStill(stranger, 1), other, {}, &report);
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_EQ(report.notes[0].find("only 1 of the rig's 11 joints match"), 0u) << report.notes[0];
+}
+
 TEST(RetargetErrors, NameWhatDoesNotMatch) {
     const RestSkeleton figure = makeFigure(0.0);
     const Motion motion = standStill(figure, 1);
