@@ -24,8 +24,9 @@ class FrameWriter {
 public:
     virtual ~FrameWriter() = default;
 
-    /// While the character is in the pose of `posed`. \throw osgSkin::Error where it cannot be
-    /// written
+    /// While the character is in the pose of `posed`.
+    ///
+    /// \throw osgSkin::Error where it cannot be written
     virtual void add(std::size_t frame, const PosedMesh& posed) = 0;
 
     /// After the last frame. \throw osgSkin::Error where it cannot be written

@@ -48,13 +48,13 @@ std::ostream& operator<<(std::ostream& out, const osg::Vec4& c) {
 } // namespace
 
 std::string libraryName(const std::string& pattern) {
-    std::string stem = osgDB::getNameLessExtension(pattern);
+    std::string stem = osgDB::getStrippedName(pattern);
     const std::size_t percent = stem.find('%');
     if (percent != std::string::npos) {
         stem = stem.substr(0, percent) + stem.substr(stem.find('d', percent) + 1);
         while (!stem.empty() && std::string("_-. ").find(stem.back()) != std::string::npos)
             stem.pop_back();
-        if (osgDB::getSimpleFileName(stem).empty()) stem += "frame";
+        if (stem.empty()) stem = "frame";
     }
     return stem + ".mtl";
 }

@@ -9,7 +9,8 @@
 
 namespace bake {
 
-/// The material library that goes with OBJ files called `pattern`: without their number.
+/// The material library that goes with OBJ files called `pattern`: without their number and their
+/// folder.
 std::string libraryName(const std::string& pattern);
 
 /// The name of a surface's material, in OBJ and glTF files.

@@ -47,7 +47,7 @@ void ObjWriter::write(const std::string& file, const PosedMesh& posed) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(file.c_str(), "wb"),
                                                               std::fclose);
     if (!out) fail();
-    std::fprintf(out.get(), "mtllib %s\n", osgDB::getSimpleFileName(_library).c_str());
+    std::fprintf(out.get(), "mtllib %s\n", _library.c_str());
     for (std::size_t v = 0; v < posed.positions.size(); ++v) {
         const glm::dvec3& p = posed.positions[v];
         std::fprintf(out.get(), "v %.9g %.9g %.9g", p.x, p.y, p.z);
@@ -62,8 +62,9 @@ void ObjWriter::write(const std::string& file, const PosedMesh& posed) {
         std::fprintf(out.get(), "vn %.5f %.5f %.5f\n", n.x, n.y, n.z);
     writeFaces(out.get());
     if (std::ferror(out.get()) || std::fflush(out.get()) != 0) fail();
-    if (!_hasLibrary) writeLibrary(_library, _surfaces, osgDB::getFilePath(_character.file.mesh));
-    _hasLibrary = true;
+    const std::string library = osgDB::concatPaths(osgDB::getFilePath(file), _library);
+    if (_libraries.insert(library).second)
+        writeLibrary(library, _surfaces, osgDB::getFilePath(_character.file.mesh));
 }
 
 void ObjWriter::writeFaces(std::FILE* out) const {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,13 +20,12 @@ namespace bake {
 /// coordinates stand at the faces' corners. All share one material library.
 class ObjWriter {
 public:
-    /// \param name of the OBJ files, with or without a place for a number: the library's is the
-    /// same
-    ///        without it, with .mtl at its end
+    /// \param name of the OBJ files, with or without a place for a number: without it and with
+    ///        .mtl at its end it is the library's, beside them
     ObjWriter(const osgSkin::Character& character, const std::string& name);
 
-    /// Writes the posed vertices, and after the first ones the library, with textures beside it
-    /// that are in no file of their own. \throw osgSkin::Error where it cannot
+    /// Writes the posed vertices, and after the first ones of a folder the library, with textures
+    /// beside it that are in no file of their own. \throw osgSkin::Error where it cannot
     void write(const std::string& file, const PosedMesh& posed);
 
 private:
@@ -37,7 +37,7 @@ private:
     const osgSkin::Character& _character;
     const osgSkin::SkinMesh& _mesh;
     std::string _library;
-    bool _hasLibrary = false;
+    std::set<std::string> _libraries; ///< that are written
     std::vector<Surface> _surfaces;
     std::vector<std::uint32_t> _materials; ///< one a face
     std::vector<osg::Vec2> _texCoords;

@@ -4,6 +4,8 @@
 #include "Bytes.h"
 #include "SurfaceLook.h"
 
+#include <cmath>
+
 namespace bake {
 
 PlyWriter::PlyWriter(const osgSkin::Character& character)
@@ -24,7 +26,7 @@ void PlyWriter::write(const std::string& file, const PosedMesh& posed) const {
         bytes.add(posed.positions[v]);
         bytes.add(posed.normals[v]);
         for (unsigned k = 0; k < 4 && !_colours.empty(); ++k)
-            bytes.add(static_cast<std::uint8_t>(_colours[v][k] * 255.0f + 0.5f));
+            bytes.add(static_cast<std::uint8_t>(std::lround(_colours[v][k] * 255.0f)));
     }
     std::size_t corner = 0;
     for (const std::uint32_t size : _mesh.faceSizes) {
