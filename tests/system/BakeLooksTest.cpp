@@ -80,8 +80,9 @@ constexpr std::size_t kTubeVertices = 36;
 std::vector<float> tubeTexCoords() {
     std::vector<float> texCoords;
     for (std::size_t v = 0; v < kTubeVertices; ++v) {
+        const std::size_t ring = v / 6;
         texCoords.push_back(float(v % 6) / 4.0f);
-        texCoords.push_back(float(v / 6) / 8.0f);
+        texCoords.push_back(float(ring) / 8.0f);
     }
     return texCoords;
 }

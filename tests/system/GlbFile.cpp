@@ -47,7 +47,7 @@ std::string Glb::view(std::size_t index) const {
 
 std::string Glb::data(std::size_t index) const {
     const nlohmann::json& accessor = json["accessors"].at(index);
-    const std::string result = view(accessor["bufferView"]);
+    std::string result = view(accessor["bufferView"]);
     const std::string type = accessor["type"];
     const std::size_t components = type == "SCALAR" ? 1 : std::size_t(type.back() - '0');
     EXPECT_EQ(result.size(), 4 * components * std::size_t(accessor["count"]));
