@@ -48,7 +48,7 @@ void claimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joint
                   std::vector<std::uint32_t>& jointOf);
 
 /// Gives what lies well above a joint's plane, where it does not bend, to the region above: the
-/// torso's side below a shoulder.
+/// torso's side below a shoulder. So also what lies far from a collar bone: the chest below it.
 void trimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
                  std::vector<std::uint32_t>& jointOf);
 
