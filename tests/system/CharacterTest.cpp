@@ -3,6 +3,7 @@
 #include "Character.h"
 #include "CharacterFiles.h"
 #include "Command.h"
+#include "DrawnSkin.h"
 
 #include <osg/TriangleIndexFunctor>
 #include <osgAnimation/BoneMapVisitor>
@@ -47,25 +48,6 @@ protected:
         return visitor.getBoneMap().at(name)->getMatrixInSkeletonSpace().getTrans();
     }
 
-    /// Calls visit(source vertex, posed place) for every drawn copy of every vertex.
-    template <typename Visit>
-    void forEachCopy(const Visit& visit) const {
-        for (const auto& skin : character.skin.skins) {
-            const auto& vertices = static_cast<const osg::Vec3Array&>(
-                *skin.drawable->getDeformedGeometry()->getVertexArray());
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                visit(skin.part.sourceVertex[i], osg::Vec3d(vertices[i]));
-        }
-        for (const auto& rigid : character.skin.rigids) {
-            const auto& vertices =
-                static_cast<const osg::Vec3Array&>(*rigid.part.geometry->getVertexArray());
-            const osg::Matrixd matrix =
-                rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace();
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                visit(rigid.part.sourceVertex[i], osg::Vec3d(vertices[i]) * matrix);
-        }
-    }
-
     double height() const {
         double low = 1e30, high = -1e30;
         for (const glm::dvec3& p : character.body.mesh.positions) {
@@ -87,7 +69,7 @@ TEST_P(LoadedCharacter, SeamsStayClosedInEveryFrame) {
         setFrame(frame);
         std::map<std::uint32_t, osg::Vec3d> first;
         seamVertices = 0;
-        forEachCopy([&](std::uint32_t vertex, const osg::Vec3d& place) {
+        test::forEachCopy(character, [&](std::uint32_t vertex, const osg::Vec3d& place) {
             const auto inserted = first.emplace(vertex, place);
             if (inserted.second) return;
             ++seamVertices;
@@ -134,8 +116,9 @@ TEST_P(LoadedCharacter, FeetAreOnTheFloorOfTheRestPose) {
     for (std::size_t frame = 0; frame < frames; frame += std::max<std::size_t>(1, frames / 50)) {
         setFrame(frame);
         double lowest = 1e30;
-        forEachCopy(
-            [&](std::uint32_t, const osg::Vec3d& place) { lowest = std::min(lowest, place.y()); });
+        test::forEachCopy(character, [&](std::uint32_t, const osg::Vec3d& place) {
+            lowest = std::min(lowest, place.y());
+        });
         EXPECT_NEAR(lowest, floor, 0.03 * height()) << "frame " << frame;
     }
 }

@@ -2,6 +2,7 @@
 // Motions on bodies whose skeleton was fitted: they play, and the skin holds together.
 #include "Character.h"
 #include "Command.h"
+#include "DrawnSkin.h"
 
 #include <glm/geometric.hpp>
 
@@ -40,23 +41,9 @@ std::string motionFile(const Play& play) {
 /// Where the skin's vertices are now, in the mesh's own order.
 std::vector<glm::dvec3> posedSkin(const Character& character) {
     std::vector<glm::dvec3> result(character.body.mesh.positions.size());
-    const auto put = [&](std::uint32_t vertex, const osg::Vec3d& p) {
+    test::forEachCopy(character, [&](std::uint32_t vertex, const osg::Vec3d& p) {
         result[vertex] = {p.x(), p.y(), p.z()};
-    };
-    for (const auto& skin : character.skin.skins) {
-        const auto& vertices = static_cast<const osg::Vec3Array&>(
-            *skin.drawable->getDeformedGeometry()->getVertexArray());
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-            put(skin.part.sourceVertex[i], vertices[i]);
-    }
-    for (const auto& rigid : character.skin.rigids) {
-        const auto& vertices =
-            static_cast<const osg::Vec3Array&>(*rigid.part.geometry->getVertexArray());
-        const osg::Matrixd matrix =
-            rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace();
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-            put(rigid.part.sourceVertex[i], osg::Vec3d(vertices[i]) * matrix);
-    }
+    });
     return result;
 }
 

@@ -88,6 +88,9 @@ BodyParts findBodyParts(const SkeletonTree& tree) {
     const double ankle = result.lowest + 0.1 * (highest - result.lowest);
     for (int j = 0; j < tree.size(); ++j)
         if (isLimb(j) && bottom(tree.joint(j)) <= ankle) result.feet.push_back(j);
+    for (const int j : result.feet)
+        if (std::count(result.feet.begin(), result.feet.end(), tree.joint(j).parent) == 0)
+            result.ankles.push_back(j);
     return result;
 }
 

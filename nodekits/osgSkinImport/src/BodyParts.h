@@ -17,6 +17,9 @@ struct BodyParts {
     /// legs.
     std::vector<int> feet;
 
+    /// Those of `feet` that begin one: ankles, whose parents are not among `feet`.
+    std::vector<int> ankles;
+
     /// Height (y) of the lowest joint or tip of the legs at rest; of all where there are none.
     double lowest = 0.0;
 };

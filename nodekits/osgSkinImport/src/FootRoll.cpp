@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace osgSkin {
@@ -24,11 +23,10 @@ double rollAbout(const glm::dvec3& axis, const glm::dquat& turn) {
 FootRoll::FootRoll(const SkeletonTree& rig, const SkeletonTree& motion,
                    const std::vector<int>& motionJoint, const std::vector<glm::dquat>& alignment)
     : _rig(rig), _turnedOver(motionJoint.size(), 0) {
-    const std::vector<int> feet = findBodyParts(rig).feet;
-    const auto isFoot = [&](int j) { return std::find(feet.begin(), feet.end(), j) != feet.end(); };
-    for (const int ankle : feet) {
+    const BodyParts parts = findBodyParts(rig);
+    for (const int ankle : parts.ankles) {
         const auto j = static_cast<std::size_t>(ankle);
-        if (isFoot(rig.joint(ankle).parent) || motionJoint[j] < 0) continue;
+        if (motionJoint[j] < 0) continue;
         const auto bone = findBone(rig, motion, motionJoint, ankle);
         if (!bone || !(glm::length(bone->motion) > 0.0)) continue;
         _feet.push_back({ankle, glm::conjugate(alignment[j]) * glm::normalize(bone->motion)});

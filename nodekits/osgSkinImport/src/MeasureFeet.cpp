@@ -41,11 +41,8 @@ MeasureFeet::MeasureFeet(const SkeletonTree& rig, const SkeletonTree& motion,
     : _rig(rig), _motion(motion) {
     const BodyParts parts = findBodyParts(rig), motionParts = findBodyParts(motion);
     const auto driver = [&](int j) { return motionJoint[static_cast<std::size_t>(j)]; };
-    const auto isFoot = [&](int j) {
-        return std::find(parts.feet.begin(), parts.feet.end(), j) != parts.feet.end();
-    };
-    for (const int ankle : parts.feet) {
-        if (isFoot(rig.joint(ankle).parent) || driver(ankle) < 0) continue;
+    for (const int ankle : parts.ankles) {
+        if (driver(ankle) < 0) continue;
         Foot foot{ankle,
                   driver(ankle),
                   legLength(rig, parts, ankle),
