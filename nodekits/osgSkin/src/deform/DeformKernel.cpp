@@ -2,6 +2,8 @@
 //
 // Compiled once for each instruction set by foreach_target.h, which includes this file again and
 // again; the best one is chosen at run time.
+#include "deform/DeformKernel.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "deform/DeformKernel.cpp"
 #include <hwy/foreach_target.h>
@@ -10,7 +12,6 @@
 
 #include <hwy/cache_control.h>
 
-#include "deform/DeformKernel.h"
 #include "deform/KernelPasses-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelTurns-inl.h"
