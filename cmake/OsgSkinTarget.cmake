@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Settings shared by our own targets; never global, so third-party code is left alone.
 
-# osgskin_settings(TARGET): language level, warnings, hidden symbols, sanitizers.
+# osgskin_settings(TARGET): language level, warnings, hidden symbols, sanitizers, coverage.
 function(osgskin_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
@@ -11,6 +11,10 @@ function(osgskin_settings target)
   if(OSGSKIN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE})
+  endif()
+  if(OSGSKIN_COVERAGE)
+    target_compile_options(${target} PRIVATE --coverage -fprofile-update=atomic)
+    target_link_options(${target} PRIVATE --coverage)
   endif()
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF
@@ -40,4 +44,10 @@ function(osgskin_plugin target)
   set_target_properties(${target} PROPERTIES
     PREFIX "" INSTALL_RPATH "$ORIGIN/.."
     LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGSKIN_OSG_PLUGINS}")
+endfunction()
+
+# osgskin_start_up(SOURCE...): sources of the calling folder that read a command line and run once.
+# GCC spends ten seconds on each to inline CLI11.
+function(osgskin_start_up)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
 endfunction()
