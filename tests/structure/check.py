@@ -8,7 +8,7 @@ it is read; the other rules:
   - a source of a kit has a header of its name, and every source includes that first;
   - a function that a header declares is defined in the source of that header's name (by ctags);
   - links and backquoted paths in Markdown lead somewhere, and where nodekits/README.md names a
-    function() in a line, a file named in that line has it.
+    function() in a line, a file named in that line has it; README.md shows the code that is compiled.
 """
 import collections
 import json
@@ -95,7 +95,7 @@ class House:
 
 def is_code(path):
     """C++, public headers without an extension among it."""
-    return path.suffix in (".cpp", ".h") or (not path.suffix and "include" in path.parts)
+    return path.suffix in (".cpp", ".h") or (not path.suffix and path.parts[-3:-1][:1] == ("include",))
 
 
 def includes(path):
@@ -250,6 +250,23 @@ def check_steps(house, page, text):
                 house.breach(page, f"line {number}: no file linked in it has {name}()")
 
 
+def check_example(house):
+    """README.md has the lines of the example that tests/downstream compiles, and its headers."""
+    example = house.root / "examples/osgskinthrow/ThrowScene.cpp"
+    readme = house.root / "README.md"
+    if not example.is_file() or not readme.is_file():
+        return
+    shown = set(map(str.strip, readme.read_text().splitlines()))
+    for line in example.read_text().split("[readme]")[1].splitlines():
+        line = line.strip().removesuffix("//").strip()
+        if line and line not in shown and f"// {line}" not in shown:
+            house.breach(readme, f"lacks a line of {house.name(example)}: {line}")
+    downstream = house.root / "tests/downstream/main.cpp"
+    for include in re.findall(r"^#include <osgSkin.*>$", readme.read_text(), re.M):
+        if include not in downstream.read_text():
+            house.breach(readme, f"shows {include}, which {house.name(downstream)} does not compile")
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2])
     house = House(root.resolve())
@@ -258,6 +275,7 @@ def main():
     check_own_headers(house)
     check_definitions(house)
     check_pages(house)
+    check_example(house)
     for line in house.breaches:
         print(line)
     rooms = sum(map(len, house.rooms.values()))

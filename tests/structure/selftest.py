@@ -25,7 +25,10 @@ SOUND = {
     "nodekits/high/src/only/Top.h": GPL + "#include <low/Up>\n",
     "nodekits/high/src/only/Top.cpp": GPL + '#include "only/Top.h"\n',
     "nodekits/README.md": "# House\n\nSee [the base](low/src/ground/Base.cpp), `S::f()`, and [above](#house).\n",
+    "README.md": "#include <osgSkin/A>\n// Shown.\nint a = 1;\n",
     "examples/Plain.cpp": MIT + "int main() {}\n",
+    "examples/osgskinthrow/ThrowScene.cpp": MIT + "// [readme] Shown.\n int a = 1;\n// [readme]\n",
+    "tests/downstream/main.cpp": MIT + "#include <osgSkin/A>\n",
 }
 
 # What is changed, and how the complaint about it must begin.
@@ -54,6 +57,9 @@ BROKEN = [
     ({"examples/Plain.cpp": MIT + "\n" * 500}, "examples/Plain.cpp: has 501 lines"),
     ({"examples/run": "#!/bin/sh\n"}, "examples/run: no SPDX-License-Identifier"),
     ({"nodekits/high/src/only/Top.h": MIT}, "nodekits/high/src/only/Top.h: MIT, in a kit that is GPL"),
+    ({"README.md": "#include <osgSkin/A>\n// Shown.\nint a = 2;\n"},
+     "README.md: lacks a line of examples/osgskinthrow/ThrowScene.cpp: int a = 1;"),
+    ({"tests/downstream/main.cpp": MIT}, "README.md: shows #include <osgSkin/A>, which tests/downstream"),
     ({"nodekits/README.md": "[gone](low/Gone.h)\n"}, "nodekits/README.md: links low/Gone.h, which does not exist"),
     ({"nodekits/README.md": "# House\n[there](#hut)\n"}, "nodekits/README.md: links #hut, which has no such heading"),
     ({"nodekits/README.md": "[the base](low/src/ground/Base.cpp): `S::g()`\n"},
