@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: MIT
-# osgskin_test(NAME SOURCES ... LINK ... PCH ...): a GoogleTest program, each of its cases a CTest
-# test. PCH names headers beyond GoogleTest and OSG's geometry that most of its sources include.
+# osgskin_test(NAME SOURCES ... LINK ...): a GoogleTest program, each of its cases a CTest test.
 #
 # OSGSKIN_SHARED_DATA is where the optional third-party bodies and motions are looked for; a test
 # that needs them skips with a message where they are missing.
 function(osgskin_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK;PCH" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   osgskin_settings(${name})
-  # Compiling takes longer than running: GCC's -O1 saves a third of the first.
+  # Compiling takes longer than running: GCC's -O1 saves a quarter of the first.
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  if(OSGSKIN_PCH)
-    target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <osg/Geometry> ${arg_PCH})
-  endif()
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests/support")
   target_link_libraries(${name} PRIVATE ${arg_LINK} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE

@@ -25,7 +25,8 @@ public:
     ObjWriter(const osgSkin::Character& character, const std::string& name);
 
     /// Writes the posed vertices, and after the first ones of a folder the library, with textures
-    /// beside it that are in no file of their own. \throw osgSkin::Error where it cannot
+    /// beside it that are in no file of their own.
+    /// \throw osgSkin::Error where it cannot
     void write(const std::string& file, const PosedMesh& posed);
 
 private:

@@ -17,7 +17,8 @@ class PlyWriter {
 public:
     explicit PlyWriter(const osgSkin::Character& character);
 
-    /// Writes the posed vertices. \throw osgSkin::Error where it cannot
+    /// Writes the posed vertices.
+    /// \throw osgSkin::Error where it cannot
     void write(const std::string& file, const PosedMesh& posed) const;
 
 private:

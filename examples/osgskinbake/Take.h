@@ -25,7 +25,8 @@ struct Take {
 std::vector<Take> takesOf(osgSkin::Character& character, double rate);
 
 /// Reads a `.skin` file, or a rigged model, with or without `.skin` after its name, as the plug-in
-/// does. \param quiet without progress on the terminal
+/// does.
+/// \param quiet without progress on the terminal
 /// \throw osgSkin::Error with the file and the reason
 osgSkin::Character loadCharacter(const std::string& file, bool quiet);
 

@@ -5,6 +5,7 @@
 Prints each breach as PATH: what is wrong, and leaves with 1 where there is one. rooms.txt says how
 it is read; the other rules:
   - at most 20 sources in a folder of nodekits, at most 500 lines in any source, an SPDX line in all;
+  - \\param, \\return and \\throw begin a line of their comment;
   - a source of a kit has a header of its name, and every source includes that first;
   - a function that a header declares is defined in the source of that header's name (by ctags);
   - links and backquoted paths in Markdown lead somewhere, and where nodekits/README.md names a
@@ -113,6 +114,9 @@ def check_sizes(house):
         parts = path.relative_to(house.root).parts
         if path.name == "rooms.txt":
             continue
+        for number, line in enumerate(lines, 1) if is_code(path) else []:
+            if re.search(r"^\s*///.*\S \\(param|return|throw|pre|post)\b", line):
+                house.breach(path, f"line {number}: a \\param, \\return or \\throw begins a line of its own")
         if not licence:
             house.breach(path, "no SPDX-License-Identifier in its first lines")
         elif parts[0] == "nodekits" and len(parts) > 2:

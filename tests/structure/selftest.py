@@ -57,6 +57,8 @@ BROKEN = [
     ({"examples/Plain.cpp": MIT + "\n" * 500}, "examples/Plain.cpp: has 501 lines"),
     ({"examples/run": "#!/bin/sh\n"}, "examples/run: no SPDX-License-Identifier"),
     ({"nodekits/high/src/only/Top.h": MIT}, "nodekits/high/src/only/Top.h: MIT, in a kit that is GPL"),
+    ({"examples/Plain.cpp": MIT + "/// Adds. \\return the sum\n"},
+     "examples/Plain.cpp: line 2: a \\param, \\return or \\throw begins"),
     ({"README.md": "#include <osgSkin/A>\n// Shown.\nint a = 2;\n"},
      "README.md: lacks a line of examples/osgskinthrow/ThrowScene.cpp: int a = 1;"),
     ({"tests/downstream/main.cpp": MIT}, "README.md: shows #include <osgSkin/A>, which tests/downstream"),
