@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # What `cmake --install` and `cpack -G DEB` give: three components, and with them three packages.
 #   runtime  libosgSkin and the serializers: all that a saved character needs (MIT)
-#   plugin   osgSkinBind, osgSkinImport, the .skin plug-in, osgskinbake (GPL-3.0-or-later)
+#   plugin   osgSkinBind, osgSkinImport, osgSkinCharacter, the .skin plug-in, osgskinbake
+#            (GPL-3.0-or-later)
 #   dev      headers, CMake and pkg-config files of whatever kits were built
 # Every path in them is relative, so the installed tree can be moved.
 include(CMakePackageConfigHelpers)
@@ -35,6 +36,10 @@ endif()
 if(TARGET osgSkinImport)
   osgskin_install_kit(osgSkinImport plugin "Reads meshes, skeletons and motions for osgSkin"
     "osgSkinRig openscenegraph-osgDB")
+endif()
+if(TARGET osgSkinCharacter)
+  osgskin_install_kit(osgSkinCharacter plugin "From a file to a character for osgSkin"
+    "osgSkinBind osgSkinImport")
 endif()
 if(TARGET osgdb_serializers_osgskin)
   install(TARGETS osgdb_serializers_osgskin

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "PosedMesh.h"
-#include "load/Character.h"
+
+#include <osgSkinCharacter/Character>
 
 #include <cstddef>
 #include <memory>

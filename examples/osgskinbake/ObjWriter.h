@@ -3,7 +3,8 @@
 
 #include "PosedMesh.h"
 #include "Surface.h"
-#include "load/Character.h"
+
+#include <osgSkinCharacter/Character>
 
 #include <osg/Vec2>
 #include <osg/Vec4>

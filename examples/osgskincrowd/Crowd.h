@@ -40,7 +40,7 @@ private:
         std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins;
         std::vector<osg::ref_ptr<osg::MatrixTransform>> rigids;
     };
-    Member makeMember(const SampledCharacter& character, const osg::Matrix& place,
+    Member makeMember(const SampledCharacter& character, const osg::Matrix& transform,
                       std::size_t phase);
     static void pose(const Member& member, double time);
 

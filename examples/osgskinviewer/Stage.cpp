@@ -118,8 +118,7 @@ Stage::Stage(const std::string& character, const std::string& weights, int width
 }
 
 double Stage::motionLength(std::size_t index) const {
-    const osgSkin::Clip& clip = _body.character.motions[index].clip;
-    return clip.frameTime * static_cast<double>(clip.frames);
+    return _body.character.motions[index].duration();
 }
 
 void Stage::setMotion(std::size_t index) {
@@ -136,9 +135,8 @@ void Stage::setMotion(std::size_t index) {
 
 void Stage::setMotion(const std::string& name) {
     for (std::size_t i = 0; i < motionCount(); ++i)
-        if (_body.character.motions[i].clip.name == name) return setMotion(i);
-    throw std::runtime_error(_body.character.file.file + ": expected a motion called \"" + name +
-                             "\"");
+        if (_body.character.motions[i].name() == name) return setMotion(i);
+    throw std::runtime_error(_body.character.file + ": expected a motion called \"" + name + "\"");
 }
 
 void Stage::changeJoint(int step) {
@@ -238,7 +236,7 @@ std::string Stage::summary() const {
     char time[80] = "at rest";
     if (motionCount() > 0)
         std::snprintf(time, sizeof time, "%s %.2f of %.2f s, %s x%g",
-                      character.motions[_motion].clip.name.c_str(), clock.time(), clock.length(),
+                      character.motions[_motion].name().c_str(), clock.time(), clock.length(),
                       clock.playing ? "playing" : "paused", clock.speed);
     std::string text = std::string(time) + "; " + nameOf(settings.method);
     if (settings.colours == Colours::Regions) text += "; regions";

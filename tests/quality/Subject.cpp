@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Subject.h"
 
-#include "file/WeightsFile.h"
 #include <osgSkinBind/Bind>
+#include <osgSkinCharacter/ReadWeights>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinRig/Motion>

@@ -19,7 +19,7 @@
 namespace osgSkin {
 namespace {
 
-/// Shares of the time that are over when the steps begin, measured at 280,000 vertices.
+/// Fractions of the time that are over when the steps begin, measured at 280,000 vertices.
 constexpr double kRegionsBegin = 0.2;
 constexpr double kBendsBegin = 0.8;
 constexpr double kTwistsBegin = 0.96;
@@ -99,17 +99,15 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     skeleton.validate();
     checkOptions(skeleton, options);
 
-    const auto tell = [&options](const std::string& what, double share) {
-        if (options.progress) options.progress(what, share);
+    const auto tell = [&options](const std::string& what, double fraction) {
+        if (options.progress) options.progress({what, fraction});
     };
     BindReport found;
     tell("welding", 0.0);
     const WeldedMesh skin(mesh);
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
-    const Regions regions =
-        findRegions(skin, joints, [&tell](const std::string& what, double share) { // section 1
-            tell(what, kRegionsBegin + share * (kBendsBegin - kRegionsBegin));
-        });
+    const Regions regions = findRegions(
+        skin, joints, subProgress(options.progress, kRegionsBegin, kBendsBegin)); // section 1
 
     // Section 3: what share of each joint's turn each vertex takes.
     const BinaryField hard{skin, joints, regions.jointOf};
@@ -122,9 +120,9 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
         twist.swap(printed.twist);
     } else {
         bend = bendFields(hard, radii, options, [&](std::size_t joint) {
-            const double share = double(joint - 1) / double(joints.size() - 1);
+            const double fraction = double(joint - 1) / double(joints.size() - 1);
             tell("bend of " + skeleton.joints[joint].name,
-                 kBendsBegin + share * (kTwistsBegin - kBendsBegin));
+                 kBendsBegin + fraction * (kTwistsBegin - kBendsBegin));
         });
         tell("twists", kTwistsBegin);
         twist = twistFields(skin, joints, radii, bend);

@@ -21,7 +21,7 @@
 namespace osgSkin {
 namespace {
 
-/// Shares of the time that are over when the steps begin.
+/// Fractions of the time that are over when the steps begin.
 constexpr double kFacingBegins = 0.85;
 constexpr double kJointsBegin = 0.95;
 
@@ -117,8 +117,8 @@ RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& options, FitRep
     const auto start = std::chrono::steady_clock::now();
     mesh.validate();
     check(options);
-    const auto tell = [&options](const char* what, double share) {
-        if (options.progress) options.progress(what, share);
+    const auto tell = [&options](const char* what, double fraction) {
+        if (options.progress) options.progress({what, fraction});
     };
     FitReport found;
     tell("surface", 0.0);

@@ -6,17 +6,17 @@
 #include "mesh/WeldedMesh.h"
 #include "regions/RegionLabels.h"
 
-#include <osgSkinBind/BindProgress>
+#include <osgSkinBind/Progress>
 
 #include <vector>
 
 namespace osgSkin {
 
 /// Delaunay step, flooding step, and what real meshes need beside them: shells that no Delaunay
-/// edge reaches and islands. \param tell is called as each of these begins, with its name and the
-/// share of the time that is over
+/// edge reaches and islands.
+/// \param progress is told as each of these begins; may be empty
 Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
-                    const BindProgress& tell);
+                    const Progress& progress);
 
 } // namespace osgSkin
 

@@ -14,6 +14,7 @@
 #include <osg/Notify>
 #include <osg/Transform>
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 
@@ -132,10 +133,15 @@ ConvertReport convertRigs(osg::Node& scene, const ConvertOptions& options) {
         if (rigs[rig.skeleton].empty()) skeletons.push_back(rig.skeleton);
         rigs[rig.skeleton].push_back(&rig);
     }
+    double done = 0.0;
+    const double each = 1.0 / std::max(1.0, double(skeletons.size()));
     for (osgAnimation::Skeleton* skeleton : skeletons) {
+        ConvertOptions own = options;
+        own.bind.progress = subProgress(options.bind.progress, done, done + each);
+        done += each;
         try {
             const std::size_t before = report.skins.size();
-            convertSkeleton(*skeleton, rigs[skeleton], options, report);
+            convertSkeleton(*skeleton, rigs[skeleton], own, report);
             if (report.skins.size() > before) noteUnevenScale(*skeleton, collector.clips, report);
         } catch (const Error& error) {
             for (const Rig* rig : rigs[skeleton])

@@ -41,48 +41,48 @@ nlohmann::json JsonReader::parseFile(const std::string& file) {
     }
 }
 
-JsonReader::JsonReader(const nlohmann::json& value, std::string file, std::string place)
-    : _value(value), _file(std::move(file)), _place(std::move(place)) {}
+JsonReader::JsonReader(const nlohmann::json& value, std::string file, std::string path)
+    : _value(value), _file(std::move(file)), _path(std::move(path)) {}
 
-void JsonReader::complain(const std::string& message) const {
-    throw Error(_file + ": " + (_place.empty() ? "" : _place + ": ") + message);
+void JsonReader::failWith(const std::string& message) const {
+    throw Error(_file + ": " + (_path.empty() ? "" : _path + ": ") + message);
 }
 
-void JsonReader::fail(const std::string& expected) const {
-    complain("expected " + expected + ", found " + _value.type_name());
+void JsonReader::failExpected(const std::string& expected) const {
+    failWith("expected " + expected + ", found " + _value.type_name());
 }
 
 std::optional<JsonReader> JsonReader::find(const std::string& key) const {
-    if (!_value.is_object()) fail("an object");
+    if (!_value.is_object()) failExpected("an object");
     const auto found = _value.find(key);
     if (found == _value.end()) return std::nullopt;
-    return JsonReader(*found, _file, _place.empty() ? key : _place + "." + key);
+    return JsonReader(*found, _file, _path.empty() ? key : _path + "." + key);
 }
 
 JsonReader JsonReader::require(const std::string& key, const std::string& expected) const {
     if (auto member = find(key)) return *member;
-    complain("\"" + key + "\" is missing, expected " + expected);
+    failWith("\"" + key + "\" is missing, expected " + expected);
 }
 
 std::string JsonReader::string() const {
-    if (!_value.is_string()) fail("a string");
+    if (!_value.is_string()) failExpected("a string");
     return _value.get<std::string>();
 }
 
 double JsonReader::number() const {
-    if (!_value.is_number()) fail("a number");
+    if (!_value.is_number()) failExpected("a number");
     const double number = _value.get<double>();
-    if (!std::isfinite(number)) fail("a finite number");
+    if (!std::isfinite(number)) failExpected("a finite number");
     return number;
 }
 
 bool JsonReader::boolean() const {
-    if (!_value.is_boolean()) fail("true or false");
+    if (!_value.is_boolean()) failExpected("true or false");
     return _value.get<bool>();
 }
 
 std::size_t JsonReader::count() const {
-    if (!_value.is_number_unsigned()) fail("a whole number, 0 or more");
+    if (!_value.is_number_unsigned()) failExpected("a whole number, 0 or more");
     return _value.get<std::size_t>();
 }
 
@@ -93,23 +93,23 @@ std::vector<JsonReader> JsonReader::items() const {
 }
 
 void JsonReader::forEachItem(const std::function<void(const JsonReader&)>& visit) const {
-    if (!_value.is_array()) fail("a list");
+    if (!_value.is_array()) failExpected("a list");
     std::size_t i = 0;
     for (const nlohmann::json& item : _value)
-        visit(JsonReader(item, _file, _place + "[" + std::to_string(i++) + "]"));
+        visit(JsonReader(item, _file, _path + "[" + std::to_string(i++) + "]"));
 }
 
 void JsonReader::forEachMember(
     const std::function<void(const std::string&, const JsonReader&)>& visit) const {
-    if (!_value.is_object()) fail("an object");
+    if (!_value.is_object()) failExpected("an object");
     for (const auto& [key, member] : _value.items())
-        visit(key, JsonReader(member, _file, _place.empty() ? key : _place + "." + key));
+        visit(key, JsonReader(member, _file, _path.empty() ? key : _path + "." + key));
 }
 
 void JsonReader::warnUnknown(std::initializer_list<const char*> known) const {
     forEachMember([&](const std::string& key, const JsonReader& member) {
         if (std::find(known.begin(), known.end(), key) == known.end())
-            OSG_WARN << _file << ": " << member._place << ": not known, passed over" << std::endl;
+            OSG_WARN << _file << ": " << member._path << ": not known, passed over" << std::endl;
     });
 }
 

@@ -11,18 +11,18 @@
 
 namespace osgSkin {
 
-/// A JSON value with its file and its place in it, so that every complaint names both.
+/// A JSON value with its file and its path in it, so that every error names both.
 class JsonReader {
 public:
     /// Parses the whole file. \throw Error where it cannot be read or is not JSON
     static nlohmann::json parseFile(const std::string& file);
 
-    JsonReader(const nlohmann::json& value, std::string file, std::string place = "");
+    JsonReader(const nlohmann::json& value, std::string file, std::string path = "");
 
-    /// Throws Error "FILE: PLACE: expected `expected`, found ...".
-    [[noreturn]] void fail(const std::string& expected) const;
-    /// Throws Error "FILE: PLACE: `message`".
-    [[noreturn]] void complain(const std::string& message) const;
+    /// Throws Error "FILE: PATH: expected `expected`, found ...".
+    [[noreturn]] void failExpected(const std::string& expected) const;
+    /// Throws Error "FILE: PATH: `message`".
+    [[noreturn]] void failWith(const std::string& message) const;
 
     /// The member `key` of an object; nothing where there is none. \throw Error where not an object
     std::optional<JsonReader> find(const std::string& key) const;
@@ -44,12 +44,10 @@ public:
     /// Warns of members of an object that nobody will read: most often a misspelt one.
     void warnUnknown(std::initializer_list<const char*> known) const;
 
-    const std::string& place() const { return _place; }
-
 private:
     const nlohmann::json& _value;
     std::string _file;
-    std::string _place; ///< like motions[0].file
+    std::string _path; ///< like motions[0].file
 };
 
 } // namespace osgSkin

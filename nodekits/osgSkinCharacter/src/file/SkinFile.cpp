@@ -14,7 +14,7 @@ namespace {
 /// Paths in the description are relative to its folder.
 std::string path(const JsonReader& reader, const std::string& folder) {
     const std::string name = reader.string();
-    if (name.empty()) reader.complain("expected a file name, found an empty string");
+    if (name.empty()) reader.failWith("expected a file name, found an empty string");
     return folder.empty() || osgDB::isAbsolutePath(name) ? name : osgDB::concatPaths(folder, name);
 }
 
@@ -22,13 +22,13 @@ void checkVersion(const JsonReader& root) {
     const JsonReader version = root.require("osgskin", "the format's version, 1");
     const std::size_t number = version.count();
     if (number == 0 || number > SkinFile::kVersion)
-        version.complain("version " + std::to_string(number) + " is not supported, expected " +
+        version.failWith("version " + std::to_string(number) + " is not supported, expected " +
                          std::to_string(SkinFile::kVersion));
 }
 
-SkinFile::Motion readMotion(const JsonReader& reader, const std::string& folder) {
+SkinFile::MotionEntry readMotion(const JsonReader& reader, const std::string& folder) {
     reader.warnUnknown({"file", "name", "skipFrames", "joints"});
-    SkinFile::Motion motion;
+    SkinFile::MotionEntry motion;
     motion.file = path(reader.require("file", "a motion file's name"), folder);
     motion.name = osgDB::getStrippedName(motion.file);
     if (const auto name = reader.find("name")) motion.name = name->string();
@@ -48,7 +48,7 @@ JointNames readNames(const std::string& family, const JsonReader& reader) {
     JointNames names{family, {}};
     reader.forEachMember([&](const std::string& role, const JsonReader& value) {
         if (roles.count(role) == 0)
-            value.complain("no such part of a body, expected Hips, Spine, LeftUpperArm, ...");
+            value.failWith("no such part of a body, expected Hips, Spine, LeftUpperArm, ...");
         if (value.isList())
             value.forEachItem(
                 [&](const JsonReader& name) { names.roles[role].push_back(name.string()); });
@@ -65,9 +65,9 @@ SkinFile::Prop readProp(const JsonReader& reader, const SkinFile& skin, const st
     const JsonReader motion = reader.require("motion", "the name of one of the motions");
     prop.motion = motion.string();
     prop.file = path(reader.require("file", "a motion file's name"), folder);
-    for (const SkinFile::Motion& known : skin.motions)
+    for (const SkinFile::MotionEntry& known : skin.motions)
         if (known.name == prop.motion) return prop;
-    motion.complain("expected the name of one of the motions, found \"" + prop.motion + "\"");
+    motion.failWith("expected the name of one of the motions, found \"" + prop.motion + "\"");
 }
 
 /// A region's two boundaries (paper, Fig. 3), in bone lengths from the joint.
@@ -76,7 +76,7 @@ void readBoundaries(const JsonReader& reader, std::optional<double>& upper,
     if (const auto value = reader.find("upper")) upper = value->number();
     if (const auto value = reader.find("lower")) lower = value->number();
     if (upper && lower && *upper >= *lower)
-        reader.complain("expected \"upper\" to be less than \"lower\"");
+        reader.failWith("expected \"upper\" to be less than \"lower\"");
 }
 
 JointBindOptions readJoint(const JsonReader& reader) {
@@ -97,7 +97,7 @@ JointBindOptions readJoint(const JsonReader& reader) {
             else if (pole == "child")
                 joint.twistPole = JointBindOptions::Pole::Child;
             else
-                along->complain("expected \"parent\" or \"child\", found \"" + pole + "\"");
+                along->failWith("expected \"parent\" or \"child\", found \"" + pole + "\"");
         }
     }
     return joint;
@@ -108,14 +108,14 @@ void readMethod(const JsonReader& root, const std::string& folder, SkinFile& ski
     const auto method = root.find("bind");
     const std::string name = method ? method->string() : "smooth";
     if (name != "smooth" && name != "paper" && name != "weights")
-        method->complain("expected \"smooth\", \"paper\" or \"weights\", found \"" + name + "\"");
+        method->failWith("expected \"smooth\", \"paper\" or \"weights\", found \"" + name + "\"");
     if (name == "paper") skin.bind.method = BindOptions::Method::Paper;
     const auto weights = root.find("weights");
     skin.paintedWeights = name == "weights";
     if (skin.paintedWeights && weights)
         skin.weights = path(*weights, folder);
     else if (weights)
-        weights->complain("expected \"bind\": \"weights\" beside it");
+        weights->failWith("expected \"bind\": \"weights\" beside it");
 }
 
 void readBinding(const JsonReader& root, BindOptions& bind) {
@@ -152,7 +152,7 @@ SkinFile SkinFile::read(const std::string& file) {
         motions->forEachItem([&](const JsonReader& reader) {
             skin.motions.push_back(readMotion(reader, folder));
             if (!names.insert(skin.motions.back().name).second)
-                reader.complain("the name \"" + skin.motions.back().name +
+                reader.failWith("the name \"" + skin.motions.back().name +
                                 "\" is taken, expected a \"name\" of its own");
         });
     }
@@ -166,7 +166,7 @@ SkinFile SkinFile::read(const std::string& file) {
         });
     if (const auto up = root.find("up")) {
         if (up->string() != "y" && up->string() != "z")
-            up->complain("expected \"y\" or \"z\", found \"" + up->string() + "\"");
+            up->failWith("expected \"y\" or \"z\", found \"" + up->string() + "\"");
         skin.zUp = up->string() == "z";
     }
     if (skin.fit && skin.zUp) skin.fit->up = {0.0, 0.0, 1.0};

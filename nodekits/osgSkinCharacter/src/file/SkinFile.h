@@ -18,25 +18,27 @@ struct SkinFile {
     /// The newest format that this code reads.
     static constexpr std::size_t kVersion = 1;
 
-    struct Motion {
+    /// A motion file to be retargeted.
+    struct MotionEntry {
         std::string file;
         std::string name;
         std::size_t skipFrames = 0;
         std::map<std::string, std::string> joints; ///< rig joint -> motion joint
     };
 
-    /// A thing that is not skin (a ball) with a motion of its own, in the clip called `motion`.
+    /// Something that is not skin (a ball) with a path of its own during the motion called
+    /// `motion`.
     struct Prop {
         std::string mesh;
         std::string motion;
-        std::string file; ///< a BVH file of one joint, in the space of that clip's motion file
+        std::string file; ///< a BVH file of one joint, in the space of that motion's file
     };
 
     std::string file; ///< the .skin file itself
     std::string mesh;
     std::string skeleton;          ///< the mesh's own file where the description names none
     std::optional<FitOptions> fit; ///< instead of a skeleton file
-    std::vector<Motion> motions;
+    std::vector<MotionEntry> motions;
     std::vector<JointNames> names; ///< families of joint names beside the known ones
     std::vector<Prop> props;
     BindOptions bind;

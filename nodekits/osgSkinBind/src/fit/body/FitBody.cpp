@@ -17,7 +17,7 @@ namespace {
 /// Clues that add up to less than this say nothing.
 constexpr double kFacingThreshold = 0.012;
 
-/// Shares of the whole fit's time before and after the curves are looked for.
+/// Fractions of the whole fit's time before and after the curves are looked for.
 constexpr double kCurvesBegin = 0.2;
 constexpr double kCurvesEnd = 0.85;
 
@@ -59,9 +59,10 @@ FitBody::FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiv
         glm::transpose(turn) * glm::dvec3(0.5 * (low.x + high.x), low.y, 0.5 * (low.z + high.z));
     _scale = 1.0 / tall;
     surface.transform(_turn, _origin, _scale);
-    const auto tell = [&options](double share) {
+    const auto tell = [&options](double fraction) {
         if (options.progress)
-            options.progress("medial curves", kCurvesBegin + share * (kCurvesEnd - kCurvesBegin));
+            options.progress(
+                {"medial curves", kCurvesBegin + fraction * (kCurvesEnd - kCurvesBegin)});
     };
     tell(0.0);
     branches = BodyBranches::find(surface.curveSkeleton(tell), legsGiven, armsGiven);
