@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "RegisterWrapper.h"
 #include "RestGeometry.h"
 
 #include <osgSkin/DeformableSkin>
 
 #include <osgDB/InputStream>
-#include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -125,9 +125,9 @@ bool readPose(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
 
 } // namespace
 
-REGISTER_OBJECT_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
-                        osgSkin::DeformableSkin,
-                        "osg::Object osg::Node osg::Drawable osgSkin::DeformableSkin") {
+REGISTER_OSGSKIN_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
+                         osgSkin::DeformableSkin,
+                         "osg::Object osg::Node osg::Drawable osgSkin::DeformableSkin") {
     ADD_BOOL_SERIALIZER(Eager, false);
     ADD_USER_SERIALIZER(Skin);
     ADD_USER_SERIALIZER(Tangents);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "RegisterWrapper.h"
+
 #include <osgSkin/SharedSkinModel>
 #include <osgSkin/SkinModelBlock>
 
 #include <osgDB/InputStream>
-#include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 
 #include <algorithm>
@@ -69,7 +70,7 @@ bool readModel(osgDB::InputStream& is, osgSkin::SharedSkinModel& shared) {
 
 } // namespace
 
-REGISTER_OBJECT_WRAPPER(osgSkin_SharedSkinModel, new osgSkin::SharedSkinModel,
-                        osgSkin::SharedSkinModel, "osg::Object osgSkin::SharedSkinModel") {
+REGISTER_OSGSKIN_WRAPPER(osgSkin_SharedSkinModel, new osgSkin::SharedSkinModel,
+                         osgSkin::SharedSkinModel, "osg::Object osgSkin::SharedSkinModel") {
     ADD_USER_SERIALIZER(Model);
 }

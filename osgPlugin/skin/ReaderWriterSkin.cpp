@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "KitCheck.h"
+#include "osgSkinBindBuild.h"
+#include "osgSkinBuild.h"
+#include "osgSkinCharacterBuild.h"
+#include "osgSkinImportBuild.h"
+#include "osgSkinRigBuild.h"
+
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinCharacter/OptionString>
 
@@ -8,6 +15,7 @@
 #include <osgDB/Registry>
 
 #include <exception>
+#include <memory>
 
 /// Reads `.skin` files: a body, its skeleton and its motions, bound and playing. As a pseudo-loader
 /// it re-skins any rigged model: `model.glb.skin`. All of it is osgSkin::loadCharacter().
@@ -41,4 +49,11 @@ public:
     }
 };
 
-REGISTER_OSGPLUGIN(skin, ReaderWriterSkin)
+// As REGISTER_OSGPLUGIN, but only beside the libraries that it was built with.
+extern "C" void osgdb_skin(void) {}
+static const auto g_proxy =
+    plugin::mayUse("osgdb_skin", {OSGSKIN_KIT_BUILD(osgSkin), OSGSKIN_KIT_BUILD(osgSkinRig),
+                                  OSGSKIN_KIT_BUILD(osgSkinBind), OSGSKIN_KIT_BUILD(osgSkinImport),
+                                  OSGSKIN_KIT_BUILD(osgSkinCharacter)})
+        ? std::make_unique<osgDB::RegisterReaderWriterProxy<ReaderWriterSkin>>()
+        : nullptr;
