@@ -7,8 +7,8 @@
 
 namespace osgSkin {
 
-/// What `"skeleton": { "fit": true, ... }` says, without the up axis. \throw Error with file, JSON
-/// path and what was expected
+/// What `"skeleton": { "fit": true, ... }` says, without the up axis.
+/// \throw Error with file, JSON path and what was expected
 FitOptions readFit(const JsonReader& reader);
 
 } // namespace osgSkin

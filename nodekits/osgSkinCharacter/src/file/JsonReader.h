@@ -14,7 +14,8 @@ namespace osgSkin {
 /// A JSON value with its file and its path in it, so that every error names both.
 class JsonReader {
 public:
-    /// Parses the whole file. \throw Error where it cannot be read or is not JSON
+    /// Parses the whole file.
+    /// \throw Error where it cannot be read or is not JSON
     static nlohmann::json parseFile(const std::string& file);
 
     JsonReader(const nlohmann::json& value, std::string file, std::string path = "");
@@ -24,7 +25,8 @@ public:
     /// Throws Error "FILE: PATH: `message`".
     [[noreturn]] void failWith(const std::string& message) const;
 
-    /// The member `key` of an object; nothing where there is none. \throw Error where not an object
+    /// The member `key` of an object; nothing where there is none.
+    /// \throw Error where not an object
     std::optional<JsonReader> find(const std::string& key) const;
     /// The member `key`, or an Error that says what it should have been.
     JsonReader require(const std::string& key, const std::string& expected) const;

@@ -46,7 +46,8 @@ struct SkinFile {
     std::string weights;         ///< their file; empty: the mesh's own
     bool zUp = false;            ///< the character's files have Z up, not Y
 
-    /// Reads and checks a file. \throw Error with file, JSON path and what was expected
+    /// Reads and checks a file.
+    /// \throw Error with file, JSON path and what was expected
     static SkinFile read(const std::string& file);
 };
 
