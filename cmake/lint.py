@@ -87,24 +87,17 @@ def run(folder, flags, files, checks):
 
 def tidy(folder, flags, files):
     """Complaints about one unit."""
-    apart = []
-    while len(files) > 1:
-        # Does it compile? One cheap check, as clang-tidy wants to have at least one.
-        status, found = run(folder, flags, files, "-*,misc-misplaced-const")
-        if status == 0:
-            break
-        blamed = [f for f in files if f"{f}:" in found] or files
-        apart += blamed
-        files = [f for f in files if f not in blamed]
-    if apart:
-        print("by themselves: " + " ".join(pathlib.Path(f).name for f in apart), flush=True)
-    jobs = [(folder, files)] if files else []
-    jobs += [(folder / pathlib.Path(file).stem, [file]) for file in apart]
-    texts = []
-    for place, part in jobs:
-        status, found = run(place, flags, part, "-bugprone-suspicious-include" if len(part) > 1 else "")
-        texts.append(found if status else "")
-    return "".join(texts)
+    status, found = run(folder, flags, files, "-bugprone-suspicious-include" if len(files) > 1 else "")
+    if status == 0:
+        return ""
+    if len(files) == 1 or "[clang-diagnostic-error]" not in found:
+        return found
+    blamed = [f for f in files if re.search(rf"^{re.escape(f)}:\d+:\d+: error: .*\[clang-diagnostic-error\]",
+                                            found, re.M)] or files
+    rest = [f for f in files if f not in blamed]
+    print("by themselves: " + " ".join(pathlib.Path(f).name for f in blamed), flush=True)
+    texts = [tidy(folder / pathlib.Path(file).stem, flags, [file]) for file in blamed]
+    return "".join(texts) + (tidy(folder, flags, rest) if rest else "")
 
 
 def main():
