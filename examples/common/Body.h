@@ -41,7 +41,7 @@ public:
     glm::dvec3 fromWorld(const glm::dvec3& v) const;
 
 private:
-    std::shared_ptr<const osgSkin::SkinModel> _model;
+    osg::ref_ptr<const osgSkin::SkinModel> _model;
     compare::SkinWeights _weights;
 };
 

@@ -29,7 +29,7 @@ bool checkSkin(const osgSkin::DeformableSkin& skin) {
 bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
     os << os.BEGIN_BRACKET << std::endl;
     os << skin.getRestGeometry();
-    os << skin.getSharedModel();
+    os << skin.getModel();
     os << os.END_BRACKET << std::endl;
     return true;
 }
@@ -37,13 +37,12 @@ bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
 bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     is >> is.BEGIN_BRACKET;
     const osg::ref_ptr<osg::Geometry> rest = is.readObjectOfType<osg::Geometry>();
-    const osg::ref_ptr<osgSkin::SharedSkinModel> model =
-        is.readObjectOfType<osgSkin::SharedSkinModel>();
+    const osg::ref_ptr<const osgSkin::SkinModel> model = is.readObjectOfType<osgSkin::SkinModel>();
     is >> is.END_BRACKET;
     if (is.getException()) return false;
     if (!rest) return fail(is, skin, "no rest geometry");
-    if (!model || !model->getModel()) return fail(is, skin, "no skin model");
-    const std::string wrong = whatIsWrongWith(*rest, model->getModel()->vertexCount());
+    if (!model) return fail(is, skin, "no skin model");
+    const std::string wrong = whatIsWrongWith(*rest, model->vertexCount());
     if (!wrong.empty()) return fail(is, skin, wrong);
     // osg::Node's part of the file has it already, and it need not be the geometry's.
     const osg::ref_ptr<osg::StateSet> stateSet = skin.getStateSet();

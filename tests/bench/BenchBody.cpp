@@ -153,7 +153,7 @@ Body refine(const Body& coarse, std::uint32_t parts) {
 
 } // namespace
 
-std::shared_ptr<const osgSkin::SkinModel> Body::model() const {
+osg::ref_ptr<const osgSkin::SkinModel> Body::model() const {
     std::vector<std::uint32_t> source(positions.size());
     for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
     return osgSkin::SkinModel::create(binding, positions, normals, source);

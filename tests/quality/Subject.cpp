@@ -71,7 +71,7 @@ Subject loadSubject(const SubjectFiles& files) {
     return subject;
 }
 
-std::shared_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject) {
+osg::ref_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject) {
     const compare::Points& rest = subject.rest;
     std::vector<std::uint32_t> source(rest.size());
     std::iota(source.begin(), source.end(), 0u);

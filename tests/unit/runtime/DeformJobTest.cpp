@@ -29,8 +29,8 @@ glm::dvec3 reference(const osgSkin::Binding& binding, std::uint32_t vertex, glm:
                                  skinning[influence.joint];
         const osgSkin::BendTwist split =
             osgSkin::splitBendTwist(glm::quat_cast(glm::dmat3(local)), joint.twistAxis);
-        x = joint.centre + osgSkin::partialTurn(split, joint.twistAxis, double(influence.bend),
-                                                double(influence.twist)) *
+        x = joint.centre + osgSkin::partialRotation(split, joint.twistAxis, double(influence.bend),
+                                                    double(influence.twist)) *
                                (x - joint.centre);
     }
     return x;
@@ -49,12 +49,12 @@ struct Deformed {
     }
     Deformed(const Deformed&) = delete;
 
-    std::shared_ptr<const osgSkin::SkinModel> model;
+    osg::ref_ptr<const osgSkin::SkinModel> model;
     Pose pose;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents;
-    std::shared_ptr<const osgSkin::SkinTangents> restTangents;
+    osg::ref_ptr<const osgSkin::SkinTangents> restTangents;
     DeformJob job;
 
     /// Asks for tangents along the tube, of either handedness.
@@ -68,12 +68,38 @@ struct Deformed {
     }
 };
 
+/// What validate() throws; empty where it throws nothing.
+std::string reasonAgainst(const DeformJob& job) {
+    try {
+        job.validate();
+        return "";
+    } catch (const osgSkin::Error& error) {
+        return error.what();
+    }
+}
+
 } // namespace
 
 TEST(DeformJob, DefaultIsInvalid) {
     const DeformJob job;
-    EXPECT_STREQ(job.validate(), "no model");
+    EXPECT_EQ(reasonAgainst(job), "deform job: no model");
+    EXPECT_FALSE(job.isValid());
     EXPECT_FALSE(job.run());
+    EXPECT_FALSE(job.runPart(0));
+}
+
+TEST(DeformJob, ModelWithoutVerticesGivesNone) {
+    const osg::ref_ptr<const osgSkin::SkinModel> model = new osgSkin::SkinModel;
+    const Pose pose(model->joints());
+    glm::vec3 nothing(7.0f);
+    DeformJob job;
+    job.model = model;
+    job.pose = &pose;
+    job.positions = &nothing;
+    EXPECT_TRUE(job.isValid());
+    EXPECT_TRUE(job.run());
+    EXPECT_EQ(job.partCount(), 0u);
+    EXPECT_EQ(nothing, glm::vec3(7.0f));
 }
 
 TEST(DeformJob, SaysWhatIsMissing) {
@@ -82,7 +108,8 @@ TEST(DeformJob, SaysWhatIsMissing) {
     good.addTangents();
     Deformed other(tube);
     other.addTangents();
-    ASSERT_EQ(good.job.validate(), nullptr);
+    ASSERT_EQ(reasonAgainst(good.job), "");
+    ASSERT_TRUE(good.job.isValid());
     const Pose foreign;
     struct Case {
         const char* name;
@@ -103,7 +130,8 @@ TEST(DeformJob, SaysWhatIsMissing) {
     for (const Case& c : cases) {
         DeformJob job = good.job;
         c.spoil(job);
-        EXPECT_NE(job.validate(), nullptr) << c.name;
+        EXPECT_NE(reasonAgainst(job), "") << c.name;
+        EXPECT_FALSE(job.isValid()) << c.name;
         EXPECT_FALSE(job.run()) << c.name;
         EXPECT_FALSE(job.runReference()) << c.name;
     }

@@ -33,7 +33,7 @@ struct Count {
 TEST(DeformableSkin, DefaultIsEmptyAndHarmless) {
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
     EXPECT_EQ(skin->getDeformedGeometry(), nullptr);
-    EXPECT_FALSE(skin->setPose(nullptr, 0));
+    EXPECT_FALSE(skin->setPose(std::vector<osg::Matrixd>()));
     EXPECT_FALSE(skin->getBoundingBox().valid());
     cull(*skin, true);
     osg::TriangleFunctor<Count> count;

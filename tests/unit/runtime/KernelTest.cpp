@@ -143,8 +143,8 @@ void reference(const osgSkin::Binding& binding, const osgSkin::Pose& pose, std::
         const osgSkin::BoundJoint& joint = binding.joints[influence.joint];
         const osgSkin::JointTransform& turn = pose.transform(influence.joint);
         const auto bend = static_cast<double>(influence.bend);
-        const glm::dquat q = osgSkin::partialTurn(turn.split, joint.twistAxis, bend,
-                                                  static_cast<double>(influence.twist));
+        const glm::dquat q = osgSkin::partialRotation(turn.split, joint.twistAxis, bend,
+                                                      static_cast<double>(influence.twist));
         n = q * n;
         t = q * t;
         const double scale = 1.0 + bend * (turn.scale - 1.0);
@@ -154,7 +154,7 @@ void reference(const osgSkin::Binding& binding, const osgSkin::Pose& pose, std::
     }
 }
 
-using Model = std::shared_ptr<const osgSkin::SkinModel>;
+using Model = osg::ref_ptr<const osgSkin::SkinModel>;
 
 Model modelOf(const Skin& skin) {
     return osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/DeformJob>
 
+#include <osgSkin/Error>
+
 #include "deform/Chain.h"
 #include "deform/DeformKernel.h"
 #include "deform/KernelChain.h"
+#include "model/SkinModelAccess.h"
 
 #include <algorithm>
 
@@ -20,7 +23,7 @@ std::size_t groupOf(const SkinBlocks& blocks, std::size_t block) noexcept {
 
 /// The vertex, in the model's order, that a block begins with; all of them for the end.
 std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
-    const SkinBlocks& blocks = model.blocks();
+    const SkinBlocks& blocks = SkinModelAccess::blocks(model);
     if (block >= blocks.firstBlock.back()) return model.vertexCount();
     const std::size_t group = groupOf(blocks, block);
     return model.groups()[group].firstVertex + (block - blocks.firstBlock[group]) * kBlock;
@@ -29,7 +32,7 @@ std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
 /// Deforms the blocks from `first` to before `end`, and no other vertex is written.
 void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
     const SkinModel& model = *job.model;
-    const SkinBlocks& blocks = model.blocks();
+    const SkinBlocks& blocks = SkinModelAccess::blocks(model);
     const std::size_t endVertex = firstVertexOf(model, end);
     KernelChain chain(model, *job.pose);
     KernelCall call;
@@ -48,49 +51,63 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
         call.positions = &job.positions[out].x;
         call.normals = job.normals ? &job.normals[out].x : nullptr;
         call.tangents = job.tangents ? &job.tangents[out].x : nullptr;
-        call.tangentRows =
-            job.tangents ? job.restTangents->blocks(g) + from * SkinBlocks::kTangentRows : nullptr;
+        call.tangentRows = job.tangents ? SkinModelAccess::blocks(*job.restTangents, g) +
+                                              from * SkinBlocks::kTangentRows
+                                        : nullptr;
         runKernel(call);
     }
 }
 
-} // namespace
-
-const char* DeformJob::validate() const noexcept {
-    if (!model) return "no model";
-    if (!pose) return "no pose";
-    if (pose->size() != model->joints().size()) return "the pose is not one of the model's joints";
-    if (!positions) return "no output for positions";
-    if (positionCount != model->vertexCount()) return "as many positions as vertices are needed";
-    if (normals && normalCount != model->vertexCount())
-        return "as many normals as vertices are needed";
-    if (!tangents) return nullptr;
-    if (!normals) return "tangents are turned beside normals only";
-    if (!restTangents) return "no rest tangents";
-    if (restTangents->model().get() != model) return "the rest tangents are another model's";
-    if (tangentCount != model->vertexCount()) return "as many tangents as vertices are needed";
+/// Why a job cannot run; null where it can.
+const char* reasonAgainst(const DeformJob& job) noexcept {
+    if (!job.model) return "no model";
+    const std::size_t vertices = job.model->vertexCount();
+    if (!job.pose) return "no pose";
+    if (job.pose->size() != job.model->joints().size())
+        return "the pose is not one of the model's joints";
+    if (!job.positions) return "no output for positions";
+    if (job.positionCount != vertices) return "as many positions as vertices are needed";
+    if (job.normals && job.normalCount != vertices) return "as many normals as vertices are needed";
+    if (!job.tangents) return nullptr;
+    if (!job.normals) return "tangents are rotated beside normals only";
+    if (!job.restTangents) return "no rest tangents";
+    if (job.restTangents->model() != job.model) return "the rest tangents are another model's";
+    if (job.tangentCount != vertices) return "as many tangents as vertices are needed";
     return nullptr;
 }
 
+} // namespace
+
+void DeformJob::validate() const {
+    if (const char* reason = reasonAgainst(*this))
+        throw Error(std::string("deform job: ") + reason);
+}
+
+bool DeformJob::isValid() const noexcept {
+    return !reasonAgainst(*this);
+}
+
 bool DeformJob::run() const noexcept {
-    if (validate()) return false;
-    runBlocks(*this, 0, model->blocks().firstBlock.back());
+    if (!isValid()) return false;
+    runBlocks(*this, 0, SkinModelAccess::blocks(*model).firstBlock.back());
     return true;
 }
 
 std::size_t DeformJob::partCount() const noexcept {
-    if (validate()) return 0;
-    return (model->blocks().firstBlock.back() + kPartBlocks - 1) / kPartBlocks;
+    if (!isValid()) return 0;
+    return (SkinModelAccess::blocks(*model).firstBlock.back() + kPartBlocks - 1) / kPartBlocks;
 }
 
-void DeformJob::runPart(std::size_t part) const noexcept {
-    if (part >= partCount()) return;
+bool DeformJob::runPart(std::size_t part) const noexcept {
+    if (part >= partCount()) return false;
     const std::size_t first = part * kPartBlocks;
-    runBlocks(*this, first, std::min(first + kPartBlocks, model->blocks().firstBlock.back()));
+    runBlocks(*this, first,
+              std::min(first + kPartBlocks, SkinModelAccess::blocks(*model).firstBlock.back()));
+    return true;
 }
 
 bool DeformJob::runReference() const noexcept {
-    if (validate()) return false;
+    if (!isValid()) return false;
     for (const SkinModel::Group& group : model->groups()) {
         const Chain chain(*model, group, *pose);
         const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;

@@ -65,7 +65,7 @@ struct KernelLink {
 /// All vertices of one group, with the constants that they have in common.
 struct KernelCall {
     const BlockRow* rows;
-    const BlockRow* tangentRows; ///< SkinTangents::blocks(); where tangents is not null
+    const BlockRow* tangentRows; ///< SkinModelAccess::blocks(); where tangents is not null
     std::size_t vertexCount;
     std::size_t linkCount;   ///< partial links
     const KernelLink* links; ///< outermost first

@@ -82,7 +82,7 @@ bool DeformPool::run(const DeformJob* jobs, std::size_t count) const noexcept {
     bool good = true;
     std::size_t vertices = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const bool valid = jobs[i].validate() == nullptr;
+        const bool valid = jobs[i].isValid();
         good = good && valid;
         if (valid) vertices += jobs[i].positionCount;
     }

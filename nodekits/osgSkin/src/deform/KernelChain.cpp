@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "deform/KernelChain.h"
 
+#include "model/SkinModelAccess.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -51,7 +53,7 @@ void KernelChain::append(const SkinModel::Link& link, State& state) noexcept {
     out.bend = flushTiny(turn.split.bendAngle);
     out.twist = flushTiny(turn.split.twistAngle);
     const glm::dvec3 move = turn.translation * frame; // transposed: into the frame
-    const double smallMove = _model.blocks().smallMove;
+    const double smallMove = SkinModelAccess::blocks(_model).smallMove;
     out.adjusted =
         glm::dot(move, move) > smallMove * smallMove || turn.scale != 1.0 || state.map.scale != 1.0;
     if (out.adjusted) {
@@ -85,7 +87,7 @@ void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexc
     }
     const std::uint32_t joint = _model.links()[group.firstLink + group.linkCount - 1].joint;
     const glm::dvec3 v = _pose.transform(joint).split.bendAxis;
-    const glm::dmat3& frame = _model.blocks().jointFrames[joint];
+    const glm::dmat3& frame = SkinModelAccess::blocks(_model).jointFrames[joint];
     call.azimuthCosine = glm::dot(v, frame[0]);
     call.azimuthSine = glm::dot(v, frame[1]);
 }

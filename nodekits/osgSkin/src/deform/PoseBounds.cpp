@@ -4,6 +4,7 @@
 #include <osgSkin/DeformJob>
 
 #include "model/BoundsProxy.h"
+#include "model/SkinModelAccess.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -82,7 +83,7 @@ void addPatches(const BoundsProxy& skin, std::uint32_t first, std::uint32_t coun
 } // namespace
 
 PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept {
-    const BoundsProxy* skin = model.boundsProxy();
+    const BoundsProxy* skin = SkinModelAccess::boundsProxy(model);
     if (!skin) return {glm::vec3(1.0f), glm::vec3(-1.0f)};
     const std::size_t patches = skin->across.size();
     std::array<glm::vec3, 2 * BoundsProxy::kMost> few;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "model/BoundsProxy.h"
 
+#include "model/SkinModelAccess.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -122,7 +124,8 @@ private:
     }
 
     /// How far from each partial joint's centre the vertex can get before that joint turns it: the
-    /// turns of the joints applied earlier (deeper ones) keep its distance from their own centres.
+    /// rotations of the joints applied earlier (deeper ones) keep its distance from their own
+    /// centres.
     void findReach(std::uint32_t row) {
         glm::vec3 from = position(row);
         float distance = 0.0f;
@@ -225,7 +228,7 @@ private:
 
 } // namespace
 
-std::shared_ptr<const BoundsProxy> SkinModel::makeBoundsProxy(const SkinModel& model) {
+std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
     if (model.vertexCount() == 0) return nullptr;
     const float extent = extentOf(model.positions());
     // Finer patches give tighter bounds and cost more.
@@ -236,7 +239,7 @@ std::shared_ptr<const BoundsProxy> SkinModel::makeBoundsProxy(const SkinModel& m
         binding.joints = model.joints();
         binding.firstInfluence.push_back(0);
         std::vector<glm::vec3> centres, normals;
-        for (const Group& group : model.groups())
+        for (const SkinModel::Group& group : model.groups())
             GroupCut(model, group, fineness).cut(*skin, binding, centres, normals);
         if (centres.size() > BoundsProxy::kMost && attempt < kMostAttempts) {
             fineness.length *= 1.25f;
@@ -245,7 +248,8 @@ std::shared_ptr<const BoundsProxy> SkinModel::makeBoundsProxy(const SkinModel& m
         }
         std::vector<std::uint32_t> source(centres.size());
         std::iota(source.begin(), source.end(), 0u);
-        skin->centres = arrange(binding, std::move(centres), std::move(normals), source);
+        skin->centres =
+            SkinModelAccess::arrange(binding, std::move(centres), std::move(normals), source);
         skin->rounding = 1e-6f * extent;
         return skin;
     }

@@ -38,13 +38,16 @@ struct BoundsProxy {
     /// Patches that a skin is cut into, unless it has more groups than that.
     static constexpr std::size_t kMost = 1536;
 
-    std::shared_ptr<const SkinModel> centres; ///< centre and normal of each patch, its mean ratios
-    std::vector<float> across;                ///< of each patch: the cylinder's radius
-    std::vector<float> along;                 ///< half its height
+    osg::ref_ptr<const SkinModel> centres; ///< centre and normal of each patch, its mean ratios
+    std::vector<float> across;             ///< of each patch: the cylinder's radius
+    std::vector<float> along;              ///< half its height
     std::vector<Run> runs;
     std::vector<std::uint32_t> joints;
     std::vector<float> slack;
     float rounding; ///< what single precision may put a vertex off by, near the origin
 };
+
+/// Cuts a model's groups into patches; null for a model without vertices.
+std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model);
 
 } // namespace osgSkin

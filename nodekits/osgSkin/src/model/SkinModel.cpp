@@ -2,7 +2,9 @@
 #include <osgSkin/SkinModel>
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
 
+#include "model/BoundsProxy.h"
 #include "model/SkinBlocks.h"
 
 #include <map>
@@ -14,7 +16,7 @@ bool isPartial(float ratio) {
     return ratio > 0.0f && ratio < 1.0f;
 }
 
-/// A joint with one ratio 0 and the other 1 is no rigid turn either: it goes through the split.
+/// A joint with one ratio 0 and the other 1 is no rigid rotation either: it goes through the split.
 bool isPartial(const Influence& influence) {
     return isPartial(influence.bend) || isPartial(influence.twist) ||
            influence.bend != influence.twist;
@@ -59,26 +61,46 @@ std::vector<std::uint32_t> SkinModel::bestOrder(const Binding& binding,
     return order;
 }
 
-std::shared_ptr<const SkinModel> SkinModel::create(const Binding& binding,
-                                                   std::vector<glm::vec3> positions,
-                                                   std::vector<glm::vec3> normals,
-                                                   const std::vector<std::uint32_t>& source) {
-    const std::shared_ptr<SkinModel> model =
+SkinModel::SkinModel() : _blocks(std::make_shared<SkinBlocks>(*this)) {}
+
+// What the two share of it never changes.
+SkinModel::SkinModel(const SkinModel& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), _joints(other._joints), _positions(other._positions),
+      _normals(other._normals), _order(other._order), _groups(other._groups), _links(other._links),
+      _ratios(other._ratios), _blocks(other._blocks), _boundsProxy(other._boundsProxy) {}
+
+SkinModel::~SkinModel() = default;
+
+osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
+                                                std::vector<glm::vec3> positions,
+                                                std::vector<glm::vec3> normals,
+                                                const std::vector<std::uint32_t>& source) {
+    const osg::ref_ptr<SkinModel> model =
         arrange(binding, std::move(positions), std::move(normals), source);
     model->_boundsProxy = makeBoundsProxy(*model);
     return model;
 }
 
-std::shared_ptr<SkinModel> SkinModel::arrange(const Binding& binding,
-                                              std::vector<glm::vec3> positions,
-                                              std::vector<glm::vec3> normals,
-                                              const std::vector<std::uint32_t>& source) {
+osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
+                                                const osg::Vec3Array* positions,
+                                                const osg::Vec3Array* normals,
+                                                const std::vector<std::uint32_t>& source) {
+    if (!positions || !normals)
+        throw Error("skin model: expected an array of positions and one of normals");
+    const glm::vec3* p = asGlm(positions->asVector().data());
+    const glm::vec3* n = asGlm(normals->asVector().data());
+    return create(binding, {p, p + positions->size()}, {n, n + normals->size()}, source);
+}
+
+osg::ref_ptr<SkinModel> SkinModel::arrange(const Binding& binding, std::vector<glm::vec3> positions,
+                                           std::vector<glm::vec3> normals,
+                                           const std::vector<std::uint32_t>& source) {
     binding.validate();
     if (positions.size() != source.size() || normals.size() != source.size())
         throw Error("skin model: expected one position, one normal and one source per vertex");
     const Members members = groupBySignature(binding, source);
 
-    std::shared_ptr<SkinModel> model(new SkinModel);
+    osg::ref_ptr<SkinModel> model = new SkinModel;
     model->_joints = binding.joints;
     model->_positions = std::move(positions);
     model->_normals = std::move(normals);

@@ -3,6 +3,8 @@
 
 #include <osgSkin/Error>
 
+#include "model/SkinModelAccess.h"
+
 #include <cmath>
 #include <cstring>
 
@@ -177,7 +179,7 @@ std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
     return out.words;
 }
 
-std::shared_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& words) {
+osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& words) {
     WordReader in(words);
     const std::uint32_t version = in.word();
     if (version != kSkinModelBlockVersion)
@@ -208,6 +210,11 @@ std::shared_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t
     if (!in.atEnd()) fail("there is more in it than a model");
     // Indices, ratios, axes and the tree of joints are checked there.
     return SkinModel::create(binding, std::move(positions), std::move(normals), source);
+}
+
+void unpackSkinModel(const std::vector<std::uint32_t>& words, SkinModel& empty) {
+    if (empty.vertexCount() > 0) fail("the model to be filled is not empty");
+    SkinModelAccess::fill(empty, *unpackSkinModel(words));
 }
 
 } // namespace osgSkin

@@ -9,8 +9,8 @@
 
 namespace osgSkin {
 
-std::shared_ptr<const SkinTangents> SkinTangents::create(std::shared_ptr<const SkinModel> model,
-                                                         std::vector<glm::vec4> tangents) {
+osg::ref_ptr<const SkinTangents> SkinTangents::create(osg::ref_ptr<const SkinModel> model,
+                                                      std::vector<glm::vec4> tangents) {
     if (!model) throw Error("skin tangents: expected a model");
     if (tangents.size() != model->vertexCount())
         throw Error("skin tangents: expected " + std::to_string(model->vertexCount()) +
@@ -21,11 +21,10 @@ std::shared_ptr<const SkinTangents> SkinTangents::create(std::shared_ptr<const S
             if (!std::isfinite(tangents[v][axis]))
                 throw Error("skin tangents: vertex " + std::to_string(v) +
                             " has a tangent that is not finite");
-    return std::shared_ptr<const SkinTangents>(
-        new SkinTangents(std::move(model), std::move(tangents)));
+    return new SkinTangents(std::move(model), std::move(tangents));
 }
 
-SkinTangents::SkinTangents(std::shared_ptr<const SkinModel> model, std::vector<glm::vec4> tangents)
+SkinTangents::SkinTangents(osg::ref_ptr<const SkinModel> model, std::vector<glm::vec4> tangents)
     : _model(std::move(model)), _tangents(std::move(tangents)) {
     for (const SkinModel::Group& group : _model->groups()) {
         const glm::dmat3 frame = restFrame(*_model, group);
@@ -44,9 +43,5 @@ SkinTangents::SkinTangents(std::shared_ptr<const SkinModel> model, std::vector<g
 }
 
 SkinTangents::~SkinTangents() = default;
-
-const BlockRow* SkinTangents::blocks(std::size_t group) const {
-    return _rows.data() + _firstRow[group];
-}
 
 } // namespace osgSkin

@@ -22,22 +22,16 @@ DeformableSkin::DeformableSkin() {
 }
 
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
-    : osg::Drawable(other, copyop), _rest(other._rest), _shared(other._shared),
-      _model(other._model), _pose(other._pose), _eager(other._eager), _pool(other._pool),
-      _tangentAttribute(other._tangentAttribute), _tangents(other._tangents) {
+    : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
+      _eager(other._eager), _pool(other._pool), _tangentAttribute(other._tangentAttribute),
+      _tangents(other._tangents) {
     makeBuffers();
     poseChanged();
 }
 
 DeformableSkin::~DeformableSkin() = default;
 
-void DeformableSkin::setSkin(osg::Geometry* rest, std::shared_ptr<const SkinModel> model) {
-    const osg::ref_ptr<SharedSkinModel> shared = new SharedSkinModel(std::move(model));
-    setSkin(rest, shared.get());
-}
-
-void DeformableSkin::setSkin(osg::Geometry* rest, SharedSkinModel* shared) {
-    const std::shared_ptr<const SkinModel> model = shared ? shared->getModel() : nullptr;
+void DeformableSkin::setSkin(osg::Geometry* rest, osg::ref_ptr<const SkinModel> model) {
     if (!rest || !model) throw Error("deformable skin: expected a geometry and a model");
     const auto* vertices = dynamic_cast<const osg::Vec3Array*>(rest->getVertexArray());
     const auto* normals = dynamic_cast<const osg::Vec3Array*>(rest->getNormalArray());
@@ -46,19 +40,17 @@ void DeformableSkin::setSkin(osg::Geometry* rest, SharedSkinModel* shared) {
         throw Error("deformable skin: the geometry \"" + rest->getName() +
                     "\" needs Vec3Arrays of " + std::to_string(model->vertexCount()) +
                     " vertices and normals, as many as the model has");
-    _tangents = tangentsOf(*rest, _tangentAttribute, model);
+    _tangents = tangentsOf(*rest, _tangentAttribute, *model);
     _rest = rest;
-    _shared = shared;
-    _model = model;
+    _model = std::move(model);
     _pose = Pose(_model->joints());
     setStateSet(rest->getStateSet());
     makeBuffers();
     poseChanged();
 }
 
-std::shared_ptr<const SkinTangents>
-DeformableSkin::tangentsOf(const osg::Geometry& rest, int attribute,
-                           std::shared_ptr<const SkinModel> model) {
+osg::ref_ptr<const SkinTangents> DeformableSkin::tangentsOf(const osg::Geometry& rest,
+                                                            int attribute, const SkinModel& model) {
     if (attribute < 0) return nullptr;
     const osg::Array* array = rest.getVertexAttribArray(static_cast<unsigned int>(attribute));
     std::vector<glm::vec4> tangents;
@@ -66,15 +58,15 @@ DeformableSkin::tangentsOf(const osg::Geometry& rest, int attribute,
         for (const osg::Vec4& t : *four) tangents.emplace_back(t.x(), t.y(), t.z(), t.w());
     else if (const auto* three = dynamic_cast<const osg::Vec3Array*>(array))
         for (const osg::Vec3& t : *three) tangents.emplace_back(t.x(), t.y(), t.z(), 1.0f);
-    if (tangents.size() != model->vertexCount())
+    if (tangents.size() != model.vertexCount())
         throw Error("deformable skin: the geometry \"" + rest.getName() +
-                    "\" needs a Vec4Array of " + std::to_string(model->vertexCount()) +
+                    "\" needs a Vec4Array of " + std::to_string(model.vertexCount()) +
                     " tangents as vertex attribute " + std::to_string(attribute));
-    return SkinTangents::create(std::move(model), std::move(tangents));
+    return SkinTangents::create(&model, std::move(tangents));
 }
 
 void DeformableSkin::setTangentAttribute(int index) {
-    if (_model) _tangents = tangentsOf(*_rest, index, _model);
+    if (_model) _tangents = tangentsOf(*_rest, index, *_model);
     _tangentAttribute = index;
     if (!_model) return;
     makeBuffers();
@@ -141,6 +133,10 @@ bool DeformableSkin::setPose(const glm::dmat4* skinning, std::size_t count, Pose
     return true;
 }
 
+bool DeformableSkin::setPose(const osg::Matrixd* skinning, std::size_t count, Pose::Twist twist) {
+    return setPose(asGlm(skinning), count, twist);
+}
+
 /// Makes the buffers draw as the outer drawable is set to.
 void DeformableSkin::applyDrawSettings() {
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
@@ -154,8 +150,7 @@ void DeformableSkin::applyDrawSettings() {
 void DeformableSkin::poseChanged() {
     _dirty = true;
     if (!_model) return;
-    const PoseBounds bounds = computePoseBounds(*_model, _pose);
-    _box.set(bounds.low.x, bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y, bounds.high.z);
+    _box = toOsg(computePoseBounds(*_model, _pose));
     applyDrawSettings();
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
         buffer->setInitialBound(_box);

@@ -41,7 +41,7 @@ void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable)
 }
 
 bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
-    const SkinModel* model = skin.getModel().get();
+    const SkinModel* model = skin.getModel();
     if (!model) return false;
     if (_skeleton.get() != &skeleton || _model != model) {
         _reader = BoneReader(model->joints(), skeleton);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Pose>
 
+#include <osgSkin/GlmOsg>
+
 #include "model/SkinBlocks.h"
 #include "pose/SplitUnit.h"
 
@@ -14,8 +16,8 @@
 namespace osgSkin {
 namespace {
 
-/// The rotation in a 3 x 3 matrix that may also scale, and how much it does so evenly; false where
-/// there is none to be found.
+/// The rotation in a 3 x 3 matrix that may also scale, and the uniform part of that scale; false
+/// where there is none to be found.
 bool rotationOf(const glm::dmat3& m, glm::dquat& rotation, double& scale) noexcept {
     glm::dvec3 x = m[0];
     glm::dvec3 y = m[1];
@@ -44,7 +46,7 @@ bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// `twist` or a whole turn more or less, see Pose::Twist.
+/// `twist` or 2 pi more or less, see Pose::Twist.
 double continued(double before, double twist) noexcept {
     const double turn = 2.0 * glm::pi<double>();
     for (const double angle : {twist, twist + turn, twist - turn})
@@ -77,7 +79,7 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool*
     for (std::size_t j = 0; j < count; ++j) {
         Frame& frame = frames[j];
         if (!rotationOf(glm::dmat3(skinning[j]), frame.rotation, frame.scale)) return false;
-        // The joint centre goes where the whole matrix, uneven scale included, puts it.
+        // The joint centre goes where the whole matrix, non-uniform scale included, puts it.
         const glm::dvec3& centre = (*_rest)[j].centre;
         frame.offset = glm::dvec3(skinning[j] * glm::dvec4(centre, 1.0)) -
                        frame.scale * (frame.rotation * centre);
@@ -116,6 +118,11 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool*
     }
     if (changed) *changed = other;
     return true;
+}
+
+bool Pose::set(const osg::Matrixd* skinning, std::size_t count, Twist twist,
+               bool* changed) noexcept {
+    return set(asGlm(skinning), count, twist, changed);
 }
 
 } // namespace osgSkin

@@ -2,7 +2,7 @@
 #ifndef OSGSKINBIND_WELDEDMESH_H
 #define OSGSKINBIND_WELDEDMESH_H
 
-#include <osgSkin/SkinMesh>
+#include <osgSkinRig/SkinMesh>
 
 #include <array>
 #include <cstddef>

@@ -2,7 +2,6 @@
 #include <osgSkinBind/AttachSkin>
 
 #include <osgSkin/Error>
-#include <osgSkin/GlmOsg>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinBind/Bind>
 
@@ -41,15 +40,11 @@ MeshPart facesOf(const MeshPart& part, const RigidSplit& split, std::uint32_t jo
 AttachedSkin::Skin makeSkin(const MeshPart& unordered, const Binding& binding) {
     const MeshPart part =
         reorderedPart(unordered, SkinModel::bestOrder(binding, unordered.sourceVertex));
-    const auto& vertices = static_cast<const osg::Vec3Array&>(*part.geometry->getVertexArray());
-    const auto& normals = static_cast<const osg::Vec3Array&>(*part.geometry->getNormalArray());
-    const glm::vec3* positions = asGlm(vertices.asVector().data());
-    const glm::vec3* directions = asGlm(normals.asVector().data());
+    const auto* vertices = static_cast<const osg::Vec3Array*>(part.geometry->getVertexArray());
+    const auto* normals = static_cast<const osg::Vec3Array*>(part.geometry->getNormalArray());
     const osg::ref_ptr<DeformableSkin> skin = new DeformableSkin;
     skin->setName(part.geometry->getName());
-    skin->setSkin(part.geometry,
-                  SkinModel::create(binding, {positions, positions + vertices.size()},
-                                    {directions, directions + normals.size()}, part.sourceVertex));
+    skin->setSkin(part.geometry, SkinModel::create(binding, vertices, normals, part.sourceVertex));
     skin->setUpdateCallback(new UpdateDeformableSkin);
     return {skin, part};
 }

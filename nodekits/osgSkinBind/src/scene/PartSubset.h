@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <osgSkin/MeshPart>
+#include <osgSkinRig/MeshPart>
 
 #include <cstdint>
 #include <vector>

@@ -2,9 +2,9 @@
 #ifndef OSGSKINBIND_RIGPART_H
 #define OSGSKINBIND_RIGPART_H
 
-#include <osgSkin/MeshPart>
-#include <osgSkin/SkinMesh>
 #include <osgSkinBind/BindWeights>
+#include <osgSkinRig/MeshPart>
+#include <osgSkinRig/SkinMesh>
 
 #include <osg/Matrixd>
 #include <osgAnimation/RigGeometry>

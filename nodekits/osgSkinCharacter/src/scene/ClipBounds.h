@@ -2,9 +2,9 @@
 #pragma once
 
 #include <osgSkin/Binding>
-#include <osgSkin/SkinMesh>
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/SkinMesh>
 
 #include <osg/BoundingSphere>
 #include <osg/Matrix>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgSkin/SkinMesh>
 #include <osgSkinImport/BoneWeights>
+#include <osgSkinRig/SkinMesh>
 
 #include <osg/StateSet>
 #include <osg/ref_ptr>

@@ -3,7 +3,7 @@
 
 #include "mesh/CornerMesh.h"
 
-#include <osgSkin/MeshPart>
+#include <osgSkinRig/MeshPart>
 
 #include <vector>
 

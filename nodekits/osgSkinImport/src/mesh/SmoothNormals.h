@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgSkin/SkinMesh>
+#include <osgSkinRig/SkinMesh>
 
 #include <glm/vec3.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "RegisterWrapper.h"
 
-#include <osgSkin/SharedSkinModel>
+#include <osgSkin/SkinModel>
 #include <osgSkin/SkinModelBlock>
 
 #include <osgDB/InputStream>
@@ -16,12 +16,12 @@ namespace {
 // length for the whole would be one that a bad file could make us believe.
 constexpr unsigned int kRow = 16;
 
-bool checkModel(const osgSkin::SharedSkinModel& shared) {
-    return shared.getModel() != nullptr;
+bool checkModel(const osgSkin::SkinModel& model) {
+    return model.vertexCount() > 0;
 }
 
-bool writeModel(osgDB::OutputStream& os, const osgSkin::SharedSkinModel& shared) {
-    const std::vector<std::uint32_t> words = osgSkin::packSkinModel(*shared.getModel());
+bool writeModel(osgDB::OutputStream& os, const osgSkin::SkinModel& model) {
+    const std::vector<std::uint32_t> words = osgSkin::packSkinModel(model);
     os << os.BEGIN_BRACKET << std::endl;
     for (std::size_t first = 0; first < words.size(); first += kRow) {
         const std::size_t end = std::min(words.size(), first + kRow);
@@ -53,13 +53,13 @@ bool readWords(osgDB::InputStream& is, std::vector<std::uint32_t>& words) {
     }
 }
 
-bool readModel(osgDB::InputStream& is, osgSkin::SharedSkinModel& shared) {
+bool readModel(osgDB::InputStream& is, osgSkin::SkinModel& model) {
     is >> is.BEGIN_BRACKET;
     std::vector<std::uint32_t> words;
     if (!readWords(is, words)) return false;
     is >> is.END_BRACKET;
     try {
-        shared.setModel(osgSkin::unpackSkinModel(words));
+        osgSkin::unpackSkinModel(words, model);
     } catch (const std::exception& error) {
         // Refuses the whole file; osgDB prints the reason.
         is.throwException(std::string("osgSkin: ") + error.what());
@@ -69,6 +69,16 @@ bool readModel(osgDB::InputStream& is, osgSkin::SharedSkinModel& shared) {
 }
 
 } // namespace
+
+REGISTER_OSGSKIN_WRAPPER(osgSkin_SkinModel, new osgSkin::SkinModel, osgSkin::SkinModel,
+                         "osg::Object osgSkin::SkinModel") {
+    ADD_USER_SERIALIZER(Model);
+}
+
+namespace osgSkin {
+/// What files called the class until it became an osg::Object itself; read, never written.
+using SharedSkinModel = SkinModel;
+} // namespace osgSkin
 
 REGISTER_OSGSKIN_WRAPPER(osgSkin_SharedSkinModel, new osgSkin::SharedSkinModel,
                          osgSkin::SharedSkinModel, "osg::Object osgSkin::SharedSkinModel") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkin/SkinMesh>
+#include <osgSkinRig/SkinMesh>
 
 #include <osgSkin/Error>
 
