@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "RegisterWrapper.h"
 #include "RestGeometry.h"
+#include "SavedPose.h"
 
 #include <osgSkin/DeformableSkin>
 
 #include <osgDB/InputStream>
 #include <osgDB/OutputStream>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <exception>
@@ -80,21 +80,14 @@ bool checkPose(const osgSkin::DeformableSkin& skin) {
     return skin.getModel() != nullptr;
 }
 
-/// Skinning matrices, from the joints' turns: what is seen before the first update moves the bones.
+/// Skinning matrices: what is seen before the first update moves the bones.
 bool writePose(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
-    const std::vector<osgSkin::BoundJoint>& joints = skin.getModel()->joints();
-    std::vector<glm::dmat4> skinning;
-    os.writeSize(static_cast<unsigned int>(joints.size()));
+    const std::vector<glm::dmat4> skinning = skinningOf(skin);
+    os.writeSize(static_cast<unsigned int>(skinning.size()));
     os << os.BEGIN_BRACKET << std::endl;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        const osgSkin::JointTransform& turn = skin.getPose().transform(j);
-        const glm::dmat4 own =
-            glm::translate(glm::dmat4(1.0), turn.offset) * glm::mat4_cast(turn.rotation);
-        skinning.push_back(joints[j].parent < 0
-                               ? own
-                               : skinning[static_cast<std::size_t>(joints[j].parent)] * own);
+    for (const glm::dmat4& matrix : skinning) {
         // Number by number: brackets around a matrix in a list are more than .osgx can nest.
-        for (int i = 0; i < 16; ++i) os << glm::value_ptr(skinning.back())[i];
+        for (int i = 0; i < 16; ++i) os << glm::value_ptr(matrix)[i];
         os << std::endl;
     }
     os << os.END_BRACKET << std::endl;
@@ -113,12 +106,18 @@ bool readPose(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     for (unsigned int j = 0; j < size; ++j) {
         glm::dmat4 matrix(0.0);
         for (int i = 0; i < 16; ++i) is >> glm::value_ptr(matrix)[i];
+        if (is.getException()) return false;
+        const std::string wrong = whatIsWrongWith(matrix);
+        if (!wrong.empty())
+            return fail(is, skin,
+                        "a pose whose joint \"" + skin.getModel()->joints()[j].name +
+                            "\" has a matrix " + wrong);
         skinning.push_back(matrix);
     }
     is >> is.END_BRACKET;
     if (is.getException()) return false;
     if (!skin.setPose(skinning.data(), skinning.size()))
-        return fail(is, skin, "a pose with a matrix that is no turn");
+        return fail(is, skin, "a pose with a matrix that is no transform");
     return true;
 }
 
