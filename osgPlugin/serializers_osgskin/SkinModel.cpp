@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "RegisterWrapper.h"
+#include "model/SkinModelBlock.h"
 
 #include <osgSkin/SkinModel>
-#include <osgSkin/SkinModelBlock>
 
 #include <osgDB/InputStream>
 #include <osgDB/OutputStream>

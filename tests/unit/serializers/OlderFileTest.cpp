@@ -2,9 +2,9 @@
 // tests/data/saved holds makeScene(Tube(9, 6)) as it was written when files called a model
 // osgSkin::SharedSkinModel. Such files are read as ever, and written with today's names.
 #include "SavedScene.h"
+#include "model/SkinModelBlock.h"
 
 #include <osgSkin/AutoPlayManager>
-#include <osgSkin/SkinModelBlock>
 #include <osgSkin/UpdateDeformableSkin>
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkin/SkinModelBlock>
-
-#include <osgSkin/Error>
+#include "model/SkinModelBlock.h"
 
 #include "model/SkinModelAccess.h"
+
+#include <osgSkin/Error>
 
 #include <cmath>
 #include <cstring>

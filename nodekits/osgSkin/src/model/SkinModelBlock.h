@@ -1,6 +1,8 @@
-// SPDX-License-Identifier: MIT -*-C++-*-
-#ifndef OSGSKIN_SKINMODELBLOCK
-#define OSGSKIN_SKINMODELBLOCK 1
+// SPDX-License-Identifier: MIT
+//
+// What files hold of a model. Exported for the serializers alone: an application saves and reads
+// models by osgDB.
+#pragma once
 
 #include <osgSkin/Binding>
 #include <osgSkin/Export>
@@ -43,5 +45,3 @@ unpackSkinModel(const std::vector<std::uint32_t>& words);
 OSGSKIN_EXPORT void unpackSkinModel(const std::vector<std::uint32_t>& words, SkinModel& empty);
 
 } // namespace osgSkin
-
-#endif
