@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "model/BoundsProxy.h"
 
+#include "model/VertexGroups.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -245,7 +247,8 @@ std::shared_ptr<const BoundsProxy> SkinModel::makeBoundsProxy(const SkinModel& m
         }
         std::vector<std::uint32_t> source(centres.size());
         std::iota(source.begin(), source.end(), 0u);
-        skin->centres = arrange(binding, std::move(centres), std::move(normals), source);
+        skin->centres = arrange(VertexGroups(binding, std::move(source)), std::move(centres),
+                                std::move(normals));
         skin->rounding = 1e-6f * extent;
         return skin;
     }
