@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "RatioFigure.h"
+
 #include "Drawing.h"
-#include "Figures.h"
 #include "RatioPlot.h"
 
 #include <osgSkinBind/Bind>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "RegionFigure.h"
+
 #include "Drawing.h"
-#include "Figures.h"
 
 #include <osg/BoundingBox>
 #include <osg/PolygonOffset>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "ThrowFigure.h"
+
 #include "Drawing.h"
-#include "Figures.h"
 #include "Ground.h"
 
 #include <glm/common.hpp>

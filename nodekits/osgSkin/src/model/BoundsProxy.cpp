@@ -2,6 +2,7 @@
 #include "model/BoundsProxy.h"
 
 #include "model/SkinModelAccess.h"
+#include "model/VertexGroups.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -248,8 +249,8 @@ std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
         }
         std::vector<std::uint32_t> source(centres.size());
         std::iota(source.begin(), source.end(), 0u);
-        skin->centres =
-            SkinModelAccess::arrange(binding, std::move(centres), std::move(normals), source);
+        skin->centres = SkinModelAccess::arrange(VertexGroups(binding, std::move(source)),
+                                                 std::move(centres), std::move(normals));
         skin->rounding = 1e-6f * extent;
         return skin;
     }

@@ -1,64 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/SkinModel>
 
-#include <osgSkin/Error>
-#include <osgSkin/GlmOsg>
-
 #include "model/BoundsProxy.h"
 #include "model/SkinBlocks.h"
+#include "model/VertexGroups.h"
 
-#include <map>
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
 
 namespace osgSkin {
 namespace {
 
-bool isPartial(float ratio) {
-    return ratio > 0.0f && ratio < 1.0f;
-}
-
-/// A joint with one ratio 0 and the other 1 is no rigid rotation either: it goes through the split.
-bool isPartial(const Influence& influence) {
-    return isPartial(influence.bend) || isPartial(influence.twist) ||
-           influence.bend != influence.twist;
-}
-
-/// What the vertices of a group have in common: each joint they follow, and whether only partly.
-using Signature = std::vector<std::uint32_t>;
-
-Signature signatureOf(const Binding& binding, std::uint32_t vertex) {
-    Signature signature;
-    for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
-         ++i) {
-        const Influence& influence = binding.influences[i];
-        if (influence.bend == 0.0f && influence.twist == 0.0f) continue;
-        signature.push_back(2 * influence.joint + (isPartial(influence) ? 1u : 0u));
+/// The ratios of a group's vertices, those of partial influences only.
+void addRatios(const VertexGroups& vertices, const VertexGroups::Group& group,
+               std::vector<SkinModel::Ratio>& ratios) {
+    const Binding& binding = vertices.binding();
+    for (std::uint32_t k = 0; k < group.vertexCount; ++k) {
+        const std::uint32_t s = vertices.source()[vertices.order()[group.firstVertex + k]];
+        for (std::uint32_t i = binding.firstInfluence[s]; i < binding.firstInfluence[s + 1]; ++i)
+            if (binding.influences[i].isPartial())
+                ratios.push_back({binding.influences[i].bend, binding.influences[i].twist});
     }
-    return signature;
 }
 
-/// The vertices of each signature. Sorted, so that groups side by side share their outer links.
-using Members = std::map<Signature, std::vector<std::uint32_t>>;
+void checkSizes(const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
+                const std::vector<std::uint32_t>& source) {
+    if (positions.size() != source.size() || normals.size() != source.size())
+        throw Error("skin model: expected one position, one normal and one source per vertex");
+}
 
-Members groupBySignature(const Binding& binding, const std::vector<std::uint32_t>& source) {
-    Members members;
-    for (std::uint32_t v = 0; v < source.size(); ++v) {
-        if (source[v] >= binding.vertexCount())
-            throw Error("skin model: vertex " + std::to_string(v) + " comes from no bound vertex");
-        members[signatureOf(binding, source[v])].push_back(v);
-    }
-    return members;
+std::vector<glm::vec3> gather(const std::vector<glm::vec3>& vectors,
+                              const std::vector<std::uint32_t>& order) {
+    std::vector<glm::vec3> result;
+    result.reserve(order.size());
+    for (const std::uint32_t v : order) result.push_back(vectors[v]);
+    return result;
 }
 
 } // namespace
 
 std::vector<std::uint32_t> SkinModel::bestOrder(const Binding& binding,
                                                 const std::vector<std::uint32_t>& source) {
-    binding.validate();
-    std::vector<std::uint32_t> order;
-    order.reserve(source.size());
-    for (const auto& [signature, vertices] : groupBySignature(binding, source))
-        order.insert(order.end(), vertices.begin(), vertices.end());
-    return order;
+    return VertexGroups(binding, source).order();
 }
 
 SkinModel::SkinModel() : _blocks(std::make_shared<SkinBlocks>(*this)) {}
@@ -75,8 +58,9 @@ osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
                                                 std::vector<glm::vec3> positions,
                                                 std::vector<glm::vec3> normals,
                                                 const std::vector<std::uint32_t>& source) {
+    checkSizes(positions, normals, source);
     const osg::ref_ptr<SkinModel> model =
-        arrange(binding, std::move(positions), std::move(normals), source);
+        arrange(VertexGroups(binding, source), std::move(positions), std::move(normals));
     model->_boundsProxy = makeBoundsProxy(*model);
     return model;
 }
@@ -92,50 +76,44 @@ osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
     return create(binding, {p, p + positions->size()}, {n, n + normals->size()}, source);
 }
 
-osg::ref_ptr<SkinModel> SkinModel::arrange(const Binding& binding, std::vector<glm::vec3> positions,
-                                           std::vector<glm::vec3> normals,
-                                           const std::vector<std::uint32_t>& source) {
-    binding.validate();
-    if (positions.size() != source.size() || normals.size() != source.size())
-        throw Error("skin model: expected one position, one normal and one source per vertex");
-    const Members members = groupBySignature(binding, source);
+SkinModel::Ordered SkinModel::createInBestOrder(const Binding& binding,
+                                                const std::vector<glm::vec3>& positions,
+                                                const std::vector<glm::vec3>& normals,
+                                                const std::vector<std::uint32_t>& source) {
+    checkSizes(positions, normals, source);
+    VertexGroups vertices(binding, source);
+    const std::vector<std::uint32_t> order = vertices.order();
+    vertices.reorder();
+    const osg::ref_ptr<SkinModel> model =
+        arrange(vertices, gather(positions, order), gather(normals, order));
+    model->_boundsProxy = makeBoundsProxy(*model);
+    return {model, order};
+}
 
+osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
+                                           std::vector<glm::vec3> positions,
+                                           std::vector<glm::vec3> normals) {
     osg::ref_ptr<SkinModel> model = new SkinModel;
-    model->_joints = binding.joints;
+    model->_joints = vertices.binding().joints;
     model->_positions = std::move(positions);
     model->_normals = std::move(normals);
-    model->_order.reserve(source.size());
-    for (const auto& [signature, vertices] : members) {
+    model->_order = vertices.order();
+    for (const VertexGroups::Group& grouped : vertices.groups()) {
         Group group{};
-        group.firstVertex = static_cast<std::uint32_t>(model->_order.size());
-        group.vertexCount = static_cast<std::uint32_t>(vertices.size());
+        group.firstVertex = grouped.firstVertex;
+        group.vertexCount = grouped.vertexCount;
         group.firstLink = static_cast<std::uint32_t>(model->_links.size());
-        group.linkCount = static_cast<std::uint32_t>(signature.size());
+        group.linkCount = static_cast<std::uint32_t>(grouped.joints.size());
         group.firstRatio = static_cast<std::uint32_t>(model->_ratios.size());
-        for (const std::uint32_t key : signature) {
-            model->_links.push_back({key / 2, key % 2 == 1});
-            group.partialCount += key % 2;
+        for (const VertexGroups::Joint& joint : grouped.joints) {
+            model->_links.push_back({joint.index, joint.partial});
+            group.partialCount += joint.partial ? 1u : 0u;
         }
-        if (group.partialCount > kMaxPartialInfluences)
-            throw Error("skin model: vertex " + std::to_string(vertices.front()) + " follows " +
-                        std::to_string(group.partialCount) + " joints partly, expected at most " +
-                        std::to_string(kMaxPartialInfluences));
         model->_groups.push_back(group);
-        model->addVertices(binding, source, vertices);
+        addRatios(vertices, grouped, model->_ratios);
     }
     model->_blocks = std::make_shared<SkinBlocks>(*model);
     return model;
-}
-
-void SkinModel::addVertices(const Binding& binding, const std::vector<std::uint32_t>& source,
-                            const std::vector<std::uint32_t>& vertices) {
-    for (const std::uint32_t v : vertices) {
-        _order.push_back(v);
-        const std::uint32_t s = source[v];
-        for (std::uint32_t i = binding.firstInfluence[s]; i < binding.firstInfluence[s + 1]; ++i)
-            if (isPartial(binding.influences[i]))
-                _ratios.push_back({binding.influences[i].bend, binding.influences[i].twist});
-    }
 }
 
 } // namespace osgSkin

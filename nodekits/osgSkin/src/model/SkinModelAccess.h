@@ -26,10 +26,10 @@ struct SkinModelAccess {
     }
 
     /// A model without a bounds proxy, as the proxy itself is one.
-    static osg::ref_ptr<SkinModel> arrange(const Binding& binding, std::vector<glm::vec3> positions,
-                                           std::vector<glm::vec3> normals,
-                                           const std::vector<std::uint32_t>& source) {
-        return SkinModel::arrange(binding, std::move(positions), std::move(normals), source);
+    static osg::ref_ptr<SkinModel> arrange(const VertexGroups& vertices,
+                                           std::vector<glm::vec3> positions,
+                                           std::vector<glm::vec3> normals) {
+        return SkinModel::arrange(vertices, std::move(positions), std::move(normals));
     }
 
     /// Gives `empty`, which a reader of files had to make first, all that `model` holds.

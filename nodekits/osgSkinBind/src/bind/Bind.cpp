@@ -4,10 +4,10 @@
 #include "bind/CheckOptions.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
-#include "limbs/BoundarySpan.h"
 #include "limbs/LimbRadius.h"
-#include "mesh/NearestPoint.h"
+#include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
+#include "paper/PaperBoundaries.h"
 #include "paper/PaperFields.h"
 #include "ratios/BendFields.h"
 #include "ratios/PackInfluences.h"
@@ -19,7 +19,7 @@
 namespace osgSkin {
 namespace {
 
-/// Fractions of the time that are over when the steps begin, measured at 280,000 vertices.
+/// Fractions of the time that have passed when the steps begin, measured at 280,000 vertices.
 constexpr double kRegionsBegin = 0.2;
 constexpr double kBendsBegin = 0.8;
 constexpr double kTwistsBegin = 0.96;
@@ -27,15 +27,14 @@ constexpr double kRatiosBegin = 0.98;
 
 /// Vertices that no face uses do as the nearest vertex of the skin does.
 std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
-    std::vector<std::uint32_t> result(mesh.vertexCount()), used;
+    std::vector<std::uint32_t> result(mesh.vertexCount()), used, unused;
     for (std::uint32_t v = 0; v < result.size(); ++v) {
         result[v] = v;
-        if (mesh.shellOf[v] != WeldedMesh::kNoShell) used.push_back(v);
+        (mesh.shellOf[v] != WeldedMesh::kNoShell ? used : unused).push_back(v);
     }
-    if (used.empty() || used.size() == result.size()) return result;
-    const NearestPoint nearest(mesh.positions, used);
-    for (std::uint32_t v = 0; v < result.size(); ++v)
-        if (mesh.shellOf[v] == WeldedMesh::kNoShell) result[v] = nearest.find(mesh.positions[v]);
+    if (used.empty() || unused.empty()) return result;
+    const std::vector<std::uint32_t> nearest = nearestPoints(mesh.positions, used, unused);
+    for (std::size_t i = 0; i < unused.size(); ++i) result[unused[i]] = nearest[i];
     return result;
 }
 
@@ -109,17 +108,17 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     const Regions regions = findRegions(
         skin, joints, subProgress(options.progress, kRegionsBegin, kBendsBegin)); // section 1
 
-    // Section 3: what share of each joint's turn each vertex takes.
-    const BinaryField hard{skin, joints, regions.jointOf};
-    const std::vector<double> radii = limbRadii(hard);
+    // Section 3: what fraction of each joint's rotation each vertex takes.
+    const BinaryField binary{skin, joints, regions.jointOf};
+    const std::vector<double> radii = limbRadii(binary);
     JointFields bend, twist;
     if (options.method == BindOptions::Method::Paper) {
         tell("bend and twist between boundaries", kBendsBegin);
-        PaperFields printed(hard, radii);
+        PaperFields printed(binary, radii);
         bend.swap(printed.bend);
         twist.swap(printed.twist);
     } else {
-        bend = bendFields(hard, radii, options, [&](std::size_t joint) {
+        bend = bendFields(binary, radii, options, [&](std::size_t joint) {
             const double fraction = double(joint - 1) / double(joints.size() - 1);
             tell("bend of " + skeleton.joints[joint].name,
                  kBendsBegin + fraction * (kTwistsBegin - kBendsBegin));
@@ -137,10 +136,11 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     for (const std::uint32_t welded : skin.weldedOf) {
         const std::uint32_t v = shown[welded];
         binding.regions.push_back(regions.jointOf[v]);
-        if (packInfluences(joints, bend, twist, v, options.mostPartialJoints, binding.influences))
+        if (packInfluences(joints, bend, twist, v, options.maxPartialInfluences,
+                           binding.influences))
             ++found.cappedVertices;
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
-            if (isPartial(binding.influences[i])) ++partial;
+            if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
     binding.validate();

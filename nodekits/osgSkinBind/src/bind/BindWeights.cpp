@@ -4,7 +4,7 @@
 #include "bind/CheckOptions.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
-#include "mesh/NearestPoint.h"
+#include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
 #include "ratios/PackInfluences.h"
 
@@ -18,58 +18,56 @@
 namespace osgSkin {
 namespace {
 
-/// For each welded vertex, each joint's share; sums to 1, or is empty where nothing is painted.
-using Shares = std::vector<std::vector<double>>;
+/// For each welded vertex, each joint's weight; they sum to 1. Empty where nothing is painted.
+using WeightRows = std::vector<std::vector<double>>;
 
 double checkedSum(const std::vector<JointWeight>& entries, std::size_t vertex, std::size_t joints) {
-    const std::string place = "bind: weights of vertex " + std::to_string(vertex);
+    const std::string where = "bind: weights of vertex " + std::to_string(vertex);
     double sum = 0.0;
     for (const JointWeight& entry : entries) {
         if (entry.joint >= joints)
-            throw Error(place + ": joint " + std::to_string(entry.joint) +
+            throw Error(where + ": joint " + std::to_string(entry.joint) +
                         " is not there, expected one of " + std::to_string(joints));
         if (!std::isfinite(entry.weight) || entry.weight < 0.0)
-            throw Error(place + ": expected finite numbers of 0 or more, found " +
+            throw Error(where + ": expected finite numbers of 0 or more, found " +
                         std::to_string(entry.weight));
         sum += entry.weight;
     }
     return sum;
 }
 
-/// Copies of a vertex at a seam must move alike, so they share the mean of what each was given.
-Shares weldedShares(const WeldedMesh& skin, const VertexWeights& weights, std::size_t joints) {
-    Shares shares(skin.vertexCount());
+/// Copies of a vertex at a seam must move alike, so they take the mean of what each was given.
+WeightRows weldedWeights(const WeldedMesh& skin, const VertexWeights& weights, std::size_t joints) {
+    WeightRows rows(skin.vertexCount());
     std::vector<double> copies(skin.vertexCount(), 0.0);
     for (std::size_t v = 0; v < weights.size(); ++v) {
         const double sum = checkedSum(weights[v], v, joints);
         if (!(sum > 0.0)) continue;
-        std::vector<double>& share = shares[skin.weldedOf[v]];
-        share.resize(joints, 0.0);
-        for (const JointWeight& entry : weights[v]) share[entry.joint] += entry.weight / sum;
+        std::vector<double>& row = rows[skin.weldedOf[v]];
+        row.resize(joints, 0.0);
+        for (const JointWeight& entry : weights[v]) row[entry.joint] += entry.weight / sum;
         copies[skin.weldedOf[v]] += 1.0;
     }
-    for (std::size_t v = 0; v < shares.size(); ++v)
-        for (double& share : shares[v]) share /= copies[v];
-    return shares;
+    for (std::size_t v = 0; v < rows.size(); ++v)
+        for (double& weight : rows[v]) weight /= copies[v];
+    return rows;
 }
 
 /// Fills in what nobody painted. Returns how many welded vertices that were.
-std::size_t fillGaps(const WeldedMesh& skin, Shares& shares) {
-    std::vector<std::uint32_t> painted;
-    for (std::uint32_t v = 0; v < shares.size(); ++v)
-        if (!shares[v].empty()) painted.push_back(v);
+std::size_t fillGaps(const WeldedMesh& skin, WeightRows& rows) {
+    std::vector<std::uint32_t> painted, gaps;
+    for (std::uint32_t v = 0; v < rows.size(); ++v) (rows[v].empty() ? gaps : painted).push_back(v);
     if (painted.empty()) throw Error("bind: no vertex has weights, expected at least one above 0");
-    if (painted.size() == shares.size()) return 0;
-    const NearestPoint nearest(skin.positions, painted);
-    for (std::uint32_t v = 0; v < shares.size(); ++v)
-        if (shares[v].empty()) shares[v] = shares[nearest.find(skin.positions[v])];
-    return shares.size() - painted.size();
+    const std::vector<std::uint32_t> nearest = nearestPoints(skin.positions, painted, gaps);
+    for (std::size_t i = 0; i < gaps.size(); ++i) rows[gaps[i]] = rows[nearest[i]];
+    return gaps.size();
 }
 
-/// The ratio of each joint is its subtree's share of the weights. Adding up from the leaves keeps
+/// The ratio of each joint is what its subtree has of the weights. Adding up from the leaves keeps
 /// it at or below the parent's, to the last bit.
-JointFields ratiosFrom(const std::vector<double>& share, const std::vector<PlannedJoint>& joints) {
-    std::vector<double> sums = share;
+JointFields ratiosFrom(const std::vector<double>& weights,
+                       const std::vector<PlannedJoint>& joints) {
+    std::vector<double> sums = weights;
     for (std::size_t j = joints.size(); j-- > 1;)
         sums[static_cast<std::size_t>(joints[j].parent)] += sums[j];
     JointFields fields(joints.size(), std::vector<double>(1, 1.0));
@@ -122,8 +120,8 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
     const WeldedMesh skin(mesh);
     std::vector<std::string> aboutRegions; // which are not looked for here
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, aboutRegions);
-    Shares shares = weldedShares(skin, weights, joints.size());
-    if (const std::size_t gaps = fillGaps(skin, shares))
+    WeightRows rows = weldedWeights(skin, weights, joints.size());
+    if (const std::size_t gaps = fillGaps(skin, rows))
         found.notes.push_back(std::to_string(gaps) +
                               " vertices have no weights, they take those of the nearest that has");
 
@@ -132,14 +130,14 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
     binding.firstInfluence.push_back(0);
     std::size_t partial = 0;
     for (const std::uint32_t v : skin.weldedOf) {
-        const auto heaviest = std::max_element(shares[v].begin(), shares[v].end());
-        binding.regions.push_back(static_cast<std::uint32_t>(heaviest - shares[v].begin()));
-        const JointFields ratios = ratiosFrom(shares[v], joints);
-        if (packInfluences(joints, ratios, ratios, 0, options.mostPartialJoints,
+        const auto heaviest = std::max_element(rows[v].begin(), rows[v].end());
+        binding.regions.push_back(static_cast<std::uint32_t>(heaviest - rows[v].begin()));
+        const JointFields ratios = ratiosFrom(rows[v], joints);
+        if (packInfluences(joints, ratios, ratios, 0, options.maxPartialInfluences,
                            binding.influences))
             ++found.cappedVertices;
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
-            if (isPartial(binding.influences[i])) ++partial;
+            if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
     binding.validate();

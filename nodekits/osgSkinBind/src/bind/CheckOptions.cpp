@@ -9,16 +9,14 @@
 namespace osgSkin {
 namespace {
 
-static_assert(BindOptions::kMaxPartialInfluences == SkinModel::kMaxPartialInfluences);
-
 void checkBoundaries(const std::string& joint, const char* what, const std::optional<double>& upper,
                      const std::optional<double>& lower) {
-    const std::string place =
+    const std::string where =
         "bind: " + std::string(what) + " boundaries of joint \"" + joint + "\"";
     if ((upper && !std::isfinite(*upper)) || (lower && !std::isfinite(*lower)))
-        throw Error(place + " are not finite, expected numbers in units of the bone's length");
+        throw Error(where + " are not finite, expected numbers in units of the bone's length");
     if (upper && lower && !(*upper < *lower))
-        throw Error(place + " are out of order, expected upper < lower (towards the child)");
+        throw Error(where + " are out of order, expected upper < lower (towards the child)");
 }
 
 } // namespace
@@ -30,10 +28,11 @@ void checkOptions(const RestSkeleton& skeleton, const BindOptions& options) {
     if (!(options.cutOff >= 0.0 && options.cutOff < 0.5))
         throw Error("bind: cutOff is " + std::to_string(options.cutOff) +
                     ", expected 0 <= cutOff < 0.5");
-    if (options.mostPartialJoints < 1 ||
-        options.mostPartialJoints > BindOptions::kMaxPartialInfluences)
-        throw Error("bind: mostPartialJoints is " + std::to_string(options.mostPartialJoints) +
-                    ", expected 1 to " + std::to_string(BindOptions::kMaxPartialInfluences));
+    if (options.maxPartialInfluences < 1 ||
+        options.maxPartialInfluences > SkinModel::kMaxPartialInfluences)
+        throw Error("bind: maxPartialInfluences is " +
+                    std::to_string(options.maxPartialInfluences) + ", expected 1 to " +
+                    std::to_string(SkinModel::kMaxPartialInfluences));
     for (const auto& [name, joint] : options.joints) {
         if (skeleton.find(name) < 0)
             throw Error("bind: joint \"" + name +

@@ -12,8 +12,8 @@ std::size_t at(int index) {
     return static_cast<std::size_t>(index);
 }
 
-/// The way from the nearest ancestor that lies elsewhere; zero for the root.
-glm::dvec3 wayFromAbove(const RestSkeleton& skeleton, std::size_t joint, double tolerance) {
+/// The offset from the nearest ancestor that lies elsewhere; zero for the root.
+glm::dvec3 offsetFromAbove(const RestSkeleton& skeleton, std::size_t joint, double tolerance) {
     for (int p = skeleton.joints[joint].parent; p >= 0; p = skeleton.joints[at(p)].parent) {
         const glm::dvec3 d = skeleton.joints[joint].centre - skeleton.joints[at(p)].centre;
         if (glm::length(d) > tolerance) return d;
@@ -35,14 +35,14 @@ int mainChild(const RestSkeleton& skeleton, std::size_t joint,
               const std::vector<std::size_t>& sizes, const std::vector<PlannedJoint>& planned,
               double tolerance) {
     const std::vector<int> children = skeleton.children(static_cast<int>(joint));
-    const glm::dvec3 incoming = wayFromAbove(skeleton, joint, tolerance);
+    const glm::dvec3 incoming = offsetFromAbove(skeleton, joint, tolerance);
     int best = -1;
     bool bestIsThumb = true;
     double bestScore = 0.0;
     for (const int child : children) {
-        const glm::dvec3 way = planned[at(child)].boneEnd - skeleton.joints[joint].centre;
+        const glm::dvec3 toBoneEnd = planned[at(child)].boneEnd - skeleton.joints[joint].centre;
         const glm::dvec3 direct = skeleton.joints[at(child)].centre - skeleton.joints[joint].centre;
-        const glm::dvec3 along = glm::length(direct) > tolerance ? direct : way;
+        const glm::dvec3 along = glm::length(direct) > tolerance ? direct : toBoneEnd;
         const double length = glm::length(along);
         const bool thumb = isThumbName(skeleton.joints[at(child)].name);
         const double score = incoming == glm::dvec3(0.0)
@@ -84,7 +84,7 @@ void setJointAxes(const RestSkeleton& skeleton, double tolerance,
             joint.boneAxis = (joint.boneEnd - joint.centre) / joint.boneLength;
         else
             joint.boneAxis = parent ? parent->boneAxis : glm::dvec3(0.0, 1.0, 0.0);
-        const glm::dvec3 above = wayFromAbove(skeleton, j, tolerance);
+        const glm::dvec3 above = offsetFromAbove(skeleton, j, tolerance);
         joint.lengthAbove = glm::length(above);
         joint.comingFrom = joint.lengthAbove > 0.0 ? above / joint.lengthAbove : joint.boneAxis;
         joint.twistAxis = joint.poleIsParent ? joint.comingFrom : joint.boneAxis;

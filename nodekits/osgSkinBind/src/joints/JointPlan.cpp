@@ -14,7 +14,7 @@
 namespace osgSkin {
 namespace {
 
-/// Joint centres closer than this share of the mesh's size are one point.
+/// Joint centres closer than this fraction of the mesh's size are one point.
 constexpr double kCentreTolerance = 1e-6;
 
 bool hasParentPole(const JointBindOptions& options, const std::string& name) {
@@ -89,6 +89,18 @@ glm::dvec3 planeNormal(const PlannedJoint& joint) {
     const glm::dvec3 sum = joint.comingFrom + joint.boneAxis;
     const double length = glm::length(sum);
     return length > 1e-6 ? sum / length : joint.boneAxis; // a bone that folds straight back
+}
+
+double distanceToBone(const PlannedJoint& joint, const glm::dvec3& point) {
+    const glm::dvec3 d = point - joint.centre;
+    const double along = std::clamp(glm::dot(d, joint.boneAxis), 0.0, joint.boneLength);
+    return glm::length(d - along * joint.boneAxis);
+}
+
+bool isBelow(const std::vector<PlannedJoint>& joints, std::size_t joint, std::size_t above) {
+    for (int j = joints[joint].parent; j >= 0; j = joints[static_cast<std::size_t>(j)].parent)
+        if (static_cast<std::size_t>(j) == above) return true;
+    return false;
 }
 
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint) {

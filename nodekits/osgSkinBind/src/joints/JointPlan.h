@@ -42,12 +42,22 @@ struct PlannedJoint {
 /// Unit normal of the joint's plane, which bisects the bone above and its own, towards the child.
 glm::dvec3 planeNormal(const PlannedJoint& joint);
 
+/// Distance of a point, rest space, to the joint's bone, which may have no length.
+double distanceToBone(const PlannedJoint& joint, const glm::dvec3& point);
+
+/// True where `joint` is below `above` in the tree; a joint is not below itself.
+bool isBelow(const std::vector<PlannedJoint>& joints, std::size_t joint, std::size_t above);
+
 /// The nearest joint above that has a region; the root where none has.
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint);
 
-/// Axes, poles and roles of the joints, in the skeleton's order. Lines about what is unusual
-/// (joints outside the skin, ...) are added to `notes`. \throw osgSkin::Error where an option names
-/// a joint that is not there
+/// Axes, poles and roles of the joints, in the skeleton's order.
+///
+/// \param skeleton valid
+/// \param mesh tells which joints are inside the skin, and how large a body is
+/// \param options checked
+/// \param notes gets a line for each thing that is unusual: joints outside the skin, ...
+/// \throw osgSkin::Error where an option names a joint that is not there
 std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedMesh& mesh,
                                      const BindOptions& options, std::vector<std::string>& notes);
 

@@ -4,7 +4,6 @@
 #include "joints/JointNames.h"
 
 #include <osgSkin/Error>
-#include <osgSkinBind/Bind>
 
 namespace osgSkin {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_RIGIDJOINTS_H
-#define OSGSKINBIND_RIGIDJOINTS_H
+#ifndef OSGSKINBIND_JOINTS_RIGIDJOINTS_H
+#define OSGSKINBIND_JOINTS_RIGIDJOINTS_H
 
 #include <osgSkinBind/BindOptions>
+#include <osgSkinBind/RigidJoints>
 #include <osgSkinRig/RestSkeleton>
 
 #include <vector>
@@ -10,6 +11,9 @@
 namespace osgSkin {
 
 /// For each joint the topmost rigid joint at or above it, -1 where there is none.
+///
+/// \param skeleton valid
+/// \param options which joints are rigid, if the author said so
 /// \throw osgSkin::Error where an option names a joint that is not there
 std::vector<int> rigidJoints(const RestSkeleton& skeleton, const BindOptions& options);
 

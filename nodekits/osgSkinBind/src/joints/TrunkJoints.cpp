@@ -3,7 +3,7 @@
 
 #include "joints/JointNames.h"
 
-#include <osgSkinBind/Bind>
+#include <osgSkinBind/RigidJoints>
 
 namespace osgSkin {
 namespace {

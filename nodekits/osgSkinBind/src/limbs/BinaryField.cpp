@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "limbs/BinaryField.h"
 
+#include "limbs/HermiteRatio.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 
 namespace osgSkin {
 
-double hermite(double t) {
-    t = std::clamp(t, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
-
-bool BinaryField::isBelow(std::uint32_t region, std::size_t joint) const {
-    for (int j = joints[region].parent; j >= 0; j = joints[static_cast<std::size_t>(j)].parent)
-        if (static_cast<std::size_t>(j) == joint) return true;
-    return false;
-}
-
 std::vector<double> BinaryField::subtree(std::size_t joint) const {
     std::vector<double> inside(joints.size());
     for (std::uint32_t r = 0; r < joints.size(); ++r)
-        inside[r] = r == joint || isBelow(r, joint) ? 1.0 : 0.0;
+        inside[r] = r == joint || isBelow(joints, r, joint) ? 1.0 : 0.0;
     std::vector<double> field(mesh.vertexCount());
     for (std::size_t v = 0; v < field.size(); ++v) field[v] = inside[regions[v]];
     return field;
@@ -49,7 +40,7 @@ std::vector<double> BinaryField::bounded(std::size_t joint, double upper, double
     for (std::size_t v = 0; v < field.size(); ++v) {
         if (regions[v] != joint && regions[v] != above) continue;
         const double along = glm::dot(mesh.positions[v] - joints[joint].centre, normal) / length;
-        field[v] = hermite((along - upper) / (lower - upper));
+        field[v] = hermiteRatio((along - upper) / (lower - upper)); // eq. 5
     }
     return field;
 }

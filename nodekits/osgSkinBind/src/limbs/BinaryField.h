@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_HARDFIELD_H
-#define OSGSKINBIND_HARDFIELD_H
+#ifndef OSGSKINBIND_BINARYFIELD_H
+#define OSGSKINBIND_BINARYFIELD_H
 
 #include "joints/JointPlan.h"
 #include "mesh/WeldedMesh.h"
@@ -9,9 +9,6 @@
 #include <vector>
 
 namespace osgSkin {
-
-/// Eq. 5, flat at both ends: 0 for t <= 0, 1 for t >= 1.
-double hermite(double t);
 
 /// Where a joint's bend field starts from: regions and planes only, not yet continuous.
 ///
@@ -27,18 +24,24 @@ struct BinaryField {
     /// A rigid part behind a bone that is shorter than its own (a head on its neck) takes its whole
     /// region: there the region's border, along the jaw, is as near to the joint as the plane is,
     /// and follows the body better.
+    ///
+    /// \param joint index in `joints`
     /// \param shift of the plane, towards the child; a plane that is shifted towards the parent
-    /// also
-    ///        divides the region above
+    ///        divides the region above, too
+    /// \return one value for each welded vertex
     std::vector<double> divided(std::size_t joint, double shift = 0.0) const;
 
-    /// The paper's two boundaries (section 3) instead of one plane: eq. 5 between them in the
-    /// regions of the joint and of the one above. In units of the bone's length.
+    /// The paper's two boundaries (section 3) instead of one plane: hermiteRatio() between them in
+    /// the regions of the joint and of the one above.
+    ///
+    /// \param joint index in `joints`
+    /// \param upper, lower where the boundaries cross the bone, from the joint's centre, in units
+    ///        of the bone's length
+    /// \return one value for each welded vertex
     std::vector<double> bounded(std::size_t joint, double upper, double lower) const;
 
 private:
     std::vector<double> subtree(std::size_t joint) const;
-    bool isBelow(std::uint32_t region, std::size_t joint) const;
 };
 
 } // namespace osgSkin

@@ -11,10 +11,10 @@ namespace {
 /// A limb's length is at least this many radii: upper arms have three to four, necks less than two.
 constexpr double kLimbLength = 2.2;
 
-double limbRadius(const BinaryField& hard, std::size_t joint) {
-    const WeldedMesh& mesh = hard.mesh;
-    const PlannedJoint& bone = hard.joints[joint];
-    const std::vector<double> field = hard.divided(joint);
+double limbRadius(const BinaryField& binary, std::size_t joint) {
+    const WeldedMesh& mesh = binary.mesh;
+    const PlannedJoint& bone = binary.joints[joint];
+    const std::vector<double> field = binary.divided(joint);
     std::vector<double> radii; // one for each edge across the division
     for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
         if (field[v] < 0.5) continue;
@@ -33,10 +33,10 @@ double limbRadius(const BinaryField& hard, std::size_t joint) {
 
 } // namespace
 
-std::vector<double> limbRadii(const BinaryField& hard) {
-    std::vector<double> radii(hard.joints.size(), 0.0);
+std::vector<double> limbRadii(const BinaryField& binary) {
+    std::vector<double> radii(binary.joints.size(), 0.0);
     for (std::size_t j = 1; j < radii.size(); ++j)
-        if (hard.joints[j].holdsRegion) radii[j] = limbRadius(hard, j);
+        if (binary.joints[j].holdsRegion) radii[j] = limbRadius(binary, j);
     return radii;
 }
 

@@ -9,9 +9,9 @@
 namespace osgSkin {
 
 /// R_j for each joint: the limb's radius where it bends, the median distance to the bone's line of
-/// the skin that the joint's hard field divides. 0 for joints without a region or with an empty
-/// one.
-std::vector<double> limbRadii(const BinaryField& hard);
+/// the skin that the joint's BinaryField::divided() parts. 0 for joints without a region or with an
+/// empty one.
+std::vector<double> limbRadii(const BinaryField& binary);
 
 /// True where the bone is long for its radius and not of the trunk: upper arm, forearm, thigh,
 /// shin.

@@ -15,11 +15,13 @@ public:
     /// Without skin.
     MiddleThird() = default;
 
-    MiddleThird(const BinaryField& hard, std::size_t joint);
+    MiddleThird(const BinaryField& binary, std::size_t joint);
 
     bool empty() const { return _vertices.empty(); }
 
-    /// Mean of a field over that skin. \pre not empty
+    /// Mean of a field over that skin.
+    ///
+    /// \pre not empty()
     double mean(const std::vector<double>& field) const;
 
 private:

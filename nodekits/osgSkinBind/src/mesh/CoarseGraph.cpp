@@ -2,6 +2,7 @@
 #include "mesh/CoarseGraph.h"
 
 #include "mesh/EdgeWeights.h"
+#include "mesh/Neighbours.h"
 
 #include <algorithm>
 
@@ -96,19 +97,13 @@ void CoarseGraph::connectGroups() {
     }
     keepOne(_graph.triangles);
 
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges; // both ways
+    std::vector<DirectedEdge> edges; // in both directions
     for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v)
         for (std::uint32_t i = _fine.firstNeighbour[v]; i < _fine.firstNeighbour[v + 1]; ++i)
             if (_groupOf[v] != _groupOf[_fine.neighbours[i]])
                 edges.emplace_back(_groupOf[v], _groupOf[_fine.neighbours[i]]);
     keepOne(edges);
-    _graph.firstNeighbour.assign(_graph.vertexCount() + 1, 0);
-    for (const auto& [from, to] : edges) {
-        ++_graph.firstNeighbour[from + 1];
-        _graph.neighbours.push_back(to);
-    }
-    for (std::size_t g = 0; g < _graph.vertexCount(); ++g)
-        _graph.firstNeighbour[g + 1] += _graph.firstNeighbour[g];
+    listNeighbours(_graph.vertexCount(), edges, _graph.firstNeighbour, _graph.neighbours);
     _graph.weights =
         edgeWeights(_graph.positions, _graph.triangles, _graph.firstNeighbour, _graph.neighbours);
     _graph.measureEdges();

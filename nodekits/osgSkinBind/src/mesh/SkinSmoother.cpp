@@ -28,7 +28,7 @@ constexpr std::size_t kLeastCoarsening = 2;
 /// anyway.
 constexpr double kReach = 4.0;
 
-/// Vertices within kReach of an edge whose ends differ, by the length of the way over the skin.
+/// Vertices within kReach of an edge whose ends differ, by the length of the path over the skin.
 std::vector<std::uint32_t> whereItChanges(const HeatGraph& skin, const std::vector<double>& field,
                                           const std::vector<double>& widths) {
     using Step = std::pair<double, std::uint32_t>; // length, vertex
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> whereItChanges(const HeatGraph& skin, const std::vect
     while (!front.empty()) {
         const auto [here, v] = front.top();
         front.pop();
-        if (here > length[v]) continue; // come to on a shorter way
+        if (here > length[v]) continue; // reached on a shorter path
         reached.push_back(v);
         for (std::uint32_t i = skin.firstNeighbour[v]; i < skin.firstNeighbour[v + 1]; ++i) {
             const std::uint32_t next = skin.neighbours[i];
@@ -86,7 +86,7 @@ void spread(const HeatGraph& skin, std::vector<double>& field, const std::vector
     Matrix heatStep(count, count);
     heatStep.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Matrix> solver(heatStep);
-    if (solver.info() != Eigen::Success) return; // leaves the field as hard as it was
+    if (solver.info() != Eigen::Success) return; // leaves the field as it was
     for (int step = 0; step < kSteps; ++step)
         values = solver.solve(mass.cwiseProduct(values)).eval();
     for (Eigen::Index i = 0; i < count; ++i) field[patch[static_cast<std::size_t>(i)]] = values[i];

@@ -23,15 +23,21 @@ namespace osgSkin {
 /// make negative or huge are clamped.
 class SkinSmoother {
 public:
+    /// \param mesh is copied as far as it is needed
     /// \param widest the widest spread that will be asked for; where the skin's edges are much
     ///        shorter, coarser copies of it are prepared. Any other width works too.
     explicit SkinSmoother(const WeldedMesh& mesh, double widest = 0.0);
     SkinSmoother(const SkinSmoother&) = delete;
 
+    /// Smooths a field alike everywhere.
+    ///
+    /// \param field one value for each vertex
     /// \param width square root of the heat's total time, above 0; an edge of the field becomes
-    /// about
-    ///        as wide
+    ///        about as wide
     void smooth(std::vector<double>& field, double width) const;
+    /// Smooths a field more here and less there.
+    ///
+    /// \param field one value for each vertex
     /// \param widths one for each vertex, above 0
     void smooth(std::vector<double>& field, const std::vector<double>& widths) const;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/WeldedMesh.h"
 
+#include "mesh/Neighbours.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -12,7 +14,7 @@
 namespace osgSkin {
 namespace {
 
-/// Vertices closer than this share of the mesh's size are the same point.
+/// Vertices closer than this fraction of the mesh's size are the same point.
 constexpr double kWeldTolerance = 1e-9;
 
 struct Cell {
@@ -98,25 +100,21 @@ void WeldedMesh::addTriangles(const SkinMesh& mesh) {
 }
 
 void WeldedMesh::connect() {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> halfEdges; // both ways, once a triangle
-    halfEdges.reserve(6 * triangles.size());
+    std::vector<DirectedEdge> edges; // in both directions, once for each triangle
+    edges.reserve(6 * triangles.size());
     for (const auto& t : triangles)
         for (std::size_t k = 0; k < 3; ++k) {
-            halfEdges.emplace_back(t[k], t[(k + 1) % 3]);
-            halfEdges.emplace_back(t[(k + 1) % 3], t[k]);
+            edges.emplace_back(t[k], t[(k + 1) % 3]);
+            edges.emplace_back(t[(k + 1) % 3], t[k]);
         }
-    std::sort(halfEdges.begin(), halfEdges.end());
-
-    firstNeighbour.assign(positions.size() + 1, 0);
-    for (std::size_t i = 0; i < halfEdges.size();) {
+    std::sort(edges.begin(), edges.end());
+    listNeighbours(positions.size(), edges, firstNeighbour, neighbours);
+    for (std::size_t i = 0; i < edges.size();) {
         std::size_t end = i;
-        while (end < halfEdges.size() && halfEdges[end] == halfEdges[i]) ++end;
-        neighbours.push_back(halfEdges[i].second);
-        ++firstNeighbour[halfEdges[i].first + 1];
-        if (end - i == 1 && halfEdges[i].first < halfEdges[i].second) ++openEdges;
+        while (end < edges.size() && edges[end] == edges[i]) ++end;
+        if (end - i == 1 && edges[i].first < edges[i].second) ++openEdges;
         i = end;
     }
-    for (std::size_t v = 0; v < positions.size(); ++v) firstNeighbour[v + 1] += firstNeighbour[v];
 }
 
 void WeldedMesh::findShells() {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "paper/PaperBoundaries.h"
 
-#include "limbs/BoundarySpan.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <optional>
 
 namespace osgSkin {
 namespace {

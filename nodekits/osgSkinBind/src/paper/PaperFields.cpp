@@ -8,14 +8,8 @@
 namespace osgSkin {
 namespace {
 
-/// What a region's skin does with a joint.
-enum class Share { None, Planes, Full };
-
-bool isBelow(const std::vector<PlannedJoint>& joints, std::size_t region, std::size_t joint) {
-    for (int j = joints[region].parent; j >= 0; j = joints[static_cast<std::size_t>(j)].parent)
-        if (static_cast<std::size_t>(j) == joint) return true;
-    return false;
-}
+/// How a region's skin follows a joint.
+enum class Follows { Nothing, Planes, Fully };
 
 /// The region that continues the joint's chain; the joint itself where none does.
 std::size_t regionBelow(const std::vector<PlannedJoint>& joints, std::size_t joint) {
@@ -25,51 +19,42 @@ std::size_t regionBelow(const std::vector<PlannedJoint>& joints, std::size_t joi
     return below < 0 ? joint : static_cast<std::size_t>(below);
 }
 
-/// For each region its share in the joint.
-std::vector<Share> sharesIn(const std::vector<PlannedJoint>& joints, std::size_t joint) {
-    std::vector<Share> shares(joints.size(), Share::None);
+/// For each region how it follows the joint.
+std::vector<Follows> followersOf(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    std::vector<Follows> regions(joints.size(), Follows::Nothing);
     for (std::size_t r = 0; r < joints.size(); ++r)
-        if (isBelow(joints, r, joint)) shares[r] = Share::Full;
+        if (isBelow(joints, r, joint)) regions[r] = Follows::Fully;
     for (const std::size_t r : {regionAbove(joints, joint), joint, regionBelow(joints, joint)})
-        shares[r] = Share::Planes;
-    return shares;
-}
-
-void raise(std::vector<double>& field, const std::vector<double>& other) {
-    for (std::size_t v = 0; v < field.size(); ++v) field[v] = std::max(field[v], other[v]);
+        regions[r] = Follows::Planes;
+    return regions;
 }
 
 } // namespace
 
-PaperFields::PaperFields(const BinaryField& hard, const std::vector<double>& radii) {
-    const std::vector<PlannedJoint>& joints = hard.joints;
-    bend.assign(joints.size(), std::vector<double>(hard.mesh.vertexCount(), 0.0));
-    bend[0].assign(hard.mesh.vertexCount(), 1.0);
+PaperFields::PaperFields(const BinaryField& binary, const std::vector<double>& radii) {
+    const std::vector<PlannedJoint>& joints = binary.joints;
+    bend.assign(joints.size(), std::vector<double>(binary.mesh.vertexCount(), 0.0));
+    bend[0].assign(binary.mesh.vertexCount(), 1.0);
     twist = bend;
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!joints[j].holdsRegion) continue;
-        const std::vector<Share> shares = sharesIn(joints, j);
+        const std::vector<Follows> regions = followersOf(joints, j);
         const PaperRegion bendAt = bendRegion(joints[j], radii[j]);
         const PaperRegion twistAt = twistRegion(joints[j], radii[j]);
         // By default skin twists with its own bone only: on the other side of the crotch a thigh's
         // planes mean nothing.
         const bool bounded = !joints[j].poleIsParent && !hasOwnTwistRegion(joints[j]);
         for (std::size_t v = 0; v < bend[j].size(); ++v) {
-            const Share share = shares[hard.regions[v]];
-            if (share == Share::None) continue;
-            const bool full = share == Share::Full;
-            bend[j][v] = full ? 1.0 : bendAt.ratio(hard.mesh.positions[v]);
-            twist[j][v] = full ? 1.0 : twistAt.ratio(hard.mesh.positions[v]);
+            const Follows follows = regions[binary.regions[v]];
+            if (follows == Follows::Nothing) continue;
+            const bool full = follows == Follows::Fully;
+            bend[j][v] = full ? 1.0 : bendAt.ratio(binary.mesh.positions[v]);
+            twist[j][v] = full ? 1.0 : twistAt.ratio(binary.mesh.positions[v]);
             if (bounded) twist[j][v] = std::min(twist[j][v], bend[j][v]);
         }
     }
-    // No joint turns skin that its parent leaves behind; one without a region (of no length, or
-    // skipped) turns what its children turn.
-    for (std::size_t j = joints.size(); j-- > 1;) {
-        if (joints[j].belowRigid(static_cast<int>(j))) continue;
-        raise(bend[static_cast<std::size_t>(joints[j].parent)], bend[j]);
-        raise(twist[static_cast<std::size_t>(joints[j].parent)], twist[j]);
-    }
+    raiseParents(joints, bend);
+    raiseParents(joints, twist);
 }
 
 } // namespace osgSkin

@@ -17,8 +17,9 @@ namespace osgSkin {
 struct PaperFields {
     JointFields bend, twist;
 
+    /// \param binary the skin, its joints and regions
     /// \param radii of limbRadii()
-    PaperFields(const BinaryField& hard, const std::vector<double>& radii);
+    PaperFields(const BinaryField& binary, const std::vector<double>& radii);
 };
 
 } // namespace osgSkin

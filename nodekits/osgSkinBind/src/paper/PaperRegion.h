@@ -17,11 +17,11 @@ struct BoundaryPlane {
 struct PaperRegion {
     BoundaryPlane upper, lower;
 
-    /// The share of the joint's angle that skin at `p` takes: exactly 0 above the upper boundary,
-    /// exactly 1 below the lower one, eq. 5 in between.
+    /// The fraction of the joint's angle that skin at `p` takes: exactly 0 above the upper
+    /// boundary, exactly 1 below the lower one, eq. 5 in between.
     ///
     /// Inclined planes cross on the inner side of the bend. Beyond, a point is above the one and
-    /// below the other: there the share goes from what the one says to what the other says, so that
+    /// below the other: there it goes from what the one says to what the other says, so that
     /// it is continuous all around the line where they cross.
     double ratio(const glm::dvec3& p) const;
 };

@@ -12,7 +12,7 @@ constexpr int kMostSteps = 100;
 constexpr double kTolerance = 1e-14;
 
 /// A point this near to one plane, for its distance to the other, is on it; in a wide wedge the
-/// root grows without limit on the way there.
+/// root grows without limit towards it.
 constexpr double kNothing = 1e-60;
 
 /// The condition on x, the cotangent of the angle at which the segment meets the upper plane.

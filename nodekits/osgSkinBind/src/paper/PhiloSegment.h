@@ -4,7 +4,7 @@
 
 namespace osgSkin {
 
-/// t of eq. 5 (paper, section 3): which share |h| / |H| of the shortest segment through a point
+/// t of eq. 5 (paper, section 3): which fraction |h| / |H| of the shortest segment through a point
 /// between two planes lies between the point and the upper plane.
 ///
 /// Between parallel planes that segment is the perpendicular. In a wedge it is Philo's line, which

@@ -14,9 +14,13 @@
 namespace osgSkin {
 
 /// Bend ratios, continuous over the skin (paper, section 3): 1 at the root, exactly 0 and 1 beyond
-/// a joint's bend region, never more than the parent's. \param radii of limbRadii() \param begin is
-/// called before each joint's field
-JointFields bendFields(const BinaryField& hard, const std::vector<double>& radii,
+/// a joint's bend region, never more than the parent's.
+///
+/// \param binary where the fields start from
+/// \param radii of limbRadii()
+/// \param options smoothing and cutOff count
+/// \param begin is called with the joint's index before each joint's field
+JointFields bendFields(const BinaryField& binary, const std::vector<double>& radii,
                        const BindOptions& options, const std::function<void(std::size_t)>& begin);
 
 } // namespace osgSkin

@@ -24,11 +24,11 @@ float partialness(const Influence& i) {
     return std::max(distanceToFull(i.bend), distanceToFull(i.twist));
 }
 
-/// Partialness of the joint that is one too many, 0 where there is none.
+/// partialness() of the joint that is one too many, 0 where there is none.
 float excess(const std::vector<Influence>& all, std::size_t mostPartial) {
     std::vector<float> partial;
     for (const Influence& influence : all)
-        if (isPartial(influence)) partial.push_back(partialness(influence));
+        if (influence.isFractional()) partial.push_back(partialness(influence));
     if (partial.size() <= mostPartial) return 0.0f;
     const auto extra = partial.begin() + static_cast<std::ptrdiff_t>(mostPartial);
     std::nth_element(partial.begin(), extra, partial.end(), std::greater<>());
@@ -42,10 +42,6 @@ float stretched(float a, float margin) {
 }
 
 } // namespace
-
-bool isPartial(const Influence& influence) {
-    return partialness(influence) > 0.0f;
-}
 
 bool packInfluences(const std::vector<PlannedJoint>& joints, const JointFields& bend,
                     const JointFields& twist, std::size_t vertex, std::size_t mostPartial,

@@ -12,17 +12,22 @@
 
 namespace osgSkin {
 
-/// One vertex's influences out of the fields, in joint order, at most `mostPartial` of them
-/// partial. Returns whether there were more.
+/// Adds one vertex's influences out of the fields, in joint order, at most `mostPartial` of them
+/// fractional (Influence::isFractional()).
 ///
-/// Where there were, all ratios are stretched by as much as rounds the fifth to 0 or 1. That is as
-/// continuous over the skin as the fields are (rounding the extra ones alone would tear it), and
-/// keeps each joint's ratios below its parent's.
+/// Where there were more, all ratios are stretched by as much as rounds the surplus ones to 0 or 1.
+/// That is as continuous over the skin as the fields are (rounding the extra ones alone would tear
+/// it), and keeps each joint's ratios at most its parent's.
+///
+/// \param joints of planJoints()
+/// \param bend, twist of each joint
+/// \param vertex index in the fields
+/// \param mostPartial how many influences may be fractional
+/// \param influences what is found is added at its end
+/// \return whether there were more
 bool packInfluences(const std::vector<PlannedJoint>& joints, const JointFields& bend,
                     const JointFields& twist, std::size_t vertex, std::size_t mostPartial,
                     std::vector<Influence>& influences);
-
-bool isPartial(const Influence& influence);
 
 } // namespace osgSkin
 

@@ -11,7 +11,7 @@ namespace osgSkin {
 namespace {
 
 /// Widths beside that of a limb. The trunk's joints stand so close that their fields overlap. A
-/// rigid part starts close behind its joint, and the skin above takes up more of the turn.
+/// rigid part starts close behind its joint, and the skin above takes up more of the rotation.
 constexpr double kTrunkWidth = 0.75;
 constexpr double kAboveRigidWidth = 1.5;
 constexpr double kRigidWidth = 0.4;
@@ -20,8 +20,8 @@ constexpr double kRigidWidth = 0.4;
 /// belly's volume.
 constexpr double kTrunkLift = 0.2;
 
-/// What of a joint's turn the middle third of its own bone must take, and that of the bone above
-/// may.
+/// What of a joint's rotation the middle third of its own bone must take, and that of the bone
+/// above may.
 constexpr double kOwnRigidity = 0.975;
 constexpr double kNextRigidity = 0.003;
 
@@ -45,12 +45,12 @@ Widths firstWidths(const PlannedJoint& joint, double radius, double smoothing) {
     return {width, width};
 }
 
-std::vector<double> spread(const SkinSmoother& smoother, const std::vector<double>& hard,
+std::vector<double> spread(const SkinSmoother& smoother, const std::vector<double>& binary,
                            const Widths& widths, double cutOff) {
-    std::vector<double> width(hard.size());
+    std::vector<double> width(binary.size());
     for (std::size_t v = 0; v < width.size(); ++v)
-        width[v] = hard[v] < 0.5 ? widths.above : widths.below;
-    std::vector<double> field = hard;
+        width[v] = binary[v] < 0.5 ? widths.above : widths.below;
+    std::vector<double> field = binary;
     smoother.smooth(field, width);
     stretch(field, cutOff);
     return field;
@@ -70,19 +70,19 @@ void stretch(std::vector<double>& field, double cutOff) {
     for (double& a : field) a = std::clamp((a - cutOff) / (1.0 - 2.0 * cutOff), 0.0, 1.0);
 }
 
-std::vector<double> smoothBend(const BinaryField& hard, const SkinSmoother& smoother,
+std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& smoother,
                                std::size_t joint, const std::vector<double>& radii,
                                const BindOptions& options) {
-    const PlannedJoint& planned = hard.joints[joint];
+    const PlannedJoint& planned = binary.joints[joint];
     const double radius = radii[joint];
-    std::vector<double> start = hard.divided(joint, planned.trunk ? -kTrunkLift * radius : 0.0);
+    std::vector<double> start = binary.divided(joint, planned.trunk ? -kTrunkLift * radius : 0.0);
     if (!(radius > 0.0)) return start;
 
-    const std::size_t above = regionAbove(hard.joints, joint);
+    const std::size_t above = regionAbove(binary.joints, joint);
     const bool limb = isLimb(planned, radius);
-    const bool onLimb = above > 0 && isLimb(hard.joints[above], radii[above]);
-    const MiddleThird own = limb ? MiddleThird(hard, joint) : MiddleThird();
-    const MiddleThird previous = onLimb ? MiddleThird(hard, above) : MiddleThird();
+    const bool onLimb = above > 0 && isLimb(binary.joints[above], radii[above]);
+    const MiddleThird own = limb ? MiddleThird(binary, joint) : MiddleThird();
+    const MiddleThird previous = onLimb ? MiddleThird(binary, above) : MiddleThird();
     Widths widths = firstWidths(planned, radius, options.smoothing);
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
     std::vector<double> field;

@@ -11,14 +11,20 @@
 
 namespace osgSkin {
 
-/// A joint's bend field without boundaries from the author: its hard field, spread over the skin
-/// about as far as the limb is thick, and exactly 0 and 1 beyond that.
+/// A joint's bend field without boundaries from the author: its binary field
+/// (BinaryField::divided()), spread over the skin about as far as the limb is thick, and exactly 0
+/// and 1 beyond that.
 ///
 /// A limb's field is as wide as leaves the middle third of its bone, and of the bone above, rigid:
 /// wide on thick short bones would be rubber. On the trunk's side of a shoulder or hip there is no
 /// such limit, so the two sides have a width each.
+///
+/// \param binary where the field starts from
+/// \param smoother of the same skin
+/// \param joint whose field; it has a region
 /// \param radii of limbRadii()
-std::vector<double> smoothBend(const BinaryField& hard, const SkinSmoother& smoother,
+/// \param options smoothing and cutOff count
+std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& smoother,
                                std::size_t joint, const std::vector<double>& radii,
                                const BindOptions& options);
 

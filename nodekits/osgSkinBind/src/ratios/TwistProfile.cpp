@@ -9,8 +9,8 @@
 namespace osgSkin {
 namespace {
 
-/// Shares of the region over which the rate of the twist fades in below the elbow, where the skin
-/// is thick and its rows of vertices stand far apart, and out again above the wrist.
+/// Fractions of the region over which the rate of the twist fades in below the elbow, where the
+/// skin is thick and its rows of vertices stand far apart, and out again above the wrist.
 constexpr double kFadeIn = 0.4;
 constexpr double kFadeOut = 0.15;
 
@@ -45,9 +45,9 @@ Radii limbRadiiAlong(const WeldedMesh& mesh, const PlannedJoint& joint, const Bo
 }
 
 double radiusAt(const Radii& radii, double t) {
-    const double place = std::clamp(t * kStretches - 0.5, 0.0, kStretches - 1.0);
-    const auto i = std::min(static_cast<std::size_t>(place), kStretches - 2);
-    return radii[i] + (radii[i + 1] - radii[i]) * (place - static_cast<double>(i));
+    const double position = std::clamp(t * kStretches - 0.5, 0.0, kStretches - 1.0);
+    const auto i = std::min(static_cast<std::size_t>(position), kStretches - 2);
+    return radii[i] + (radii[i + 1] - radii[i]) * (position - static_cast<double>(i));
 }
 
 } // namespace
@@ -66,9 +66,9 @@ TwistProfile::TwistProfile(const WeldedMesh& mesh, const PlannedJoint& joint,
 }
 
 double TwistProfile::operator()(double t) const {
-    const double place = std::clamp(t, 0.0, 1.0) * kSteps;
-    const auto i = std::min(static_cast<std::size_t>(place), kSteps - 1);
-    return _ratio[i] + (_ratio[i + 1] - _ratio[i]) * (place - static_cast<double>(i));
+    const double position = std::clamp(t, 0.0, 1.0) * kSteps;
+    const auto i = std::min(static_cast<std::size_t>(position), kSteps - 1);
+    return _ratio[i] + (_ratio[i + 1] - _ratio[i]) * (position - static_cast<double>(i));
 }
 
 } // namespace osgSkin

@@ -2,6 +2,7 @@
 #ifndef OSGSKINBIND_TWISTPROFILE_H
 #define OSGSKINBIND_TWISTPROFILE_H
 
+#include "joints/JointPlan.h"
 #include "limbs/BoundarySpan.h"
 #include "mesh/WeldedMesh.h"
 
@@ -18,13 +19,16 @@ namespace osgSkin {
 /// at the boundaries.
 class TwistProfile {
 public:
+    /// \param mesh the skin
+    /// \param joint the hand
+    /// \param region along its pole bone
     /// \param onBone bend field of the joint that moves the pole bone
-    /// \param beyond bend field of the joint at the bone's end: its skin does not count for the
-    /// radius
+    /// \param beyond bend field of the joint at the bone's end: its skin does not count for
+    ///        the radius
     TwistProfile(const WeldedMesh& mesh, const PlannedJoint& joint, const BoundarySpan& region,
                  const std::vector<double>& onBone, const std::vector<double>& beyond);
 
-    /// Ratio, 0 to 1, at t of the way from the upper boundary to the lower; flat beyond both.
+    /// Ratio, 0 to 1, at t: 0 at the upper boundary, 1 at the lower; flat beyond both.
     double operator()(double t) const;
 
 private:

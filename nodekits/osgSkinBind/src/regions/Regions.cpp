@@ -11,7 +11,7 @@
 namespace osgSkin {
 namespace {
 
-/// Fractions of the time that are over when the steps begin, measured at 280,000 vertices.
+/// Fractions of the time that have passed when the steps begin, measured at 280,000 vertices.
 constexpr double kFloodingBegins = 0.3;
 constexpr double kBordersBegin = 0.9;
 

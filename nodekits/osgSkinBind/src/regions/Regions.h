@@ -14,7 +14,11 @@ namespace osgSkin {
 
 /// Delaunay step, flooding step, and what real meshes need beside them: shells that no Delaunay
 /// edge reaches and islands.
+///
+/// \param mesh the skin
+/// \param joints of planJoints()
 /// \param progress is told as each of these begins; may be empty
+/// \return a region for every vertex
 Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
                     const Progress& progress);
 

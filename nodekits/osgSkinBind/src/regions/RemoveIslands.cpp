@@ -55,8 +55,8 @@ void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
     const std::vector<Patch> patches = findPatches(mesh, isSeed, jointOf);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> main; // shell and joint -> patch
     for (std::size_t p = 0; p < patches.size(); ++p) {
-        const auto [place, added] = main.emplace(std::pair(patches[p].shell, patches[p].joint), p);
-        if (!added && patches[p].outweighs(patches[place->second])) place->second = p;
+        const auto [entry, added] = main.emplace(std::pair(patches[p].shell, patches[p].joint), p);
+        if (!added && patches[p].outweighs(patches[entry->second])) entry->second = p;
     }
     for (std::size_t p = 0; p < patches.size(); ++p)
         if (main.at({patches[p].shell, patches[p].joint}) != p)

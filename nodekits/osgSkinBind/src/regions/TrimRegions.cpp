@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "regions/TrimRegions.h"
 
-#include "limbs/BinaryField.h"
 #include "limbs/LimbRadius.h"
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <limits>
 
 namespace osgSkin {
@@ -18,12 +16,6 @@ constexpr double kReachAbove = 0.35;
 /// How far a collar bone's region reaches from the bone, in radii of the arm. Skin farther down the
 /// chest hangs on the spine.
 constexpr double kReachOfCollar = 1.1;
-
-double distanceToBone(const PlannedJoint& joint, const glm::dvec3& p) {
-    const glm::dvec3 d = p - joint.centre;
-    const double along = std::clamp(glm::dot(d, joint.boneAxis), 0.0, joint.boneLength);
-    return glm::length(d - along * joint.boneAxis);
-}
 
 double reachFromBone(const PlannedJoint& joint, const std::vector<double>& radii) {
     const double arm = joint.collarBone ? radii[static_cast<std::size_t>(joint.child)] : 0.0;

@@ -5,8 +5,8 @@
 #include "scene/RigCollector.h"
 
 #include <osgSkin/Error>
-#include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/Bind>
+#include <osgSkinBind/MakeSkins>
 #include <osgSkinBind/NonUniformScale>
 #include <osgSkinBind/ShowRegions>
 #include <osgSkinRig/ReadSkeleton>
@@ -53,16 +53,16 @@ void replace(const Rig& rig, DeformableSkin& skin) {
     skin.setNodeMask(rig.geometry->getNodeMask());
     skin.setUserDataContainer(rig.geometry->getUserDataContainer());
     const osg::ref_ptr<osg::Node> keep = rig.geometry;
-    for (const osg::NodePath& way : rig.ways) {
-        osg::Group* parent = way.empty() ? rig.skeleton : way.back()->asGroup();
-        if (osg::computeLocalToWorld(way).isIdentity()) {
+    for (const osg::NodePath& path : rig.nodePaths) {
+        osg::Group* parent = path.empty() ? rig.skeleton : path.back()->asGroup();
+        if (osg::computeLocalToWorld(path).isIdentity()) {
             parent->replaceChild(rig.geometry, &skin);
             continue;
         }
         parent->removeChild(rig.geometry);
-        // Its space is the skeleton's now: what the way sets beside transforms comes along.
+        // Its space is the skeleton's now: what the path sets beside transforms comes along.
         osg::ref_ptr<osg::StateSet> state;
-        for (const osg::Node* node : way) {
+        for (const osg::Node* node : path) {
             if (node->getStateSet() == nullptr) continue;
             if (!state) state = new osg::StateSet;
             state->merge(*node->getStateSet());
@@ -85,7 +85,7 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
     std::vector<const Rig*> taken;
     for (const Rig* rig : rigs) {
         try {
-            body.add(*rig->geometry, osg::computeLocalToWorld(rig->ways.front()), rest);
+            body.add(*rig->geometry, osg::computeLocalToWorld(rig->nodePaths.front()), rest);
             taken.push_back(rig);
         } catch (const Error& error) {
             report.notes.push_back(nameOf(*rig) + " is left as it is: " + error.what());
@@ -96,23 +96,21 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
     if (options.showRegions) showRegions(body.parts, binding);
     RigidSplit whole;
     whole.faceJoint.assign(body.mesh.faceSizes.size(), RigidSplit::kSkin);
-    const osg::ref_ptr<osgAnimation::Skeleton> workbench = new osgAnimation::Skeleton;
-    const AttachedSkin attached = attachSkin(*workbench, body.mesh, body.parts, binding, whole);
+    const SkinParts made = makeSkins(body.mesh, body.parts, binding, whole);
     for (std::size_t i = 0; i < taken.size(); ++i) {
-        DeformableSkin& skin = *attached.skins[i].drawable;
-        workbench->removeChild(&skin);
+        DeformableSkin& skin = *made.skins[i].drawable;
         replace(*taken[i], skin);
         report.skins.push_back(&skin);
     }
 }
 
-void noteUnevenScale(osgAnimation::Skeleton& skeleton, const osgAnimation::AnimationList& clips,
-                     ConvertReport& report) {
+void noteNonUniformScale(osgAnimation::Skeleton& skeleton, const osgAnimation::AnimationList& clips,
+                         ConvertReport& report) {
     const std::vector<std::string> bones = findNonUniformScale(skeleton, clips);
     if (bones.empty()) return;
     std::string note = "skeleton \"" + skeleton.getName() + "\": " + bones.front();
     if (bones.size() > 1) note += " and " + std::to_string(bones.size() - 1) + " more";
-    report.notes.push_back(note + " scaled unevenly or mirrored, which skins do not follow");
+    report.notes.push_back(note + " scaled non-uniformly or mirrored, which skins do not follow");
 }
 
 } // namespace
@@ -142,7 +140,8 @@ ConvertReport convertRigs(osg::Node& scene, const ConvertOptions& options) {
         try {
             const std::size_t before = report.skins.size();
             convertSkeleton(*skeleton, rigs[skeleton], own, report);
-            if (report.skins.size() > before) noteUnevenScale(*skeleton, collector.clips, report);
+            if (report.skins.size() > before)
+                noteNonUniformScale(*skeleton, collector.clips, report);
         } catch (const Error& error) {
             for (const Rig* rig : rigs[skeleton])
                 report.notes.push_back(nameOf(*rig) + " is left as it is: " + error.what());

@@ -20,7 +20,7 @@ osg::Vec3d axis(const osg::Matrixd& m, int row) {
     return {m(row, 0), m(row, 1), m(row, 2)};
 }
 
-bool isEven(const osg::Matrixd& m) {
+bool isUniform(const osg::Matrixd& m) {
     const double size = axis(m, 0).length2();
     for (int i = 0; i < 3; ++i) {
         if (std::abs(axis(m, i).length2() - size) > 2.0 * kTolerance * size) return false;
@@ -29,32 +29,32 @@ bool isEven(const osg::Matrixd& m) {
     return (axis(m, 0) ^ axis(m, 1)) * axis(m, 2) > 0.0;
 }
 
-/// The bones with their places in skeleton space, as their update callbacks will set them.
-class BonePlaces : public osg::NodeVisitor {
+/// The bones with their matrices in skeleton space, as their update callbacks will set them.
+class BoneMatrices : public osg::NodeVisitor {
 public:
-    BonePlaces() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    BoneMatrices() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
 
     struct Entry {
         osgAnimation::Bone* bone;
-        osg::Matrixd place;
+        osg::Matrixd matrix;
         osg::Matrixd bindAbove; ///< in skeleton space, of the bone above
     };
     std::vector<Entry> bones;
 
     void apply(osg::Transform& node) override {
         if (_depth > 0 && dynamic_cast<osgAnimation::Skeleton*>(&node) != nullptr) return;
-        const osg::Matrixd place = _place, bind = _bind;
+        const osg::Matrixd matrix = _matrix, bind = _bind;
         if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) {
-            _place.preMult(localOf(*bone));
-            bones.push_back({bone, _place, _bind});
+            _matrix.preMult(localOf(*bone));
+            bones.push_back({bone, _matrix, _bind});
             _bind = osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace());
         } else if (_depth > 0) {
-            node.computeLocalToWorldMatrix(_place, this);
+            node.computeLocalToWorldMatrix(_matrix, this);
         }
         ++_depth;
         traverse(node);
         --_depth;
-        _place = place;
+        _matrix = matrix;
         _bind = bind;
     }
 
@@ -69,29 +69,29 @@ private:
     }
 
     int _depth = 0;
-    osg::Matrixd _place, _bind;
+    osg::Matrixd _matrix, _bind;
 };
 
-/// Whether the keys of a channel for scale, or for the whole matrix, scale unevenly against `bind`,
-/// the bone's matrix in the bind pose, seen from the bone above.
-bool scalesUnevenly(osgAnimation::Channel& channel, const osg::Matrixd& bind) {
+/// Whether the keys of a channel for scale, or for the whole matrix, scale non-uniformly against
+/// `bind`, the bone's matrix in the bind pose, seen from the bone above.
+bool scalesNonUniformly(osgAnimation::Channel& channel, const osg::Matrixd& bind) {
     if (auto* matrices = dynamic_cast<osgAnimation::MatrixLinearChannel*>(&channel)) {
         const auto* keys = matrices->getOrCreateSampler()->getKeyframeContainerTyped();
         return keys != nullptr && std::any_of(keys->begin(), keys->end(), [&](const auto& key) {
-                   return !isEven(osg::Matrixd::inverse(bind) * osg::Matrixd(key.getValue()));
+                   return !isUniform(osg::Matrixd::inverse(bind) * osg::Matrixd(key.getValue()));
                });
     }
     if (channel.getName() != "scale") return false;
-    const auto uneven = [&](const osg::Vec3& scale) {
+    const auto isNonUniform = [&](const osg::Vec3& scale) {
         osg::Matrixd own;
         for (int i = 0; i < 3; ++i) own(i, i) = double(scale[i]) / axis(bind, i).length();
-        return !isEven(own);
+        return !isUniform(own);
     };
     const auto any = [&](auto* typed) {
         if (typed == nullptr) return false;
         const auto* keys = typed->getOrCreateSampler()->getKeyframeContainerTyped();
         return keys != nullptr && std::any_of(keys->begin(), keys->end(), [&](const auto& key) {
-                   return uneven(key.getValue());
+                   return isNonUniform(key.getValue());
                });
     };
     return any(dynamic_cast<osgAnimation::Vec3LinearChannel*>(&channel)) ||
@@ -102,26 +102,26 @@ bool scalesUnevenly(osgAnimation::Channel& channel, const osg::Matrixd& bind) {
 
 std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
                                              const osgAnimation::AnimationList& clips) {
-    BonePlaces found;
+    BoneMatrices found;
     skeleton.accept(found);
     std::map<std::string, std::string> guilty; // bone -> clip
     for (const auto& clip : clips)
         for (const auto& channel : clip->getChannels())
-            for (const BonePlaces::Entry& entry : found.bones) {
+            for (const BoneMatrices::Entry& entry : found.bones) {
                 if (channel->getTargetName() != entry.bone->getName()) continue;
                 const osg::Matrixd bind =
                     osg::Matrixd::inverse(entry.bone->getInvBindMatrixInSkeletonSpace()) *
                     osg::Matrixd::inverse(entry.bindAbove);
-                if (scalesUnevenly(*channel, bind))
+                if (scalesNonUniformly(*channel, bind))
                     guilty.emplace(entry.bone->getName(), clip->getName());
             }
     std::vector<std::string> result;
-    for (const BonePlaces::Entry& entry : found.bones) {
+    for (const BoneMatrices::Entry& entry : found.bones) {
         const std::string& name = entry.bone->getName();
         const auto clip = guilty.find(name);
         if (clip != guilty.end())
             result.push_back("bone \"" + name + "\" in the clip \"" + clip->second + "\"");
-        else if (!isEven(entry.bone->getInvBindMatrixInSkeletonSpace() * entry.place))
+        else if (!isUniform(entry.bone->getInvBindMatrixInSkeletonSpace() * entry.matrix))
             result.push_back("bone \"" + name + "\" as it stands");
     }
     return result;

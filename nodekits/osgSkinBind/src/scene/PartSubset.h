@@ -12,8 +12,8 @@ namespace osgSkin {
 /// in the part's order. All per-vertex arrays come along; the state set is shared.
 MeshPart partSubset(const MeshPart& part, const std::vector<bool>& keep);
 
-/// Puts the part's vertices into another order: place i gets vertex order[i]. Triangles, their
-/// order, and how it looks stay.
+/// Puts the part's vertices into another order: position i gets vertex order[i]. Triangles, their
+/// order and the state set stay.
 MeshPart reorderedPart(const MeshPart& part, const std::vector<std::uint32_t>& order);
 
 } // namespace osgSkin

@@ -71,17 +71,17 @@ osg::ref_ptr<osg::Vec3Array> normalsOf(const osg::Geometry& source, const osg::V
     return normals;
 }
 
-void move(const osg::Matrixd& place, osg::Vec3Array& vertices, osg::Vec3Array& normals) {
-    if (place.isIdentity()) return; // to the last bit
-    const osg::Matrixd inverse = osg::Matrixd::inverse(place);
-    for (osg::Vec3& v : vertices) v = v * place;
+void move(const osg::Matrixd& toSkeleton, osg::Vec3Array& vertices, osg::Vec3Array& normals) {
+    if (toSkeleton.isIdentity()) return; // to the last bit
+    const osg::Matrixd inverse = osg::Matrixd::inverse(toSkeleton);
+    for (osg::Vec3& v : vertices) v = v * toSkeleton;
     for (osg::Vec3& n : normals) {
         n = osg::Matrixd::transform3x3(inverse, n);
         n.normalize();
     }
 }
 
-MeshPart makePart(const osgAnimation::RigGeometry& rig, const osg::Matrixd& place) {
+MeshPart makePart(const osgAnimation::RigGeometry& rig, const osg::Matrixd& toSkeleton) {
     const osg::Geometry& source = sourceOf(rig);
     const osg::Vec3Array& given = verticesOf(source);
     checkBindings(source, given.size());
@@ -96,7 +96,7 @@ MeshPart makePart(const osgAnimation::RigGeometry& rig, const osg::Matrixd& plac
     osg::Geometry& geometry = *part.geometry;
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array(given.begin(), given.end());
     const osg::ref_ptr<osg::Vec3Array> normals = normalsOf(source, given, triangles.corners);
-    move(place, *vertices, *normals);
+    move(toSkeleton, *vertices, *normals);
     geometry.setVertexArray(vertices);
     geometry.setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
     geometry.removePrimitiveSet(0, geometry.getNumPrimitiveSets());
@@ -131,9 +131,9 @@ VertexWeights weightsOf(const osgAnimation::RigGeometry& rig, std::size_t vertic
 
 } // namespace
 
-void RigBody::add(const osgAnimation::RigGeometry& rig, const osg::Matrixd& place,
+void RigBody::add(const osgAnimation::RigGeometry& rig, const osg::Matrixd& toSkeleton,
                   const RestSkeleton& skeleton) {
-    MeshPart part = makePart(rig, place);
+    MeshPart part = makePart(rig, toSkeleton);
     const auto& vertices = static_cast<const osg::Vec3Array&>(*part.geometry->getVertexArray());
     const VertexWeights own = weightsOf(rig, vertices.size(), skeleton);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_RIGPART_H
-#define OSGSKINBIND_RIGPART_H
+#ifndef OSGSKINBIND_RIGBODY_H
+#define OSGSKINBIND_RIGBODY_H
 
 #include <osgSkinBind/BindWeights>
 #include <osgSkinRig/MeshPart>
@@ -18,9 +18,12 @@ struct RigBody {
     VertexWeights weights;
 
     /// Adds a rig as the next part.
-    /// \param place from the rig's own space to skeleton space
+    ///
+    /// \param rig is only read
+    /// \param toSkeleton from the rig's own space to skeleton space
+    /// \param skeleton whose joints the rig's bones are, by name
     /// \throw osgSkin::Error with the reason why it cannot be converted; nothing is added then
-    void add(const osgAnimation::RigGeometry& rig, const osg::Matrixd& place,
+    void add(const osgAnimation::RigGeometry& rig, const osg::Matrixd& toSkeleton,
              const RestSkeleton& skeleton);
 };
 

@@ -19,8 +19,8 @@ void RigCollector::addClips(osg::Node& node) {
 }
 
 void RigCollector::lookAbove(osg::Node& scene) {
-    for (const osg::NodePath& way : scene.getParentalNodePaths())
-        for (osg::Node* node : way) addClips(*node);
+    for (const osg::NodePath& path : scene.getParentalNodePaths())
+        for (osg::Node* node : path) addClips(*node);
 }
 
 void RigCollector::apply(osg::Node& node) {
@@ -31,11 +31,11 @@ void RigCollector::apply(osg::Node& node) {
 void RigCollector::apply(osg::Drawable& drawable) {
     auto* geometry = dynamic_cast<osgAnimation::RigGeometry*>(&drawable);
     if (geometry == nullptr) return;
-    osg::NodePath way = getNodePath();
-    if (!way.empty() && way.back() == geometry) way.pop_back();
+    osg::NodePath path = getNodePath();
+    if (!path.empty() && path.back() == geometry) path.pop_back();
     osgAnimation::Skeleton* skeleton = nullptr;
-    auto below = way.end();
-    while (below != way.begin() && skeleton == nullptr) {
+    auto below = path.end();
+    while (below != path.begin() && skeleton == nullptr) {
         skeleton = dynamic_cast<osgAnimation::Skeleton*>(*(below - 1));
         if (skeleton == nullptr) --below;
     }
@@ -47,9 +47,9 @@ void RigCollector::apply(osg::Drawable& drawable) {
     }
     Rig& rig = rigs[entry->second];
     rig.severalSkeletons = rig.severalSkeletons || rig.skeleton != skeleton;
-    osg::NodePath nodes(below, way.end());
-    if (std::find(rig.ways.begin(), rig.ways.end(), nodes) == rig.ways.end())
-        rig.ways.push_back(nodes);
+    osg::NodePath nodes(below, path.end());
+    if (std::find(rig.nodePaths.begin(), rig.nodePaths.end(), nodes) == rig.nodePaths.end())
+        rig.nodePaths.push_back(nodes);
 }
 
 } // namespace osgSkin

@@ -12,7 +12,7 @@
 
 namespace osgSkin {
 
-/// Finds a scene's rigs, with every way that leads from their skeleton to them.
+/// Finds a scene's rigs, with every node path from their skeleton to them.
 class RigCollector : public osg::NodeVisitor {
 public:
     RigCollector() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
@@ -20,7 +20,7 @@ public:
     struct Rig {
         osg::ref_ptr<osgAnimation::RigGeometry> geometry;
         /// Nodes from below the skeleton down to the rig's parent, one list for each parent.
-        std::vector<osg::NodePath> ways;
+        std::vector<osg::NodePath> nodePaths;
         osgAnimation::Skeleton* skeleton = nullptr;
         bool severalSkeletons = false;
     };
@@ -29,7 +29,7 @@ public:
     /// Of the animation managers met, and of those above the scene.
     osgAnimation::AnimationList clips;
 
-    /// Looks at what stands above `scene`.
+    /// Collects the clips of what stands above `scene`.
     void lookAbove(osg::Node& scene);
 
     void apply(osg::Node& node) override;

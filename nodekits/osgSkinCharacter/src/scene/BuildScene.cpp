@@ -39,7 +39,7 @@ osg::ref_ptr<osg::MatrixTransform> makeUpright(const osg::Matrixd& toWorld) {
 void takeAnimations(const CharacterSource& source, Character& character) {
     for (const std::string& bone : findNonUniformScale(*character.skeleton, source.animations))
         takeNote(character.notes, character.file + ": " + bone +
-                                      " scaled unevenly or mirrored, which the skin does not "
+                                      " scaled non-uniformly or mirrored, which the skin does not "
                                       "follow");
     for (const auto& animation : source.animations)
         character.motions.emplace_back().animation = animation;

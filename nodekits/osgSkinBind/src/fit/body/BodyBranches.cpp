@@ -16,7 +16,7 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-/// The limbs' least length, as a share of the height, and how much longer they are than a third
+/// The limbs' least length, as a fraction of the height, and how much longer they are than a third
 /// one: arms are about 0.4, ears, noses and hair far shorter.
 constexpr double kShortestArm = 0.15;
 constexpr double kThirdLimb = 0.6;
@@ -34,7 +34,7 @@ public:
     explicit BranchFinder(const CurveSkeleton& skeleton) : _skeleton(skeleton) {}
 
     BodyBranches find(bool legsGiven, bool armsGiven) {
-        const CurveSkeleton::Ways toHead = _skeleton.waysTo(highest());
+        const CurveSkeleton::Paths toHead = _skeleton.pathsTo(highest());
         Indices feet = footEnds(toHead);
         if (feet.size() != 2) {
             if (!legsGiven)
@@ -44,7 +44,7 @@ public:
             feet.assign(2, lowest());
         }
         std::array<Indices, 2> legs{toHead.pathFrom(feet[0]), toHead.pathFrom(feet[1])};
-        Indices trunk; // what both legs' ways to the head share
+        Indices trunk; // what both legs' paths to the head share
         while (!legs[0].empty() && !legs[1].empty() && legs[0].back() == legs[1].back()) {
             trunk.push_back(legs[0].back());
             legs[0].pop_back();
@@ -87,7 +87,7 @@ private:
 
     /// In each connected piece of the curves below the leg zone's top: the point farthest from the
     /// head, if it is near the floor.
-    Indices footEnds(const CurveSkeleton::Ways& toHead) const {
+    Indices footEnds(const CurveSkeleton::Paths& toHead) const {
         std::vector<bool> known(_skeleton.points.size(), false);
         Indices ends;
         for (std::size_t start = 0; start < known.size(); ++start) {
@@ -124,16 +124,16 @@ private:
         for (const std::size_t root : trunk)
             for (const std::size_t first : _skeleton.neighbours[root]) {
                 if (taken[first]) continue;
-                const CurveSkeleton::Ways ways = _skeleton.waysTo(first, taken);
+                const CurveSkeleton::Paths paths = _skeleton.pathsTo(first, taken);
                 std::size_t end = first;
-                for (std::size_t p = 0; p < ways.length.size(); ++p)
-                    if (ways.length[p] < std::numeric_limits<double>::infinity() &&
-                        ways.length[p] > ways.length[end])
+                for (std::size_t p = 0; p < paths.length.size(); ++p)
+                    if (paths.length[p] < std::numeric_limits<double>::infinity() &&
+                        paths.length[p] > paths.length[end])
                         end = p;
-                Indices path = ways.pathFrom(end);
+                Indices path = paths.pathFrom(end);
                 path.push_back(root);
                 std::reverse(path.begin(), path.end());
-                branches.emplace_back(ways.length[end], path);
+                branches.emplace_back(paths.length[end], path);
             }
         std::stable_sort(branches.begin(), branches.end(),
                          [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -169,9 +169,9 @@ BodyBranches BodyBranches::find(const CurveSkeleton& skeleton, bool legsGiven, b
     return BranchFinder(skeleton).find(legsGiven, armsGiven);
 }
 
-void BodyBranches::transform(const glm::dmat3& turn, const glm::dvec3& origin) {
+void BodyBranches::transform(const glm::dmat3& rotation, const glm::dvec3& origin) {
     for (Path* path : {&trunk, &legs[0], &legs[1], &arms[0], &arms[1]})
-        for (glm::dvec3& p : *path) p = turn * (p - origin);
+        for (glm::dvec3& p : *path) p = rotation * (p - origin);
 }
 
 void BodyBranches::sortSides() {
@@ -188,8 +188,8 @@ double pathLength(const BodyBranches::Path& path) {
     return length;
 }
 
-glm::dvec3 pathPoint(const BodyBranches::Path& path, double share) {
-    double left = share * pathLength(path);
+glm::dvec3 pathPoint(const BodyBranches::Path& path, double fraction) {
+    double left = fraction * pathLength(path);
     for (std::size_t i = 1; i < path.size(); ++i) {
         const double step = glm::distance(path[i - 1], path[i]);
         if (left <= step && step > 0.0) return glm::mix(path[i - 1], path[i], left / step);

@@ -24,14 +24,14 @@ struct BodyBranches {
     /// Tells the curves apart by height and length; left and right are not known yet, but the
     /// arm and the leg of one index are on one side.
     ///
+    /// \param skeleton of the standing body
     /// \param legsGiven, armsGiven landmarks stand in for limbs that are not found: their paths are
-    /// left empty
-    ///
+    ///        left empty
     /// \throw Error where there are not a head above, two legs below and two arms between
     static BodyBranches find(const CurveSkeleton& skeleton, bool legsGiven, bool armsGiven);
 
-    /// Applies p -> turn * (p - origin).
-    void transform(const glm::dmat3& turn, const glm::dvec3& origin);
+    /// Applies p -> rotation * (p - origin).
+    void transform(const glm::dmat3& rotation, const glm::dvec3& origin);
 
     /// Makes the limbs at x > 0 the left ones, once x points to the body's left.
     void sortSides();
@@ -40,8 +40,8 @@ struct BodyBranches {
 /// Length of a path.
 double pathLength(const BodyBranches::Path& path);
 
-/// The point at a share (0 to 1) of the length of a path that is not empty.
-glm::dvec3 pathPoint(const BodyBranches::Path& path, double share);
+/// The point at a fraction (0 to 1) of the length of a path that is not empty.
+glm::dvec3 pathPoint(const BodyBranches::Path& path, double fraction);
 
 } // namespace osgSkin
 

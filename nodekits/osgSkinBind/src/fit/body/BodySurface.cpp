@@ -60,10 +60,10 @@ BodySurface::BodySurface(const WeldedMesh& mesh, std::vector<std::string>& notes
 
 BodySurface::~BodySurface() = default;
 
-void BodySurface::transform(const glm::dmat3& turn, const glm::dvec3& origin, double scale) {
+void BodySurface::transform(const glm::dmat3& rotation, const glm::dvec3& origin, double scale) {
     for (const auto v : _surface->mesh.vertices())
         _surface->mesh.point(v) =
-            fit::point(scale * (turn * (fit::vector(_surface->mesh.point(v)) - origin)));
+            fit::point(scale * (rotation * (fit::vector(_surface->mesh.point(v)) - origin)));
     _surface->index();
 }
 

@@ -22,14 +22,14 @@ namespace osgSkin {
 /// closed.
 class BodySurface {
 public:
+    /// \param mesh the body, rest space
     /// \param notes gets one line for each thing that was left out or closed
-    ///
     /// \throw Error where no closed surface can be made
     BodySurface(const WeldedMesh& mesh, std::vector<std::string>& notes);
     ~BodySurface();
 
-    /// Moves all points: p becomes scale * turn * (p - origin).
-    void transform(const glm::dmat3& turn, const glm::dvec3& origin, double scale);
+    /// Moves all points: p becomes scale * rotation * (p - origin).
+    void transform(const glm::dmat3& rotation, const glm::dvec3& origin, double scale);
 
     const std::vector<glm::dvec3>& points() const;
 

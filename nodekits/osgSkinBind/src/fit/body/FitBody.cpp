@@ -21,7 +21,7 @@ constexpr double kFacingThreshold = 0.012;
 constexpr double kCurvesBegin = 0.2;
 constexpr double kCurvesEnd = 0.85;
 
-/// Rows x, y, z: the rotation that makes `up` the y axis and turns little else.
+/// Rows x, y, z: the rotation that makes `up` the y axis and rotates little else.
 glm::dmat3 standUp(const glm::dvec3& up) {
     const glm::dvec3 y = glm::normalize(up);
     // A body with z up usually faces -y; one with y up faces +z.
@@ -42,11 +42,11 @@ glm::dmat3 yaw(const glm::dvec3& ahead) {
 FitBody::FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiven, bool armsGiven,
                  std::vector<std::string>& notes)
     : surface(mesh, notes) {
-    const glm::dmat3 turn = standUp(options.up);
+    const glm::dmat3 rotation = standUp(options.up);
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const glm::dvec3& p : surface.points()) {
-        low = glm::min(low, turn * p);
-        high = glm::max(high, turn * p);
+        low = glm::min(low, rotation * p);
+        high = glm::max(high, rotation * p);
     }
     const double tall = high.y - low.y;
     if (!(tall > 0.0) || std::max(high.x - low.x, high.z - low.z) > 1.6 * tall)
@@ -54,11 +54,11 @@ FitBody::FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiv
                     "than tall along its up axis");
     if (std::min(high.x - low.x, high.z - low.z) < 0.05 * tall)
         throw Error("cannot fit a skeleton: expected a body with a volume, found a flat one");
-    _turn = turn;
-    _origin =
-        glm::transpose(turn) * glm::dvec3(0.5 * (low.x + high.x), low.y, 0.5 * (low.z + high.z));
+    _rotation = rotation;
+    _origin = glm::transpose(rotation) *
+              glm::dvec3(0.5 * (low.x + high.x), low.y, 0.5 * (low.z + high.z));
     _scale = 1.0 / tall;
-    surface.transform(_turn, _origin, _scale);
+    surface.transform(_rotation, _origin, _scale);
     const auto tell = [&options](double fraction) {
         if (options.progress)
             options.progress(
@@ -68,24 +68,24 @@ FitBody::FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiv
     branches = BodyBranches::find(surface.curveSkeleton(tell), legsGiven, armsGiven);
 }
 
-void FitBody::move(const glm::dmat3& turn, const glm::dvec3& origin) {
-    surface.transform(turn, origin, 1.0);
-    branches.transform(turn, origin);
-    _origin += glm::transpose(_turn) * (origin / _scale);
-    _turn = turn * _turn;
+void FitBody::move(const glm::dmat3& rotation, const glm::dvec3& origin) {
+    surface.transform(rotation, origin, 1.0);
+    branches.transform(rotation, origin);
+    _origin += glm::transpose(_rotation) * (origin / _scale);
+    _rotation = rotation * _rotation;
 }
 
 /// The line between left and right limbs, horizontal: by hips and shoulders, as hands and feet may
 /// be anywhere. From right to left where `left` tells which is which.
 glm::dvec3 FitBody::lateral(const std::optional<glm::dvec3>& left) const {
-    const auto across = [&](const std::array<BodyBranches::Path, 2>& limbs, double share) {
+    const auto across = [&](const std::array<BodyBranches::Path, 2>& limbs, double fraction) {
         if (limbs[0].empty() || limbs[1].empty()) return glm::dvec3(0.0);
-        return pathPoint(limbs[0], share) - pathPoint(limbs[1], share);
+        return pathPoint(limbs[0], fraction) - pathPoint(limbs[1], fraction);
     };
     glm::dvec3 sum = across(branches.legs, 0.4) + across(branches.arms, 0.3);
     sum.y = 0.0;
     if (left) {
-        glm::dvec3 given = _turn * *left;
+        glm::dvec3 given = _rotation * *left;
         given.y = 0.0;
         if (glm::length(sum) < 0.05) sum = given;
         if (glm::dot(sum, given) < 0.0) sum = -sum;
@@ -95,7 +95,7 @@ glm::dvec3 FitBody::lateral(const std::optional<glm::dvec3>& left) const {
     return glm::normalize(sum);
 }
 
-void FitBody::turnRound() {
+void FitBody::faceBackwards() {
     move(glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, -1), glm::dvec3(0.0));
 }
 
@@ -103,7 +103,7 @@ std::string FitBody::face(const std::optional<glm::dvec3>& facing,
                           const std::optional<glm::dvec3>& left) {
     glm::dvec3 ahead = glm::cross(lateral(left), glm::dvec3(0, 1, 0));
     if (facing) {
-        const glm::dvec3 given = _turn * *facing;
+        const glm::dvec3 given = _rotation * *facing;
         if (std::abs(glm::dot(given, ahead)) < 0.5 * glm::length(given))
             throw Error("cannot fit a skeleton: expected a facing across the line from the right "
                         "limbs to the left ones, found one along it");
@@ -119,7 +119,7 @@ std::string FitBody::face(const std::optional<glm::dvec3>& facing,
     std::string how = facing ? "as given" : "from the landmarks";
     if (!facing && !left) {
         const FacingClues clues = facingClues(surface, branches);
-        if (clues.sum() < -kFacingThreshold) turnRound();
+        if (clues.sum() < -kFacingThreshold) faceBackwards();
         how = std::abs(clues.sum()) < kFacingThreshold ? "assumed" : clues.strongest();
     }
     branches.sortSides();
@@ -127,7 +127,7 @@ std::string FitBody::face(const std::optional<glm::dvec3>& facing,
 }
 
 /// RMS distance of the skin's mirror image in the plane through (x, 0, 0), whose normal is the x
-/// axis turned by `angle` about y, to the skin.
+/// axis rotated by `angle` about y, to the skin.
 double FitBody::mirrorError(double angle, double x) const {
     const glm::dvec3 normal(std::cos(angle), 0.0, -std::sin(angle));
     const std::vector<glm::dvec3>& points = surface.points();
@@ -143,18 +143,18 @@ double FitBody::mirrorError(double angle, double x) const {
     return std::sqrt(sum / count);
 }
 
-/// Turns and moves the body until its mirror image fits best: a descent with shrinking steps.
+/// Rotates and moves the body until its mirror image fits best: a descent with shrinking steps.
 void FitBody::refineSymmetry() {
     double hips = 0.0;
     for (const BodyBranches::Path& leg : branches.legs)
         hips += 0.5 * (leg.empty() ? branches.trunk.back() : pathPoint(leg, 0.4)).x;
     double angle = 0.0, x = hips;
     double error = mirrorError(angle, x);
-    double turnStep = 0.08, moveStep = 0.02;
-    while (turnStep > 5e-4) {
+    double angleStep = 0.08, moveStep = 0.02;
+    while (angleStep > 5e-4) {
         bool better = false;
-        const double tries[][2] = {{angle + turnStep, x},
-                                   {angle - turnStep, x},
+        const double tries[][2] = {{angle + angleStep, x},
+                                   {angle - angleStep, x},
                                    {angle, x + moveStep},
                                    {angle, x - moveStep}};
         for (const auto& [newAngle, newX] : tries) {
@@ -167,7 +167,7 @@ void FitBody::refineSymmetry() {
             break;
         }
         if (!better) {
-            turnStep *= 0.5;
+            angleStep *= 0.5;
             moveStep *= 0.5;
         }
     }

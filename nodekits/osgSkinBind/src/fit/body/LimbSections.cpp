@@ -32,19 +32,19 @@ glm::dvec3 closestMiddle(const Section& a, const Section& b) {
     return middle;
 }
 
-/// Sections across a path between two shares of its length. What cuts the trunk too is left out.
+/// Sections across a path between two fractions of its length. What cuts the trunk too is left out.
 std::vector<Section> acrossPath(const BodySurface& surface, const BodyBranches::Path& path,
                                 double from, double to) {
     constexpr int kSections = 60;
-    constexpr double kTangent = 0.07; // share of the path over which its direction is taken
+    constexpr double kTangent = 0.07; // fraction of the path over which its direction is taken
     std::vector<Section> sections;
     std::size_t middle = 0;
     for (int i = 0; i <= kSections; ++i) {
-        const double share = from + (to - from) * i / kSections;
-        const glm::dvec3 way = pathPoint(path, std::min(1.0, share + kTangent)) -
-                               pathPoint(path, std::max(0.0, share - kTangent));
-        if (!(glm::length(way) > 0.0)) continue;
-        auto section = surface.sectionAt(pathPoint(path, share), glm::normalize(way), 0.02);
+        const double fraction = from + (to - from) * i / kSections;
+        const glm::dvec3 tangent = pathPoint(path, std::min(1.0, fraction + kTangent)) -
+                                   pathPoint(path, std::max(0.0, fraction - kTangent));
+        if (!(glm::length(tangent) > 0.0)) continue;
+        auto section = surface.sectionAt(pathPoint(path, fraction), glm::normalize(tangent), 0.02);
         if (!section) continue;
         if (2 * i <= kSections) middle = sections.size();
         sections.push_back(std::move(*section));
@@ -77,8 +77,8 @@ std::optional<Fork> findFork(const BodySurface& surface, const BodyBranches::Pat
     constexpr double kStep = 0.004, kNear = 0.03;
     std::optional<Fork> fork;
     std::optional<glm::dvec3> inA, inB;
-    for (double way = 0.0; way < reach; way += kStep) {
-        const glm::dvec3 point = outside - way * direction;
+    for (double moved = 0.0; moved < reach; moved += kStep) {
+        const glm::dvec3 point = outside - moved * direction;
         if (!fork) {
             inA = crossing(a, point, direction);
             inB = crossing(b, point, direction);

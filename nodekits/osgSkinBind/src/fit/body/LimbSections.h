@@ -25,6 +25,10 @@ struct Fork {
 /// Planes across `direction`, which points out of the fork, are moved from `outside` against it
 /// until the sections around `a` and around `b` are one.
 ///
+/// \param surface the body's
+/// \param a, b medial curves of the two limbs
+/// \param outside a point between the limbs, away from the fork
+/// \param direction unit, out of the fork
 /// \param reach how far to move, in heights
 /// \return unset where they do not meet within reach
 std::optional<Fork> findFork(const BodySurface& surface, const BodyBranches::Path& a,

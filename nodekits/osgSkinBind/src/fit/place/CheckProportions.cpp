@@ -26,23 +26,23 @@ constexpr Range kShin{0.12, 0.33};
 
 class Checker {
 public:
-    Checker(const PlacedJoints& sheet, std::size_t side)
-        : _sheet(sheet), _prefix(sidePrefix(side)) {}
+    Checker(const PlacedJoints& placed, std::size_t side)
+        : _placed(placed), _prefix(sidePrefix(side)) {}
 
     void height(const char* joint, const Range& range) const {
-        check(_prefix + joint + " at a height", _sheet.at(_prefix + joint).y, range,
+        check(_prefix + joint + " at a height", _placed.at(_prefix + joint).y, range,
               _prefix + joint);
     }
 
     void bone(const char* from, const char* to, const Range& range) const {
-        const double length = glm::distance(_sheet.at(_prefix + from), _sheet.at(_prefix + to));
+        const double length = glm::distance(_placed.at(_prefix + from), _placed.at(_prefix + to));
         check(_prefix + from + " to " + _prefix + to + " over", length, range,
               _prefix + from + " and " + _prefix + to);
     }
 
     /// Left limbs stay on the left: a medial curve that runs through two limbs that touch may not.
     void side(const char* joint, double sign) const {
-        const double x = sign * _sheet.at(_prefix + joint).x;
+        const double x = sign * _placed.at(_prefix + joint).x;
         check(_prefix + joint + " beside the middle by", x, {0.02, 0.5}, _prefix + joint);
     }
 
@@ -57,15 +57,15 @@ private:
         throw Error(message.str());
     }
 
-    const PlacedJoints& _sheet;
+    const PlacedJoints& _placed;
     std::string _prefix;
 };
 
 } // namespace
 
-void checkProportions(const PlacedJoints& sheet) {
+void checkProportions(const PlacedJoints& placed) {
     for (const std::size_t side : {0u, 1u}) {
-        const Checker checker(sheet, side);
+        const Checker checker(placed, side);
         const double sign = side == 0 ? 1.0 : -1.0;
         checker.height("UpLeg", kHipHeight);
         checker.bone("UpLeg", "Leg", kThigh);

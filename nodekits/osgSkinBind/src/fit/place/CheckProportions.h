@@ -9,7 +9,7 @@ namespace osgSkin {
 /// Refuses what no body looks like: a limb that was measured together with another part.
 ///
 /// \throw Error with what was expected and found
-void checkProportions(const PlacedJoints& sheet);
+void checkProportions(const PlacedJoints& placed);
 
 } // namespace osgSkin
 

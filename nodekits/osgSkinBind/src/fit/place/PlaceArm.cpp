@@ -19,9 +19,9 @@ namespace part = proportions;
 
 constexpr double kArm = part::kUpperArm + part::kForeArm + part::kHand;
 
-void placeShoulder(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
+void placeShoulder(const FitBody& body, std::size_t side, PlacedJoints& placed) {
     const std::string name = sidePrefix(side) + "Arm";
-    if (sheet.has(name)) return;
+    if (placed.has(name)) return;
     const BodyBranches::Path& arm = body.branches.arms[side];
     BodyBranches::Path trunk = body.branches.trunk;
     trunk.insert(trunk.end(), body.branches.legs[side].begin(), body.branches.legs[side].end());
@@ -39,19 +39,19 @@ void placeShoulder(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
                     "for " +
                     name);
     const double top = std::min(cut->high(1), armpit->point.y + 0.13);
-    sheet.place(name,
-                {armpit->point.x, glm::mix(armpit->point.y, top, part::kShoulderUp), cut->centre.z},
-                "above the armpit");
+    placed.place(
+        name, {armpit->point.x, glm::mix(armpit->point.y, top, part::kShoulderUp), cut->centre.z},
+        "above the armpit");
 }
 
 /// The surface's point farthest out along the hand.
 glm::dvec3 armTip(const FitBody& body, const BodyBranches::Path& arm) {
     const glm::dvec3 end = arm.back();
-    const glm::dvec3 way = glm::normalize(end - pathPoint(arm, 0.8));
+    const glm::dvec3 outwards = glm::normalize(end - pathPoint(arm, 0.8));
     glm::dvec3 tip = end;
     double farthest = 0.0;
     for (const glm::dvec3& p : body.surface.points()) {
-        const double along = glm::dot(p - end, way);
+        const double along = glm::dot(p - end, outwards);
         const double away = glm::distance(p, end);
         if (along <= farthest || away > part::kHand || along < 0.7 * away) continue;
         farthest = along;
@@ -60,10 +60,10 @@ glm::dvec3 armTip(const FitBody& body, const BodyBranches::Path& arm) {
     return tip;
 }
 
-/// The arm's middle line beyond the shoulder joint, with the way along it.
+/// The arm's middle line beyond the shoulder joint, with the arc length along it.
 struct MiddleLine {
     std::vector<glm::dvec3> points;
-    std::vector<double> ways;   ///< from the shoulder, one for each point
+    std::vector<double> arcs;   ///< arc length from the shoulder, one for each point
     std::vector<double> girths; ///< 0 for both ends
     MiddleLine(const std::vector<Section>& sections, const glm::dvec3& shoulder,
                const glm::dvec3& tip) {
@@ -74,61 +74,61 @@ struct MiddleLine {
                 add(section.centre, section.girth);
         add(tip, 0.0);
     }
-    double length() const { return ways.back(); }
+    double length() const { return arcs.back(); }
 
-    glm::dvec3 at(double way) const {
-        for (std::size_t i = 1; i < ways.size(); ++i)
-            if (way <= ways[i] && ways[i] > ways[i - 1])
+    glm::dvec3 at(double arc) const {
+        for (std::size_t i = 1; i < arcs.size(); ++i)
+            if (arc <= arcs[i] && arcs[i] > arcs[i - 1])
                 return glm::mix(points[i - 1], points[i],
-                                (way - ways[i - 1]) / (ways[i] - ways[i - 1]));
+                                (arc - arcs[i - 1]) / (arcs[i] - arcs[i - 1]));
         return points.back();
     }
 
 private:
     void add(const glm::dvec3& point, double girth) {
-        ways.push_back(points.empty() ? 0.0 : ways.back() + glm::distance(points.back(), point));
+        arcs.push_back(points.empty() ? 0.0 : arcs.back() + glm::distance(points.back(), point));
         points.push_back(point);
         girths.push_back(girth);
     }
 };
 
-/// Way to the thinnest place from which the arm soon widens to a hand.
-std::optional<double> wristWay(const MiddleLine& line) {
+/// Arc length to the thinnest section from which the arm soon widens to a hand.
+std::optional<double> arcToWrist(const MiddleLine& line) {
     constexpr double kSoon = 0.05, kWider = 1.12;
     std::optional<std::size_t> best;
     for (std::size_t i = 1; i + 1 < line.points.size(); ++i) {
-        if (line.ways[i] < 0.55 * line.length() || line.ways[i] > 0.85 * line.length()) continue;
+        if (line.arcs[i] < 0.55 * line.length() || line.arcs[i] > 0.85 * line.length()) continue;
         if (best && line.girths[i] >= line.girths[*best]) continue;
         for (std::size_t k = i + 1; k + 1 < line.points.size(); ++k)
-            if (line.ways[k] < line.ways[i] + kSoon && line.girths[k] > kWider * line.girths[i])
+            if (line.arcs[k] < line.arcs[i] + kSoon && line.girths[k] > kWider * line.girths[i])
                 best = i;
     }
     if (!best) return std::nullopt;
-    return line.ways[*best] + part::kWristBeyondThinnest;
+    return line.arcs[*best] + part::kWristBeyondThinnest;
 }
 
 /// The elbow: two straight bones that follow the middle line best. Where the arm is straight any
-/// elbow does, and the usual share decides.
+/// elbow does, and the usual proportion decides.
 glm::dvec3 bend(const MiddleLine& line, double toWrist, const glm::dvec3& wrist) {
-    constexpr double kShare = part::kUpperArm / (part::kUpperArm + part::kForeArm);
+    constexpr double kProportion = part::kUpperArm / (part::kUpperArm + part::kForeArm);
     const glm::dvec3 shoulder = line.points.front();
     const auto distance2 = [](const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-        const glm::dvec3 way = b - a;
-        const double t = std::clamp(glm::dot(p - a, way) / glm::dot(way, way), 0.0, 1.0);
-        const glm::dvec3 off = p - a - t * way;
+        const glm::dvec3 edge = b - a;
+        const double t = std::clamp(glm::dot(p - a, edge) / glm::dot(edge, edge), 0.0, 1.0);
+        const glm::dvec3 off = p - a - t * edge;
         return glm::dot(off, off);
     };
-    glm::dvec3 best = line.at(kShare * toWrist);
+    glm::dvec3 best = line.at(kProportion * toWrist);
     double least = std::numeric_limits<double>::infinity();
-    for (double share = 0.40; share <= 0.66; share += 0.01) {
-        const glm::dvec3 elbow = line.at(share * toWrist);
+    for (double ratio = 0.40; ratio <= 0.66; ratio += 0.01) {
+        const glm::dvec3 elbow = line.at(ratio * toWrist);
         double sum = 0.0, count = 0.0;
-        for (std::size_t i = 1; i < line.points.size() && line.ways[i] < toWrist; ++i) {
+        for (std::size_t i = 1; i < line.points.size() && line.arcs[i] < toWrist; ++i) {
             sum += std::min(distance2(line.points[i], shoulder, elbow),
                             distance2(line.points[i], elbow, wrist));
             count += 1.0;
         }
-        const double doubt = 0.02 * (share - kShare);
+        const double doubt = 0.02 * (ratio - kProportion);
         const double cost = sum / std::max(count, 1.0) + doubt * doubt;
         if (cost >= least) continue;
         least = cost;
@@ -137,43 +137,43 @@ glm::dvec3 bend(const MiddleLine& line, double toWrist, const glm::dvec3& wrist)
     return best;
 }
 
-void placeElbowAndWrist(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
+void placeElbowAndWrist(const FitBody& body, std::size_t side, PlacedJoints& placed) {
     const std::string elbow = sidePrefix(side) + "ForeArm", hand = sidePrefix(side) + "Hand";
-    const glm::dvec3 shoulder = sheet.at(sidePrefix(side) + "Arm");
+    const glm::dvec3 shoulder = placed.at(sidePrefix(side) + "Arm");
     const BodyBranches::Path& arm = body.branches.arms[side];
     if (arm.empty()) { // landmarks alone
-        sheet.place(elbow,
-                    glm::mix(shoulder, sheet.at(hand),
-                             part::kUpperArm / (part::kUpperArm + part::kForeArm)),
-                    "share of the arm");
+        placed.place(elbow,
+                     glm::mix(shoulder, placed.at(hand),
+                              part::kUpperArm / (part::kUpperArm + part::kForeArm)),
+                     "share of the arm");
         return;
     }
     BodyBranches::Path whole = arm;
     whole.push_back(armTip(body, arm)); // medial curves end in the hand
     const MiddleLine line(limbSections(body.surface, whole), shoulder, whole.back());
-    const auto found = wristWay(line);
+    const auto found = arcToWrist(line);
     double toWrist = found.value_or(line.length() * (kArm - part::kHand) / kArm);
-    const glm::dvec3 wrist =
-        sheet.place(hand, line.at(toWrist), found ? "at the thinnest section" : "share of the arm");
+    const glm::dvec3 wrist = placed.place(hand, line.at(toWrist),
+                                          found ? "at the thinnest section" : "share of the arm");
     // A landmark may have put it elsewhere along the line.
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < line.points.size(); ++i)
         if (glm::distance(line.points[i], wrist) < nearest) {
             nearest = glm::distance(line.points[i], wrist);
-            toWrist = line.ways[i];
+            toWrist = line.arcs[i];
         }
-    sheet.place(elbow, bend(line, toWrist, wrist), "bend of the arm");
+    placed.place(elbow, bend(line, toWrist, wrist), "bend of the arm");
 }
 
 } // namespace
 
-void placeArm(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
-    placeShoulder(body, side, sheet);
-    placeElbowAndWrist(body, side, sheet);
+void placeArm(const FitBody& body, std::size_t side, PlacedJoints& placed) {
+    placeShoulder(body, side, placed);
+    placeElbowAndWrist(body, side, placed);
 
     // The collar bone's inner end: as high as the shoulder, in front of the spine.
-    const glm::dvec3 shoulder = sheet.at(sidePrefix(side) + "Arm");
-    const glm::dvec3 middle = sheet.at("Spine1");
+    const glm::dvec3 shoulder = placed.at(sidePrefix(side) + "Arm");
+    const glm::dvec3 middle = placed.at("Spine1");
     const double aside = std::copysign(part::kCollarAside, shoulder.x - middle.x);
     glm::dvec3 collar(middle.x + aside, shoulder.y, middle.z);
     if (const auto cut = body.surface.sectionAt(collar, {1, 0, 0}, 0.05)) {
@@ -185,7 +185,7 @@ void placeArm(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
             }
         if (low < high) collar.z = glm::mix(low, high, part::kCollarDepth);
     }
-    sheet.place(sidePrefix(side) + "Shoulder", collar, "beside the breast bone");
+    placed.place(sidePrefix(side) + "Shoulder", collar, "beside the breast bone");
 }
 
 } // namespace osgSkin

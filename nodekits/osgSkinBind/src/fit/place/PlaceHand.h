@@ -10,9 +10,13 @@
 namespace osgSkin {
 
 /// Places the joints of one hand (everything beyond the wrist) and reads what landmarks and the
-/// parts placed before it say. Order: legs, trunk, arms, hands. \param side 0 left, 1 right \throw
-/// Error where the part is not found and no landmarks stand in
-void placeHand(const FitBody& body, std::size_t side, PlacedJoints& sheet);
+/// parts placed before it say. Order: legs, trunk, arms, hands.
+///
+/// \param body the measured body
+/// \param side 0 left, 1 right
+/// \param placed takes the joints
+/// \throw Error where the part is not found and no landmarks stand in
+void placeHand(const FitBody& body, std::size_t side, PlacedJoints& placed);
 
 } // namespace osgSkin
 

@@ -59,9 +59,9 @@ private:
     std::size_t _side;
 };
 
-void placeHip(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
+void placeHip(const FitBody& body, std::size_t side, PlacedJoints& placed) {
     const std::string name = sidePrefix(side) + "UpLeg";
-    if (sheet.has(name)) return;
+    if (placed.has(name)) return;
     const auto& legs = body.branches.legs;
     const auto crotch = findFork(body.surface, legs[0], legs[1], {0, 0.3, 0}, -kUp, 0.32);
     if (!crotch)
@@ -73,12 +73,12 @@ void placeHip(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
     double depth = thigh.z;
     if (const auto section = body.surface.sectionAt({0.0, height, thigh.z}, kUp, 0.05))
         depth = glm::mix(section->low(2), section->high(2), part::kHipsDepth);
-    sheet.place(name, {thigh.x, height, depth}, "above the crotch");
+    placed.place(name, {thigh.x, height, depth}, "above the crotch");
 }
 
-void placeAnkle(const Leg& leg, const std::string& name, PlacedJoints& sheet,
+void placeAnkle(const Leg& leg, const std::string& name, PlacedJoints& placed,
                 const glm::dvec3& guess) {
-    if (sheet.has(name)) return;
+    if (placed.has(name)) return;
     const auto thinnest = leg.thinnest(0.045, 0.14, guess);
     const double height =
         thinnest ? std::max(*thinnest - part::kAnkleBelowThinnest, 0.8 * part::kAnkleHeight)
@@ -86,19 +86,19 @@ void placeAnkle(const Leg& leg, const std::string& name, PlacedJoints& sheet,
     // Lower sections belong to the foot.
     glm::dvec3 centre = leg.centre(thinnest ? *thinnest - 0.015 : height, guess);
     centre.y = height;
-    sheet.place(name, centre, thinnest ? "below the thinnest section" : "share of the height");
+    placed.place(name, centre, thinnest ? "below the thinnest section" : "share of the height");
 }
 
-void placeKnee(const FitBody& body, const Leg& leg, std::size_t side, PlacedJoints& sheet) {
+void placeKnee(const FitBody& body, const Leg& leg, std::size_t side, PlacedJoints& placed) {
     const std::string name = sidePrefix(side) + "Leg";
-    if (sheet.has(name)) return;
-    const glm::dvec3 hip = sheet.at(sidePrefix(side) + "UpLeg");
-    const glm::dvec3 ankle = sheet.at(sidePrefix(side) + "Foot");
+    if (placed.has(name)) return;
+    const glm::dvec3 hip = placed.at(sidePrefix(side) + "UpLeg");
+    const glm::dvec3 ankle = placed.at(sidePrefix(side) + "Foot");
     glm::dvec3 guess = glm::mix(hip, ankle, part::kThigh / (part::kThigh + part::kShin));
     std::string how = "share of the leg";
     const double reach = 0.12 * (hip.y - ankle.y);
     if (body.branches.legs[side].empty()) {
-        sheet.place(name, guess, how);
+        placed.place(name, guess, how);
         return;
     }
     if (const auto hollow = leg.thinnest(guess.y - reach - part::kKneeAboveThinnest,
@@ -106,12 +106,12 @@ void placeKnee(const FitBody& body, const Leg& leg, std::size_t side, PlacedJoin
         guess.y = 0.5 * (guess.y + *hollow + part::kKneeAboveThinnest);
         how = "share of the leg and the hollow above the calf";
     }
-    sheet.place(name, leg.centre(guess.y, guess), how);
+    placed.place(name, leg.centre(guess.y, guess), how);
 }
 
-void placeToes(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
+void placeToes(const FitBody& body, std::size_t side, PlacedJoints& placed) {
     const std::string name = sidePrefix(side) + "ToeBase";
-    const glm::dvec3 ankle = sheet.at(sidePrefix(side) + "Foot");
+    const glm::dvec3 ankle = placed.at(sidePrefix(side) + "Foot");
     std::vector<glm::dvec3> foot;
     for (const glm::dvec3& p : body.surface.points())
         if (p.y < 0.05 && std::abs(p.x - ankle.x) < 0.08 && (p.x > 0.0) == (ankle.x > 0.0))
@@ -129,19 +129,19 @@ void placeToes(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
             outer = std::max(outer, p.x);
         }
     if (inner < outer) centre.x = 0.5 * (inner + outer);
-    centre = sheet.place(name, centre, "share of the foot");
-    sheet.setTip(name, {centre.x, centre.y, std::max(toes, centre.z + 0.02)});
+    centre = placed.place(name, centre, "share of the foot");
+    placed.setTip(name, {centre.x, centre.y, std::max(toes, centre.z + 0.02)});
 }
 
 } // namespace
 
-void placeLeg(const FitBody& body, std::size_t side, PlacedJoints& sheet) {
+void placeLeg(const FitBody& body, std::size_t side, PlacedJoints& placed) {
     const Leg leg(body, side);
-    placeHip(body, side, sheet);
-    const glm::dvec3 hip = sheet.at(sidePrefix(side) + "UpLeg");
-    placeAnkle(leg, sidePrefix(side) + "Foot", sheet, hip);
-    placeKnee(body, leg, side, sheet);
-    placeToes(body, side, sheet);
+    placeHip(body, side, placed);
+    const glm::dvec3 hip = placed.at(sidePrefix(side) + "UpLeg");
+    placeAnkle(leg, sidePrefix(side) + "Foot", placed, hip);
+    placeKnee(body, leg, side, placed);
+    placeToes(body, side, placed);
 }
 
 } // namespace osgSkin

@@ -26,7 +26,7 @@ public:
         return _body.surface.sectionAt(middle(height), kUp, 0.05);
     }
 
-    /// A point in the middle plane, at a share of the depth from back to front.
+    /// A point in the middle plane, at a fraction of the depth from back to front.
     glm::dvec3 point(double height, double depth) const {
         const glm::dvec3 point = middle(height);
         const auto section = _body.surface.sectionAt(point, kUp, 0.05);
@@ -71,33 +71,33 @@ double neckHeight(const Trunk& trunk) {
 
 } // namespace
 
-void placeTrunk(const FitBody& body, PlacedJoints& sheet) {
+void placeTrunk(const FitBody& body, PlacedJoints& placed) {
     const Trunk trunk(body);
-    const glm::dvec3 hip = 0.5 * (sheet.at("LeftUpLeg") + sheet.at("RightUpLeg"));
+    const glm::dvec3 hip = 0.5 * (placed.at("LeftUpLeg") + placed.at("RightUpLeg"));
     glm::dvec3 hips = trunk.point(hip.y + part::kHipsAboveHip, part::kHipsDepth);
     hips.x = hip.x;
-    hips = sheet.place("Hips", hips, "between the hip joints");
-    sheet.place("LHipJoint", hips, "at Hips");
-    sheet.place("RHipJoint", hips, "at Hips");
+    hips = placed.place("Hips", hips, "between the hip joints");
+    placed.place("LHipJoint", hips, "at Hips");
+    placed.place("RHipJoint", hips, "at Hips");
 
     const double thinnest = neckHeight(trunk);
     const glm::dvec3 neck =
-        sheet.place("Neck", trunk.point(thinnest - part::kNeckBelowThinnest, part::kNeckDepth),
-                    "below the thinnest section");
+        placed.place("Neck", trunk.point(thinnest - part::kNeckBelowThinnest, part::kNeckDepth),
+                     "below the thinnest section");
     const glm::dvec3 head =
-        sheet.place("Head", trunk.point(thinnest + part::kHeadAboveThinnest, part::kHeadDepth),
-                    "above the thinnest section");
+        placed.place("Head", trunk.point(thinnest + part::kHeadAboveThinnest, part::kHeadDepth),
+                     "above the thinnest section");
     if (!(head.y > neck.y && neck.y > hips.y))
         throw Error("cannot fit a skeleton: expected Head above Neck above Hips, found them at "
                     "heights " +
                     std::to_string(head.y) + ", " + std::to_string(neck.y) + " and " +
                     std::to_string(hips.y) + " of the body's");
-    sheet.setTip("Head", {head.x, 1.0, head.z});
-    sheet.place("Neck1", 0.5 * (neck + head), "between Neck and Head");
+    placed.setTip("Head", {head.x, 1.0, head.z});
+    placed.place("Neck1", 0.5 * (neck + head), "between Neck and Head");
 
     const auto spine = [&](const char* name, double up, double depth) {
         const double height = glm::mix(hips.y, neck.y, up);
-        sheet.place(name, trunk.point(height, depth), "share of the trunk");
+        placed.place(name, trunk.point(height, depth), "share of the trunk");
     };
     spine("LowerBack", part::kLowerBackUp, part::kLowerBackDepth);
     spine("Spine", part::kSpineUp, part::kSpineDepth);

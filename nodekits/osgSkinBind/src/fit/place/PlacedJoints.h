@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_FIT_JOINTSHEET_H
-#define OSGSKINBIND_FIT_JOINTSHEET_H
+#ifndef OSGSKINBIND_FIT_PLACEDJOINTS_H
+#define OSGSKINBIND_FIT_PLACEDJOINTS_H
+
+#include "fit/place/FittedTree.h"
 
 #include <glm/vec3.hpp>
 
@@ -16,16 +18,19 @@ class PlacedJoints {
 public:
     struct Entry {
         glm::dvec3 centre{0.0};
-        std::string how;
+        std::string how;               ///< as in FitReport::Joint
         std::optional<glm::dvec3> tip; ///< end of the bone; for the last joints only
         bool isLandmark = false;
-        bool pushed = false;
+        bool pushed = false; ///< moved inside the skin
     };
 
+    /// Places a joint for good.
     void addLandmark(const std::string& name, const glm::dvec3& centre,
                      const std::string& how = "landmark");
 
-    /// Places a joint unless a landmark did. Returns where it is.
+    /// Places a joint unless a landmark did.
+    ///
+    /// \return where it is
     glm::dvec3 place(const std::string& name, const glm::dvec3& centre, const std::string& how);
 
     /// \pre the joint has been placed.
@@ -38,22 +43,6 @@ public:
 private:
     std::map<std::string, Entry> _entries;
 };
-
-/// "Left" and "Right", as joint names begin; index 0 is the left side, x > 0.
-inline const std::string& sidePrefix(std::size_t side) {
-    static const std::string prefixes[] = {"Left", "Right"};
-    return prefixes[side];
-}
-
-/// The other side's joint; the name itself for a joint of the trunk.
-std::string mirroredName(const std::string& name);
-
-/// Joint names with their parents' indices, in the order of a fitted skeleton.
-struct FittedJoint {
-    const char* name;
-    int parent;
-};
-const std::vector<FittedJoint>& fittedTree();
 
 } // namespace osgSkin
 

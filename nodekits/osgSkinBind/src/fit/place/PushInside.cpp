@@ -18,7 +18,7 @@ bool isDeep(const FitBody& body, const glm::dvec3& p) {
     return body.surface.isInside(p) && glm::distance(body.surface.nearest(p), p) >= 0.5 * kDepth;
 }
 
-/// The nearest place inside the skin: straight in from the nearest point of the skin, as deep as
+/// The nearest position inside the skin: straight in from the nearest point of the skin, as deep as
 /// the body is thick enough for.
 bool pushIn(const FitBody& body, glm::dvec3& p) {
     const glm::dvec3 skin = body.surface.nearest(p);
@@ -36,9 +36,9 @@ bool pushIn(const FitBody& body, glm::dvec3& p) {
 
 } // namespace
 
-void pushInside(const FitBody& body, PlacedJoints& sheet, std::vector<std::string>& notes) {
+void pushInside(const FitBody& body, PlacedJoints& placed, std::vector<std::string>& notes) {
     for (const FittedJoint& joint : fittedTree()) {
-        PlacedJoints::Entry& entry = sheet.entries().at(joint.name);
+        PlacedJoints::Entry& entry = placed.entries().at(joint.name);
         const bool inside = body.surface.isInside(entry.centre);
         if (entry.isLandmark) {
             if (inside) continue;
@@ -54,7 +54,7 @@ void pushInside(const FitBody& body, PlacedJoints& sheet, std::vector<std::strin
         if (!pushIn(body, entry.centre) && joint.parent >= 0) {
             // From a sharp edge: towards the parent, which is inside.
             const glm::dvec3 parent =
-                sheet.at(fittedTree()[static_cast<std::size_t>(joint.parent)].name);
+                placed.at(fittedTree()[static_cast<std::size_t>(joint.parent)].name);
             for (int step = 1; step <= 32 && !body.surface.isInside(entry.centre); ++step)
                 entry.centre = glm::mix(before, parent, step / 32.0);
         }

@@ -10,10 +10,10 @@
 
 namespace osgSkin {
 
-/// Moves joints that are outside the skin, or in it, to the nearest place a little inside.
+/// Moves joints that are outside the skin, or in it, to the nearest position a little inside.
 ///
 /// \throw Error where a landmark is far outside
-void pushInside(const FitBody& body, PlacedJoints& sheet, std::vector<std::string>& notes);
+void pushInside(const FitBody& body, PlacedJoints& placed, std::vector<std::string>& notes);
 
 } // namespace osgSkin
 

@@ -10,17 +10,17 @@ glm::dvec3 mirrored(const glm::dvec3& p) {
 
 } // namespace
 
-void mirrorLandmarks(PlacedJoints& sheet) {
-    const auto given = sheet.entries();
+void mirrorLandmarks(PlacedJoints& placed) {
+    const auto given = placed.entries();
     for (const auto& [name, entry] : given)
         if (given.count(mirroredName(name)) == 0)
-            sheet.addLandmark(mirroredName(name), mirrored(entry.centre), "mirror of a landmark");
+            placed.addLandmark(mirroredName(name), mirrored(entry.centre), "mirror of a landmark");
 }
 
-void symmetrise(PlacedJoints& sheet) {
+void symmetrise(PlacedJoints& placed) {
     for (const FittedJoint& joint : fittedTree()) {
-        PlacedJoints::Entry& left = sheet.entries().at(joint.name);
-        PlacedJoints::Entry& right = sheet.entries().at(mirroredName(joint.name));
+        PlacedJoints::Entry& left = placed.entries().at(joint.name);
+        PlacedJoints::Entry& right = placed.entries().at(mirroredName(joint.name));
         if (left.isLandmark || right.isLandmark) continue;
         left.centre = 0.5 * (left.centre + mirrored(right.centre));
         right.centre = mirrored(left.centre);

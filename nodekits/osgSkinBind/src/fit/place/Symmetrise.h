@@ -7,10 +7,10 @@
 namespace osgSkin {
 
 /// A landmark of one side stands for both.
-void mirrorLandmarks(PlacedJoints& sheet);
+void mirrorLandmarks(PlacedJoints& placed);
 
 /// Makes left and right joints mirror images, landmarks excepted.
-void symmetrise(PlacedJoints& sheet);
+void symmetrise(PlacedJoints& placed);
 
 } // namespace osgSkin
 

@@ -12,8 +12,8 @@ namespace osgSkin::fit {
 
 /// The shell with the largest area, oriented, its holes closed.
 ///
+/// \param mesh whose shells are looked at
 /// \param notes gets one line for each thing that was left out or closed
-///
 /// \throw Error where that does not give one closed surface
 Mesh closedSurface(const WeldedMesh& mesh, std::vector<std::string>& notes);
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Before any of CGAL's headers.
 #include "fit/surface/Contract.h"
 
 #include "fit/surface/OrderedAllocator.h"
 #include "fit/surface/Simplify.h"
+
+// The headers so far have CGAL's own allocator; those of the flow come below.
+#undef CGAL_ALLOCATOR
 #define CGAL_ALLOCATOR(T) osgSkin::fit::OrderedAllocator<T>
 
 #include <CGAL/Mean_curvature_flow_skeletonization.h>
@@ -13,6 +15,7 @@ namespace osgSkin::fit {
 namespace {
 
 using Contraction = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
+
 } // namespace
 
 CurveSkeleton contract(const Mesh& mesh, const std::function<void(double)>& tell) {

@@ -10,6 +10,8 @@
 namespace osgSkin::fit {
 
 /// Mean curvature flow skeleton (Tagliasacchi, Alhashim, Olson & Zhang 2012) of a closed surface.
+///
+/// \param mesh closed
 /// \param tell as with simplified(), which comes first
 CurveSkeleton contract(const Mesh& mesh, const std::function<void(double)>& tell);
 

@@ -14,15 +14,15 @@ struct CurveSkeleton {
     std::vector<glm::dvec3> points;
     std::vector<std::vector<std::size_t>> neighbours;
 
-    /// Shortest way along the curves from each point to `from`, as a tree: the next point on it
-    /// (`from` itself for `from`) and its length; infinite where there is no way. Points for which
+    /// Shortest path along the curves from each point to `from`, as a tree: the next point on it
+    /// (`from` itself for `from`) and its length; infinite where there is none. Points for which
     /// `blocked` is true are not entered.
-    struct Ways {
+    struct Paths {
         std::vector<std::size_t> next;
         std::vector<double> length;
         std::vector<std::size_t> pathFrom(std::size_t point) const;
     };
-    Ways waysTo(std::size_t from, const std::vector<bool>& blocked = {}) const;
+    Paths pathsTo(std::size_t from, const std::vector<bool>& blocked = {}) const;
 };
 
 } // namespace osgSkin

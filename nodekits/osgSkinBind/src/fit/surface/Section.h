@@ -17,6 +17,7 @@ struct Section {
     glm::dvec3 widest{0.0};  ///< unit; direction in the plane in which the area spreads most
     double elongation = 1.0; ///< spread along `widest` over the spread across it, at least 1
 
+    /// \param curve the corners, without the first one repeated
     /// \param normal unit; the plane's normal
     Section(std::vector<glm::dvec3> curve, const glm::dvec3& normal);
 

@@ -10,7 +10,9 @@ namespace osgSkin::fit {
 
 /// The surface with fewer triangles, where it has many: the flow costs time with every vertex, and
 /// medial curves need no detail.
-/// \param tell is called with the share that is done, 0 to 1; may be empty
+///
+/// \param mesh closed
+/// \param tell is called with the fraction that is done, 0 to 1; may be empty
 Mesh simplified(const Mesh& mesh, const std::function<void(double)>& tell);
 
 } // namespace osgSkin::fit

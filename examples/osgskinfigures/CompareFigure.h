@@ -3,16 +3,13 @@
 
 #include "Tiles.h"
 
+#include <vector>
+
 namespace figures {
 
 class Body;
 
-/// The paper's figures, each a picture with its caption in it.
-Tile regionFigure(const Body& body); ///< Fig. 1
-Tile splitFigure();                  ///< Fig. 2
-Tile ratioFigure(const Body& body);  ///< Fig. 3
-Tile throwFigure(Body& body);        ///< Fig. 4
-
+/// One pose of a joint by each method.
 struct Comparison {
     const char* name;
     std::vector<Tile> tiles; ///< linear blending, dual quaternions, ours
