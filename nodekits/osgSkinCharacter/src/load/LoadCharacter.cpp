@@ -22,10 +22,10 @@ namespace {
 /// What is the same for a `.skin` file and a rigged model: everything after their files are read.
 Character makeCharacter(CharacterSource source, const LoadOptions& options, LoadStages& stages) {
     Character character;
-    const Progress binding = stages.begin("binding", LoadStages::kBinding);
+    const Progress binding = stages.begin("binding", source.bindingSize());
     character.binding = bindSource(source, binding, character.bindReport);
     character.motions = retargetMotions(source, stages);
-    stages.begin("scene", LoadStages::kScene);
+    stages.begin("scene", source.sceneSize());
     character.file = source.file;
     character.meshFile = source.meshFile;
     character.body = std::move(source.body);

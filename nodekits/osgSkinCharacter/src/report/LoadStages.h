@@ -10,20 +10,22 @@ namespace osgSkin {
 /// Tells how far a load has come that consists of stages, one after the other.
 class LoadStages {
 public:
-    /// About what each stage takes of the time, measured on bodies of 4,000 to 14,000 vertices with
-    /// 31 joints: only the proportions count.
+    /// About what each stage takes of the time, measured on bodies of 4,000 vertices with 31
+    /// joints: only the proportions count.
     static constexpr double kMesh = 10.0;
-    static constexpr double kSkeleton = 1.0;
-    static constexpr double kFit = 100.0;
-    static constexpr double kModel = 15.0; ///< a rigged model: mesh, skeleton and clips
-    static constexpr double kBinding = 40.0;
-    static constexpr double kMotion = 10.0; ///< each motion file
-    static constexpr double kScene = 10.0;
+    static constexpr double kSkeleton = 0.5;
+    static constexpr double kFit = 400.0;
+    static constexpr double kModel = 50.0; ///< a rigged model: mesh, skeleton and animations
+    static constexpr double kBinding = 75.0;
+    static constexpr double kPaintedBinding = 10.0; ///< by painted weights
+    static constexpr double kMotion = 15.0;         ///< each motion file
+    static constexpr double kScene = 3.0;
+    static constexpr double kPlayedScene = 40.0; ///< with animations that must be played for bounds
 
     /// \param progress told; may be empty
     explicit LoadStages(Progress progress);
 
-    /// Before the first stage: the sum of the sizes of all that are to come.
+    /// Before the second stage: the sum of the sizes of all stages.
     void plan(double total);
 
     /// The next stage begins.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "file/SkinFile.h"
+#include "report/LoadStages.h"
 
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/FitReport>
@@ -49,6 +50,15 @@ struct CharacterSource {
     std::vector<JointNames> names;
 
     std::vector<std::string> notes; ///< what was unusual so far
+
+    /// Sizes of the stages that follow the reading, see LoadStages.
+    double bindingSize() const {
+        return painted == Painted::No ? LoadStages::kBinding : LoadStages::kPaintedBinding;
+    }
+    double sceneSize() const { return skeleton ? LoadStages::kPlayedScene : LoadStages::kScene; }
+    double laterSize() const {
+        return bindingSize() + LoadStages::kMotion * double(motions.size()) + sceneSize();
+    }
 };
 
 } // namespace osgSkin

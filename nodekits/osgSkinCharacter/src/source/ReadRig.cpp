@@ -5,19 +5,13 @@
 
 #include <osgSkinImport/ImportRig>
 
-#include <osgDB/FileUtils>
-
 #include <utility>
 
 namespace osgSkin {
 
 CharacterSource readRig(const std::string& file, const LoadOptions& options, LoadStages& stages) {
-    const osgDB::Options* read = options.readOptions.get();
-    const bool retargets = options.motion && !osgDB::findDataFile(*options.motion, read).empty();
-    stages.plan(LoadStages::kModel + LoadStages::kBinding +
-                (retargets ? LoadStages::kMotion : 0.0) + LoadStages::kScene);
     stages.begin("model", LoadStages::kModel);
-    ImportedRig rig = importRig(file, read);
+    ImportedRig rig = importRig(file, options.readOptions.get());
     CharacterSource source;
     source.file = source.meshFile = file;
     source.body = std::move(rig.body);
@@ -27,6 +21,7 @@ CharacterSource readRig(const std::string& file, const LoadOptions& options, Loa
     source.skeleton = rig.skeleton;
     source.animations = rig.animations;
     applyOptions(source, options);
+    stages.plan(LoadStages::kModel + source.laterSize());
     return source;
 }
 

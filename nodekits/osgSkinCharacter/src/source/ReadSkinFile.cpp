@@ -45,8 +45,7 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
     applyOptions(source, options);
 
     stages.plan(LoadStages::kMesh + (skin.fit ? LoadStages::kFit : LoadStages::kSkeleton) +
-                LoadStages::kBinding + LoadStages::kMotion * double(source.motions.size()) +
-                LoadStages::kScene);
+                source.laterSize());
     stages.begin("mesh", LoadStages::kMesh);
     source.body = importMesh(skin.mesh, options.readOptions.get());
     if (skin.fit) {
