@@ -11,7 +11,8 @@ namespace osgSkin {
 
 /// Reads the MOTION, up to the end of the file, into `file`, whose joints are known: frame time,
 /// number of frames and their values. Memory is taken for what the file holds, not for what it
-/// declares. \throw osgSkin::Error with the line
+/// declares.
+/// \throw osgSkin::Error with the line
 void readBvhFrames(BvhTokens& words, const std::string& path, BvhFile& file);
 
 } // namespace osgSkin
