@@ -30,9 +30,9 @@ TEST(ImportMotion, ReadsTheDeclaredChannelOrderOfEachJoint) {
     ASSERT_EQ(motion.skeleton.joints.size(), 2u);
     EXPECT_EQ(motion.name, "two_joints");
     EXPECT_EQ(motion.frameTime, 0.025);
-    EXPECT_LT(difference(motion.rotation(0, 0), {1, 0, 0, 0}), 1e-6);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(10, z) * turn(20, y) * turn(30, x)), 1e-6);
-    EXPECT_LT(difference(motion.rotation(1, 1), turn(40, x) * turn(50, y) * turn(60, z)), 1e-6);
+    EXPECT_LT(difference(motion.rotation(0, 0), {1, 0, 0, 0}), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(10, z) * turn(20, y) * turn(30, x)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 1), turn(40, x) * turn(50, y) * turn(60, z)), 1e-12);
     EXPECT_GT(difference(motion.rotation(1, 1), turn(60, z) * turn(50, y) * turn(40, x)), 0.1);
 }
 
@@ -48,12 +48,12 @@ TEST(ImportMotion, RootWithoutPositionChannelsStaysAtItsOffset) {
     ASSERT_EQ(motion.frames, 1u);
     EXPECT_EQ(motion.frameTime, 0.5);
     EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
-    EXPECT_LT(difference(motion.rotation(0, 0), turn(10, y) * turn(20, x) * turn(30, z)), 1e-6);
+    EXPECT_LT(difference(motion.rotation(0, 0), turn(10, y) * turn(20, x) * turn(30, z)), 1e-12);
 }
 
-/// Of hips that move over a root on the ground, the way is the hips': turned by the root, from
+/// Of hips that move over a root on the ground, the path is the hips': rotated by the root, from
 /// where it stands.
-TEST(ImportMotion, BeginsWithTheJointThatGoesTheWay) {
+TEST(ImportMotion, BeginsWithTheJointThatMoves) {
     const osgSkin::Motion motion = osgSkin::importMotion(testData("root_on_ground.bvh"));
     ASSERT_EQ(motion.skeleton.joints.size(), 3u);
     EXPECT_EQ(motion.skeleton.joints[0].name, "pelvis");
@@ -61,10 +61,10 @@ TEST(ImportMotion, BeginsWithTheJointThatGoesTheWay) {
     EXPECT_EQ(motion.skeleton.joints[2].parent, 0);
     EXPECT_NO_THROW(motion.skeleton.validate());
     ASSERT_EQ(motion.rotations.size(), 6u);
-    EXPECT_LT(glm::distance(motion.rootPositions[0], glm::dvec3(0, 10, 0)), 1e-6);
-    EXPECT_LT(glm::distance(motion.rootPositions[1], glm::dvec3(5 + 3, 11, 0)), 1e-5);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, y)), 1e-5);
-    EXPECT_LT(difference(motion.rotation(1, 1), {1, 0, 0, 0}), 1e-5);
+    EXPECT_LT(glm::distance(motion.rootPositions[0], glm::dvec3(0, 10, 0)), 1e-12);
+    EXPECT_LT(glm::distance(motion.rootPositions[1], glm::dvec3(5 + 3, 11, 0)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, y)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 1), {1, 0, 0, 0}), 1e-12);
 }
 
 TEST(ImportMotion, LineEndsAndWrappedFramesDoNotMatter) {
@@ -106,7 +106,7 @@ TEST(ImportSkeleton, ReadsAMakeHumanRig) {
     OSGSKIN_NEEDS(path);
     const osgSkin::RestSkeleton rig = osgSkin::importSkeleton(path);
     EXPECT_EQ(rig.joints.size(), 31u);
-    EXPECT_LT(glm::distance(rig.joints[0].centre, glm::dvec3(0, 0.72685, 0.1445)), 1e-6);
+    EXPECT_LT(glm::distance(rig.joints[0].centre, glm::dvec3(0, 0.72685, 0.1445)), 1e-12);
     const int head = rig.find("Head");
     ASSERT_GE(head, 0);
     ASSERT_TRUE(rig.joints[static_cast<std::size_t>(head)].tip);

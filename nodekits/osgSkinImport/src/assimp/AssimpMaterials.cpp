@@ -12,14 +12,14 @@
 namespace osgSkin {
 namespace {
 
-/// Whether a material's colours are linear, as in glTF; other formats hold what a display takes.
+/// Whether a material's colours are linear, as in glTF; other formats hold sRGB.
 bool isLinear(const aiMaterial& material) {
     aiString mode;
     return material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS;
 }
 
-/// A linear colour as a display takes it (sRGB); alpha is kept.
-glm::vec4 displayed(const glm::vec4& linear) {
+/// A linear colour in sRGB; alpha is kept.
+glm::vec4 toSrgb(const glm::vec4& linear) {
     glm::vec4 result = linear;
     for (int k = 0; k < 3; ++k) {
         const float value = linear[k];
@@ -34,7 +34,7 @@ osg::Vec4 colour(const aiMaterial& material, const char* key, unsigned type, uns
     aiColor4D value;
     if (material.Get(key, type, index, value) != AI_SUCCESS) return otherwise;
     glm::vec4 result(value.r, value.g, value.b, otherwise.a());
-    if (isLinear(material)) result = displayed(result);
+    if (isLinear(material)) result = toSrgb(result);
     return {result.r, result.g, result.b, result.a};
 }
 
@@ -73,86 +73,86 @@ osg::Texture::WrapMode wrapOf(const aiMaterial& material, const char* key) {
 }
 
 /// What glTF says beyond the other formats.
-void addGltf(const aiMaterial& material, Look& look) {
+void addGltf(const aiMaterial& source, Material& material) {
     aiString mode;
-    material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode);
+    source.Get(AI_MATKEY_GLTF_ALPHAMODE, mode);
     const std::string alpha = mode.C_Str();
-    look.alpha = alpha == "BLEND"  ? Look::Alpha::Blend
-                 : alpha == "MASK" ? Look::Alpha::Mask
-                                   : Look::Alpha::Opaque;
-    material.Get(AI_MATKEY_GLTF_ALPHACUTOFF, look.alphaCutOff);
+    material.alpha = alpha == "BLEND"  ? Material::Alpha::Blend
+                     : alpha == "MASK" ? Material::Alpha::Mask
+                                       : Material::Alpha::Opaque;
+    source.Get(AI_MATKEY_GLTF_ALPHACUTOFF, material.alphaCutOff);
     aiColor4D base;
-    if (material.Get(AI_MATKEY_BASE_COLOR, base) == AI_SUCCESS) look.diffuse.a() = base.a;
+    if (source.Get(AI_MATKEY_BASE_COLOR, base) == AI_SUCCESS) material.diffuse.a() = base.a;
     bool twoSided = false;
-    material.Get(AI_MATKEY_TWOSIDED, twoSided);
-    look.twoSided = twoSided;
+    source.Get(AI_MATKEY_TWOSIDED, twoSided);
+    material.twoSided = twoSided;
     float roughness = 1.0f;
     // The exponent of a highlight as wide; a rough surface has none.
-    if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == AI_SUCCESS)
-        look.shininess = 2.0f / std::max(1e-6f, std::pow(roughness, 4.0f)) - 2.0f;
-    if (roughness >= 1.0f) look.specular = {0.0f, 0.0f, 0.0f, 1.0f};
+    if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == AI_SUCCESS)
+        material.shininess = 2.0f / std::max(1e-6f, std::pow(roughness, 4.0f)) - 2.0f;
+    if (roughness >= 1.0f) material.specular = {0.0f, 0.0f, 0.0f, 1.0f};
 }
 
-Look lookOf(const aiScene& scene, const aiMaterial& material, const std::string& path,
-            const osgDB::Options* options) {
-    Look look;
-    look.diffuse = colour(material, AI_MATKEY_COLOR_DIFFUSE, look.diffuse);
-    look.specular = colour(material, AI_MATKEY_COLOR_SPECULAR, look.specular);
-    look.emission = colour(material, AI_MATKEY_COLOR_EMISSIVE, look.emission);
+Material readMaterial(const aiScene& scene, const aiMaterial& source, const std::string& path,
+                      const osgDB::Options* options) {
+    Material material;
+    material.diffuse = colour(source, AI_MATKEY_COLOR_DIFFUSE, material.diffuse);
+    material.specular = colour(source, AI_MATKEY_COLOR_SPECULAR, material.specular);
+    material.emission = colour(source, AI_MATKEY_COLOR_EMISSIVE, material.emission);
     float opacity = 1.0f;
-    if (material.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) look.diffuse.a() = opacity;
-    material.Get(AI_MATKEY_SHININESS, look.shininess);
-    if (isLinear(material)) addGltf(material, look);
+    if (source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) material.diffuse.a() = opacity;
+    source.Get(AI_MATKEY_SHININESS, material.shininess);
+    if (isLinear(source)) addGltf(source, material);
     aiString name;
-    if (material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS) return look;
+    if (source.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS) return material;
     const aiTexture* embedded = scene.GetEmbeddedTexture(name.C_Str());
-    look.image =
+    material.image =
         embedded != nullptr ? embeddedImage(*embedded) : readTexture(name.C_Str(), path, options);
-    look.wrapS = wrapOf(material, _AI_MATKEY_MAPPINGMODE_U_BASE);
-    look.wrapT = wrapOf(material, _AI_MATKEY_MAPPINGMODE_V_BASE);
-    return look;
+    material.wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE);
+    material.wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE);
+    return material;
 }
 
 } // namespace
 
-SceneLooks::SceneLooks(const aiScene& scene, const std::string& path,
-                       const osgDB::Options* options) {
+AssimpMaterials::AssimpMaterials(const aiScene& scene, const std::string& path,
+                                 const osgDB::Options* options) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         _hasColours = _hasColours || scene.mMeshes[m]->HasVertexColors(0);
     for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
-        _looks.push_back(lookOf(scene, *scene.mMaterials[m], path, options));
+        _materials.push_back(readMaterial(scene, *scene.mMaterials[m], path, options));
         _isLinear.push_back(isLinear(*scene.mMaterials[m]));
         int set = 0;
         scene.mMaterials[m]->Get(AI_MATKEY_UVWSRC_DIFFUSE(0), set);
         _texCoords.push_back(static_cast<unsigned>(std::max(set, 0)));
     }
-    _looks.emplace_back();
+    _materials.emplace_back();
     _isLinear.push_back(false);
     _texCoords.push_back(0);
-    for (Look& look : _looks) {
-        look.vertexColours = _hasColours;
-        _stateSets.push_back(makeStateSet(look));
+    for (Material& material : _materials) {
+        material.vertexColours = _hasColours;
+        _stateSets.push_back(makeStateSet(material));
     }
 }
 
-std::uint32_t SceneLooks::indexOf(const aiMesh& mesh) const {
+std::uint32_t AssimpMaterials::indexOf(const aiMesh& mesh) const {
     return static_cast<std::uint32_t>(
-        std::min<std::size_t>(mesh.mMaterialIndex, _looks.size() - 1));
+        std::min<std::size_t>(mesh.mMaterialIndex, _materials.size() - 1));
 }
 
-unsigned SceneLooks::texCoordsOf(const aiMesh& mesh) const {
+unsigned AssimpMaterials::texCoordsOf(const aiMesh& mesh) const {
     const unsigned set = _texCoords[indexOf(mesh)];
     return set < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(set) ? set : 0;
 }
 
-glm::vec4 SceneLooks::colour(const aiMesh& mesh, unsigned vertex) const {
+glm::vec4 AssimpMaterials::colour(const aiMesh& mesh, unsigned vertex) const {
     const std::uint32_t index = indexOf(mesh);
-    const osg::Vec4& diffuse = _looks[index].diffuse;
+    const osg::Vec4& diffuse = _materials[index].diffuse;
     const glm::vec4 plain(diffuse.r(), diffuse.g(), diffuse.b(), diffuse.a());
     if (!mesh.HasVertexColors(0)) return plain;
     const aiColor4D& c = mesh.mColors[0][vertex];
     const glm::vec4 own(c.r, c.g, c.b, c.a);
-    if (_isLinear[index]) return displayed(own) * plain;
+    if (_isLinear[index]) return toSrgb(own) * plain;
     return own * glm::vec4(1.0f, 1.0f, 1.0f, plain.a);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_ASSIMPMATERIALS_H
+#define OSGSKINIMPORT_ASSIMPMATERIALS_H 1
 
-#include "mesh/Materials.h"
+#include "mesh/Material.h"
 
 #include <osgDB/Options>
 
@@ -15,11 +16,11 @@
 
 namespace osgSkin {
 
-/// The looks of an Assimp scene's materials, and the colours of its vertices where it has any.
-class SceneLooks {
+/// An Assimp scene's materials, and the colours of its vertices where it has any.
+class AssimpMaterials {
 public:
     /// Textures are read from beside `path`, or out of the scene's own file.
-    SceneLooks(const aiScene& scene, const std::string& path, const osgDB::Options* options);
+    AssimpMaterials(const aiScene& scene, const std::string& path, const osgDB::Options* options);
 
     /// A state set for each material, and one for meshes without.
     const std::vector<osg::ref_ptr<osg::StateSet>>& stateSets() const { return _stateSets; }
@@ -33,11 +34,11 @@ public:
     /// Whether some mesh has vertex colours; then all have, some of them their material's.
     bool hasColours() const { return _hasColours; }
 
-    /// What a display takes for a vertex.
+    /// A vertex's colour in sRGB; its material's where it has none of its own.
     glm::vec4 colour(const aiMesh& mesh, unsigned vertex) const;
 
 private:
-    std::vector<Look> _looks;
+    std::vector<Material> _materials;
     std::vector<unsigned> _texCoords;
     std::vector<bool> _isLinear; ///< glTF's colours are, and are multiplied
     std::vector<osg::ref_ptr<osg::StateSet>> _stateSets;
@@ -45,3 +46,5 @@ private:
 };
 
 } // namespace osgSkin
+
+#endif

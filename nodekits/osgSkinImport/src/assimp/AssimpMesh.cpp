@@ -18,24 +18,24 @@
 namespace osgSkin {
 namespace {
 
-/// Adds one mesh of the scene, moved to its place.
-void addMesh(const aiMesh& source, const glm::dmat4& place, const SceneLooks& looks,
+/// Adds one mesh of the scene, in the scene's space.
+void addMesh(const aiMesh& source, const glm::dmat4& toScene, const AssimpMaterials& materials,
              const std::string& where, CornerMesh& result) {
     const std::size_t first = result.mesh.positions.size();
     if (first + source.mNumVertices > std::numeric_limits<std::uint32_t>::max())
         failFile(where, "more vertices than 32-bit indices reach");
     for (unsigned v = 0; v < source.mNumVertices; ++v)
-        result.mesh.positions.emplace_back(place * glm::dvec4(toGlm(source.mVertices[v]), 1.0));
+        result.mesh.positions.emplace_back(toScene * glm::dvec4(toGlm(source.mVertices[v]), 1.0));
 
-    const glm::dmat3 turn(place);
-    const glm::dmat3 normalTurn = glm::transpose(glm::inverse(turn));
-    const bool mirrored = glm::determinant(turn) < 0.0;
-    const unsigned set = looks.texCoordsOf(source);
+    const glm::dmat3 linear(toScene);
+    const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
+    const bool mirrored = glm::determinant(linear) < 0.0;
+    const unsigned set = materials.texCoordsOf(source);
     const bool hasTexCoords = source.HasTextureCoords(set);
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
         const aiFace& face = source.mFaces[f];
         if (face.mNumIndices < 3) continue; // points and lines
-        result.addFace(looks.indexOf(source));
+        result.addFace(materials.indexOf(source));
         for (unsigned k = 0; k < face.mNumIndices; ++k) {
             // A mirrored face keeps its outside when its corners run the other way round.
             const unsigned v = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
@@ -43,12 +43,12 @@ void addMesh(const aiMesh& source, const glm::dmat4& place, const SceneLooks& lo
                 failFile(where, "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
                                     ", expected less than " + std::to_string(source.mNumVertices));
             glm::dvec3 normal(0.0);
-            if (source.HasNormals()) normal = normalTurn * toGlm(source.mNormals[v]);
+            if (source.HasNormals()) normal = normalMatrix * toGlm(source.mNormals[v]);
             glm::vec2 texCoord(0.0f);
             if (hasTexCoords)
                 texCoord = {source.mTextureCoords[set][v].x, source.mTextureCoords[set][v].y};
             result.addCorner(static_cast<std::uint32_t>(first) + v, glm::vec3(normal), texCoord);
-            if (looks.hasColours()) result.colours.push_back(looks.colour(source, v));
+            if (materials.hasColours()) result.colours.push_back(materials.colour(source, v));
         }
         result.hasTexCoords = result.hasTexCoords || hasTexCoords;
     }
@@ -85,13 +85,14 @@ void addWeights(const aiMesh& source, const aiNode& node, const SceneBind& bind,
 
 CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options) {
     Assimp::Importer importer;
-    return meshOf(readAssimpScene(importer, path), path, options);
+    return readSceneMesh(readAssimpScene(importer, path), path, options);
 }
 
-CornerMesh meshOf(const aiScene& scene, const std::string& path, const osgDB::Options* options) {
+CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,
+                         const osgDB::Options* options) {
     CornerMesh result;
-    const SceneLooks looks(scene, path, options);
-    result.stateSets = looks.stateSets();
+    const AssimpMaterials materials(scene, path, options);
+    result.stateSets = materials.stateSets();
 
     const SceneBind bind(scene);
     for (const aiNode* node : bind.nodes())
@@ -99,7 +100,7 @@ CornerMesh meshOf(const aiScene& scene, const std::string& path, const osgDB::Op
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
             const std::string where = path + ": mesh \"" + mesh.mName.C_Str() + "\"";
             const std::size_t first = result.mesh.positions.size();
-            addMesh(mesh, bind.mesh(*node, node->mMeshes[m]), looks, where, result);
+            addMesh(mesh, bind.mesh(*node, node->mMeshes[m]), materials, where, result);
             addWeights(mesh, *node, bind, first, where, result);
         }
     return result;

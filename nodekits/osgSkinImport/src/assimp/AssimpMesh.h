@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_ASSIMPMESH_H
+#define OSGSKINIMPORT_ASSIMPMESH_H 1
 
 #include "mesh/CornerMesh.h"
 
@@ -16,6 +17,9 @@ namespace osgSkin {
 CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options);
 
 /// The meshes of a scene that Assimp has read.
-CornerMesh meshOf(const aiScene& scene, const std::string& path, const osgDB::Options* options);
+CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,
+                         const osgDB::Options* options);
 
 } // namespace osgSkin
+
+#endif

@@ -21,6 +21,9 @@ namespace {
 /// Refuses what Assimp would hang on.
 void checkBefore(const std::string& path) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    // Read by readBvh(): Assimp believes any number of frames.
+    if (extension == "bvh")
+        failFile(path, "no face in a BVH file: it holds a skeleton and no mesh with bones");
     if (extension == "ply") checkPly(path, readText(path));
     if (extension == "off") checkOff(path, readText(path));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_ASSIMPSCENE_H
+#define OSGSKINIMPORT_ASSIMPSCENE_H 1
 
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
@@ -23,3 +24,5 @@ glm::dquat toGlm(const aiQuaternion& q);
 glm::dmat4 toGlm(const aiMatrix4x4& m);
 
 } // namespace osgSkin
+
+#endif

@@ -25,13 +25,13 @@ osg::ref_ptr<osgAnimation::Bone> makeBone(const std::string& name, const glm::dm
     const osg::ref_ptr<osgAnimation::UpdateBone> update = new osgAnimation::UpdateBone(name);
     osgAnimation::StackedTransform& stack = update->getStackedTransforms();
     if (moves) {
-        const NodePlace place = placeOf(local);
+        const NodeTransform parts = decompose(local);
         stack.push_back(new osgAnimation::StackedTranslateElement(
-            "translate", osg::Vec3(toOsg(place.translation))));
+            "translate", osg::Vec3(toOsg(parts.translation))));
         stack.push_back(
-            new osgAnimation::StackedQuaternionElement("quaternion", toOsg(place.rotation)));
+            new osgAnimation::StackedQuaternionElement("quaternion", toOsg(parts.rotation)));
         stack.push_back(
-            new osgAnimation::StackedScaleElement("scale", osg::Vec3(toOsg(place.scale))));
+            new osgAnimation::StackedScaleElement("scale", osg::Vec3(toOsg(parts.scale))));
     } else {
         stack.push_back(new osgAnimation::StackedMatrixElement("matrix", toOsg(local)));
     }
@@ -42,16 +42,16 @@ osg::ref_ptr<osgAnimation::Bone> makeBone(const std::string& name, const glm::dm
 
 } // namespace
 
-NodePlace placeOf(const glm::dmat4& matrix) {
-    glm::dmat4 turned = matrix;
-    NodePlace place{glm::dvec3(matrix[3]), {1.0, 0.0, 0.0, 0.0}, glm::dvec3(1.0)};
-    for (int axis = 0; axis < 3; ++axis) place.scale[axis] = glm::length(glm::dvec3(matrix[axis]));
+NodeTransform decompose(const glm::dmat4& matrix) {
+    glm::dmat4 unmirrored = matrix;
+    NodeTransform result{glm::dvec3(matrix[3]), {1.0, 0.0, 0.0, 0.0}, glm::dvec3(1.0)};
+    for (int axis = 0; axis < 3; ++axis) result.scale[axis] = glm::length(glm::dvec3(matrix[axis]));
     if (glm::determinant(glm::dmat3(matrix)) < 0.0) {
-        place.scale.x = -place.scale.x;
-        turned[0] = -turned[0];
+        result.scale.x = -result.scale.x;
+        unmirrored[0] = -unmirrored[0];
     }
-    place.rotation = rotationOf(turned);
-    return place;
+    result.rotation = rotationOf(unmirrored);
+    return result;
 }
 
 osg::ref_ptr<osgAnimation::Skeleton> makeBones(const SceneSkeleton& joints,
@@ -68,14 +68,14 @@ osg::ref_ptr<osgAnimation::Skeleton> makeBones(const SceneSkeleton& joints,
         top = above.get();
     }
     std::vector<osgAnimation::Bone*> bones;
-    std::vector<glm::dmat4> places;
+    std::vector<glm::dmat4> toScene;
     for (std::size_t j = 0; j < joints.nodes.size(); ++j) {
         const RestJoint& joint = joints.rest.joints[j];
         const glm::dmat4 local = toGlm(joints.nodes[j]->mTransformation);
         const osg::ref_ptr<osgAnimation::Bone> bone = makeBone(joint.name, local, moves[j]);
         const auto parent = static_cast<std::size_t>(joint.parent);
-        places.push_back((joint.parent < 0 ? joints.aboveRoot : places[parent]) * local);
-        bone->setMatrixInSkeletonSpace(toOsg(places[j]));
+        toScene.push_back((joint.parent < 0 ? joints.aboveRoot : toScene[parent]) * local);
+        bone->setMatrixInSkeletonSpace(toOsg(toScene[j]));
         bone->setInvBindMatrixInSkeletonSpace(osg::Matrixd::inverse(toOsg(joints.bind[j])));
         (joint.parent < 0 ? top : bones[parent])->addChild(bone);
         bones.push_back(bone);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_RIGBONES_H
+#define OSGSKINIMPORT_RIGBONES_H 1
 
 #include "assimp/SceneSkeleton.h"
 
@@ -13,13 +14,13 @@
 namespace osgSkin {
 
 /// A matrix without shear, in its parts: matrix = translation * rotation * scale.
-struct NodePlace {
+struct NodeTransform {
     glm::dvec3 translation;
     glm::dquat rotation;
     glm::dvec3 scale; ///< the first is negative where the matrix mirrors
 };
 
-NodePlace placeOf(const glm::dmat4& matrix);
+NodeTransform decompose(const glm::dmat4& matrix);
 
 /// Builds the bones of a scene's joints in their nodes' pose. What clips move gets the elements
 /// "translate", "quaternion" and "scale"; other bones hold their matrix.
@@ -28,3 +29,5 @@ osg::ref_ptr<osgAnimation::Skeleton> makeBones(const SceneSkeleton& joints,
                                                const std::vector<bool>& moves);
 
 } // namespace osgSkin
+
+#endif

@@ -88,7 +88,7 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
 void addJoint(osgAnimation::Animation& animation, const std::string& joint, const aiNode& node,
               const aiNodeAnim* track, const Clock& clock, const std::string& path) {
     using namespace osgAnimation;
-    const NodePlace rest = placeOf(toGlm(node.mTransformation));
+    const NodeTransform rest = decompose(toGlm(node.mTransformation));
     static const aiNodeAnim none;
     if (track == nullptr) track = &none;
     addChannel<Vec3LinearChannel, Vec3Keyframe>(animation, joint, "translate", track->mPositionKeys,

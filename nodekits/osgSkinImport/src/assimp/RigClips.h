@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_RIGCLIPS_H
+#define OSGSKINIMPORT_RIGCLIPS_H 1
 
 #include "assimp/SceneSkeleton.h"
 
@@ -19,3 +20,5 @@ osgAnimation::AnimationList makeClips(const aiScene& scene, const SceneSkeleton&
                                       const std::string& path);
 
 } // namespace osgSkin
+
+#endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_SAMPLETRACKS_H
+#define OSGSKINIMPORT_SAMPLETRACKS_H 1
 
 #include "assimp/SceneSkeleton.h"
 
@@ -11,14 +12,15 @@
 
 namespace osgSkin {
 
-/// Samples an animation at equal steps, as many as its longest track has keys; for BVH these are
-/// the file's own samples. Turns are brought into frames that are aligned with the world at rest.
+/// Samples an animation at equal steps, as many as its longest track has keys. Rotations are
+/// brought into frames that are aligned with the world at rest, as a Motion has them.
 ///
-/// Only the root moves from its place; moves of other joints are left out, with a notice. Where the
-/// root has a single child that moves, as hips over a root on the ground do, the motion begins
-/// with that joint, and so on down.
+/// Of positions, those of the root are used, or of the joint that rootMotionJoint() finds; moves of
+/// others are left out, with a notice.
 /// \throw osgSkin::Error with `path` where no track has a key, or the keys' times make no sense.
 Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
                     const std::string& path);
 
 } // namespace osgSkin
+
+#endif

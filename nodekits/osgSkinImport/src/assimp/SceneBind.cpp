@@ -84,7 +84,7 @@ glm::dmat4 SceneBind::bindFromAbove(const aiNode& node) const {
     return above == nullptr ? result : _bind.at(above) * result;
 }
 
-void SceneBind::bindSkin(const aiMesh& mesh, glm::dmat4& place) {
+void SceneBind::bindSkin(const aiMesh& mesh, glm::dmat4& toScene) {
     const aiBone* reference = topmost(mesh);
     for (unsigned b = 0; b < mesh.mNumBones; ++b)
         if (_bind.count(find(nameOf(*mesh.mBones[b]))) != 0 &&
@@ -93,12 +93,12 @@ void SceneBind::bindSkin(const aiMesh& mesh, glm::dmat4& place) {
             break;
         }
     const aiNode* standing = find(nameOf(*reference));
-    place = bindFromAbove(*standing) * toGlm(reference->mOffsetMatrix);
+    toScene = bindFromAbove(*standing) * toGlm(reference->mOffsetMatrix);
     for (unsigned b = 0; b < mesh.mNumBones; ++b) {
         const aiNode* node = find(nameOf(*mesh.mBones[b]));
         if (node == nullptr || !isInvertible(mesh.mBones[b]->mOffsetMatrix)) continue;
         _isBone[node] = true;
-        _bind.emplace(node, place * glm::inverse(toGlm(mesh.mBones[b]->mOffsetMatrix)));
+        _bind.emplace(node, toScene * glm::inverse(toGlm(mesh.mBones[b]->mOffsetMatrix)));
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_SCENEBIND_H
+#define OSGSKINIMPORT_SCENEBIND_H 1
 
 #include <assimp/scene.h>
 
@@ -16,7 +17,7 @@ namespace osgSkin {
 /// Skins say where each bone was, seen from the mesh, when they were painted (offset matrices). The
 /// topmost bone of a skin is taken to stand there as its node does; what hangs on it follows from
 /// the offsets, which may differ from the nodes' pose (often the first sample of a motion). Nodes
-/// that no skin names keep their place on the node above.
+/// that no skin names keep their transform under the node above.
 class SceneBind {
 public:
     explicit SceneBind(const aiScene& scene);
@@ -33,18 +34,18 @@ public:
     /// Whether some skin has this node for a bone.
     bool isBone(const aiNode& node) const { return _isBone.at(&node); }
 
-    /// Places a node's own frame in the scene, in the bind pose.
+    /// From a node's own frame to the scene, in the bind pose.
     const glm::dmat4& node(const aiNode& node) const { return _bind.at(&node); }
 
     /// The same in the pose of the nodes' own matrices.
     const glm::dmat4& posed(const aiNode& node) const { return _posed.at(&node); }
 
-    /// Places the vertices of one of a node's meshes in the bind pose. A skin stands where its
-    /// bones put it, whatever node holds it.
+    /// From the vertices of one of a node's meshes to the scene, in the bind pose. A skin stands
+    /// where its bones put it, whatever node holds it.
     glm::dmat4 mesh(const aiNode& node, unsigned meshIndex) const;
 
 private:
-    void bindSkin(const aiMesh& mesh, glm::dmat4& place);
+    void bindSkin(const aiMesh& mesh, glm::dmat4& toScene);
     /// Of the mesh's bones that have a node and a matrix to invert, the topmost; null for none.
     const aiBone* topmost(const aiMesh& mesh) const;
     glm::dmat4 bindFromAbove(const aiNode& node) const;
@@ -63,3 +64,5 @@ std::string nameOf(const aiNode& node);
 std::string nameOf(const aiBone& bone);
 
 } // namespace osgSkin
+
+#endif

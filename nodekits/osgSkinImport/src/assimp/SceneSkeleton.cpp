@@ -131,14 +131,14 @@ private:
 glm::dquat rotationOf(const glm::dmat4& matrix) {
     glm::dmat3 axes(matrix);
     const double volume = glm::determinant(axes);
-    if (!(volume > 0.0)) return {1.0, 0.0, 0.0, 0.0}; // mirrored or flat: no turn describes it
+    if (!(volume > 0.0)) return {1.0, 0.0, 0.0, 0.0}; // mirrored or flat: no rotation describes it
     axes[0] = glm::normalize(axes[0]);
     axes[1] = glm::normalize(axes[1] - axes[0] * glm::dot(axes[0], axes[1]));
     axes[2] = glm::cross(axes[0], axes[1]);
     return glm::normalize(glm::quat_cast(axes));
 }
 
-SceneSkeleton skeletonOf(const aiScene& scene, const std::string& path) {
+SceneSkeleton readSceneSkeleton(const aiScene& scene, const std::string& path) {
     Builder builder(scene);
     if (builder.empty())
         failFile(path, "no skeleton, expected joints that an animation or a skin names");

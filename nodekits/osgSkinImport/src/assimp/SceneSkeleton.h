@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_SCENESKELETON_H
+#define OSGSKINIMPORT_SCENESKELETON_H 1
 
 #include <osgSkinRig/RestSkeleton>
 
@@ -18,15 +19,18 @@ namespace osgSkin {
 struct SceneSkeleton {
     RestSkeleton rest;
     std::vector<const aiNode*> nodes; ///< [joint]
-    std::vector<glm::dmat4> bind;     ///< places the nodes' own frames in the bind pose, [joint]
-    std::vector<glm::dquat> worldRotations; ///< the nodes' own frames in the bind pose, [joint]
-    glm::dmat4 aboveRoot{1.0};              ///< places the root joint's parent node in the world
+    std::vector<glm::dmat4> bind;     ///< from the nodes' own frames to the scene, in the bind pose
+    std::vector<glm::dquat> worldRotations; ///< of `bind`, [joint]
+    glm::dmat4 aboveRoot{1.0};              ///< from the root joint's parent node to the scene
 };
 
+/// Reads the joints, in the bind pose.
 /// \throw osgSkin::Error with `path` where the scene has no joint, or joints of one name.
-SceneSkeleton skeletonOf(const aiScene& scene, const std::string& path);
+SceneSkeleton readSceneSkeleton(const aiScene& scene, const std::string& path);
 
-/// The turn of a matrix, without its scale.
+/// The rotation of a matrix, without its scale; none where it mirrors or is flat.
 glm::dquat rotationOf(const glm::dmat4& matrix);
 
 } // namespace osgSkin
+
+#endif

@@ -56,8 +56,8 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     if (!isRigged(scene)) failFile(path, "no mesh with bones, expected a rigged character");
 
     ImportedRig result;
-    result.body = finishMesh(meshOf(scene, path, options), path);
-    const SceneSkeleton joints = skeletonOf(scene, path);
+    result.body = finishMesh(readSceneMesh(scene, path, options), path);
+    const SceneSkeleton joints = readSceneSkeleton(scene, path);
     result.rest = joints.rest;
     result.skeleton = makeBones(joints, movedJoints(scene, joints));
     result.animations = makeClips(scene, joints, path);

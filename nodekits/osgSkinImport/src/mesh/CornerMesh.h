@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_CORNERMESH_H
+#define OSGSKINIMPORT_CORNERMESH_H 1
 
 #include <osgSkinImport/BoneWeights>
 #include <osgSkinRig/SkinMesh>
@@ -22,7 +23,7 @@ struct CornerMesh {
     SkinMesh mesh;
     std::vector<glm::vec3> normals;       ///< one a corner
     std::vector<glm::vec2> texCoords;     ///< one a corner
-    std::vector<glm::vec4> colours;       ///< one a corner, or none: what a display takes
+    std::vector<glm::vec4> colours;       ///< one a corner, or none; sRGB
     std::vector<std::uint32_t> materials; ///< one a face: index in stateSets
     std::vector<osg::ref_ptr<osg::StateSet>> stateSets;
     std::vector<BoneWeights> weights; ///< one a bone
@@ -52,3 +53,5 @@ struct CornerMesh {
 };
 
 } // namespace osgSkin
+
+#endif

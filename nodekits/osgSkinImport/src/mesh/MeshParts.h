@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_MESHPARTS_H
+#define OSGSKINIMPORT_MESHPARTS_H 1
 
 #include "mesh/CornerMesh.h"
 
@@ -14,3 +15,5 @@ namespace osgSkin {
 std::vector<MeshPart> makeMeshParts(const CornerMesh& source);
 
 } // namespace osgSkin
+
+#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/ObjMesh.h"
 
-#include "mesh/Materials.h"
+#include "mesh/Material.h"
 #include "text/FileText.h"
 #include "text/ObjCheck.h"
 
@@ -22,15 +22,15 @@ osg::Vec4 colour(const tinyobj::real_t (&rgb)[3], double alpha = 1.0) {
             static_cast<float>(alpha)};
 }
 
-Look lookOf(const tinyobj::material_t& material, const std::string& path,
-            const osgDB::Options* options) {
-    Look look;
-    look.diffuse = colour(material.diffuse, material.dissolve);
-    look.specular = colour(material.specular);
-    look.emission = colour(material.emission);
-    look.shininess = static_cast<float>(material.shininess);
-    look.image = readTexture(material.diffuse_texname, path, options);
-    return look;
+Material readMaterial(const tinyobj::material_t& source, const std::string& path,
+                      const osgDB::Options* options) {
+    Material material;
+    material.diffuse = colour(source.diffuse, source.dissolve);
+    material.specular = colour(source.specular);
+    material.emission = colour(source.emission);
+    material.shininess = static_cast<float>(source.shininess);
+    material.image = readTexture(source.diffuse_texname, path, options);
+    return material;
 }
 
 /// tinyobjloader's material numbers (-1: none) -> state sets, made when first used.
@@ -41,16 +41,17 @@ public:
         : _materials(materials), _path(path), _options(options), _vertexColours(vertexColours),
           _mesh(mesh) {}
 
-    std::uint32_t index(int material) {
+    std::uint32_t index(int number) {
         const auto [entry, isNew] =
-            _indices.emplace(material, static_cast<std::uint32_t>(_mesh.stateSets.size()));
+            _indices.emplace(number, static_cast<std::uint32_t>(_mesh.stateSets.size()));
         if (isNew) {
-            const bool known = material >= 0 && material < static_cast<int>(_materials.size());
-            Look look;
+            const bool known = number >= 0 && number < static_cast<int>(_materials.size());
+            Material material;
             if (known)
-                look = lookOf(_materials[static_cast<std::size_t>(material)], _path, _options);
-            look.vertexColours = _vertexColours;
-            _mesh.stateSets.push_back(makeStateSet(look));
+                material =
+                    readMaterial(_materials[static_cast<std::size_t>(number)], _path, _options);
+            material.vertexColours = _vertexColours;
+            _mesh.stateSets.push_back(makeStateSet(material));
         }
         return entry->second;
     }
@@ -121,7 +122,7 @@ CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
     for (std::size_t k = 0; k + 2 < attributes.vertices.size(); k += 3)
         result.mesh.positions.emplace_back(attributes.vertices[k], attributes.vertices[k + 1],
                                            attributes.vertices[k + 2]);
-    // Not in the standard, and written by many: three more numbers after a vertex's place.
+    // Not in the standard, and written by many: three more numbers after a vertex's position.
     const bool coloured = attributes.colors.size() == attributes.vertices.size();
     MaterialTable table(materials, path, options, coloured, result);
     for (const tinyobj::shape_t& shape : shapes) addShape(shape.mesh, attributes, table, result);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_OBJMESH_H
+#define OSGSKINIMPORT_OBJMESH_H 1
 
 #include "mesh/CornerMesh.h"
 
@@ -15,3 +16,5 @@ namespace osgSkin {
 CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options);
 
 } // namespace osgSkin
+
+#endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_SMOOTHNORMALS_H
+#define OSGSKINIMPORT_SMOOTHNORMALS_H 1
 
 #include <osgSkinRig/SkinMesh>
 
@@ -14,3 +15,5 @@ namespace osgSkin {
 std::vector<glm::vec3> smoothNormals(const SkinMesh& mesh);
 
 } // namespace osgSkin
+
+#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "osg/OsgMesh.h"
 
-#include "mesh/Materials.h"
+#include "mesh/Material.h"
 #include "osg/OsgScene.h"
 #include "text/FileText.h"
 
@@ -58,7 +58,7 @@ std::vector<glm::vec4> coloursOf(const osg::Geometry& geometry, std::size_t vert
     return result;
 }
 
-/// Collects the triangles of all geometries, moved to their place.
+/// Collects the triangles of all geometries, in the space of the scene.
 class GeometryCollector : public osg::NodeVisitor {
 public:
     GeometryCollector(const std::string& path, CornerMesh& result)
@@ -75,13 +75,13 @@ public:
         geometry.accept(triangles);
         if (triangles.corners.empty()) return; // points and lines
 
-        const glm::dmat4 place = toGlm(osg::computeLocalToWorld(getNodePath()));
+        const glm::dmat4 toScene = toGlm(osg::computeLocalToWorld(getNodePath()));
         const auto first = static_cast<std::uint32_t>(_result.mesh.positions.size());
         if (first + positions.size() > std::numeric_limits<std::uint32_t>::max())
             failFile(_path, "more vertices than 32-bit indices reach");
         for (const glm::dvec3& p : positions)
-            _result.mesh.positions.emplace_back(place * glm::dvec4(p, 1.0));
-        addTriangles(geometry, triangles.corners, place, first, positions.size());
+            _result.mesh.positions.emplace_back(toScene * glm::dvec4(p, 1.0));
+        addTriangles(geometry, triangles.corners, toScene, first, positions.size());
         if (rig != nullptr && rig->getInfluenceMap() != nullptr)
             addWeights(*rig->getInfluenceMap(), first, positions.size());
     }
@@ -103,13 +103,13 @@ private:
     }
 
     void addTriangles(const osg::Geometry& geometry, const std::vector<unsigned>& corners,
-                      const glm::dmat4& place, std::uint32_t first, std::size_t vertices) {
+                      const glm::dmat4& toScene, std::uint32_t first, std::size_t vertices) {
         const auto* normals = perVertex<osg::Vec3Array>(geometry.getNormalArray(), vertices);
         const auto* texCoords = perVertex<osg::Vec2Array>(geometry.getTexCoordArray(0), vertices);
         _result.hasTexCoords = _result.hasTexCoords || texCoords != nullptr;
         const std::vector<glm::vec4> colours = coloursOf(geometry, vertices);
-        const glm::dmat3 normalTurn = glm::transpose(glm::inverse(glm::dmat3(place)));
-        const bool mirrored = glm::determinant(glm::dmat3(place)) < 0.0;
+        const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(glm::dmat3(toScene)));
+        const bool mirrored = glm::determinant(glm::dmat3(toScene)) < 0.0;
         const std::uint32_t material = materialHere(!colours.empty());
         for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
             _result.addFace(material);
@@ -121,7 +121,7 @@ private:
                                         std::to_string(v) + ", expected less than " +
                                         std::to_string(vertices));
                 glm::dvec3 normal(0.0);
-                if (normals != nullptr) normal = normalTurn * toGlm(osg::Vec3d((*normals)[v]));
+                if (normals != nullptr) normal = normalMatrix * toGlm(osg::Vec3d((*normals)[v]));
                 glm::vec2 texCoord(0.0f);
                 if (texCoords != nullptr) texCoord = {(*texCoords)[v].x(), (*texCoords)[v].y()};
                 _result.addCorner(first + v, glm::vec3(normal), texCoord);
@@ -142,9 +142,9 @@ private:
             if (!merged) merged = new osg::StateSet;
             merged->merge(*node->getStateSet());
         }
-        Look look;
-        look.vertexColours = coloured;
-        _result.stateSets.push_back(merged.valid() ? merged : makeStateSet(look));
+        Material material;
+        material.vertexColours = coloured;
+        _result.stateSets.push_back(merged.valid() ? merged : makeStateSet(material));
         return static_cast<std::uint32_t>(_result.stateSets.size() - 1);
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_OSGMESH_H
+#define OSGSKINIMPORT_OSGMESH_H 1
 
 #include "mesh/CornerMesh.h"
 
@@ -14,3 +15,5 @@ namespace osgSkin {
 CornerMesh readOsgMesh(const std::string& path, const osgDB::Options* options);
 
 } // namespace osgSkin
+
+#endif

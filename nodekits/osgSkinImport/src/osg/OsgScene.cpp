@@ -45,7 +45,7 @@ osg::ref_ptr<osg::Node> readOsgScene(const std::string& path, const osgDB::Optio
              reason.empty() ? "no reader of Assimp or OpenSceneGraph knows this file" : reason);
 }
 
-RestSkeleton skeletonOf(osg::Node& scene, const std::string& path) {
+RestSkeleton readOsgSkeleton(osg::Node& scene, const std::string& path) {
     SkeletonFinder finder;
     scene.accept(finder);
     if (finder.found == nullptr)
@@ -56,9 +56,9 @@ RestSkeleton skeletonOf(osg::Node& scene, const std::string& path) {
     } catch (const Error& error) {
         failFile(path, error.what());
     }
-    const osg::Matrixd place = osg::computeLocalToWorld(finder.path);
+    const osg::Matrixd toScene = osg::computeLocalToWorld(finder.path);
     for (RestJoint& joint : result.joints)
-        joint.centre = toGlm(osg::Vec3d(toOsg(joint.centre) * place));
+        joint.centre = toGlm(osg::Vec3d(toOsg(joint.centre) * toScene));
     return result;
 }
 

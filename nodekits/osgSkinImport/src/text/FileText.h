@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_FILETEXT_H
+#define OSGSKINIMPORT_FILETEXT_H 1
 
 #include <string>
 #include <string_view>
@@ -26,3 +27,5 @@ bool parseNumber(std::string_view token, double& value);
 std::string quoted(std::string_view token);
 
 } // namespace osgSkin
+
+#endif

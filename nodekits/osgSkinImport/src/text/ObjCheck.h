@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_OBJCHECK_H
+#define OSGSKINIMPORT_OBJCHECK_H 1
 
 #include <string>
 
@@ -13,3 +14,5 @@ namespace osgSkin {
 void checkObj(const std::string& path, const std::string& text);
 
 } // namespace osgSkin
+
+#endif

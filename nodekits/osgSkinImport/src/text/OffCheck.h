@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_OFFCHECK_H
+#define OSGSKINIMPORT_OFFCHECK_H 1
 
 #include <string>
 
@@ -10,3 +11,5 @@ namespace osgSkin {
 void checkOff(const std::string& path, const std::string& text);
 
 } // namespace osgSkin
+
+#endif

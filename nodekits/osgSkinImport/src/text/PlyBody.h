@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_PLYBODY_H
+#define OSGSKINIMPORT_PLYBODY_H 1
 
 #include <cstddef>
 #include <string>
@@ -31,3 +32,5 @@ struct PlyHeader {
 void checkPlyLists(const std::string& path, const PlyHeader& header, std::string_view body);
 
 } // namespace osgSkin
+
+#endif

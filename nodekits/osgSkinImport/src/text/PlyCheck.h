@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_PLYCHECK_H
+#define OSGSKINIMPORT_PLYCHECK_H 1
 
 #include <string>
 
@@ -11,3 +12,5 @@ namespace osgSkin {
 void checkPly(const std::string& path, const std::string& text);
 
 } // namespace osgSkin
+
+#endif

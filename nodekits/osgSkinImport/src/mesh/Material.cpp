@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/Materials.h"
+#include "mesh/Material.h"
 
 #include <osg/AlphaFunc>
 #include <osg/CullFace>
@@ -27,35 +27,38 @@ void setSides(osg::StateSet& state, bool two) {
     }
 }
 
-void setAlpha(osg::StateSet& state, const Look& look) {
-    if (look.alpha == Look::Alpha::Mask)
-        state.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, look.alphaCutOff));
-    const bool transparent = look.alpha == Look::Alpha::ByOpacity && look.diffuse.a() < 1.0f;
-    if (!transparent && look.alpha != Look::Alpha::Blend) return;
+void setAlpha(osg::StateSet& state, const Material& material) {
+    if (material.alpha == Material::Alpha::Mask)
+        state.setAttributeAndModes(
+            new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, material.alphaCutOff));
+    const bool transparent =
+        material.alpha == Material::Alpha::ByOpacity && material.diffuse.a() < 1.0f;
+    if (!transparent && material.alpha != Material::Alpha::Blend) return;
     state.setMode(GL_BLEND, osg::StateAttribute::ON);
     state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
 }
 
 } // namespace
 
-osg::ref_ptr<osg::StateSet> makeStateSet(const Look& look) {
+osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material) {
     osg::ref_ptr<osg::StateSet> result = new osg::StateSet;
-    osg::ref_ptr<osg::Material> material = new osg::Material;
-    material->setAmbient(osg::Material::FRONT_AND_BACK, look.diffuse);
-    material->setDiffuse(osg::Material::FRONT_AND_BACK, look.diffuse);
-    material->setSpecular(osg::Material::FRONT_AND_BACK, look.specular);
-    material->setEmission(osg::Material::FRONT_AND_BACK, look.emission);
-    material->setShininess(osg::Material::FRONT_AND_BACK, std::clamp(look.shininess, 0.0f, 128.0f));
-    if (look.vertexColours) material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
-    result->setAttributeAndModes(material);
-    if (look.image.valid()) {
-        osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(look.image);
-        texture->setWrap(osg::Texture::WRAP_S, look.wrapS);
-        texture->setWrap(osg::Texture::WRAP_T, look.wrapT);
+    osg::ref_ptr<osg::Material> attribute = new osg::Material;
+    attribute->setAmbient(osg::Material::FRONT_AND_BACK, material.diffuse);
+    attribute->setDiffuse(osg::Material::FRONT_AND_BACK, material.diffuse);
+    attribute->setSpecular(osg::Material::FRONT_AND_BACK, material.specular);
+    attribute->setEmission(osg::Material::FRONT_AND_BACK, material.emission);
+    attribute->setShininess(osg::Material::FRONT_AND_BACK,
+                            std::clamp(material.shininess, 0.0f, 128.0f));
+    if (material.vertexColours) attribute->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
+    result->setAttributeAndModes(attribute);
+    if (material.image.valid()) {
+        osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(material.image);
+        texture->setWrap(osg::Texture::WRAP_S, material.wrapS);
+        texture->setWrap(osg::Texture::WRAP_T, material.wrapT);
         result->setTextureAttributeAndModes(0, texture);
     }
-    setSides(*result, look.twoSided.value_or(true));
-    setAlpha(*result, look);
+    setSides(*result, material.twoSided.value_or(true));
+    setAlpha(*result, material);
     return result;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINIMPORT_MATERIAL_H
+#define OSGSKINIMPORT_MATERIAL_H 1
 
 #include <osg/Image>
 #include <osg/StateSet>
@@ -14,8 +15,8 @@
 
 namespace osgSkin {
 
-/// The look of a part, as far as the file formats share one. Colours as a display takes them.
-struct Look {
+/// The material of a part, as far as the file formats share one. Colours are in sRGB.
+struct Material {
     enum class Alpha { ByOpacity, Opaque, Mask, Blend }; ///< ByOpacity: blended below 1
 
     osg::Vec4 diffuse{0.8f, 0.74f, 0.68f, 1.0f}; ///< a neutral skin for files without materials
@@ -33,10 +34,12 @@ struct Look {
 
 /// A state set with an osg::Material, the texture on unit 0, and blending or an alpha test where it
 /// is transparent. Back faces are culled where the format says that there are none.
-osg::ref_ptr<osg::StateSet> makeStateSet(const Look& look);
+osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material);
 
 /// Reads a texture that the mesh file `meshPath` names. Null, with a notice, where it is missing.
 osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string& meshPath,
                                      const osgDB::Options* options);
 
 } // namespace osgSkin
+
+#endif
