@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/BendTwist>
 
-#include <osgSkin/Error>
-
 #include "pose/SplitUnit.h"
+
+#include <osgSkin/Error>
+#include <osgSkin/GlmMath>
 
 #include <glm/geometric.hpp>
 
@@ -12,16 +13,6 @@
 
 namespace osgSkin {
 namespace {
-
-bool isFinite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-/// Some unit vector perpendicular to the unit vector w, always the same one.
-glm::dvec3 anyPerpendicular(const glm::dvec3& w) {
-    const glm::dvec3 helper = std::abs(w.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    return glm::normalize(glm::cross(w, helper));
-}
 
 /// The direction of u within the plane perpendicular to w; any direction there where u is nothing.
 glm::dvec3 perpendicularDirection(glm::dvec3 u, const glm::dvec3& w) {

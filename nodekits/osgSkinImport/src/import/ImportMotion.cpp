@@ -8,6 +8,7 @@
 #include "text/BvhCheck.h"
 #include "text/FileText.h"
 
+#include <osgSkin/GlmMath>
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinRig/Motion>
 
@@ -25,14 +26,6 @@ std::optional<BvhSummary> check(const std::string& path) {
     if (osgDB::getLowerCaseFileExtension(path) == "bvh") return checkBvh(path, readText(path));
     requireReadable(path);
     return std::nullopt;
-}
-
-bool isFinite(const glm::dquat& q) {
-    return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
-}
-
-bool isFinite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 /// Refuses what no text check sees: numbers that overflow in Assimp, and broken binary files.
