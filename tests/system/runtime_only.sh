@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # runtime_only.sh BUILD SOURCE FOLDER: the runtime, the rig kit and the serializers, built where CGAL and Assimp
 # cannot be found and installed alone, name neither, and play a character that BUILD's .skin plug-in
-# has saved.
+# has saved; and a game that links the rig kit alone retargets a motion and plays it.
 set -euo pipefail
 build=$1 source=$2 folder=$3
 fail() {
@@ -42,3 +42,14 @@ for extension in osgb osgt osgx; do
   env -u LD_LIBRARY_PATH OSG_LIBRARY_PATH="$(dirname "$runtime")" \
     "$source/tests/system/viewer.sh" "$saved" "$folder/play/$extension"
 done
+
+echo "A game that links osgSkinRig alone"
+rm -rf "$folder/development" "$folder/game"
+cmake --install "$folder/build" --prefix "$folder/development" >>"$folder/install.txt"
+cmake -S "$source/tests/downstream/game" -B "$folder/game" \
+  -DCMAKE_PREFIX_PATH="$folder/development" -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON \
+  -DCMAKE_DISABLE_FIND_PACKAGE_assimp=ON >"$folder/game.txt"
+cmake --build "$folder/game" >>"$folder/game.txt"
+readelf -d "$folder/game/game" | grep NEEDED | grep -iE 'cgal|gmp|mpfr|assimp|osgDB|osgSkin(Bind|Import|Character)' &&
+  fail "the game needs more than the runtime"
+env -u LD_LIBRARY_PATH "$folder/game/game"

@@ -56,7 +56,7 @@ TEST(FootSkate, OfAFootThatStandsIsNone) {
         EXPECT_EQ(foot.rigJoint, "LeftFoot");
         EXPECT_EQ(foot.motionJoint, "LeftFoot");
         EXPECT_NEAR(foot.leg, kLeg * size, 1e-9 * size);
-        EXPECT_EQ(foot.stances, 1u);
+        EXPECT_EQ(foot.contacts, 1u);
         EXPECT_EQ(foot.frames, 50u);
         for (const double slid : {foot.mean, foot.worst, foot.actorMean, foot.actorWorst})
             EXPECT_NEAR(slid, 0.0, 1e-9 * size);
@@ -84,13 +84,13 @@ TEST(FootSkate, OfTheActorsOwnIsScaledToTheRig) {
     Motion motion = standStill(makeFigure(0.0), 51); // two seconds
     for (std::size_t f = 0; f < motion.frames; ++f) motion.rootPositions[f].z += 0.01 * double(f);
     const FootSkate foot = reportOf(motion, makeFigure(0.0, 0.5)).feet.at(0);
-    EXPECT_EQ(foot.stances, 1u);
+    EXPECT_EQ(foot.contacts, 1u);
     EXPECT_NEAR(foot.actorWorst, 0.25, 1e-9);
     EXPECT_NEAR(foot.worst, 0.25, 1e-9);
 }
 
 /// A stand, a step of 3 ahead and 1 up in 0.4 s, a stand; the second one with a slip of 0.2.
-TEST(FootSkate, CountsStancesAndNotTheStepBetween) {
+TEST(FootSkate, CountsContactsAndNotTheStepBetween) {
     Motion motion = standStill(makeFigure(0.0), 70);
     for (std::size_t f = 0; f < motion.frames; ++f) {
         const double share = std::clamp((double(f) - 30.0) / 10.0, 0.0, 1.0);
@@ -98,7 +98,7 @@ TEST(FootSkate, CountsStancesAndNotTheStepBetween) {
         if (f > 50) motion.rootPositions[f].x += std::min(0.2, 0.02 * double(f - 50));
     }
     const FootSkate foot = reportOf(motion, makeFigure(0.0)).feet.at(0);
-    EXPECT_EQ(foot.stances, 2u);
+    EXPECT_EQ(foot.contacts, 2u);
     EXPECT_NEAR(foot.worst, 0.2, 1e-9);
     EXPECT_NEAR(foot.mean, 0.1, 1e-9);
     EXPECT_GE(foot.worstFrame, 40u);
@@ -112,13 +112,13 @@ TEST(FootSkate, NeedsALowFoot) {
         motion.rootPositions[f] += f < 50 ? glm::dvec3(0.001 * double(f), 0, 0)
                                           : glm::dvec3(0.01 * double(f), 0.06 * kLeg, 0);
     const FootSkate foot = reportOf(motion, makeFigure(0.0)).feet.at(0);
-    EXPECT_EQ(foot.stances, 1u);
+    EXPECT_EQ(foot.contacts, 1u);
     EXPECT_NEAR(foot.worst, 0.049, 1e-3);
 }
 
 TEST(FootSkate, SaysWhereNothingStands) {
     const RetargetReport report = reportOf(standStill(makeFigure(0.0), 1), makeFigure(0.0));
-    EXPECT_EQ(report.feet.at(0).stances, 0u);
+    EXPECT_EQ(report.feet.at(0).contacts, 0u);
     EXPECT_EQ(report.feetText(), "foot LeftFoot: never planted\n");
     RestSkeleton legless = makeFigure(0.0);
     legless.joints.resize(7);
@@ -127,17 +127,17 @@ TEST(FootSkate, SaysWhereNothingStands) {
 
 TEST(FootSkate, IsInTheReportsText) {
     const RetargetReport report = reportOf(sway(50, -0.2, 0.2), withLeg(10, 7, 4));
-    const std::string line = "foot LeftFoot: 1 stance, slides by 13.2 % of the leg in the mean, "
+    const std::string line = "foot LeftFoot: 1 contact, slides by 13.2 % of the leg in the mean, "
                              "13.2 % at worst (from frame 0); the actor's own: 0.0 %, 0.0 %\n";
     EXPECT_EQ(report.feetText(), line);
     EXPECT_NE(report.text().find(line), std::string::npos);
 }
 
-/// What the README's table says: of all stances of both feet, in hundredths of the leg.
+/// What the README's table says: of all contacts of both feet, in hundredths of the leg.
 struct Actor {
     const char* path; ///< below the shared data
     std::size_t skip; ///< calibration poses
-    std::size_t stances;
+    std::size_t contacts;
     double mean, worst, actorMean, actorWorst;
 };
 
@@ -165,22 +165,22 @@ TEST_P(FootSlidingOfActors, IsAsTheReadmeSays) {
     const RetargetReport report =
         reportOf(osgSkin::importMotion(path, expected.skip), osgSkin::importSkeleton(rig));
     ASSERT_EQ(report.feet.size(), 2u);
-    std::size_t stances = 0;
+    std::size_t contacts = 0;
     double mean = 0.0, worst = 0.0, actorMean = 0.0, actorWorst = 0.0;
     for (const FootSkate& foot : report.feet) {
-        const double percent = 100.0 / foot.leg, count = double(foot.stances);
-        stances += foot.stances;
+        const double percent = 100.0 / foot.leg, count = double(foot.contacts);
+        contacts += foot.contacts;
         mean += percent * foot.mean * count;
         actorMean += percent * foot.actorMean * count;
         worst = std::max(worst, percent * foot.worst);
         actorWorst = std::max(actorWorst, percent * foot.actorWorst);
     }
-    ASSERT_GT(stances, 0u);
-    mean /= double(stances);
-    actorMean /= double(stances);
-    std::printf("%s: %zu stances, slides %.1f %%, %.1f %%; the actor's own %.1f %%, %.1f %%\n",
-                expected.path, stances, mean, worst, actorMean, actorWorst);
-    EXPECT_EQ(stances, expected.stances);
+    ASSERT_GT(contacts, 0u);
+    mean /= double(contacts);
+    actorMean /= double(contacts);
+    std::printf("%s: %zu contacts, slides %.1f %%, %.1f %%; the actor's own %.1f %%, %.1f %%\n",
+                expected.path, contacts, mean, worst, actorMean, actorWorst);
+    EXPECT_EQ(contacts, expected.contacts);
     EXPECT_NEAR(mean, expected.mean, 0.051);
     EXPECT_NEAR(worst, expected.worst, 0.051);
     EXPECT_NEAR(actorMean, expected.actorMean, 0.051);

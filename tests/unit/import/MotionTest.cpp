@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Paths.h"
 
+#include <osgSkin/Error>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinRig/Motion>
@@ -116,6 +117,32 @@ TEST(ImportSkeleton, ReadsAMakeHumanRig) {
 TEST(ImportMotion, PassesOverFramesBeyondTheDeclared) {
     const osgSkin::Motion motion = osgSkin::importMotion(testData("bvh/more_rows.bvh"));
     EXPECT_EQ(motion.frames, 2u);
+}
+
+/// A motion made in code, by GLM's types and by OSG's.
+TEST(Motion, IsMadeOfSamples) {
+    osgSkin::RestSkeleton skeleton;
+    EXPECT_EQ(skeleton.add("Hips", -1, glm::dvec3(0, 1, 0)), 0);
+    EXPECT_EQ(skeleton.add("Spine", 0, osg::Vec3d(0, 2, 0.5)), 1);
+    skeleton.validate();
+    EXPECT_EQ(skeleton.joints[1].centre, glm::dvec3(0, 2, 0.5));
+    EXPECT_EQ(skeleton.joints[1].parent, 0);
+
+    osgSkin::Motion motion;
+    motion.name = "bow";
+    motion.skeleton = skeleton;
+    const osg::Quat bow(osg::PI_2, osg::X_AXIS);
+    motion.addFrame(osg::Vec3d(1, 2, 3), {osg::Quat(), bow});
+    motion.addFrame(glm::dvec3(4, 5, 6), {turn(90, x), glm::dquat(1, 0, 0, 0)});
+    ASSERT_EQ(motion.frames, 2u);
+    EXPECT_LT(difference(motion.rotation(0, 1), turn(90, x)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, x)), 1e-12);
+    EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
+    EXPECT_EQ(motion.rootPositions[1], glm::dvec3(4, 5, 6));
+
+    EXPECT_THROW(motion.addFrame(osg::Vec3d(), {bow}), osgSkin::Error);
+    EXPECT_EQ(motion.frames, 2u);
+    EXPECT_EQ(motion.rotations.size(), 4u);
 }
 
 } // namespace

@@ -86,12 +86,12 @@ TEST_P(UprightFrames, ATurnedBodyDoesTheSameTurned) {
     const RestSkeleton body = turned(rig, turn());
     const Clip clip = osgSkin::retarget(motion, body, {}, &report);
     expectTurned(clip, body, turn());
-    EXPECT_LT(angleBetween(report.turn, turn()), 1e-5);
+    EXPECT_LT(angleBetween(report.rotation, turn()), 1e-5);
     EXPECT_NEAR(report.scale, straightReport.scale, 1e-9);
     ASSERT_EQ(report.feet.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(report.feet[i].rigJoint, straightReport.feet[i].rigJoint);
-        EXPECT_EQ(report.feet[i].stances, straightReport.feet[i].stances);
+        EXPECT_EQ(report.feet[i].contacts, straightReport.feet[i].contacts);
         EXPECT_NEAR(report.feet[i].worst, straightReport.feet[i].worst, 1e-6);
     }
 }
@@ -99,7 +99,7 @@ TEST_P(UprightFrames, ATurnedBodyDoesTheSameTurned) {
 TEST_P(UprightFrames, ATurnedActorIsTurnedBack) {
     const Clip clip = osgSkin::retarget(turned(motion, turn()), rig, {}, &report);
     expectTurned(clip, rig, {1, 0, 0, 0});
-    EXPECT_LT(angleBetween(report.turn, glm::conjugate(turn())), 1e-5);
+    EXPECT_LT(angleBetween(report.rotation, glm::conjugate(turn())), 1e-5);
 }
 
 /// A ball stays where the hand is.
@@ -125,7 +125,7 @@ struct Bone {
 };
 
 /// The bar: limbs within a degree of the turned actor's own, left ones left.
-TEST(BearingOfActors, LimbsAreWhereTheTurnedActorsAre) {
+TEST(UprightActors, LimbsAreWhereTheTurnedActorsAre) {
     const std::string rigPath = sharedData("makehuman/rig/cmu_mb_neutral.bvh");
     OSGSKIN_NEEDS(rigPath);
     const RestSkeleton rig = osgSkin::importSkeleton(rigPath);
@@ -160,18 +160,18 @@ TEST(BearingOfActors, LimbsAreWhereTheTurnedActorsAre) {
 }
 
 /// Nothing tells how bodies lie to each other whose joints' names say nothing.
-TEST(BearingOfStrangers, IsTakenToBeTheSame) {
+TEST(UprightStrangers, IsTakenToBeTheSame) {
     Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
     for (std::size_t j = 0; j < motion.skeleton.joints.size(); ++j)
         motion.skeleton.joints[j].name = "part" + std::to_string(j);
     RetargetReport report;
     osgSkin::retarget(motion, turned(motion.skeleton, turnDegrees(90, kUp)), {}, &report);
     EXPECT_TRUE(report.rigNames.empty());
-    EXPECT_LT(angleBetween(report.turn, {1, 0, 0, 0}), 1e-9);
+    EXPECT_LT(angleBetween(report.rotation, {1, 0, 0, 0}), 1e-9);
 }
 
 /// The names of one skeleton do for both, with the caller's map.
-TEST(BearingOfStrangers, FollowsTheMapToKnownNames) {
+TEST(UprightStrangers, FollowsTheMapToKnownNames) {
     const RestSkeleton rig = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
     const Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
     RestSkeleton body = turned(rig, turnDegrees(90, kUp));
@@ -182,8 +182,8 @@ TEST(BearingOfStrangers, FollowsTheMapToKnownNames) {
     }
     RetargetReport report;
     osgSkin::retarget(motion, body, options, &report);
-    EXPECT_LT(angleBetween(report.turn, turnDegrees(90, kUp)), 1e-5);
-    EXPECT_NE(report.text().find("turned by 90 degrees about 0 1 0"), std::string::npos)
+    EXPECT_LT(angleBetween(report.rotation, turnDegrees(90, kUp)), 1e-5);
+    EXPECT_NE(report.text().find("rotated by 90 degrees about 0 1 0"), std::string::npos)
         << report.text();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "model/SkinBlocks.h"
 
+#include <osgSkin/GlmMath>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -51,8 +53,7 @@ void place(const SkinModel& model, const SkinModel::Group& group, std::uint32_t 
 
 glm::dmat3 jointFrame(const BoundJoint& joint) {
     const glm::dvec3 w = glm::normalize(joint.twistAxis);
-    const glm::dvec3 helper = std::abs(w.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 e1 = glm::normalize(glm::cross(helper, w));
+    const glm::dvec3 e1 = -anyPerpendicular(w);
     return {e1, glm::cross(w, e1), w};
 }
 

@@ -2,6 +2,7 @@
 #include <osgSkin/BendTwist>
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmMath>
 #include <osgSkin/GlmOsg>
 
 #include "pose/SplitUnit.h"
@@ -13,10 +14,6 @@
 
 namespace osgSkin {
 namespace {
-
-bool isFinite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 glm::dquat rotationAbout(const glm::dvec3& unitAxis, double angle) {
     return {std::cos(0.5 * angle), unitAxis * std::sin(0.5 * angle)};

@@ -6,6 +6,8 @@
 #include "model/SkinBlocks.h"
 #include "pose/SplitUnit.h"
 
+#include <osgSkin/GlmMath>
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -40,10 +42,6 @@ bool rotationOf(const glm::dmat3& m, glm::dquat& rotation, double& scale) noexce
 /// a double's room.
 std::int32_t inSteps(double x) noexcept {
     return static_cast<std::int32_t>(std::lrint(x * double(1 << 30)));
-}
-
-bool isFinite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 /// `twist` or 2 pi more or less, see Pose::Twist.

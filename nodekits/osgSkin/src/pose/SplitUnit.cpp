@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pose/SplitUnit.h"
 
+#include <osgSkin/GlmMath>
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -8,12 +10,6 @@
 
 namespace osgSkin {
 namespace {
-
-/// Some unit vector perpendicular to the unit vector w, always the same one.
-glm::dvec3 anyPerpendicular(const glm::dvec3& w) {
-    const glm::dvec3 helper = std::abs(w.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    return glm::normalize(glm::cross(w, helper));
-}
 
 /// The direction of u within the plane perpendicular to w; any direction there where u is nothing.
 glm::dvec3 perpendicularDirection(glm::dvec3 u, const glm::dvec3& w) {

@@ -10,6 +10,7 @@
 #include "fit/place/Symmetrise.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmMath>
 
 #include <glm/geometric.hpp>
 
@@ -24,10 +25,6 @@ namespace {
 /// Fractions of the time that have passed when the steps begin.
 constexpr double kFacingBegins = 0.85;
 constexpr double kJointsBegin = 0.95;
-
-bool isFinite(const glm::dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 bool isDirection(const glm::dvec3& d) {
     return isFinite(d) && glm::length(d) > 0.0;

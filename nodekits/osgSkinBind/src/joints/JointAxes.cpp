@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "joints/JointAxes.h"
 
-#include "joints/JointNames.h"
-
 #include <glm/geometric.hpp>
 
 namespace osgSkin {
@@ -44,7 +42,7 @@ int mainChild(const RestSkeleton& skeleton, std::size_t joint,
         const glm::dvec3 direct = skeleton.joints[at(child)].centre - skeleton.joints[joint].centre;
         const glm::dvec3 along = glm::length(direct) > tolerance ? direct : toBoneEnd;
         const double length = glm::length(along);
-        const bool thumb = isThumbName(skeleton.joints[at(child)].name);
+        const bool thumb = planned[at(child)].part == JointPart::Thumb;
         const double score = incoming == glm::dvec3(0.0)
                                  ? static_cast<double>(sizes[at(child)])
                                  : (length > tolerance ? glm::dot(along, incoming) / length : -2.0);

@@ -8,6 +8,8 @@ namespace osgSkin {
 
 /// Fills in centre, parent, child, bone and axes of the joints; centres closer than `tolerance` are
 /// one point.
+/// \pre the joints' parts are set
+/// \pre the joints' parts are set
 void setJointAxes(const RestSkeleton& skeleton, double tolerance,
                   std::vector<PlannedJoint>& joints);
 

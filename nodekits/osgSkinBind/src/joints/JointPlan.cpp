@@ -2,7 +2,6 @@
 #include "joints/JointPlan.h"
 
 #include "joints/JointAxes.h"
-#include "joints/JointNames.h"
 #include "joints/RigidJoints.h"
 #include "joints/TrunkJoints.h"
 #include "mesh/InsideSkin.h"
@@ -17,8 +16,8 @@ namespace {
 /// Joint centres closer than this fraction of the mesh's size are one point.
 constexpr double kCentreTolerance = 1e-6;
 
-bool hasParentPole(const JointBindOptions& options, const std::string& name) {
-    if (options.twistPole == JointBindOptions::Pole::Automatic) return isHandName(name);
+bool hasParentPole(const JointBindOptions& options, JointPart part) {
+    if (options.twistPole == JointBindOptions::Pole::Automatic) return part == JointPart::Hand;
     return options.twistPole == JointBindOptions::Pole::Parent;
 }
 
@@ -114,17 +113,19 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
                                      const BindOptions& options, std::vector<std::string>& notes) {
     std::vector<PlannedJoint> joints(skeleton.joints.size());
     const double tolerance = kCentreTolerance * mesh.size;
+    const JointRoles roles = recogniseJoints(skeleton, options.names);
     const std::vector<int> rigid = rigidJoints(skeleton, options);
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        const std::string& name = skeleton.joints[j].name;
+        joints[j].part = roles.parts[j];
         joints[j].rigid = rigid[j];
-        const auto found = options.joints.find(name);
+        const auto found = options.joints.find(skeleton.joints[j].name);
         if (found != options.joints.end()) joints[j].options = found->second;
         joints[j].poleIsParent =
-            skeleton.joints[j].parent >= 0 && hasParentPole(joints[j].options, name);
+            skeleton.joints[j].parent >= 0 && hasParentPole(joints[j].options, joints[j].part);
     }
+    for (const std::size_t joint : extremities(skeleton, roles)) joints[joint].extremity = true;
     setJointAxes(skeleton, tolerance, joints);
-    markTrunk(skeleton, joints);
+    markTrunk(joints);
 
     giveRegions(skeleton, tolerance, joints);
     findSeeding(skeleton, mesh, joints, notes);

@@ -5,6 +5,7 @@
 #include "mesh/WeldedMesh.h"
 
 #include <osgSkinBind/BindOptions>
+#include <osgSkinRig/JointRoles>
 #include <osgSkinRig/RestSkeleton>
 
 #include <string>
@@ -24,10 +25,11 @@ struct PlannedJoint {
     double poleLength = 0.0;    ///< length of the bone that the twist builds up along
     bool poleIsParent = false;
 
+    JointPart part = JointPart::Other; ///< of the body, by its name
     int parent = -1;
     int child = -1;           ///< the child that continues the chain, -1 for a leaf
     int rigid = -1;           ///< the rigid joint at or above, -1 where there is none
-    bool extremity = false;   ///< head, hand or foot by its name
+    bool extremity = false;   ///< a topmost head, hand or foot
     bool trunk = false;       ///< of the trunk: spine, hips, collar bones
     bool collarBone = false;  ///< between the spine and an upper arm
     bool seeds = false;       ///< its centre takes part in the Delaunay step

@@ -1,30 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "joints/RigidJoints.h"
 
-#include "joints/JointNames.h"
-
 #include <osgSkin/Error>
 
 namespace osgSkin {
 
-std::vector<std::string> automaticRigidJoints(const RestSkeleton& skeleton) {
-    std::vector<std::string> result;
+std::vector<std::size_t> extremities(const RestSkeleton& skeleton, const JointRoles& roles) {
+    std::vector<std::size_t> result;
     std::vector<bool> inside(skeleton.joints.size(), false);
-    for (std::size_t j = 1; j < skeleton.joints.size(); ++j) { // never the root: nothing would bend
-        const RestJoint& joint = skeleton.joints[j];
-        inside[j] = inside[static_cast<std::size_t>(joint.parent)];
+    for (std::size_t j = 1; j < skeleton.joints.size(); ++j) {
+        inside[j] = inside[static_cast<std::size_t>(skeleton.joints[j].parent)];
         if (inside[j]) continue;
-        if (!isHeadName(joint.name) && !isHandName(joint.name) && !isFootName(joint.name)) continue;
-        inside[j] = true;
-        result.push_back(joint.name);
+        for (const JointPart part : {JointPart::Head, JointPart::Hand, JointPart::Foot})
+            if (roles.is(j, part)) inside[j] = true;
+        if (inside[j]) result.push_back(j);
     }
+    return result;
+}
+
+std::vector<std::string> automaticRigidJoints(const RestSkeleton& skeleton,
+                                              const std::vector<JointNames>& names) {
+    std::vector<std::string> result;
+    for (const std::size_t joint : extremities(skeleton, recogniseJoints(skeleton, names)))
+        result.push_back(skeleton.joints[joint].name);
     return result;
 }
 
 std::vector<int> rigidJoints(const RestSkeleton& skeleton, const BindOptions& options) {
     std::vector<bool> named(skeleton.joints.size(), false);
     for (const std::string& name :
-         options.rigid ? *options.rigid : automaticRigidJoints(skeleton)) {
+         options.rigid ? *options.rigid : automaticRigidJoints(skeleton, options.names)) {
         const int joint = skeleton.find(name);
         if (joint < 0)
             throw Error("bind: rigid joint \"" + name +

@@ -4,11 +4,19 @@
 
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/RigidJoints>
+#include <osgSkinRig/JointRoles>
 #include <osgSkinRig/RestSkeleton>
 
+#include <cstddef>
 #include <vector>
 
 namespace osgSkin {
+
+/// The topmost heads, hands and feet, in joint order; never the root, so that something bends.
+///
+/// \param skeleton valid
+/// \param roles of its joints
+std::vector<std::size_t> extremities(const RestSkeleton& skeleton, const JointRoles& roles);
 
 /// For each joint the topmost rigid joint at or above it, -1 where there is none.
 ///

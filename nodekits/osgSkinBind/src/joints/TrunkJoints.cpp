@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "joints/TrunkJoints.h"
 
-#include "joints/JointNames.h"
-
-#include <osgSkinBind/RigidJoints>
-
 namespace osgSkin {
 namespace {
 
@@ -16,37 +12,30 @@ constexpr double kCollarLength = 0.8;
 constexpr double kCollarLengthBeforeArm = 1.3;
 
 /// True where the joint's bone and one more lead to a hand.
-bool isUpperArm(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
-                const PlannedJoint& joint) {
+bool isUpperArm(const std::vector<PlannedJoint>& joints, const PlannedJoint& joint) {
     if (joint.child < 0) return false;
     const int end = joints[static_cast<std::size_t>(joint.child)].child;
-    return end >= 0 && isHandName(skeleton.joints[static_cast<std::size_t>(end)].name);
+    return end >= 0 && joints[static_cast<std::size_t>(end)].part == JointPart::Hand;
 }
 
-bool isCollarBone(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
-                  const PlannedJoint& joint) {
+bool isCollarBone(const std::vector<PlannedJoint>& joints, const PlannedJoint& joint) {
     if (joint.trunk || joint.parent < 0 || joint.child < 0 || joint.rigid >= 0) return false;
     const PlannedJoint& next = joints[static_cast<std::size_t>(joint.child)];
     if (!joints[static_cast<std::size_t>(joint.parent)].trunk || next.rigid >= 0) return false;
-    const double most = isUpperArm(skeleton, joints, next) ? kCollarLengthBeforeArm : kCollarLength;
+    const double most = isUpperArm(joints, next) ? kCollarLengthBeforeArm : kCollarLength;
     return joint.boneLength < most * next.boneLength;
 }
 
 } // namespace
 
-void markTrunk(const RestSkeleton& skeleton, std::vector<PlannedJoint>& joints) {
+void markTrunk(std::vector<PlannedJoint>& joints) {
     std::vector<int> ends(joints.size(), 0); // at or below each joint
-    for (const std::string& name : automaticRigidJoints(skeleton)) {
-        const auto joint = static_cast<std::size_t>(skeleton.find(name));
-        joints[joint].extremity = true;
-        ends[joint] = 1;
-    }
+    for (std::size_t j = 0; j < joints.size(); ++j) ends[j] = joints[j].extremity ? 1 : 0;
     for (std::size_t j = joints.size(); j-- > 1;)
         ends[static_cast<std::size_t>(joints[j].parent)] += ends[j];
     for (std::size_t j = 0; j < joints.size(); ++j) joints[j].trunk = ends[j] > 1;
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (isCollarBone(skeleton, joints, joints[j]))
-            joints[j].trunk = joints[j].collarBone = true;
+        if (isCollarBone(joints, joints[j])) joints[j].trunk = joints[j].collarBone = true;
 }
 
 } // namespace osgSkin

@@ -4,8 +4,6 @@
 
 #include "joints/JointPlan.h"
 
-#include <osgSkinRig/RestSkeleton>
-
 #include <vector>
 
 namespace osgSkin {
@@ -14,9 +12,8 @@ namespace osgSkin {
 /// and the collar bones, the first bones of an arm where they are shorter than the next. Their skin
 /// is no limb's, however slender the body is. A skeleton without such names has none.
 ///
-/// Marks head, hands and feet, too.
-/// \pre the joints' axes are set
-void markTrunk(const RestSkeleton& skeleton, std::vector<PlannedJoint>& joints);
+/// \pre the joints' parts, extremities and axes are set
+void markTrunk(std::vector<PlannedJoint>& joints);
 
 } // namespace osgSkin
 

@@ -158,7 +158,7 @@ SkinFile SkinFile::read(const std::string& file) {
     }
     if (const auto names = root.find("names"))
         names->forEachMember([&](const std::string& family, const JsonReader& value) {
-            skin.names.push_back(readNames(family, value));
+            skin.bind.names.push_back(readNames(family, value));
         });
     if (const auto props = root.find("props"))
         props->forEachItem([&](const JsonReader& reader) {

@@ -3,7 +3,6 @@
 
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/FitSkeleton>
-#include <osgSkinRig/JointNames>
 
 #include <cstddef>
 #include <map>
@@ -39,9 +38,8 @@ struct SkinFile {
     std::string skeleton;          ///< the mesh's own file where the description names none
     std::optional<FitOptions> fit; ///< instead of a skeleton file
     std::vector<MotionEntry> motions;
-    std::vector<JointNames> names; ///< families of joint names beside the known ones
     std::vector<Prop> props;
-    BindOptions bind;
+    BindOptions bind; ///< its `names` serve retargeting, too
     bool paintedWeights = false; ///< the binding comes from painted weights
     std::string weights;         ///< their file; empty: the mesh's own
     bool zUp = false;            ///< the character's files have Z up, not Y

@@ -20,7 +20,7 @@ std::vector<CharacterMotion> retargetMotions(CharacterSource& source, LoadStages
             motion.name = entry.name;
             RetargetOptions options;
             options.joints = entry.joints;
-            options.names = source.names;
+            options.names = source.bind.names;
             made.clip = retarget(motion, source.rest, options, &made.report);
             made.animation = makeAnimation(made.clip, source.rest);
         });

@@ -21,7 +21,8 @@ namespace {
 void attach(const CharacterSource& source, Character& character) {
     const SkinMesh& mesh = character.body.mesh;
     const std::vector<std::string> rigid =
-        source.bind.rigid ? *source.bind.rigid : automaticRigidJoints(character.rest);
+        source.bind.rigid ? *source.bind.rigid
+                          : automaticRigidJoints(character.rest, source.bind.names);
     character.skeleton = source.skeleton ? source.skeleton : makeSkeleton(character.rest);
     character.skin = attachSkin(*character.skeleton, mesh, character.body.parts, character.binding,
                                 splitRigid(mesh, character.binding, rigid));

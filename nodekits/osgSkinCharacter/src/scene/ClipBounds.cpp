@@ -2,6 +2,7 @@
 #include "scene/ClipBounds.h"
 
 #include <osgSkin/GlmOsg>
+#include <osgSkinRig/ForwardKinematics>
 
 #include <osg/BoundingBox>
 
@@ -11,26 +12,6 @@
 
 namespace osgSkin {
 namespace {
-
-/// Joint centres at one sample, in skeleton space (forward kinematics of the clip).
-std::vector<glm::dvec3> jointCentres(const Clip& clip, const RestSkeleton& rig, std::size_t frame) {
-    std::vector<glm::dvec3> centres(rig.joints.size());
-    std::vector<glm::dquat> rotations(rig.joints.size());
-    for (std::size_t j = 0; j < rig.joints.size(); ++j) {
-        const RestJoint& joint = rig.joints[j];
-        const glm::dquat& local = clip.rotations[frame * clip.joints + j];
-        if (joint.parent < 0) {
-            centres[j] = clip.rootPositions[frame];
-            rotations[j] = local;
-            continue;
-        }
-        const auto parent = static_cast<std::size_t>(joint.parent);
-        centres[j] =
-            centres[parent] + rotations[parent] * (joint.centre - rig.joints[parent].centre);
-        rotations[j] = rotations[parent] * local;
-    }
-    return centres;
-}
 
 /// For each joint, the largest distance of its region's skin from its centre.
 std::vector<double> skinDistances(const Binding& binding, const SkinMesh& mesh) {
@@ -52,8 +33,11 @@ osg::BoundingSphere clipBounds(const Clip& clip, const RestSkeleton& rig, const 
     const std::vector<double> distances = skinDistances(binding, mesh);
     std::vector<std::pair<osg::Vec3d, double>> balls;
     osg::BoundingBoxd box;
+    std::vector<glm::dquat> rotations;
+    std::vector<glm::dvec3> centres;
     for (std::size_t frame = 0; frame < clip.frames; frame += step) {
-        const std::vector<glm::dvec3> centres = jointCentres(clip, rig, frame);
+        worldRotations(rig, &clip.rotations[frame * clip.joints], rotations);
+        worldPositions(rig, rotations, clip.rootPositions[frame], centres);
         for (std::size_t j = 0; j < centres.size(); ++j) {
             const osg::Vec3d centre = toOsg(centres[j]) * toWorld;
             const osg::Vec3d reach(distances[j], distances[j], distances[j]);

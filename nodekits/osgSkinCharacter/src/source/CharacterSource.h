@@ -47,7 +47,6 @@ struct CharacterSource {
 
     std::vector<SkinFile::MotionEntry> motions; ///< files to retarget
     std::vector<SkinFile::Prop> props;
-    std::vector<JointNames> names;
 
     std::vector<std::string> notes; ///< what was unusual so far
 

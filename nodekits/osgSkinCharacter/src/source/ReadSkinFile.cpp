@@ -41,7 +41,6 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
     source.weightsFile = skin.weights;
     source.motions = skin.motions;
     source.props = skin.props;
-    source.names = skin.names;
     applyOptions(source, options);
 
     stages.plan(LoadStages::kMesh + (skin.fit ? LoadStages::kFit : LoadStages::kSkeleton) +

@@ -5,6 +5,7 @@
 #include "assimp/RigBones.h"
 #include "text/FileText.h"
 
+#include <osgSkin/GlmMath>
 #include <osgSkin/GlmOsg>
 
 #include <osgAnimation/Channel>
@@ -29,11 +30,11 @@ Tracks tracksOf(const aiAnimation& animation) {
     return result;
 }
 
-bool isFinite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+bool isValid(const glm::dvec3& v) {
+    return isFinite(v);
 }
 
-bool isFinite(const glm::dquat& q) {
+bool isValid(const glm::dquat& q) {
     const double length = glm::length(q);
     return std::isfinite(length) && length > 0.0;
 }
@@ -72,7 +73,7 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
     double last = -std::numeric_limits<double>::infinity();
     for (unsigned k = 0; k < count; ++k) {
         const Value value = toGlm(keys[k].mValue);
-        if (!isFinite(value) || !std::isfinite(keys[k].mTime))
+        if (!isValid(value) || !std::isfinite(keys[k].mTime))
             failFile(path, "animation " + quoted(animation.getName()) + ": joint " + quoted(joint) +
                                ": key " + std::to_string(k) + " of its " + element +
                                " is not finite");

@@ -8,6 +8,8 @@
 #include "bvh/BvhMotion.h"
 #include "text/FileText.h"
 
+#include <osgSkin/GlmMath>
+
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
 
@@ -15,14 +17,6 @@
 
 namespace osgSkin {
 namespace {
-
-bool isFinite(const glm::dquat& q) {
-    return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
-}
-
-bool isFinite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// Refuses what Assimp lets pass: numbers that overflow, and broken binary files.
 void validate(const Motion& motion, const std::string& path) {

@@ -32,13 +32,14 @@ public:
 };
 
 /// Keeps the pose in the bone's update callback too: an update traversal sets the bone from there.
-void storeInCallback(osgAnimation::Bone& bone, const glm::dvec3& offset, const glm::dquat& turn) {
+void storeInCallback(osgAnimation::Bone& bone, const glm::dvec3& offset,
+                     const glm::dquat& rotation) {
     auto* update = dynamic_cast<osgAnimation::UpdateBone*>(bone.getUpdateCallback());
     if (update == nullptr) return;
     for (osg::ref_ptr<osgAnimation::StackedTransformElement>& element :
          update->getStackedTransforms()) {
         if (auto* q = dynamic_cast<osgAnimation::StackedQuaternionElement*>(element.get()))
-            q->setQuaternion(toOsg(turn));
+            q->setQuaternion(toOsg(rotation));
         else if (auto* t = dynamic_cast<osgAnimation::StackedTranslateElement*>(element.get()))
             t->setTranslate(toOsg(offset));
     }
@@ -55,22 +56,22 @@ void applyFrame(const Clip& clip, const RestSkeleton& rig, std::size_t frame,
     BoneCollector collector;
     skeleton.accept(collector);
 
-    std::vector<osg::Matrixd> places(rig.joints.size());
+    std::vector<osg::Matrixd> inSkeleton(rig.joints.size());
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         const RestJoint& joint = rig.joints[j];
         const auto parent = static_cast<std::size_t>(joint.parent);
         const glm::dvec3 offset =
             joint.parent < 0 ? clip.rootPositions[frame] : joint.centre - rig.joints[parent].centre;
-        const glm::dquat& turn = clip.rotations[frame * clip.joints + j];
+        const glm::dquat& rotation = clip.rotations[frame * clip.joints + j];
         const osg::Matrixd local =
-            osg::Matrixd::rotate(toOsg(turn)) * osg::Matrixd::translate(toOsg(offset));
-        places[j] = joint.parent < 0 ? local : local * places[parent];
+            osg::Matrixd::rotate(toOsg(rotation)) * osg::Matrixd::translate(toOsg(offset));
+        inSkeleton[j] = joint.parent < 0 ? local : local * inSkeleton[parent];
 
         const auto bone = collector.bones.find(joint.name);
         if (bone == collector.bones.end()) continue;
         bone->second->setMatrix(local);
-        bone->second->setMatrixInSkeletonSpace(places[j]);
-        storeInCallback(*bone->second, offset, turn);
+        bone->second->setMatrixInSkeletonSpace(inSkeleton[j]);
+        storeInCallback(*bone->second, offset, rotation);
     }
 }
 

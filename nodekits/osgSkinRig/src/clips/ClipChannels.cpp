@@ -12,7 +12,7 @@ namespace osgSkin {
 namespace {
 
 /// Calls `add(sample, time)` for each key. The last sample is held for its frame's time: every
-/// sample then has its share of the loop, none lies on the loop's end (where osgAnimation, with the
+/// sample then has its part of the loop, none lies on the loop's end (where osgAnimation, with the
 /// duration as a float, shows the first), and a single sample has a duration too.
 template <typename Add>
 void forEachKey(const Clip& clip, const Add& add) {
@@ -29,7 +29,8 @@ osg::ref_ptr<osgAnimation::Channel> rotationChannel(const Clip& clip, std::size_
     auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
     glm::dquat previous(1.0, 0.0, 0.0, 0.0);
     forEachKey(clip, [&](std::size_t sample, double time) {
-        // q and -q are the same turn; the nearer one makes the interpolation take the short way.
+        // q and -q are the same rotation; the nearer one makes the interpolation take the short
+        // arc.
         glm::dquat q = clip.rotations[sample * clip.joints + joint];
         if (glm::dot(previous, q) < 0.0) q = -q;
         keys->push_back(osgAnimation::QuatKeyframe(time, toOsg(q)));

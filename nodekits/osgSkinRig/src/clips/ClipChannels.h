@@ -10,10 +10,10 @@
 
 namespace osgSkin {
 
-/// A joint's turns as a channel "quaternion", without a target yet.
+/// A joint's rotations as a channel "quaternion", without a target yet.
 osg::ref_ptr<osgAnimation::Channel> rotationChannel(const Clip& clip, std::size_t joint);
 
-/// The root's places as a channel "translate", without a target yet.
+/// The root's positions as a channel "translate", without a target yet.
 osg::ref_ptr<osgAnimation::Channel> rootChannel(const Clip& clip);
 
 } // namespace osgSkin

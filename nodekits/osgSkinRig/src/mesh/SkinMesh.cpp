@@ -2,6 +2,7 @@
 #include <osgSkinRig/SkinMesh>
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmMath>
 
 #include <glm/common.hpp>
 
@@ -14,8 +15,7 @@ void SkinMesh::validate() const {
     if (positions.empty()) throw Error("mesh: no vertex, expected at least 3");
     if (faceSizes.empty()) throw Error("mesh: no face, expected at least one");
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        const glm::dvec3& p = positions[v];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        if (!isFinite(positions[v]))
             throw Error("mesh: vertex " + std::to_string(v) +
                         " has a coordinate that is not finite");
     }

@@ -16,26 +16,26 @@ constexpr double kShortest = 0.1;       // seconds
 
 } // namespace
 
-double standingHeight(const std::vector<glm::dvec3>& places) {
+double standingHeight(const std::vector<glm::dvec3>& positions) {
     std::vector<double> heights;
-    heights.reserve(places.size());
-    for (const glm::dvec3& place : places) heights.push_back(place.y);
+    heights.reserve(positions.size());
+    for (const glm::dvec3& position : positions) heights.push_back(position.y);
     const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
     std::nth_element(heights.begin(), low, heights.end());
     return *low;
 }
 
-std::vector<FootContact> findStances(const std::vector<glm::dvec3>& places, double frameTime,
-                                     double floor, double leg) {
+std::vector<FootContact> findFootContacts(const std::vector<glm::dvec3>& positions,
+                                          double frameTime, double floor, double leg) {
     const auto reach =
         std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kHalfWindow / frameTime)));
-    const std::size_t end = places.size();
+    const std::size_t end = positions.size();
     const auto isPlanted = [&](std::size_t f) {
-        if (places[f].y > floor + kLow * leg) return false;
+        if (positions[f].y > floor + kLow * leg) return false;
         const std::size_t before = f - std::min(f, reach);
         const std::size_t after = std::min(f + reach, end - 1);
         const double seconds = static_cast<double>(after - before) * frameTime;
-        return glm::distance(places[before], places[after]) <= kSlow * leg * seconds;
+        return glm::distance(positions[before], positions[after]) <= kSlow * leg * seconds;
     };
     std::vector<FootContact> result;
     for (std::size_t f = 0; f < end; ++f) {

@@ -2,7 +2,6 @@
 #include "retarget/FootRoll.h"
 
 #include "retarget/Alignment.h"
-#include "retarget/BodyParts.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -12,22 +11,21 @@
 namespace osgSkin {
 namespace {
 
-/// The angle of `turn` about a unit `axis`, -pi..pi: the twist that is left after the swing.
-double rollAbout(const glm::dvec3& axis, const glm::dquat& turn) {
-    const double sine = glm::dot(axis, glm::dvec3(turn.x, turn.y, turn.z));
-    return turn.w < 0.0 ? 2.0 * std::atan2(-sine, -turn.w) : 2.0 * std::atan2(sine, turn.w);
+/// The angle of `rotation` about a unit `axis`, -pi..pi: the twist that is left after the swing.
+double rollAbout(const glm::dvec3& axis, const glm::dquat& rotation) {
+    const double sine = glm::dot(axis, glm::dvec3(rotation.x, rotation.y, rotation.z));
+    return rotation.w < 0.0 ? 2.0 * std::atan2(-sine, -rotation.w)
+                            : 2.0 * std::atan2(sine, rotation.w);
 }
 
 } // namespace
 
-FootRoll::FootRoll(const SkeletonTree& rig, const SkeletonTree& motion,
-                   const std::vector<int>& motionJoint, const std::vector<glm::dquat>& alignment)
-    : _rig(rig), _turnedOver(motionJoint.size(), 0) {
-    const BodyParts parts = findBodyParts(rig);
-    for (const int ankle : parts.ankles) {
+FootRoll::FootRoll(const DrivenRig& body, const std::vector<glm::dquat>& alignment)
+    : _rig(body.rig), _rolledOver(alignment.size(), 0) {
+    for (const int ankle : body.rigParts.ankles) {
         const auto j = static_cast<std::size_t>(ankle);
-        if (motionJoint[j] < 0) continue;
-        const auto bone = findBone(rig, motion, motionJoint, ankle);
+        if (body.driver(ankle) < 0) continue;
+        const auto bone = findBone(body, ankle);
         if (!bone || !(glm::length(bone->motion) > 0.0)) continue;
         _feet.push_back({ankle, glm::conjugate(alignment[j]) * glm::normalize(bone->motion)});
     }
@@ -40,17 +38,17 @@ void FootRoll::straighten(std::vector<glm::dquat>& world) {
         const double roll = rollAbout(foot.length, glm::conjugate(shin) * world[j]);
         const double beyond = std::abs(roll) - glm::half_pi<double>();
         if (!(beyond > 0.0)) continue;
-        ++_turnedOver[j];
+        ++_rolledOver[j];
         const glm::dquat back =
             glm::angleAxis(std::copysign(2.0 * beyond, -roll), world[j] * foot.length);
-        turn(foot.joint, back, world);
+        rotate(foot.joint, back, world);
     }
 }
 
-void FootRoll::turn(int joint, const glm::dquat& by, std::vector<glm::dquat>& world) const {
+void FootRoll::rotate(int joint, const glm::dquat& by, std::vector<glm::dquat>& world) const {
     glm::dquat& own = world[static_cast<std::size_t>(joint)];
     own = glm::normalize(by * own);
-    for (const int child : _rig.children(joint)) turn(child, by, world);
+    for (const int child : _rig.children(joint)) rotate(child, by, world);
 }
 
 } // namespace osgSkin

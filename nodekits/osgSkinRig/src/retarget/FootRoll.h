@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "skeleton/SkeletonTree.h"
+#include "retarget/DrivenRig.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -11,7 +11,7 @@
 
 namespace osgSkin {
 
-/// Turns feet right side up that a motion rolls over.
+/// Rotates feet right side up that a motion rolls over.
 ///
 /// How a foot is rolled about its own length hangs on one or two markers, and some clips have it
 /// upside down for seconds, the toes still pointing where they should. An ankle can't do that, and
@@ -19,28 +19,27 @@ namespace osgSkin {
 /// becomes 80, 180 becomes 0; so nothing jumps, and the toes point where they did.
 class FootRoll {
 public:
-    /// \param motionJoint for each rig joint, the motion joint that drives it, or -1
+    /// \param body the rig and its motion; it must outlive this
     /// \param alignment for each rig joint, from its rest bone to the motion's
-    FootRoll(const SkeletonTree& rig, const SkeletonTree& motion,
-             const std::vector<int>& motionJoint, const std::vector<glm::dquat>& alignment);
+    FootRoll(const DrivenRig& body, const std::vector<glm::dquat>& alignment);
 
-    /// Takes back what the feet roll too far, and turns what hangs on them along.
-    /// \param world turns of the rig's joints from rest, one for each
+    /// Takes back what the feet roll too far, and rotates what hangs on them along.
+    /// \param world rotations of the rig's joints from rest, one for each
     void straighten(std::vector<glm::dquat>& world);
 
-    /// In how many poses a joint was turned over so far; 0 for one that is no foot.
-    std::size_t turnedOver(std::size_t joint) const { return _turnedOver[joint]; }
+    /// In how many poses a joint was rolled over so far; 0 for one that is no foot.
+    std::size_t rolledOver(std::size_t joint) const { return _rolledOver[joint]; }
 
 private:
     struct Foot {
         int joint;
         glm::dvec3 length; ///< unit, at rest: what the motion's foot points along
     };
-    void turn(int joint, const glm::dquat& by, std::vector<glm::dquat>& world) const;
+    void rotate(int joint, const glm::dquat& by, std::vector<glm::dquat>& world) const;
 
     const SkeletonTree& _rig;
     std::vector<Foot> _feet;
-    std::vector<std::size_t> _turnedOver; ///< [joint]
+    std::vector<std::size_t> _rolledOver; ///< [joint]
 };
 
 } // namespace osgSkin

@@ -44,9 +44,9 @@ int byRole(const JointMap& map, std::size_t j) {
     const auto index = static_cast<std::size_t>(
         std::find(ours.begin(), ours.end(), static_cast<int>(j)) - ours.begin());
     if (ours.size() == 1) return theirs.back();
-    const double share = static_cast<double>(index) / static_cast<double>(ours.size() - 1);
+    const double fraction = static_cast<double>(index) / static_cast<double>(ours.size() - 1);
     return theirs[static_cast<std::size_t>(
-        std::lround(share * static_cast<double>(theirs.size() - 1)))];
+        std::lround(fraction * static_cast<double>(theirs.size() - 1)))];
 }
 
 /// The motion joint of the same name, unless it is another part of the body.
@@ -66,8 +66,8 @@ JointMap mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
                    const RetargetOptions& options) {
     checkNames(rig, motion, options.joints);
     JointMap map;
-    map.rig = findRoles(rig, options.names);
-    map.motion = findRoles(motion, options.names);
+    map.rig = recogniseJoints(rig, options.names);
+    map.motion = recogniseJoints(motion, options.names);
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         const std::string& name = rig.joints[j].name;
         const auto named = options.joints.find(name);

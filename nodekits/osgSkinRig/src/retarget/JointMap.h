@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "names/JointRoles.h"
-
+#include <osgSkinRig/JointRoles>
 #include <osgSkinRig/RestSkeleton>
 #include <osgSkinRig/Retarget>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "retarget/MeasureFeet.h"
 
-#include "retarget/BodyParts.h"
 #include "retarget/FootContacts.h"
 
 #include <glm/geometric.hpp>
@@ -24,34 +23,31 @@ double legLength(const SkeletonTree& tree, const BodyParts& parts, int ankle) {
     return length;
 }
 
-/// How far `places` get, along the floor, from where they are at the stance's begin.
-double sliding(const std::vector<glm::dvec3>& places, const FootContact& stance) {
+/// How far `positions` get, along the floor, from where they are when the contact begins.
+double sliding(const std::vector<glm::dvec3>& positions, const FootContact& contact) {
     double result = 0.0;
-    for (std::size_t f = stance.first; f <= stance.last; ++f) {
-        const glm::dvec3 way = places[f] - places[stance.first];
-        result = std::max(result, std::hypot(way.x, way.z));
+    for (std::size_t f = contact.first; f <= contact.last; ++f) {
+        const glm::dvec3 moved = positions[f] - positions[contact.first];
+        result = std::max(result, std::hypot(moved.x, moved.z));
     }
     return result;
 }
 
 } // namespace
 
-MeasureFeet::MeasureFeet(const SkeletonTree& rig, const SkeletonTree& motion,
-                         const std::vector<int>& motionJoint)
-    : _rig(rig), _motion(motion) {
-    const BodyParts parts = findBodyParts(rig), motionParts = findBodyParts(motion);
-    const auto driver = [&](int j) { return motionJoint[static_cast<std::size_t>(j)]; };
-    for (const int ankle : parts.ankles) {
-        if (driver(ankle) < 0) continue;
+MeasureFeet::MeasureFeet(const DrivenRig& body) : _body(body) {
+    for (const int ankle : body.rigParts.ankles) {
+        const int driver = body.driver(ankle);
+        if (driver < 0) continue;
         Foot foot{ankle,
-                  driver(ankle),
-                  legLength(rig, parts, ankle),
-                  legLength(motion, motionParts, driver(ankle)),
+                  driver,
+                  legLength(body.rig, body.rigParts, ankle),
+                  legLength(body.motion, body.motionParts, driver),
                   {glm::dvec3(0.0), glm::dvec3(0.0)},
                   {},
                   {}};
         if (!(foot.rigLeg > 0.0) || !(foot.motionLeg > 0.0)) continue;
-        if (const auto ball = findBone(rig, motion, motionJoint, ankle)) foot.ball = *ball;
+        if (const auto ball = findBone(body, ankle)) foot.ball = *ball;
         _feet.push_back(foot);
     }
 }
@@ -59,7 +55,7 @@ MeasureFeet::MeasureFeet(const SkeletonTree& rig, const SkeletonTree& motion,
 void MeasureFeet::add(const Posed& rig, const Posed& motion) {
     const auto end = [](const Posed& posed, int joint, const glm::dvec3& bone) {
         const auto j = static_cast<std::size_t>(joint);
-        return posed.places[j] + posed.world[j] * bone;
+        return posed.positions[j] + posed.world[j] * bone;
     };
     for (Foot& foot : _feet) {
         foot.rig.push_back(end(rig, foot.rigJoint, foot.ball.rig));
@@ -73,25 +69,25 @@ std::vector<FootSkate> MeasureFeet::finish(double frameTime, double scale) const
     std::vector<FootSkate> result;
     for (const Foot& foot : _feet) {
         FootSkate record;
-        record.rigJoint = _rig.joint(foot.rigJoint).name;
-        record.motionJoint = _motion.joint(foot.motionJoint).name;
+        record.rigJoint = _body.rig.joint(foot.rigJoint).name;
+        record.motionJoint = _body.motion.joint(foot.motionJoint).name;
         record.leg = foot.rigLeg;
-        for (const FootContact& stance :
-             findStances(foot.motion, frameTime, floor, foot.motionLeg)) {
-            const double rig = sliding(foot.rig, stance);
-            const double actor = scale * sliding(foot.motion, stance);
-            if (record.stances++ == 0 || rig > record.worst) {
+        for (const FootContact& contact :
+             findFootContacts(foot.motion, frameTime, floor, foot.motionLeg)) {
+            const double rig = sliding(foot.rig, contact);
+            const double actor = scale * sliding(foot.motion, contact);
+            if (record.contacts++ == 0 || rig > record.worst) {
                 record.worst = rig;
-                record.worstFrame = stance.first;
+                record.worstFrame = contact.first;
             }
             record.actorWorst = std::max(record.actorWorst, actor);
             record.mean += rig;
             record.actorMean += actor;
-            record.frames += stance.last - stance.first + 1;
+            record.frames += contact.last - contact.first + 1;
         }
-        if (record.stances > 0) {
-            record.mean /= static_cast<double>(record.stances);
-            record.actorMean /= static_cast<double>(record.stances);
+        if (record.contacts > 0) {
+            record.mean /= static_cast<double>(record.contacts);
+            record.actorMean /= static_cast<double>(record.contacts);
         }
         result.push_back(record);
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "retarget/Alignment.h"
-#include "skeleton/SkeletonTree.h"
+#include "retarget/DrivenRig.h"
 
 #include <osgSkinRig/FootSkate>
 
@@ -15,22 +15,25 @@ namespace osgSkin {
 
 /// Puts on record how far the rig's feet slide where the actor's own are planted.
 ///
-/// Both skeletons stand with +y up. Feet are told by the rig's shape: the leg joints near the floor
+/// Feet are told by the rig's shape: the leg joints near the floor
 /// that the motion drives.
 class MeasureFeet {
 public:
-    /// \param motionJoint for each rig joint, the motion joint that drives it, or -1
-    MeasureFeet(const SkeletonTree& rig, const SkeletonTree& motion,
-                const std::vector<int>& motionJoint);
+    /// \param body the rig and its motion; it must outlive this
+    explicit MeasureFeet(const DrivenRig& body);
 
-    /// Where all joints of a skeleton are in a sample, and how they are turned from the zero pose.
+    /// Where all joints of a skeleton are in a sample, and their rotations from the zero pose.
     struct Posed {
-        const std::vector<glm::dvec3>& places;
+        const std::vector<glm::dvec3>& positions;
         const std::vector<glm::dquat>& world;
     };
+
+    /// Adds a sample.
     void add(const Posed& rig, const Posed& motion);
 
-    /// \param scale of the root's way
+    /// What the samples show.
+    /// \param frameTime seconds between samples
+    /// \param scale of the root motion
     std::vector<FootSkate> finish(double frameTime, double scale) const;
 
 private:
@@ -38,11 +41,10 @@ private:
         int rigJoint, motionJoint;
         double rigLeg, motionLeg;
         BonePair ball;                       ///< from the ankle, at rest
-        std::vector<glm::dvec3> rig, motion; ///< places, [frame]
+        std::vector<glm::dvec3> rig, motion; ///< positions, [frame]
     };
 
-    const SkeletonTree& _rig;
-    const SkeletonTree& _motion;
+    const DrivenRig& _body;
     std::vector<Foot> _feet;
 };
 

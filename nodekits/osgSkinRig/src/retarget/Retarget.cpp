@@ -2,6 +2,7 @@
 #include <osgSkinRig/Retarget>
 
 #include "retarget/Alignment.h"
+#include "retarget/DrivenRig.h"
 #include "retarget/FootRoll.h"
 #include "retarget/JointMap.h"
 #include "retarget/MeasureFeet.h"
@@ -9,6 +10,9 @@
 #include "retarget/RootMotion.h"
 #include "retarget/UprightFrames.h"
 #include "skeleton/SkeletonTree.h"
+
+#include <osgSkin/GlmMath>
+#include <osgSkinRig/ForwardKinematics>
 
 #include <glm/trigonometric.hpp>
 
@@ -42,9 +46,9 @@ void fillReport(RetargetReport& report, const Motion& motion, const RestSkeleton
 }
 
 /// World orientations of the rig's joints from the motion's.
-void turnRig(const RestSkeleton& rig, const std::vector<int>& motionJoint,
-             const std::vector<glm::dquat>& alignment, const std::vector<glm::dquat>& motionWorld,
-             std::vector<glm::dquat>& world) {
+void driveRig(const RestSkeleton& rig, const std::vector<int>& motionJoint,
+              const std::vector<glm::dquat>& alignment, const std::vector<glm::dquat>& motionWorld,
+              std::vector<glm::dquat>& world) {
     world.resize(rig.joints.size());
     for (std::size_t j = 0; j < world.size(); ++j) {
         const int parent = rig.joints[j].parent;
@@ -56,10 +60,10 @@ void turnRig(const RestSkeleton& rig, const std::vector<int>& motionJoint,
     }
 }
 
-/// The turns as they are in the space that `back` leads to.
-void turnSpace(const glm::dquat& back, std::vector<glm::dquat>& turns) {
+/// The rotations as they are in the space that `back` leads to.
+void changeSpace(const glm::dquat& back, std::vector<glm::dquat>& rotations) {
     if (isIdentity(back)) return; // to the last bit
-    for (glm::dquat& turn : turns) turn = glm::normalize(back * turn * glm::conjugate(back));
+    for (glm::dquat& q : rotations) q = glm::normalize(back * q * glm::conjugate(back));
 }
 
 void addLocal(const RestSkeleton& rig, const std::vector<glm::dquat>& world, Clip& clip) {
@@ -79,14 +83,13 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     motion.skeleton.validate();
     const JointMap map = mapJoints(rig, motion.skeleton, options);
     const std::vector<int>& motionJoint = map.motionJoint;
-    const UprightFrames bearing =
-        findBearing(SkeletonTree(rig), SkeletonTree(motion.skeleton), map);
-    const RestSkeleton uprightRig = turned(rig, bearing.rigUpright);
-    const RestSkeleton uprightMotion = turned(motion.skeleton, bearing.motionUpright);
-    const SkeletonTree rigTree(uprightRig);
-    const SkeletonTree motionTree(uprightMotion);
-    const std::vector<glm::dquat> alignment = alignBones(rigTree, motionTree, motionJoint);
-    const glm::dquat back = glm::conjugate(bearing.rigUpright);
+    const UprightFrames frames =
+        findUprightFrames(SkeletonTree(rig), SkeletonTree(motion.skeleton), map);
+    const RestSkeleton uprightRig = rotated(rig, frames.rigUpright);
+    const RestSkeleton uprightMotion = rotated(motion.skeleton, frames.motionUpright);
+    const DrivenRig body(uprightRig, uprightMotion, map);
+    const std::vector<glm::dquat> alignment = alignBones(body);
+    const glm::dquat back = glm::conjugate(frames.rigUpright);
 
     Clip clip;
     clip.name = motion.name;
@@ -95,33 +98,33 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     clip.joints = rig.joints.size();
     clip.rotations.reserve(clip.frames * clip.joints);
 
-    FootRoll feetRoll(rigTree, motionTree, motionJoint, alignment);
-    RootMotion root(rigTree, motionTree, motionJoint);
-    MeasureFeet feet(rigTree, motionTree, motionJoint);
+    FootRoll feetRoll(body, alignment);
+    RootMotion root(body);
+    MeasureFeet feet(body);
     std::vector<glm::dquat> motionWorld;
     std::vector<glm::dquat> world;
     for (std::size_t f = 0; f < motion.frames; ++f) {
         worldRotations(motion.skeleton, &motion.rotation(f, 0), motionWorld);
-        turnSpace(bearing.motionUpright, motionWorld);
-        turnRig(rig, motionJoint, alignment, motionWorld, world);
+        changeSpace(frames.motionUpright, motionWorld);
+        driveRig(rig, motionJoint, alignment, motionWorld, world);
         feetRoll.straighten(world);
-        root.add(bearing.motionUpright * motion.rootPositions[f], motionWorld, world);
-        feet.add({root.rigPlaces(), world}, {root.motionPlaces(), motionWorld});
-        turnSpace(back, world);
+        root.add(frames.motionUpright * motion.rootPositions[f], motionWorld, world);
+        feet.add({root.rigPositions(), world}, {root.motionPositions(), motionWorld});
+        changeSpace(back, world);
         addLocal(rig, world, clip);
     }
     clip.rootPositions = root.finish();
-    for (glm::dvec3& place : clip.rootPositions) place = back * place;
+    for (glm::dvec3& position : clip.rootPositions) position = back * position;
 
     if (report != nullptr) {
         fillReport(*report, motion, rig, motionJoint, alignment);
         for (std::size_t j = 0; j < clip.joints; ++j)
-            report->entries[j].turnedOver = feetRoll.turnedOver(j);
+            report->entries[j].rolledOver = feetRoll.rolledOver(j);
         report->notes = notesOf(map, rig, motion.skeleton, options);
         report->rigNames = map.rig.family;
         report->motionNames = map.motion.family;
         report->scale = root.scale();
-        report->turn = back * bearing.motionUpright;
+        report->rotation = back * frames.motionUpright;
         report->offset = back * root.offset();
         report->feet = feet.finish(motion.frameTime, root.scale());
     }

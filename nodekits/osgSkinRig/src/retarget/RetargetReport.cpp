@@ -13,11 +13,11 @@ std::string RetargetReport::text() const {
     std::ostringstream out;
     out << "names: rig " << (rigNames.empty() ? "of no known family" : rigNames) << ", motion "
         << (motionNames.empty() ? "of no known family" : motionNames) << "\n"
-        << std::setprecision(4) << "way scaled by " << scale;
-    const double degrees = glm::degrees(glm::angle(turn.w < 0.0 ? -turn : turn));
+        << std::setprecision(4) << "root motion scaled by " << scale;
+    const double degrees = glm::degrees(glm::angle(rotation.w < 0.0 ? -rotation : rotation));
     if (degrees > 1e-6) {
-        const glm::dvec3 axis = glm::axis(turn.w < 0.0 ? -turn : turn);
-        out << ", turned by " << degrees << " degrees about " << axis.x << " " << axis.y << " "
+        const glm::dvec3 axis = glm::axis(rotation.w < 0.0 ? -rotation : rotation);
+        out << ", rotated by " << degrees << " degrees about " << axis.x << " " << axis.y << " "
             << axis.z;
     }
     out << "\n";
@@ -28,8 +28,8 @@ std::string RetargetReport::text() const {
             out << "at rest";
         else
             out << entry.motionJoint << ", aligned by " << entry.alignmentDegrees << " degrees";
-        if (entry.turnedOver > 0)
-            out << ", upside down in " << entry.turnedOver << " samples: turned back";
+        if (entry.rolledOver > 0)
+            out << ", upside down in " << entry.rolledOver << " samples: rolled back";
         out << "\n";
     }
     for (const std::string& joint : unusedMotionJoints) out << "not used: " << joint << "\n";
@@ -41,21 +41,21 @@ std::string RetargetReport::feetText() const {
     out << std::fixed;
     for (const FootSkate& foot : feet) {
         out << "foot " << foot.rigJoint << ": ";
-        const auto share = [&](double length) {
+        const auto percent = [&](double length) {
             out << std::setprecision(1) << 100.0 * length / foot.leg << " %";
         };
-        if (foot.stances == 0) {
+        if (foot.contacts == 0) {
             out << "never planted\n";
             continue;
         }
-        out << foot.stances << (foot.stances == 1 ? " stance" : " stances") << ", slides by ";
-        share(foot.mean);
+        out << foot.contacts << (foot.contacts == 1 ? " contact" : " contacts") << ", slides by ";
+        percent(foot.mean);
         out << " of the leg in the mean, ";
-        share(foot.worst);
+        percent(foot.worst);
         out << " at worst (from frame " << foot.worstFrame << "); the actor's own: ";
-        share(foot.actorMean);
+        percent(foot.actorMean);
         out << ", ";
-        share(foot.actorWorst);
+        percent(foot.actorWorst);
         out << "\n";
     }
     return out.str();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "retarget/UprightFrames.h"
 
-#include "retarget/Alignment.h"
+#include <osgSkin/GlmMath>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -26,14 +26,14 @@ public:
 
     /// From one part of the body to another, of those that are there on this side; zero where not.
     glm::dvec3 bone(const std::string& from, const std::string& to) const {
-        const std::optional<glm::dvec3> a = place(from), b = place(to);
+        const std::optional<glm::dvec3> a = centre(from), b = centre(to);
         return a && b ? *b - *a : glm::dvec3(0.0);
     }
 
     double reach() const { return _tree.reach(); }
 
 private:
-    std::optional<glm::dvec3> place(const std::string& role) const {
+    std::optional<glm::dvec3> centre(const std::string& role) const {
         for (std::size_t j = 0; j < _roles.size(); ++j)
             if (_roles[j] == role) return _tree.centre(static_cast<int>(j));
         return std::nullopt;
@@ -43,7 +43,7 @@ private:
     const std::vector<std::string>& _roles;
 };
 
-glm::dquat uprightTurn(const Body& body) {
+glm::dquat uprightRotation(const Body& body) {
     glm::dvec3 up(0.0);
     for (const std::string side : {"Left", "Right"})
         up += body.bone(side + "LowerLeg", side + "UpperLeg");
@@ -54,7 +54,7 @@ glm::dquat uprightTurn(const Body& body) {
         return {1.0, 0.0, 0.0, 0.0};
     glm::dvec3 along(0.0);
     along[axis] = up[axis] > 0.0 ? 1.0 : -1.0;
-    return shortestTurn(along, {0.0, 1.0, 0.0});
+    return shortestRotation(along, {0.0, 1.0, 0.0});
 }
 
 /// The heading of the body's left side, counted about +y from +x, once it stands upright.
@@ -88,8 +88,8 @@ std::vector<int> inverse(const std::vector<int>& motionJoint, std::size_t motion
 
 } // namespace
 
-UprightFrames findBearing(const SkeletonTree& rig, const SkeletonTree& motion,
-                          const JointMap& map) {
+UprightFrames findUprightFrames(const SkeletonTree& rig, const SkeletonTree& motion,
+                                const JointMap& map) {
     std::vector<std::string> rigRoles = map.rig.roles, motionRoles = map.motion.roles;
     if (!map.rig.known()) rigRoles = completed(rigRoles, map.motionJoint, motionRoles);
     if (!map.motion.known())
@@ -97,8 +97,8 @@ UprightFrames findBearing(const SkeletonTree& rig, const SkeletonTree& motion,
             completed(motionRoles, inverse(map.motionJoint, motionRoles.size()), rigRoles);
     const Body ours(rig, rigRoles), theirs(motion, motionRoles);
     UprightFrames result;
-    result.rigUpright = uprightTurn(ours);
-    result.motionUpright = uprightTurn(theirs);
+    result.rigUpright = uprightRotation(ours);
+    result.motionUpright = uprightRotation(theirs);
     const std::optional<double> to = heading(ours, result.rigUpright);
     const std::optional<double> from = heading(theirs, result.motionUpright);
     if (!to || !from) return result;
@@ -113,18 +113,14 @@ UprightFrames findBearing(const SkeletonTree& rig, const SkeletonTree& motion,
     return result;
 }
 
-RestSkeleton turned(const RestSkeleton& skeleton, const glm::dquat& turn) {
+RestSkeleton rotated(const RestSkeleton& skeleton, const glm::dquat& rotation) {
     RestSkeleton result = skeleton;
-    if (isIdentity(turn)) return result; // to the last bit
+    if (isIdentity(rotation)) return result; // to the last bit
     for (RestJoint& joint : result.joints) {
-        joint.centre = turn * joint.centre;
-        if (joint.tip) joint.tip = turn * *joint.tip;
+        joint.centre = rotation * joint.centre;
+        if (joint.tip) joint.tip = rotation * *joint.tip;
     }
     return result;
-}
-
-bool isIdentity(const glm::dquat& turn) {
-    return turn == glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
 } // namespace osgSkin

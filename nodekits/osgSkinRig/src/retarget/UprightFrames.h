@@ -20,11 +20,11 @@ struct UprightFrames {
     glm::dquat motionUpright{1.0, 0.0, 0.0, 0.0};
 };
 
-UprightFrames findBearing(const SkeletonTree& rig, const SkeletonTree& motion, const JointMap& map);
+/// Finds them. A skeleton without roles of its own has those of the joints that it is mapped to.
+UprightFrames findUprightFrames(const SkeletonTree& rig, const SkeletonTree& motion,
+                                const JointMap& map);
 
-/// The skeleton in a space that `turn` takes its own to.
-RestSkeleton turned(const RestSkeleton& skeleton, const glm::dquat& turn);
-
-bool isIdentity(const glm::dquat& turn);
+/// The skeleton in a space that `rotation` takes its own to.
+RestSkeleton rotated(const RestSkeleton& skeleton, const glm::dquat& rotation);
 
 } // namespace osgSkin

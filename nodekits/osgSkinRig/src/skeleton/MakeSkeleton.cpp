@@ -32,10 +32,10 @@ osg::ref_ptr<osgAnimation::Skeleton> makeSkeleton(const RestSkeleton& rig) {
         bone->setUpdateCallback(update);
 
         // The rest pose holds before the first update too.
-        const osg::Matrixd place = osg::Matrixd::translate(toOsg(joint.centre));
+        const osg::Matrixd toSkeleton = osg::Matrixd::translate(toOsg(joint.centre));
         bone->setMatrix(osg::Matrixd::translate(toOsg(offset)));
-        bone->setMatrixInSkeletonSpace(place);
-        bone->setInvBindMatrixInSkeletonSpace(osg::Matrixd::inverse(place));
+        bone->setMatrixInSkeletonSpace(toSkeleton);
+        bone->setInvBindMatrixInSkeletonSpace(osg::Matrixd::inverse(toSkeleton));
 
         osg::Group* above = skeleton.get();
         if (joint.parent >= 0) above = bones[parent];

@@ -20,30 +20,30 @@ public:
     struct Entry {
         const osgAnimation::Bone* bone;
         int parent;
-        osg::Matrixd place; ///< in skeleton space, as the transforms are now
+        osg::Matrixd toSkeleton; ///< from the bone, as the transforms are now
     };
     std::vector<Entry> bones;
 
     void apply(osg::Transform& node) override {
         if (depth > 0 && dynamic_cast<osgAnimation::Skeleton*>(&node) != nullptr) return; // another
-        const osg::Matrixd outer = place;
+        const osg::Matrixd outer = toSkeleton;
         const int above = parent;
-        if (depth > 0) node.computeLocalToWorldMatrix(place, this);
+        if (depth > 0) node.computeLocalToWorldMatrix(toSkeleton, this);
         if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) {
-            bones.push_back({bone, parent, place});
+            bones.push_back({bone, parent, toSkeleton});
             parent = static_cast<int>(bones.size()) - 1;
         }
         ++depth;
         traverse(node);
         --depth;
         parent = above;
-        place = outer;
+        toSkeleton = outer;
     }
 
 private:
     int depth = 0;
     int parent = -1;
-    osg::Matrixd place;
+    osg::Matrixd toSkeleton;
 };
 
 glm::dvec3 boundCentre(const osgAnimation::Bone& bone) {
@@ -73,7 +73,7 @@ RestSkeleton readSkeleton(const osgAnimation::Skeleton& skeleton) {
     const int shift = static_cast<int>(result.joints.size());
     for (const BoneLister::Entry& entry : lister.bones) {
         const glm::dvec3 centre =
-            bound ? boundCentre(*entry.bone) : toGlm(osg::Vec3d(entry.place.getTrans()));
+            bound ? boundCentre(*entry.bone) : toGlm(osg::Vec3d(entry.toSkeleton.getTrans()));
         const int parent = entry.parent < 0 ? shift - 1 : entry.parent + shift;
         result.joints.push_back({entry.bone->getName(), parent, centre, {}});
     }

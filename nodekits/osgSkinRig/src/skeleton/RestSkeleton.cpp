@@ -2,11 +2,21 @@
 #include <osgSkinRig/RestSkeleton>
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmMath>
+#include <osgSkin/GlmOsg>
 
-#include <cmath>
 #include <set>
 
 namespace osgSkin {
+
+int RestSkeleton::add(const std::string& name, int parent, const glm::dvec3& centre) {
+    joints.push_back({name, parent, centre, {}});
+    return static_cast<int>(joints.size()) - 1;
+}
+
+int RestSkeleton::add(const std::string& name, int parent, const osg::Vec3d& centre) {
+    return add(name, parent, toGlm(centre));
+}
 
 int RestSkeleton::find(const std::string& name) const {
     for (std::size_t j = 0; j < joints.size(); ++j)
@@ -31,18 +41,16 @@ void RestSkeleton::validate() const {
     std::set<std::string> names;
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const RestJoint& joint = joints[j];
-        const std::string place =
+        const std::string label =
             "skeleton: joint " + std::to_string(j) + " \"" + joint.name + "\"";
         if (j == 0 && joint.parent != -1)
-            throw Error(place + " comes first but has a parent, expected the root");
+            throw Error(label + " comes first but has a parent, expected the root");
         if (j > 0 && (joint.parent < 0 || joint.parent >= static_cast<int>(j)))
-            throw Error(place + " has parent " + std::to_string(joint.parent) +
+            throw Error(label + " has parent " + std::to_string(joint.parent) +
                         ", expected one of the joints before it (one root, no cycle)");
         if (!names.insert(joint.name).second)
-            throw Error(place + " has the name of another joint, expected unique names");
-        const glm::dvec3& c = joint.centre;
-        if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z))
-            throw Error(place + " has a centre that is not finite");
+            throw Error(label + " has the name of another joint, expected unique names");
+        if (!isFinite(joint.centre)) throw Error(label + " has a centre that is not finite");
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include <osgSkinRig/RestSkeleton>
 
-#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -29,13 +29,5 @@ private:
     std::vector<std::vector<int>> _children;
     double _reach = 0.0;
 };
-
-/// World orientations of all joints from their local turns; `local` holds one for each joint.
-void worldRotations(const RestSkeleton& skeleton, const glm::dquat* local,
-                    std::vector<glm::dquat>& world);
-
-/// Places of all joints from their world orientations and the root's place.
-void worldPositions(const RestSkeleton& skeleton, const std::vector<glm::dquat>& world,
-                    const glm::dvec3& root, std::vector<glm::dvec3>& positions);
 
 } // namespace osgSkin

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/surface/Section.h"
 
+#include <osgSkin/GlmMath>
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -13,8 +15,7 @@ namespace {
 
 /// Any two unit vectors that complete a unit normal to a frame.
 std::pair<glm::dvec3, glm::dvec3> planeAxes(const glm::dvec3& normal) {
-    const glm::dvec3 helper = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 u = glm::normalize(glm::cross(normal, helper));
+    const glm::dvec3 u = anyPerpendicular(normal);
     return {u, glm::cross(normal, u)};
 }
 

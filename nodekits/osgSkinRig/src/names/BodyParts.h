@@ -3,13 +3,14 @@
 
 #include "skeleton/SkeletonTree.h"
 
-#include <string>
+#include <osgSkinRig/JointRoles>
+
 #include <vector>
 
 namespace osgSkin {
 
 /// Which joints belong to the trunk (hips, spine, collar bones, neck, head and what hangs on it)
-/// and which to a limb, told by the tree's shape first and by names second.
+/// and which to a limb, told by what the joints are recognised as and by the tree's shape.
 struct BodyParts {
     std::vector<bool> isLimb; ///< [joint]
 
@@ -24,9 +25,7 @@ struct BodyParts {
     double lowest = 0.0;
 };
 
-BodyParts findBodyParts(const SkeletonTree& tree);
-
-/// Whether `name` contains `part`, letters' case ignored; `part` in lower case.
-bool nameContains(const std::string& name, const char* part);
+/// \param roles of the tree's joints
+BodyParts findBodyParts(const SkeletonTree& tree, const JointRoles& roles);
 
 } // namespace osgSkin

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "retarget/BodyParts.h"
+#include "names/BodyParts.h"
+
+#include "names/NameWords.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 
 namespace osgSkin {
@@ -18,38 +19,31 @@ double top(const RestJoint& joint) {
     return joint.tip ? std::max(joint.centre.y, joint.tip->y) : joint.centre.y;
 }
 
-/// The joint called head, or the highest one in a skeleton without such a name.
-int headOf(const SkeletonTree& tree) {
-    int highest = 0;
+/// The head, a joint whose name has a head in it, or the highest one in a skeleton without either.
+int headOf(const SkeletonTree& tree, const JointRoles& roles) {
+    int named = -1, highest = 0;
     for (int j = 0; j < tree.size(); ++j) {
+        if (roles.is(static_cast<std::size_t>(j), JointPart::Head)) return j;
         const std::string& name = tree.joint(j).name;
-        if (nameContains(name, "head") && !nameContains(name, "forehead")) return j;
+        if (named < 0 && nameContains(name, "head") && !nameContains(name, "forehead")) named = j;
         if (top(tree.joint(j)) > top(tree.joint(highest))) highest = j;
     }
-    return highest;
+    return named >= 0 ? named : highest;
 }
 
 /// Whether a child of the trunk only leads to a limb: a collar bone or the inside of a hip.
-bool isGirdle(const SkeletonTree& tree, int j) {
-    const std::string& name = tree.joint(j).name;
-    for (const char* word : {"collar", "clavicle", "hipjoint", "buttock"})
-        if (nameContains(name, word)) return true;
-    const std::vector<int>& children = tree.children(j);
-    if (children.size() != 1) return false;
-    // A shoulder is the collar bone in some dialects and the upper arm in others.
-    const std::string& child = tree.joint(children[0]).name;
-    if (nameContains(name, "shoulder"))
-        return (nameContains(child, "arm") && !nameContains(child, "fore") &&
-                !nameContains(child, "lower")) ||
-               nameContains(child, "shldr");
-    // A joint in its parent's place has no bone of its own to align.
+bool isGirdle(const SkeletonTree& tree, const JointRoles& roles, int j) {
+    const JointPart part = roles.parts[static_cast<std::size_t>(j)];
+    if (part == JointPart::Collar || part == JointPart::HipJoint) return true;
+    if (part == JointPart::UpperArm || tree.children(j).size() != 1) return false;
+    // A joint where its parent is has no bone of its own to align.
     return glm::distance(tree.centre(j), tree.centre(tree.joint(j).parent)) < 1e-6 * tree.reach();
 }
 
-std::vector<bool> findLimbs(const SkeletonTree& tree) {
+std::vector<bool> findLimbs(const SkeletonTree& tree, const JointRoles& roles) {
     const auto count = static_cast<std::size_t>(tree.size());
     std::vector<bool> isTrunk(count, false);
-    const int head = headOf(tree);
+    const int head = headOf(tree, roles);
     for (int j = head; j >= 0; j = tree.joint(j).parent)
         isTrunk[static_cast<std::size_t>(j)] = true;
     std::vector<bool> isLimb(count, false);
@@ -58,22 +52,17 @@ std::vector<bool> findLimbs(const SkeletonTree& tree) {
         if (isTrunk[index]) continue;
         const auto parent = static_cast<std::size_t>(tree.joint(j).parent);
         const bool onHead = tree.rest().isInSubtree(j, head);
-        isLimb[index] = !onHead && (isLimb[parent] || !isTrunk[parent] || !isGirdle(tree, j));
+        isLimb[index] =
+            !onHead && (isLimb[parent] || !isTrunk[parent] || !isGirdle(tree, roles, j));
     }
     return isLimb;
 }
 
 } // namespace
 
-bool nameContains(const std::string& name, const char* part) {
-    std::string lower = name;
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return lower.find(part) != std::string::npos;
-}
-
-BodyParts findBodyParts(const SkeletonTree& tree) {
+BodyParts findBodyParts(const SkeletonTree& tree, const JointRoles& roles) {
     BodyParts result;
-    result.isLimb = findLimbs(tree);
+    result.isLimb = findLimbs(tree, roles);
 
     const auto isLimb = [&](int j) { return bool(result.isLimb[static_cast<std::size_t>(j)]); };
     const bool hasLimbs =

@@ -12,16 +12,16 @@
 namespace osgSkin {
 namespace {
 
-/// The prop's way in skeleton space, as a clip of one joint.
-Clip makeWay(const Motion& way, const RetargetReport& report) {
+/// The prop's motion in skeleton space, as a clip of one joint.
+Clip inSkeletonSpace(const Motion& motion, const RetargetReport& report) {
     Clip clip;
-    clip.frameTime = way.frameTime;
-    clip.frames = way.frames;
+    clip.frameTime = motion.frameTime;
+    clip.frames = motion.frames;
     clip.joints = 1;
-    for (std::size_t frame = 0; frame < way.frames; ++frame) {
-        clip.rotations.push_back(report.turn * way.rotation(frame, 0));
-        clip.rootPositions.push_back(report.scale * (report.turn * way.rootPositions[frame]) +
-                                     report.offset);
+    for (std::size_t frame = 0; frame < motion.frames; ++frame) {
+        clip.rotations.push_back(report.rotation * motion.rotation(frame, 0));
+        clip.rootPositions.push_back(
+            report.scale * (report.rotation * motion.rootPositions[frame]) + report.offset);
     }
     return clip;
 }
@@ -29,8 +29,8 @@ Clip makeWay(const Motion& way, const RetargetReport& report) {
 } // namespace
 
 osg::ref_ptr<osg::MatrixTransform> makeProp(const std::string& name,
-                                            const std::vector<MeshPart>& parts, const Motion& way,
-                                            const RetargetReport& report,
+                                            const std::vector<MeshPart>& parts,
+                                            const Motion& motion, const RetargetReport& report,
                                             osgAnimation::Animation& animation) {
     osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
     node->setName(name);
@@ -44,7 +44,7 @@ osg::ref_ptr<osg::MatrixTransform> makeProp(const std::string& name,
     node->setUpdateCallback(update);
     for (const MeshPart& part : parts) node->addChild(part.geometry);
 
-    const Clip clip = makeWay(way, report);
+    const Clip clip = inSkeletonSpace(motion, report);
     if (clip.frames > 0) // where it is before the first update
         node->setMatrix(osg::Matrix::rotate(toOsg(clip.rotations[0])) *
                         osg::Matrix::translate(toOsg(clip.rootPositions[0])));
