@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "BoundSkin.h"
+#include "correctives/CorrectiveReach.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -72,9 +73,10 @@ public:
         skin.runs.push_back({static_cast<std::uint32_t>(first),
                              static_cast<std::uint32_t>(patches.size()),
                              static_cast<std::uint32_t>(skin.joints.size()),
-                             static_cast<std::uint32_t>(_joints.size()), skin.slack.size()});
+                             static_cast<std::uint32_t>(_joints.size()), skin.slack.size(), 0, 0});
         skin.joints.insert(skin.joints.end(), _joints.begin(), _joints.end());
         for (std::size_t k = 0; k < _joints.size(); ++k) addSlack(patches, k, skin);
+        if (_model.correctives()) addCorrectiveReach(*_model.correctives(), patches, skin);
     }
 
 private:

@@ -4,8 +4,11 @@
 #include "Chain.h"
 #include "DeformKernel.h"
 #include "KernelChain.h"
+#include "correctives/KernelCorrections.h"
+#include "correctives/ReferenceCorrections.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace osgSkin {
 namespace {
@@ -33,6 +36,9 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
     const std::size_t endVertex = firstVertexOf(model, end);
     KernelChain chain(model, *job.pose);
     KernelCall call;
+    call.correctionCount = 0;
+    std::optional<KernelCorrections> corrections;
+    if (model.correctives()) corrections.emplace(model, *job.pose);
     for (std::size_t g = groupOf(blocks, first); blocks.firstBlock[g] < end; ++g) {
         const SkinModel::Group& group = model.groups()[g];
         const std::size_t from = std::max(first, blocks.firstBlock[g]) - blocks.firstBlock[g];
@@ -40,6 +46,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
         const std::size_t vertex = group.firstVertex + from * kBlock;
         const std::size_t out = blocks.inOrder ? vertex : 0;
         chain.prepare(group, call);
+        if (corrections) corrections->prepare(g, from, call);
         call.rows =
             &blocks.rows[blocks.firstRow[g] + from * SkinBlocks::rowsPerBlock(group.partialCount)];
         call.vertexCount = std::min<std::size_t>(group.vertexCount, to * kBlock) - from * kBlock;
@@ -91,7 +98,10 @@ void DeformJob::runPart(std::size_t part) const noexcept {
 
 bool DeformJob::runReference() const noexcept {
     if (validate()) return false;
-    for (const SkinModel::Group& group : model->groups()) {
+    std::optional<ReferenceCorrections> corrections;
+    if (model->correctives()) corrections.emplace(*model, *pose);
+    for (std::size_t g = 0; g < model->groups().size(); ++g) {
+        const SkinModel::Group& group = model->groups()[g];
         const Chain chain(*model, group, *pose);
         const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;
         const std::uint32_t* order = model->order().data() + group.firstVertex;
@@ -99,6 +109,7 @@ bool DeformJob::runReference() const noexcept {
             const std::uint32_t v = order[i];
             glm::vec3 position = model->positions()[v];
             glm::vec3 normal = model->normals()[v];
+            if (corrections) corrections->apply(g, i, position);
             const glm::vec4 rest = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
             glm::vec3 tangent(rest);
             chain.apply(ratios, position, normals ? &normal : nullptr,

@@ -14,6 +14,7 @@
 #include "KernelPasses-inl.h"
 #include "KernelStore-inl.h"
 #include "KernelTurns-inl.h"
+#include "correctives/KernelCorrect-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
@@ -37,6 +38,7 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
                              const float* HWY_RESTRICT tangentRows) {
     const D d;
     V x = hn::Load(d, rows), y = hn::Load(d, rows + kBlock), z = hn::Load(d, rows + 2 * kBlock);
+    if (HWY_UNLIKELY(call.correctionCount > 0)) correct(call, first, x, y, z);
     V nx = hn::Zero(d), ny = nx, nz = nx, tx = nx, ty = nx, tz = nx;
     if (kNormals) {
         nx = hn::Load(d, rows + 3 * kBlock);

@@ -1,44 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/SkinModelBlock>
 
-#include <cstring>
+#include "WordWriter.h"
+#include "correctives/CorrectiveBlocks.h"
+#include "correctives/CorrectivesWords.h"
 
 namespace osgSkin {
-namespace {
-
-class WordWriter {
-public:
-    std::vector<std::uint32_t> words;
-
-    void put(std::uint32_t word) { words.push_back(word); }
-    void put(std::size_t count) { words.push_back(static_cast<std::uint32_t>(count)); }
-    void put(float value) {
-        std::uint32_t word;
-        std::memcpy(&word, &value, sizeof word);
-        words.push_back(word);
-    }
-    void put(double value) {
-        std::uint64_t bits;
-        std::memcpy(&bits, &value, sizeof bits);
-        words.push_back(static_cast<std::uint32_t>(bits));
-        words.push_back(static_cast<std::uint32_t>(bits >> 32));
-    }
-    template <typename Vector>
-    void putVector(const Vector& v) {
-        put(v.x);
-        put(v.y);
-        put(v.z);
-    }
-    void put(const std::string& text) {
-        put(text.size());
-        for (std::size_t i = 0; i < text.size(); ++i) {
-            if (i % 4 == 0) words.push_back(0);
-            words.back() |= std::uint32_t{static_cast<unsigned char>(text[i])} << (8 * (i % 4));
-        }
-    }
-};
-
-} // namespace
 
 Binding bindingOf(const SkinModel& model) {
     // Per vertex first: groups list their vertices in an order of their own.
@@ -66,13 +33,15 @@ Binding bindingOf(const SkinModel& model) {
         binding.influences.insert(binding.influences.end(), list.begin(), list.end());
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
+    binding.correctives = correctivesOf(model);
     return binding;
 }
 
 std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
     const Binding binding = bindingOf(model);
     WordWriter out;
-    out.put(kSkinModelBlockVersion);
+    const bool plain = binding.correctives.empty(); // then older programs read it, too
+    out.put(plain ? std::uint32_t{1} : kSkinModelBlockVersion);
     out.put(binding.joints.size());
     for (const BoundJoint& joint : binding.joints) {
         out.put(static_cast<std::uint32_t>(joint.parent));
@@ -94,6 +63,7 @@ std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
             out.put(binding.influences[i].twist);
         }
     }
+    if (!plain) putCorrectives(binding.correctives, out);
     return out.words;
 }
 

@@ -3,6 +3,7 @@
 #include <osgSkin/PoseBounds>
 
 #include "BoundSkin.h"
+#include "correctives/CorrectiveReach.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace osgSkin {
@@ -97,6 +99,8 @@ PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept 
                    glm::vec3(-std::numeric_limits<float>::max())};
     const float travel = travelOf(pose);
     Floats stray;
+    std::optional<CorrectiveWeights> corrections;
+    if (model.correctives()) corrections.emplace(model, pose);
     for (std::size_t r = 0; r < skin->runs.size(); ++r) { // one a group
         const BoundSkin::Run& run = skin->runs[r];
         const float scale = scaleOf(model, model.groups()[r], pose);
@@ -104,6 +108,8 @@ PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept 
             const std::uint32_t count = std::min<std::uint32_t>(run.patchCount - from, kChunk);
             const std::uint32_t first = run.firstPatch + from;
             straysOf(*skin, run, from, count, pose, travel, stray);
+            if (corrections)
+                addCorrectiveStray(*skin, run, from, count, *corrections, stray.data());
             addPatches(*skin, first, count, job.positions + first, job.normals + first, stray,
                        scale, box);
         }

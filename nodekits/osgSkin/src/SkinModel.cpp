@@ -3,7 +3,9 @@
 #include <osgSkin/SkinModel>
 
 #include "SkinBlocks.h"
+#include "correctives/CorrectiveBlocks.h"
 
+#include <algorithm>
 #include <map>
 
 namespace osgSkin {
@@ -43,6 +45,11 @@ Members groupBySignature(const Binding& binding, const std::vector<std::uint32_t
             throw Error("skin model: vertex " + std::to_string(v) + " comes from no bound vertex");
         members[signatureOf(binding, source[v])].push_back(v);
     }
+    if (binding.correctives.empty()) return members;
+    for (auto& [signature, vertices] : members)
+        std::stable_sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return correctedBy(binding, source[a]) < correctedBy(binding, source[b]);
+        });
     return members;
 }
 
@@ -101,6 +108,8 @@ std::shared_ptr<SkinModel> SkinModel::arrange(const Binding& binding,
         model->addVertices(binding, source, vertices);
     }
     model->_blocks = std::make_shared<SkinBlocks>(*model);
+    if (!binding.correctives.empty())
+        model->_correctives = std::make_shared<CorrectiveBlocks>(*model, binding, source);
     return model;
 }
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "CorrectiveWeights.h"
+
+#include <cmath>
+
+namespace osgSkin {
+
+const CorrectiveWeights::Weights* CorrectiveWeights::of(std::uint32_t joint) noexcept {
+    State& state = _states[joint];
+    Weights& weights = _weights[joint];
+    if (state == State::Unknown) {
+        const CorrectiveJoint& from = _blocks.joints[joint];
+        double beta[CorrectiveJoint::kMostModes];
+        from.weights(_pose.turn(from.joint).split, _model.joints()[from.joint].twistAxis, beta);
+        state = State::Nothing;
+        for (std::size_t k = 0; k < from.modes; ++k) {
+            // A rest pose read from matrices is one up to rounding errors.
+            if (std::abs(beta[k]) > _model.blocks().smallMove) state = State::Something;
+            const double unit = beta[k] / Correctives::kUnit;
+            weights.positions[k] = static_cast<float>(unit);
+            weights.normals[k] =
+                static_cast<float>(_blocks.hasNormals ? unit * from.normalScales[k] : 0.0);
+        }
+    }
+    return state == State::Something ? &weights : nullptr;
+}
+
+} // namespace osgSkin
