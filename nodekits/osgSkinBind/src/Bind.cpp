@@ -12,6 +12,7 @@
 #include "RatioFields.h"
 #include "Regions.h"
 #include "WeldedMesh.h"
+#include "shapes/FastShapes.h"
 
 #include <chrono>
 
@@ -23,6 +24,7 @@ constexpr double kRegionsBegin = 0.2;
 constexpr double kBendsBegin = 0.8;
 constexpr double kTwistsBegin = 0.96;
 constexpr double kRatiosBegin = 0.98;
+constexpr double kShapesBegin = 0.99;
 
 /// Vertices that no face uses do as the nearest vertex of the skin does.
 std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
@@ -143,6 +145,10 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
             if (isPartial(binding.influences[i])) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+    if (options.shapes == BindOptions::Shapes::Fast) {
+        tell("shapes", kShapesBegin);
+        binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
     }
     binding.validate();
 

@@ -7,6 +7,7 @@
 #include "NearestPoint.h"
 #include "PackInfluences.h"
 #include "WeldedMesh.h"
+#include "shapes/FastShapes.h"
 
 #include <osgSkin/Error>
 
@@ -142,6 +143,8 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
             if (isPartial(binding.influences[i])) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
+    if (options.shapes == BindOptions::Shapes::Fast)
+        binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
     binding.validate();
 
     found.regions = regionsOf(binding);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "FastTargets.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+/// What is left of a bulge, in radii.
+constexpr double kBulgeLeft = 0.03;
+
+/// Gap between the skins on both sides of a fold, far from the joint, and how softly they meet; in
+/// radii.
+constexpr double kGap = 0.1;
+constexpr double kSoftness = 0.08;
+
+/// Angles between which the press sets in, in degrees.
+constexpr double kPressFrom = 45.0;
+constexpr double kPressFull = 75.0;
+
+double smoothstep(double t) {
+    t = std::clamp(t, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+/// The larger of the two, rounded off where they are nearly the same.
+double softMax(double a, double b, double width) {
+    return 0.5 * (a + b + std::sqrt((a - b) * (a - b) + width * width));
+}
+
+} // namespace
+
+glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
+    const bool onParent = glm::dot(fold.above + fold.bone, posed) < 0.0;
+    const glm::dvec3 m = onParent ? -fold.above : fold.bone;
+    const glm::dvec3 m0 = onParent ? -fold.above : fold.boneRest;
+    const double z = std::max(glm::dot(m, posed), 0.0);
+    const double z0 = std::max(glm::dot(m0, rest), 0.0);
+    const double d = std::sqrt(std::max(glm::dot(posed, posed) - z * z, 0.0));
+    const double d0 = std::sqrt(std::max(glm::dot(rest, rest) - z0 * z0, 0.0));
+    const double t = std::max(d - d0, 0.0);
+    if (!(t > 0.0)) return posed;
+    const double k = t * t / ((t + kBulgeLeft * fold.radius) * d);
+    return (1.0 - k) * posed + k * z * m;
+}
+
+glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
+    const double degrees = fold.angle * 180.0 / glm::pi<double>();
+    const double onset = smoothstep((degrees - kPressFrom) / (kPressFull - kPressFrom));
+    const glm::dvec3 sum = fold.above + fold.bone, inwards = fold.bone - fold.above;
+    if (!(onset > 0.0) || glm::length(sum) < 1e-3 || glm::length(inwards) < 1e-3) return posed;
+    const glm::dvec3 n = glm::normalize(sum);
+    const double r = fold.radius;
+    const double h0 = glm::dot(rest, glm::normalize(fold.above + fold.boneRest));
+    const double h = glm::dot(posed, n);
+    const double limit = kGap * r * h0 / (std::abs(h0) + r);
+    const double childs = softMax(h, limit, kSoftness * r);
+    const double parents = -softMax(-h, -limit, kSoftness * r);
+    const double side = smoothstep(0.5 + h0 / (0.5 * r));
+    const double inside = smoothstep(0.2 + 2.0 * glm::dot(glm::normalize(inwards), posed) / r);
+    return posed + onset * inside * (glm::mix(parents, childs, side) - h) * n;
+}
+
+} // namespace osgSkin
