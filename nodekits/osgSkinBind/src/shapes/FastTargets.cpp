@@ -23,6 +23,12 @@ constexpr double kSoftness = 0.08;
 constexpr double kPressFrom = 45.0;
 constexpr double kPressFull = 75.0;
 
+/// The same of the crease, and how far from the joint's plane it reaches, in radii.
+constexpr double kCreaseFrom = 80.0;
+constexpr double kCreaseFull = 120.0;
+constexpr double kCreaseCore = 0.1;
+constexpr double kCreaseEdge = 0.5;
+
 double smoothstep(double t) {
     t = std::clamp(t, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
@@ -62,8 +68,12 @@ glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::d
     const double childs = softMax(h, limit, kSoftness * r);
     const double parents = -softMax(-h, -limit, kSoftness * r);
     const double side = smoothstep(0.5 + h0 / (0.5 * r));
+    // The crease itself lies between both sides: else it pricks the one that is pressed upon it.
+    const double deep = smoothstep((degrees - kCreaseFrom) / (kCreaseFull - kCreaseFrom)) *
+                        (1.0 - smoothstep((std::abs(h0) / r - kCreaseCore) / kCreaseEdge));
+    const double pressed = glm::mix(glm::mix(parents, childs, side), limit, deep);
     const double inside = smoothstep(0.2 + 2.0 * glm::dot(glm::normalize(inwards), posed) / r);
-    return posed + onset * inside * (glm::mix(parents, childs, side) - h) * n;
+    return posed + onset * inside * (pressed - h) * n;
 }
 
 } // namespace osgSkin

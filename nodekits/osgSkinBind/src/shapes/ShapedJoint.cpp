@@ -17,7 +17,7 @@ namespace {
 constexpr double kLimbLength = 2.2;
 
 /// How far skin is shaped, in radii from the joint, and where it begins to be shaped less.
-constexpr double kReach = 4.0;
+constexpr double kReach = 6.0;
 constexpr double kFadeFrom = 0.75 * kReach;
 
 /// Of fewer vertices no shape can be made.
