@@ -41,7 +41,7 @@ TEST(CorrectiveJoint, ClampIsTheIdentityAroundRestAndEndsAtTheRange) {
     for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round}) {
         const CorrectiveJoint joint = functionsOf(basis);
         EXPECT_EQ(joint.clamped({0.3, -0.2}), glm::dvec2(0.3, -0.2));
-        EXPECT_NEAR(joint.clamped({0.9, 0.0}).x, 0.9 * (0.75 + 0.25 * std::tanh(1.0)), 1e-14);
+        EXPECT_NEAR(joint.clamped({0.9, 0.0}).x, 0.9 * (0.9 + 0.1 * std::tanh(1.0)), 1e-14);
         EXPECT_NEAR(joint.clamped({0.0, -50.0}).y, -0.8, 1e-12);
         // No step and no corner anywhere.
         glm::dvec2 last = joint.clamped({-1.0, 0.1}), lastSlope(0.0);

@@ -11,7 +11,7 @@ namespace osgSkin {
 namespace {
 
 /// Where the soft clamp leaves the straight line.
-constexpr double kStraight = 0.75;
+constexpr double kStraight = 0.9;
 constexpr double kSoft = 1.0 - kStraight;
 
 /// t for t <= kStraight, then towards 1 and never beyond: two continuous derivatives.
@@ -37,7 +37,7 @@ std::size_t CorrectiveJoint::functionCount() const noexcept {
     case Basis::Ball:
         return 9;
     case Basis::Round:
-        return 5 * splineCount(knots);
+        return 7 * splineCount(knots);
     }
     return 0;
 }
@@ -82,12 +82,14 @@ void CorrectiveJoint::evaluate(glm::dvec2 clampedXy, Functions& phi) const noexc
         evaluateSplines(knots, x * x + y * y, now);
         evaluateSplines(knots, 0.0, atRest);
         for (std::size_t i = 0; i < splines; ++i) {
-            double* of = &phi[5 * i];
+            double* of = &phi[7 * i];
             of[0] = now[i] - atRest[i];
             of[1] = now[i] * x;
             of[2] = now[i] * y;
             of[3] = now[i] * (x * x - y * y);
             of[4] = now[i] * 2.0 * x * y;
+            of[5] = now[i] * x * (x * x - 3.0 * y * y);
+            of[6] = now[i] * y * (3.0 * x * x - y * y);
         }
         return;
     }

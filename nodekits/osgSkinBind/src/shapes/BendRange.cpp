@@ -18,7 +18,9 @@ constexpr double kBeyondStraight = 12.0;
 constexpr double kSideways = 30.0;
 /// Between knots and between samples.
 constexpr double kKnotStep = 30.0;
+constexpr double kRoundKnotStep = 20.0;
 constexpr double kSampleStep = 15.0;
+constexpr double kRoundSampleStep = 10.0;
 constexpr int kDirections = 12;
 
 double sineOfHalf(double degrees) {
@@ -64,7 +66,7 @@ void setRound(ShapedJoint& joint) {
     functions.axis = anyPerpendicular(joint.twistAxis);
     functions.low = glm::dvec2(-most);
     functions.high = glm::dvec2(most);
-    for (const double angle : steps(0.0, kMostFlexion, kKnotStep))
+    for (const double angle : steps(0.0, kMostFlexion, kRoundKnotStep))
         functions.knots.push_back(sineOfHalf(angle) * sineOfHalf(angle));
 }
 
@@ -91,7 +93,7 @@ std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint) {
             }
         return samples;
     }
-    for (const double angle : steps(0.0, degreesOf(functions.high.x), kSampleStep))
+    for (const double angle : steps(0.0, degreesOf(functions.high.x), kRoundSampleStep))
         for (int i = 0; angle > 0.0 && i < kDirections; ++i) {
             const double direction = 2.0 * glm::pi<double>() * i / kDirections;
             samples.push_back(sineOfHalf(angle) *

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "FastShapes.h"
 
+#include "../HardField.h"
 #include "BendRange.h"
 #include "FastTargets.h"
 #include "PackShapes.h"
@@ -9,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgSkin {
@@ -22,6 +24,16 @@ constexpr std::size_t kRoundModes = CorrectiveJoint::kMostModes;
 /// What makes no difference, in radii of the limb.
 constexpr double kTolerance = 2e-3;
 
+/// By how much a limb swells at most to keep its volume.
+constexpr double kMostSwelling = 0.03;
+
+/// How far from the joint it does so, in radii: fully, and at all. Further up a thigh there is
+/// another one beside it.
+constexpr double kSwellFull = 2.0;
+constexpr double kSwellEnd = 4.0;
+
+using Points = std::vector<glm::dvec3>;
+
 FoldShape foldAt(const ShapedJoint& joint, const glm::dquat& turn) {
     FoldShape fold{joint.above, joint.bone, turn * joint.bone, joint.radius, 0.0};
     fold.angle =
@@ -29,23 +41,76 @@ FoldShape foldAt(const ShapedJoint& joint, const glm::dquat& turn) {
     return fold;
 }
 
+/// Six times what lies between the skin and the joint's centre.
+double volumeOf(const ShapedJoint& joint, const Points& points) {
+    double volume = 0.0;
+    for (const std::array<std::uint32_t, 3>& t : joint.triangles)
+        volume += glm::dot(points[t[0]], glm::cross(points[t[1]], points[t[2]]));
+    return volume;
+}
+
+/// The joint's skin in one bend, from its centre.
+class BentSkin {
+public:
+    BentSkin(const ShapedJoint& joint, const BendTwist& bend)
+        : _joint(joint), _fold(foldAt(joint, partialTurn(bend, joint.twistAxis, 1.0, 1.0))) {
+        for (const ShapedJoint::Vertex& vertex : joint.vertices)
+            _posed.push_back(joint.turnOf(vertex, bend) * vertex.from);
+    }
+
+    /// \param swelling see kMostSwelling
+    Points targets(double swelling) const {
+        Points targets;
+        for (std::size_t i = 0; i < _posed.size(); ++i) {
+            const ShapedJoint::Vertex& vertex = _joint.vertices[i];
+            glm::dvec3 target = clampBulge(_fold, vertex.from, _posed[i]);
+            const double r = glm::length(vertex.from) / _joint.radius;
+            target = swell(_fold, target,
+                           swelling * (1.0 - hermite((r - kSwellFull) / (kSwellEnd - kSwellFull))));
+            target = pressFold(_fold, vertex.from, target);
+            targets.push_back(_posed[i] + vertex.limb * vertex.fade * (target - _posed[i]));
+        }
+        return targets;
+    }
+
+private:
+    const ShapedJoint& _joint;
+    FoldShape _fold;
+    Points _posed;
+};
+
+/// What the clamp and the press take from the limb, and the bend itself, comes back as far as
+/// swelling can give it: flesh does not vanish.
+Points targetsOf(const ShapedJoint& joint, const BentSkin& skin, double volumeAtRest) {
+    Points lean = skin.targets(0.0);
+    const double missing = volumeAtRest - volumeOf(joint, lean);
+    if (!(missing > 0.0)) return lean;
+    Points full = skin.targets(kMostSwelling);
+    const double gained = volumeOf(joint, full) - volumeOf(joint, lean);
+    if (!(gained > 0.0)) return lean;
+    const double share = std::min(1.0, missing / gained);
+    for (std::size_t i = 0; i < lean.size(); ++i) lean[i] += share * (full[i] - lean[i]);
+    return lean;
+}
+
 JointShapes shapesOf(const ShapedJoint& joint) {
     JointShapes shapes;
     shapes.functions = joint.functions;
-    for (const ShapedJoint::Vertex& vertex : joint.vertices)
+    Points atRest;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) {
         shapes.vertices.push_back(vertex.index);
+        atRest.push_back(vertex.from);
+    }
+    const double volumeAtRest = volumeOf(joint, atRest);
     shapes.samples = bendSamples(joint);
     for (const glm::dvec2& sample : shapes.samples) {
         const BendTwist bend = joint.bendAt(sample);
-        const FoldShape fold = foldAt(joint, partialTurn(bend, joint.twistAxis, 1.0, 1.0));
-        std::vector<glm::dvec3>& offsets = shapes.offsets.emplace_back();
-        for (const ShapedJoint::Vertex& vertex : joint.vertices) {
-            const glm::dquat turn = joint.turnOf(vertex, bend);
-            const glm::dvec3 posed = turn * vertex.from;
-            glm::dvec3 target = clampBulge(fold, vertex.from, posed);
-            target = pressFold(fold, vertex.from, target);
-            target = posed + vertex.limb * vertex.fade * (target - posed);
-            offsets.push_back(glm::conjugate(turn) * target - vertex.from);
+        const Points targets = targetsOf(joint, BentSkin(joint, bend), volumeAtRest);
+        Points& offsets = shapes.offsets.emplace_back();
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const ShapedJoint::Vertex& vertex = joint.vertices[i];
+            offsets.push_back(glm::conjugate(joint.turnOf(vertex, bend)) * targets[i] -
+                              vertex.from);
         }
     }
     return shapes;
@@ -56,13 +121,12 @@ JointShapes shapesOf(const ShapedJoint& joint) {
 Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                            const WeldedMesh& mesh, const Binding& binding) {
     std::vector<FittedShapes> fitted;
-    double tolerance = 0.0;
     for (const ShapedJoint& joint : findShapedJoints(skeleton, joints, mesh, binding)) {
-        tolerance = kTolerance * joint.radius;
         const bool round = joint.functions.basis == CorrectiveJoint::Basis::Round;
-        fitted.push_back(fitShapes(shapesOf(joint), round ? kRoundModes : kModes, tolerance));
+        fitted.push_back(
+            fitShapes(shapesOf(joint), round ? kRoundModes : kModes, kTolerance * joint.radius));
     }
-    return packShapes(fitted, mesh.weldedOf, tolerance);
+    return packShapes(fitted, mesh.weldedOf);
 }
 
 } // namespace osgSkin

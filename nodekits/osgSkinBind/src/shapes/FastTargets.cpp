@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "FastTargets.h"
 
+#include "../HardField.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -12,7 +14,11 @@ namespace osgSkin {
 namespace {
 
 /// What is left of a bulge, in radii.
-constexpr double kBulgeLeft = 0.03;
+constexpr double kBulgeLeft = 0.01;
+
+/// How deep inside the fold skin swells, in radii from the joint: outside it does not.
+constexpr double kSwellFrom = -0.6;
+constexpr double kSwellFull = 0.2;
 
 /// Gap between the skins on both sides of a fold, far from the joint, and how softly they meet; in
 /// radii.
@@ -28,11 +34,6 @@ constexpr double kCreaseFrom = 80.0;
 constexpr double kCreaseFull = 120.0;
 constexpr double kCreaseCore = 0.1;
 constexpr double kCreaseEdge = 0.5;
-
-double smoothstep(double t) {
-    t = std::clamp(t, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
 
 /// The larger of the two, rounded off where they are nearly the same.
 double softMax(double a, double b, double width) {
@@ -55,9 +56,19 @@ glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::
     return (1.0 - k) * posed + k * z * m;
 }
 
+glm::dvec3 swell(const FoldShape& fold, const glm::dvec3& posed, double share) {
+    const glm::dvec3 inwards = fold.bone - fold.above;
+    const double length = glm::length(inwards);
+    if (length < 1e-6) return posed;
+    const glm::dvec3 m = glm::dot(fold.above + fold.bone, posed) < 0.0 ? -fold.above : fold.bone;
+    const glm::dvec3 radial = posed - std::max(glm::dot(m, posed), 0.0) * m;
+    const double depth = glm::dot(inwards / length, posed) / fold.radius;
+    return posed + share * hermite((depth - kSwellFrom) / (kSwellFull - kSwellFrom)) * radial;
+}
+
 glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
     const double degrees = fold.angle * 180.0 / glm::pi<double>();
-    const double onset = smoothstep((degrees - kPressFrom) / (kPressFull - kPressFrom));
+    const double onset = hermite((degrees - kPressFrom) / (kPressFull - kPressFrom));
     const glm::dvec3 sum = fold.above + fold.bone, inwards = fold.bone - fold.above;
     if (!(onset > 0.0) || glm::length(sum) < 1e-3 || glm::length(inwards) < 1e-3) return posed;
     const glm::dvec3 n = glm::normalize(sum);
@@ -67,12 +78,12 @@ glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::d
     const double limit = kGap * r * h0 / (std::abs(h0) + r);
     const double childs = softMax(h, limit, kSoftness * r);
     const double parents = -softMax(-h, -limit, kSoftness * r);
-    const double side = smoothstep(0.5 + h0 / (0.5 * r));
+    const double side = hermite(0.5 + h0 / (0.5 * r));
     // The crease itself lies between both sides: else it pricks the one that is pressed upon it.
-    const double deep = smoothstep((degrees - kCreaseFrom) / (kCreaseFull - kCreaseFrom)) *
-                        (1.0 - smoothstep((std::abs(h0) / r - kCreaseCore) / kCreaseEdge));
+    const double deep = hermite((degrees - kCreaseFrom) / (kCreaseFull - kCreaseFrom)) *
+                        (1.0 - hermite((std::abs(h0) / r - kCreaseCore) / kCreaseEdge));
     const double pressed = glm::mix(glm::mix(parents, childs, side), limit, deep);
-    const double inside = smoothstep(0.2 + 2.0 * glm::dot(glm::normalize(inwards), posed) / r);
+    const double inside = hermite(0.2 + 2.0 * glm::dot(glm::normalize(inwards), posed) / r);
     return posed + onset * inside * (pressed - h) * n;
 }
 

@@ -21,6 +21,10 @@ struct FoldShape {
 /// \param rest, posed the vertex
 glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed);
 
+/// Swells the flanks and the inner side by a share of their distance from the bone; the outer side
+/// keeps its own. \param posed the vertex
+glm::dvec3 swell(const FoldShape& fold, const glm::dvec3& posed, double share);
+
 /// No fold through itself: keeps a vertex on its own side of the plane that bisects the joint, the
 /// skin of both sides pressed flat against it. \param rest, posed the vertex
 glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed);

@@ -37,7 +37,7 @@ struct VertexEntry {
 } // namespace
 
 Correctives packShapes(const std::vector<FittedShapes>& joints,
-                       const std::vector<std::uint32_t>& weldedOf, double tolerance) {
+                       const std::vector<std::uint32_t>& weldedOf) {
     Correctives result;
     std::size_t welded = 0;
     for (const std::uint32_t w : weldedOf) welded = std::max<std::size_t>(welded, w + 1);
@@ -51,7 +51,7 @@ Correctives packShapes(const std::vector<FittedShapes>& joints,
             double most = 0.0;
             for (std::size_t k = 0; k < modes; ++k)
                 most += largest[k] * glm::length(joint.vectors[v * modes + k]);
-            if (most > tolerance)
+            if (most > joint.tolerance)
                 entries[joint.vertices[v]].push_back(
                     {static_cast<std::uint32_t>(kept.size()), v * modes});
         }

@@ -10,11 +10,11 @@
 
 namespace osgSkin {
 
-/// The joints' shapes as a binding's correctives. Vertices that no bend moves by more than
-/// `tolerance` are left out, and so are joints without modes.
+/// The joints' shapes as a binding's correctives. Vertices that no bend moves by more than the
+/// shapes' tolerance are left out, and so are joints without modes.
 /// \param weldedOf the welded vertex of each vertex that is bound
 Correctives packShapes(const std::vector<FittedShapes>& joints,
-                       const std::vector<std::uint32_t>& weldedOf, double tolerance);
+                       const std::vector<std::uint32_t>& weldedOf);
 
 } // namespace osgSkin
 

@@ -49,6 +49,7 @@ FittedShapes fitShapes(const JointShapes& shapes, std::size_t modes, double tole
     FittedShapes result;
     result.functions = shapes.functions;
     result.vertices = shapes.vertices;
+    result.tolerance = tolerance;
     const Eigen::MatrixXd phi = functionsAt(shapes);
     const Eigen::MatrixXd offsets = offsetsOf(shapes);
     Eigen::MatrixXd normal = phi.transpose() * phi;

@@ -27,6 +27,7 @@ struct FittedShapes {
     CorrectiveJoint functions; ///< complete
     std::vector<std::uint32_t> vertices;
     std::vector<glm::dvec3> vectors; ///< `modes` of each vertex, side by side; at most 1 long
+    double tolerance = 0.0;          ///< what makes no difference
     double residual = 0.0; ///< RMS over samples and vertices of what is not met; rest units
 };
 

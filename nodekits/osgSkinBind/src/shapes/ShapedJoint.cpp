@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ShapedJoint.h"
 
+#include "../HardField.h"
 #include "BendRange.h"
 #include "JointRatios.h"
 #include "MainAxis.h"
@@ -23,16 +24,10 @@ constexpr double kFadeFrom = 0.75 * kReach;
 /// Of fewer vertices no shape can be made.
 constexpr std::size_t kLeastVertices = 16;
 
-double smoothstep(double t) {
-    t = std::clamp(t, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
-
 /// The limb's radius where it bends: the median distance to the bone's line of the edges that the
 /// bend ratio 1/2 crosses; 0 where there is none.
-double radiusAt(std::uint32_t joint, const PlannedJoint& planned, const WeldedMesh& mesh,
+double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
                 const std::vector<double>& bend) {
-    (void)joint;
     std::vector<double> radii;
     for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
         if (bend[v] < 0.5) continue;
@@ -47,6 +42,35 @@ double radiusAt(std::uint32_t joint, const PlannedJoint& planned, const WeldedMe
     const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
     std::nth_element(radii.begin(), middle, radii.end());
     return *middle;
+}
+
+/// Adds the vertices and triangles within reach. \param above the joint that moves the limb above
+void addSkin(const WeldedMesh& mesh, const JointRatios& ratios, std::uint32_t above,
+             ShapedJoint& shaped) {
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
+    const auto add = [&](std::uint32_t v, bool withinReach) {
+        const glm::dvec3 from = mesh.positions[v] - shaped.centre;
+        const double r = glm::length(from) / shaped.radius;
+        const double limb = above == 0 ? 1.0 : ratios.bend(v, above);
+        const double fade = 1.0 - hermite((r - kFadeFrom) / (kReach - kFadeFrom));
+        if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
+        const Influence own = ratios.of(v, shaped.functions.joint);
+        placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
+        shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
+                                   static_cast<double>(own.twist), limb, withinReach ? fade : 0.0});
+    };
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) add(v, true);
+    const auto within = static_cast<std::uint32_t>(shaped.vertices.size());
+    for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
+        if (std::none_of(triangle.begin(), triangle.end(),
+                         [&](std::uint32_t v) { return placeOf[v] < within; }))
+            continue;
+        for (const std::uint32_t v : triangle)
+            if (placeOf[v] == kNone) add(v, false);
+        shaped.triangles.push_back(
+            {placeOf[triangle[0]], placeOf[triangle[1]], placeOf[triangle[2]]});
+    }
 }
 
 } // namespace
@@ -74,7 +98,7 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         if (joints[above].trunk) continue;
         for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
         ShapedJoint shaped;
-        shaped.radius = radiusAt(j, planned, mesh, bend);
+        shaped.radius = radiusAt(planned, mesh, bend);
         if (!(shaped.radius > 0.0) || planned.boneLength < kLimbLength * shaped.radius ||
             planned.lengthAbove < kLimbLength * shaped.radius)
             continue;
@@ -84,16 +108,7 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
         setBendRange(findMainAxis(skeleton, joints, j), shaped);
-        for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
-            const glm::dvec3 from = mesh.positions[v] - planned.centre;
-            const double r = glm::length(from) / shaped.radius;
-            const double limb = above == 0 ? 1.0 : ratios.bend(v, above);
-            const double fade = 1.0 - smoothstep((r - kFadeFrom) / (kReach - kFadeFrom));
-            if (limb <= 0.0 || fade <= 0.0) continue;
-            const Influence own = ratios.of(v, j);
-            shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
-                                       static_cast<double>(own.twist), limb, fade});
-        }
+        addSkin(mesh, ratios, above, shaped);
         if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
     }
     return result;

@@ -7,6 +7,7 @@
 
 #include <osgSkin/Binding>
 
+#include <array>
 #include <vector>
 
 namespace osgSkin {
@@ -33,6 +34,10 @@ struct ShapedJoint {
         double fade; ///< what of its target it takes: 1, and 0 towards the reach's end
     };
     std::vector<Vertex> vertices;
+
+    /// Those with a corner within reach; three indices in `vertices` each, which for that has
+    /// vertices beyond the reach, too, with `fade` 0.
+    std::vector<std::array<std::uint32_t, 3>> triangles;
 
     /// The bend at coordinates (x, y) of CorrectiveJoint.
     BendTwist bendAt(glm::dvec2 xy) const;
