@@ -28,12 +28,13 @@ endfunction()
 file(RELATIVE_PATH osgskin_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 
 osgskin_install_kit(osgSkin runtime "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation")
+osgskin_install_kit(osgSkinRig runtime "Skeletons, motions and retargeting for osgSkin" "osgSkin")
 if(TARGET osgSkinBind)
-  osgskin_install_kit(osgSkinBind plugin "Binds a skin to a skeleton for osgSkin" "osgSkin")
+  osgskin_install_kit(osgSkinBind plugin "Binds a skin to a skeleton for osgSkin" "osgSkinRig")
 endif()
 if(TARGET osgSkinImport)
   osgskin_install_kit(osgSkinImport plugin "Reads meshes, skeletons and motions for osgSkin"
-    "osgSkin openscenegraph-osgDB")
+    "osgSkinRig openscenegraph-osgDB")
 endif()
 if(TARGET osgdb_serializers_osgskin)
   install(TARGETS osgdb_serializers_osgskin

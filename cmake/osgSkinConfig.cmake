@@ -6,6 +6,7 @@ find_dependency(glm)
 # OpenSceneGraph's targets first: ours name them.
 include("${CMAKE_CURRENT_LIST_DIR}/OsgTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinTargets.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/osgSkinRigTargets.cmake")
 
 set(osgSkin_osgSkin_FOUND TRUE)
 foreach(component IN LISTS osgSkin_FIND_COMPONENTS)

@@ -3,7 +3,7 @@
 
 #include "DualQuaternionBlend.h"
 #include "LinearBlend.h"
-#include "WeightsFile.h"
+#include "file/WeightsFile.h"
 
 #include <osgSkin/DeformJob>
 

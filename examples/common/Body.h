@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "Character.h"
 #include "SkinWeights.h"
+#include "load/Character.h"
 
 #include <osgSkin/SkinModel>
 

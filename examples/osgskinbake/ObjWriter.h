@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Character.h"
 #include "PosedMesh.h"
 #include "Surface.h"
+#include "load/Character.h"
 
 #include <osg/Vec2>
 #include <osg/Vec4>

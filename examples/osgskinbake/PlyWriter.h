@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Character.h"
 #include "PosedMesh.h"
+#include "load/Character.h"
 
 #include <osg/Vec4>
 

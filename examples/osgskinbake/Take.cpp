@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Take.h"
 
-#include "RigCharacter.h"
+#include "load/RigCharacter.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/UpdateDeformableSkin>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Character.h"
+#include "load/Character.h"
 
 #include <cstddef>
 #include <functional>

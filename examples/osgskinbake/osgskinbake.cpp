@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Arguments.h"
-#include "Character.h"
 #include "FrameWriter.h"
 #include "ObjWriter.h"
 #include "PosedMesh.h"
 #include "Progress.h"
 #include "Take.h"
 #include "Writers.h"
+#include "load/Character.h"
 
 #include <osgSkin/Error>
 

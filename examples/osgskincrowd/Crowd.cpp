@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Crowd.h"
 
-#include <osgSkin/DeformTogether>
+#include <osgSkin/ParallelDeformCallback>
 
 #include <osg/MatrixTransform>
 #include <osg/Timer>
@@ -32,7 +32,7 @@ Crowd::Crowd(const std::vector<SampledCharacter>& characters, std::size_t count,
     }
     _scene->setUpdateCallback(this);
     // Nested in ours, which it therefore follows.
-    _scene->addUpdateCallback(new osgSkin::DeformTogether(pool));
+    _scene->addUpdateCallback(new osgSkin::ParallelDeformCallback(pool));
 }
 
 Crowd::Member Crowd::makeMember(const SampledCharacter& character, const osg::Matrix& place,

@@ -88,7 +88,7 @@ bool writePose(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
     os.writeSize(static_cast<unsigned int>(joints.size()));
     os << os.BEGIN_BRACKET << std::endl;
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        const osgSkin::Pose::Turn& turn = skin.getPose().turn(j);
+        const osgSkin::JointTransform& turn = skin.getPose().transform(j);
         const glm::dmat4 own =
             glm::translate(glm::dmat4(1.0), turn.offset) * glm::mat4_cast(turn.rotation);
         skinning.push_back(joints[j].parent < 0

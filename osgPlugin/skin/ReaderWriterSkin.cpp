@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Character.h"
-#include "RigCharacter.h"
+#include "load/Character.h"
+#include "load/RigCharacter.h"
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>

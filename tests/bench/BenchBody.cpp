@@ -6,8 +6,12 @@
 #include <osgSkin/BoneReader>
 #include <osgSkinBind/Bind>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/Motion>
-#include <osgSkinImport/Retarget>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/ApplyFrame>
+#include <osgSkinRig/MakeSkeleton>
+#include <osgSkinRig/Motion>
+#include <osgSkinRig/Retarget>
 
 #include <glm/geometric.hpp>
 

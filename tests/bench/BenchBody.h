@@ -4,9 +4,9 @@
 #include "PaintedWeights.h"
 
 #include <osgSkin/Binding>
-#include <osgSkin/RestSkeleton>
 #include <osgSkin/SkinModel>
-#include <osgSkinImport/Clip>
+#include <osgSkinRig/Clip>
+#include <osgSkinRig/RestSkeleton>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>

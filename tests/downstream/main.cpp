@@ -4,10 +4,12 @@
 #include <osgSkin/DeformableSkin>
 #include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/Bind>
-#include <osgSkinImport/Clip>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/Motion>
-#include <osgSkinImport/Retarget>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/MakeAnimation>
+#include <osgSkinRig/MakeSkeleton>
+#include <osgSkinRig/Retarget>
 
 #include <osgUtil/UpdateVisitor>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "Subject.h"
 
-#include <WeightsFile.h>
+#include "file/WeightsFile.h"
 #include <osgSkinBind/Bind>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/Motion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Motion>
 
 #include <glm/geometric.hpp>
 

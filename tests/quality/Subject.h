@@ -4,11 +4,11 @@
 #include <SkinMeasures.h>
 #include <SkinWeights.h>
 #include <osgSkin/Binding>
-#include <osgSkin/RestSkeleton>
 #include <osgSkin/SkinMesh>
 #include <osgSkin/SkinModel>
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/BindReport>
+#include <osgSkinRig/RestSkeleton>
 
 #include <memory>
 #include <optional>

@@ -71,7 +71,10 @@ inline glm::dvec3 correctionOf(const osgSkin::Binding& binding, const osgSkin::P
     for (std::uint32_t i = from.firstEntry[vertex]; i < from.firstEntry[vertex + 1]; ++i) {
         const osgSkin::CorrectiveJoint& joint = from.joints[from.entries[i].joint];
         double beta[osgSkin::CorrectiveJoint::kMostModes];
-        joint.weights(pose.turn(joint.joint).split, binding.joints[joint.joint].twistAxis, beta);
+        const osgSkin::BendTwist bend = pose.transform(joint.joint).split;
+        joint.weights(
+            joint.coordinates(bend.bendAxis, bend.bendAngle, binding.joints[joint.joint].twistAxis),
+            beta);
         const std::int16_t* u = &from.shares[from.entries[i].firstShare];
         for (std::size_t k = 0; k < joint.modes; ++k, u += 3)
             sum += beta[k] / 32767.0 * glm::dvec3(u[0], u[1], u[2]);

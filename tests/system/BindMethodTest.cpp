@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a .skin file may ask for beside the default way to find ratios.
-#include "Character.h"
+#include "load/Character.h"
 
 #include <gtest/gtest.h>
 

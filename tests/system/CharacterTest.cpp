@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The whole scene as the plug-in builds it: parts, seams, and a pose that a person could be in.
-#include "Character.h"
+#include "load/Character.h"
 #include "CharacterFiles.h"
 #include "Command.h"
 #include "DrawnSkin.h"

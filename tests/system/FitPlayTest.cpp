@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Motions on bodies whose skeleton was fitted: they play, and the skin holds together.
-#include "Character.h"
 #include "Command.h"
 #include "DrawnSkin.h"
+#include "load/Character.h"
 
 #include <glm/geometric.hpp>
 

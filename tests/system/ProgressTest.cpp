@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Who loads a character through osgDB can be told how far it has come.
-#include "LoadSteps.h"
+#include "load/LoadSteps.h"
 
 #include <osgSkinImport/LoadProgress>
 

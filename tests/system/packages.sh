@@ -26,7 +26,7 @@ expect() {
   dpkg-deb -f "$deb" Depends >"$folder/$package.depends"
   echo "$package needs $(cat "$folder/$package.depends")"
 }
-expect libosgskin0 libosgSkin.so.0 osgdb_serializers_osgskin.so
+expect libosgskin0 libosgSkin.so.0 libosgSkinRig.so.0 osgdb_serializers_osgskin.so
 expect libosgskin-dev include/osgSkin/DeformableSkin include/osgSkinBind/Bind osgSkinConfig.cmake \
   OsgTargets.cmake pkgconfig/osgSkin.pc libosgSkin.so
 expect osgskin-plugin osgdb_skin.so bin/osgskinbake libosgSkinBind.so.0 libosgSkinImport.so.0

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# runtime_only.sh BUILD SOURCE FOLDER: the runtime and the serializers, built where CGAL and Assimp
+# runtime_only.sh BUILD SOURCE FOLDER: the runtime, the rig kit and the serializers, built where CGAL and Assimp
 # cannot be found and installed alone, name neither, and play a character that BUILD's .skin plug-in
 # has saved.
 set -euo pipefail
@@ -21,14 +21,16 @@ cmake --install "$folder/build" --component runtime --prefix "$folder/installed"
   >"$folder/install.txt"
 
 runtime=$(find "$folder/installed" -name 'libosgSkin.so.*' -type f)
+rig=$(find "$folder/installed" -name 'libosgSkinRig.so.*' -type f)
 serializers=$(find "$folder/installed" -name osgdb_serializers_osgskin.so)
-[ "$(find "$folder/installed" -type f | wc -l)" -eq 2 ] || fail "more than the two libraries is installed"
-for file in "$runtime" "$serializers" "$build"/lib/libosgSkin.so \
+[ "$(find "$folder/installed" -type f | wc -l)" -eq 3 ] || fail "more than the three libraries is installed"
+for file in "$runtime" "$rig" "$serializers" "$build"/lib/libosgSkin.so "$build"/lib/libosgSkinRig.so \
   "$build"/lib/osgPlugins-*/osgdb_serializers_osgskin.so; do
   needed=$(readelf -d "$file" | grep NEEDED)
-  grep -qiE 'cgal|gmp|mpfr|assimp|osgSkinBind|osgSkinImport' <<<"$needed" && fail "$file needs $needed"
+  case $file in *serializers*) ;; *) grep -q libosgDB.so <<<"$needed" && fail "$file needs osgDB" ;; esac
+  grep -qiE 'cgal|gmp|mpfr|assimp|osgSkin(Bind|Import|Character)' <<<"$needed" && fail "$file needs $needed"
 done
-echo "Neither library names CGAL, GMP, MPFR or Assimp"
+echo "No library names CGAL, GMP, MPFR or Assimp"
 
 for extension in osgb osgt osgx; do
   saved="$folder/thrower.$extension"

@@ -3,7 +3,9 @@
 #include "NamedCase.h"
 #include "Paths.h"
 
-#include <osgSkinImport/Motion>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Motion>
 
 #include <fstream>
 

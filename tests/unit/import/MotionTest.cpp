@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "Paths.h"
 
-#include <osgSkinImport/Motion>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Motion>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -29,9 +29,8 @@ TEST(CorrectiveJoint, CoordinatesAreTheBendQuaternions) {
     const glm::dvec3 w(0, 1, 0), e1 = joint.axis, e2 = glm::cross(w, e1);
     for (const double angle : {0.0, 0.4, 2.0, 3.1})
         for (const double azimuth : {0.0, 1.0, -2.5}) {
-            const osgSkin::BendTwist split{std::cos(azimuth) * e1 + std::sin(azimuth) * e2, angle,
-                                           0.7};
-            const glm::dvec2 xy = joint.coordinates(split, w);
+            const glm::dvec3 v = std::cos(azimuth) * e1 + std::sin(azimuth) * e2;
+            const glm::dvec2 xy = joint.coordinates(v, angle, w);
             EXPECT_NEAR(xy.x, std::sin(angle / 2) * std::cos(azimuth), 1e-14);
             EXPECT_NEAR(xy.y, std::sin(angle / 2) * std::sin(azimuth), 1e-14);
         }

@@ -63,8 +63,9 @@ glm::dvec3 expected(const osgSkin::Binding& binding, const osgSkin::Pose& pose,
          i-- > binding.firstInfluence[vertex];) {
         const osgSkin::Influence& influence = binding.influences[i];
         const osgSkin::BoundJoint& joint = binding.joints[influence.joint];
-        const glm::dquat q = osgSkin::partialTurn(pose.turn(influence.joint).split, joint.twistAxis,
-                                                  double(influence.bend), double(influence.twist));
+        const glm::dquat q =
+            osgSkin::partialTurn(pose.transform(influence.joint).split, joint.twistAxis,
+                                 double(influence.bend), double(influence.twist));
         x = joint.centre + q * (x - joint.centre);
     }
     return x;

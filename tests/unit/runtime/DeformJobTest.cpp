@@ -188,7 +188,7 @@ TEST(Pose, RefusesWhatCannotBeUsedAndKeepsThePose) {
     std::vector<glm::dmat4> skinning(3, glm::dmat4(1.0));
     skinning[1] = glm::mat4_cast(glm::angleAxis(0.5, glm::dvec3(1, 0, 0)));
     ASSERT_TRUE(pose.set(skinning.data(), 3));
-    const glm::dquat before = pose.turn(1).rotation;
+    const glm::dquat before = pose.transform(1).rotation;
 
     EXPECT_FALSE(pose.set(skinning.data(), 2));
     auto spoilt = skinning;
@@ -197,7 +197,7 @@ TEST(Pose, RefusesWhatCannotBeUsedAndKeepsThePose) {
     spoilt = skinning;
     spoilt[2] = glm::dmat4(0.0);
     EXPECT_FALSE(pose.set(spoilt.data(), 3));
-    EXPECT_EQ(pose.turn(1).rotation, before);
+    EXPECT_EQ(pose.transform(1).rotation, before);
 }
 
 TEST(Pose, TakesEvenScaleApart) {
@@ -208,11 +208,11 @@ TEST(Pose, TakesEvenScaleApart) {
                                             glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
     skinning[2] = skinning[1] * glm::scale(glm::dmat4(1.0), glm::dvec3(1.5));
     ASSERT_TRUE(pose.set(skinning.data(), 3));
-    EXPECT_NEAR(std::abs(glm::dot(pose.turn(0).rotation, turn)), 1.0, 1e-12);
-    EXPECT_NEAR(std::abs(pose.turn(1).rotation.w), 1.0, 1e-12);
-    EXPECT_NEAR(pose.turn(0).scale, 2.0, 1e-12);
-    EXPECT_EQ(pose.turn(1).scale, 1.0) << "exactly: it costs nothing then";
-    EXPECT_NEAR(pose.turn(2).scale, 1.5, 1e-12);
+    EXPECT_NEAR(std::abs(glm::dot(pose.transform(0).rotation, turn)), 1.0, 1e-12);
+    EXPECT_NEAR(std::abs(pose.transform(1).rotation.w), 1.0, 1e-12);
+    EXPECT_NEAR(pose.transform(0).scale, 2.0, 1e-12);
+    EXPECT_EQ(pose.transform(1).scale, 1.0) << "exactly: it costs nothing then";
+    EXPECT_NEAR(pose.transform(2).scale, 1.5, 1e-12);
 }
 
 TEST(Pose, LeavesUnevenScaleAndMirroringOut) {
@@ -222,9 +222,9 @@ TEST(Pose, LeavesUnevenScaleAndMirroringOut) {
         std::vector<glm::dmat4> skinning(3, glm::dmat4(1.0));
         skinning[1] = glm::scale(glm::dmat4(1.0), scale);
         ASSERT_TRUE(pose.set(skinning.data(), 3));
-        EXPECT_EQ(pose.turn(1).scale, 1.0);
+        EXPECT_EQ(pose.transform(1).scale, 1.0);
         const glm::dvec3 centre = tube.binding.joints[1].centre;
-        EXPECT_LT(glm::distance(pose.turn(1).translation,
+        EXPECT_LT(glm::distance(pose.transform(1).translation,
                                 glm::dvec3(skinning[1] * glm::dvec4(centre, 1.0)) - centre),
                   1e-12)
             << "the joint itself goes where the bone puts it";

@@ -141,7 +141,7 @@ void reference(const osgSkin::Binding& binding, const osgSkin::Pose& pose, std::
          i-- > binding.firstInfluence[vertex];) {
         const osgSkin::Influence& influence = binding.influences[i];
         const osgSkin::BoundJoint& joint = binding.joints[influence.joint];
-        const osgSkin::Pose::Turn& turn = pose.turn(influence.joint);
+        const osgSkin::JointTransform& turn = pose.transform(influence.joint);
         const auto bend = static_cast<double>(influence.bend);
         const glm::dquat q = osgSkin::partialTurn(turn.split, joint.twistAxis, bend,
                                                   static_cast<double>(influence.twist));
@@ -258,7 +258,7 @@ TEST_P(Kernel, FollowsEvenScale) {
         const Model model = modelOf(skin);
         for (const double moves : {0.0, 0.5}) {
             const osgSkin::Pose pose = randomPose(skin.binding, moves, random, 0.2);
-            EXPECT_GT(std::abs(pose.turn(2).scale - 1.0), 1e-3);
+            EXPECT_GT(std::abs(pose.transform(2).scale - 1.0), 1e-3);
             deform(skin, pose, model, Streams::NormalsAndTangents);
         }
     }

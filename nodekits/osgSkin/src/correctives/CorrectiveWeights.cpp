@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "CorrectiveWeights.h"
+#include "correctives/CorrectiveWeights.h"
 
 #include <cmath>
 
@@ -11,7 +11,10 @@ const CorrectiveWeights::Weights* CorrectiveWeights::of(std::uint32_t joint) noe
     if (state == State::Unknown) {
         const CorrectiveJoint& from = _blocks.joints[joint];
         double beta[CorrectiveJoint::kMostModes];
-        from.weights(_pose.turn(from.joint).split, _model.joints()[from.joint].twistAxis, beta);
+        const BendTwist bend = _pose.transform(from.joint).split;
+        from.weights(
+            from.coordinates(bend.bendAxis, bend.bendAngle, _model.joints()[from.joint].twistAxis),
+            beta);
         state = State::Nothing;
         for (std::size_t k = 0; k < from.modes; ++k) {
             // A rest pose read from matrices is one up to rounding errors.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "CorrectiveBlocks.h"
+#include "model/CorrectiveBlocks.h"
 
 #include <osgSkin/Pose>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ReferenceCorrections.h"
+#include "correctives/ReferenceCorrections.h"
 
 namespace osgSkin {
 

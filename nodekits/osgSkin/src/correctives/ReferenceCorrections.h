@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "CorrectiveWeights.h"
+#include "correctives/CorrectiveWeights.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/FitSkeleton>
 
-#include "PlaceJoints.h"
+#include "fit/place/CheckProportions.h"
+#include "fit/place/PlaceArm.h"
+#include "fit/place/PlaceHand.h"
+#include "fit/place/PlaceLeg.h"
+#include "fit/place/PlaceTrunk.h"
+#include "fit/place/PushInside.h"
+#include "fit/place/Symmetrise.h"
 
 #include <osgSkin/Error>
 
@@ -64,7 +70,7 @@ std::optional<glm::dvec3> leftOf(const FitOptions& options, const FitBody& body)
     return sum;
 }
 
-void requireLimb(const BodyBranches::Path& path, const JointSheet& sheet,
+void requireLimb(const BodyBranches::Path& path, const PlacedJoints& sheet,
                  std::initializer_list<std::string> names) {
     for (const std::string& name : names)
         if (path.empty() && !sheet.has(name))
@@ -72,7 +78,7 @@ void requireLimb(const BodyBranches::Path& path, const JointSheet& sheet,
                         " cannot be told from the rest of the body; give a landmark for it");
 }
 
-void placeJoints(const FitBody& body, JointSheet& sheet, std::vector<std::string>& notes) {
+void placeJoints(const FitBody& body, PlacedJoints& sheet, std::vector<std::string>& notes) {
     if (body.isSymmetric()) mirrorLandmarks(sheet);
     for (const std::size_t side : {0u, 1u}) {
         const std::string& prefix = sidePrefix(side);
@@ -90,10 +96,10 @@ void placeJoints(const FitBody& body, JointSheet& sheet, std::vector<std::string
     pushInside(body, sheet, notes);
 }
 
-RestSkeleton skeletonOf(const FitBody& body, JointSheet& sheet, FitReport& report) {
+RestSkeleton skeletonOf(const FitBody& body, PlacedJoints& sheet, FitReport& report) {
     RestSkeleton skeleton;
     for (const FittedJoint& joint : fittedTree()) {
-        const JointSheet::Entry& entry = sheet.entries().at(joint.name);
+        const PlacedJoints::Entry& entry = sheet.entries().at(joint.name);
         RestJoint& added = skeleton.joints.emplace_back();
         added.name = joint.name;
         added.parent = joint.parent;
@@ -126,7 +132,7 @@ RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& options, FitRep
     found.height = body.height();
     found.symmetryError = body.symmetryError;
 
-    JointSheet sheet;
+    PlacedJoints sheet;
     for (const auto& [name, centre] : options.landmarks)
         sheet.addLandmark(name, body.toBody(centre));
     tell("joints", kJointsBegin);

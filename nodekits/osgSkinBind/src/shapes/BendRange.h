@@ -2,7 +2,7 @@
 #ifndef OSGSKINBIND_BENDRANGE_H
 #define OSGSKINBIND_BENDRANGE_H
 
-#include "ShapedJoint.h"
+#include "shapes/ShapedJoint.h"
 
 #include <optional>
 #include <vector>

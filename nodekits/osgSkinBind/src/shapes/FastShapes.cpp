@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "FastShapes.h"
+#include "shapes/FastShapes.h"
 
-#include "../HardField.h"
-#include "BendRange.h"
-#include "FastTargets.h"
-#include "PackShapes.h"
-#include "ShapedJoint.h"
+#include "limbs/BinaryField.h"
+#include "shapes/BendRange.h"
+#include "shapes/FastTargets.h"
+#include "shapes/PackShapes.h"
+#include "shapes/ShapedJoint.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +35,18 @@ constexpr double kSwellEnd = 4.0;
 
 using Points = std::vector<glm::dvec3>;
 
+double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
 FoldShape foldAt(const ShapedJoint& joint, const glm::dquat& turn) {
-    FoldShape fold{joint.above, joint.bone, turn * joint.bone, joint.radius, 0.0};
-    fold.angle =
-        std::atan2(glm::length(glm::cross(fold.above, fold.bone)), glm::dot(fold.above, fold.bone));
-    return fold;
+    const glm::dvec3 bone = turn * joint.bone;
+    return {joint.above,
+            joint.bone,
+            bone,
+            joint.radius,
+            degreesBetween(joint.above, bone),
+            degreesBetween(joint.above, joint.bone)};
 }
 
 /// Six times what lies between the skin and the joint's centre.

@@ -2,8 +2,8 @@
 #ifndef OSGSKINBIND_FASTSHAPES_H
 #define OSGSKINBIND_FASTSHAPES_H
 
-#include "../JointPlan.h"
-#include "../WeldedMesh.h"
+#include "joints/JointPlan.h"
+#include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Binding>
 

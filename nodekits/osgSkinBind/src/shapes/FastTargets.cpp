@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "FastTargets.h"
+#include "shapes/FastTargets.h"
 
-#include "../HardField.h"
+#include "limbs/BinaryField.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +39,11 @@ double softMax(double a, double b, double width) {
     return 0.5 * (a + b + std::sqrt((a - b) * (a - b) + width * width));
 }
 
+/// 0 up to an angle, 1 from another on; both later where the limb is bent at rest.
+double since(const FoldShape& fold, double from, double full) {
+    return hermite((fold.angle - std::max(from, fold.angleAtRest)) / (full - from));
+}
+
 } // namespace
 
 glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
@@ -67,8 +71,7 @@ glm::dvec3 swell(const FoldShape& fold, const glm::dvec3& posed, double share) {
 }
 
 glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
-    const double degrees = fold.angle * 180.0 / glm::pi<double>();
-    const double onset = hermite((degrees - kPressFrom) / (kPressFull - kPressFrom));
+    const double onset = since(fold, kPressFrom, kPressFull);
     const glm::dvec3 sum = fold.above + fold.bone, inwards = fold.bone - fold.above;
     if (!(onset > 0.0) || glm::length(sum) < 1e-3 || glm::length(inwards) < 1e-3) return posed;
     const glm::dvec3 n = glm::normalize(sum);
@@ -80,7 +83,7 @@ glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::d
     const double parents = -softMax(-h, -limit, kSoftness * r);
     const double side = hermite(0.5 + h0 / (0.5 * r));
     // The crease itself lies between both sides: else it pricks the one that is pressed upon it.
-    const double deep = hermite((degrees - kCreaseFrom) / (kCreaseFull - kCreaseFrom)) *
+    const double deep = since(fold, kCreaseFrom, kCreaseFull) *
                         (1.0 - hermite((std::abs(h0) / r - kCreaseCore) / kCreaseEdge));
     const double pressed = glm::mix(glm::mix(parents, childs, side), limit, deep);
     const double inside = hermite(0.2 + 2.0 * glm::dot(glm::normalize(inwards), posed) / r);

@@ -13,7 +13,8 @@ struct FoldShape {
     glm::dvec3 boneRest; ///< b0: unit, the bone at rest
     glm::dvec3 bone;     ///< b: unit, where the bend has put it
     double radius;       ///< of the limb
-    double angle;        ///< between a and b, radians: 0 is straight
+    double angle;        ///< between a and b, degrees: 0 is straight
+    double angleAtRest;  ///< between a and b0
 };
 
 /// No balloon: takes a vertex back to the distance from its posed bone that it had at rest, and

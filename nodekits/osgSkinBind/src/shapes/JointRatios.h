@@ -2,10 +2,12 @@
 #ifndef OSGSKINBIND_JOINTRATIOS_H
 #define OSGSKINBIND_JOINTRATIOS_H
 
-#include "../WeldedMesh.h"
+#include "joints/JointPlan.h"
+#include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Binding>
 
+#include <algorithm>
 #include <vector>
 
 namespace osgSkin {
@@ -24,6 +26,16 @@ public:
         for (std::uint32_t i = _binding.firstInfluence[v]; i < _binding.firstInfluence[v + 1]; ++i)
             if (_binding.influences[i].joint == joint) return _binding.influences[i];
         return {joint, 0.0f, 0.0f};
+    }
+
+    /// The largest bend ratio of a joint that moves a rigid part.
+    double rigid(std::uint32_t welded, const std::vector<PlannedJoint>& joints) const {
+        const std::uint32_t v = _copyOf[welded];
+        double most = 0.0;
+        for (std::uint32_t i = _binding.firstInfluence[v]; i < _binding.firstInfluence[v + 1]; ++i)
+            if (joints[_binding.influences[i].joint].rigid >= 0)
+                most = std::max(most, static_cast<double>(_binding.influences[i].bend));
+        return most;
     }
 
     double bend(std::uint32_t welded, std::uint32_t joint) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "MainAxis.h"
+#include "shapes/MainAxis.h"
 
-#include "../JointNames.h"
+#include "joints/JointNames.h"
 
 #include <glm/geometric.hpp>
 

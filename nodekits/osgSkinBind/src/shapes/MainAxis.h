@@ -2,7 +2,7 @@
 #ifndef OSGSKINBIND_MAINAXIS_H
 #define OSGSKINBIND_MAINAXIS_H
 
-#include "../JointPlan.h"
+#include "joints/JointPlan.h"
 
 #include <optional>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "PackShapes.h"
+#include "shapes/PackShapes.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 #ifndef OSGSKINBIND_PACKSHAPES_H
 #define OSGSKINBIND_PACKSHAPES_H
 
-#include "ShapeFit.h"
+#include "shapes/ShapeFit.h"
 
 #include <osgSkin/Correctives>
 

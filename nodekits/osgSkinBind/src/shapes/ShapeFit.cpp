@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ShapeFit.h"
+#include "shapes/ShapeFit.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ShapedJoint.h"
+#include "shapes/ShapedJoint.h"
 
-#include "../HardField.h"
-#include "BendRange.h"
-#include "JointRatios.h"
-#include "MainAxis.h"
+#include "limbs/BinaryField.h"
+#include "shapes/BendRange.h"
+#include "shapes/JointRatios.h"
+#include "shapes/MainAxis.h"
 
 #include <glm/geometric.hpp>
 
@@ -45,15 +45,17 @@ double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
 }
 
 /// Adds the vertices and triangles within reach. \param above the joint that moves the limb above
-void addSkin(const WeldedMesh& mesh, const JointRatios& ratios, std::uint32_t above,
-             ShapedJoint& shaped) {
+void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+             const JointRatios& ratios, std::uint32_t above, ShapedJoint& shaped) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
     const auto add = [&](std::uint32_t v, bool withinReach) {
         const glm::dvec3 from = mesh.positions[v] - shaped.centre;
         const double r = glm::length(from) / shaped.radius;
         const double limb = above == 0 ? 1.0 : ratios.bend(v, above);
-        const double fade = 1.0 - hermite((r - kFadeFrom) / (kReach - kFadeFrom));
+        // Where skin meets a rigid part, nothing may move them apart.
+        const double fade = (1.0 - hermite((r - kFadeFrom) / (kReach - kFadeFrom))) *
+                            (1.0 - ratios.rigid(v, joints));
         if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
         const Influence own = ratios.of(v, shaped.functions.joint);
         placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
@@ -108,7 +110,7 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
         setBendRange(findMainAxis(skeleton, joints, j), shaped);
-        addSkin(mesh, ratios, above, shaped);
+        addSkin(mesh, joints, ratios, above, shaped);
         if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
     }
     return result;

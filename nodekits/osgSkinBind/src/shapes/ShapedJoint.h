@@ -2,9 +2,10 @@
 #ifndef OSGSKINBIND_SHAPEDJOINT_H
 #define OSGSKINBIND_SHAPEDJOINT_H
 
-#include "../JointPlan.h"
-#include "../WeldedMesh.h"
+#include "joints/JointPlan.h"
+#include "mesh/WeldedMesh.h"
 
+#include <osgSkin/BendTwist>
 #include <osgSkin/Binding>
 
 #include <array>

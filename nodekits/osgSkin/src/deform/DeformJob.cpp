@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/DeformJob>
+
+#include "correctives/ReferenceCorrections.h"
+#include "deform/Chain.h"
+#include "deform/DeformKernel.h"
+#include "deform/KernelChain.h"
+#include "deform/KernelCorrections.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace osgSkin {
+namespace {
+
+constexpr std::size_t kPartBlocks = 256;
+
+/// The group that a block belongs to.
+std::size_t groupOf(const SkinBlocks& blocks, std::size_t block) noexcept {
+    const auto behind = std::upper_bound(blocks.firstBlock.begin(), blocks.firstBlock.end(), block);
+    return static_cast<std::size_t>(behind - blocks.firstBlock.begin()) - 1;
+}
+
+/// The vertex, in the model's order, that a block begins with; all of them for the end.
+std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
+    const SkinBlocks& blocks = model.blocks();
+    if (block >= blocks.firstBlock.back()) return model.vertexCount();
+    const std::size_t group = groupOf(blocks, block);
+    return model.groups()[group].firstVertex + (block - blocks.firstBlock[group]) * kBlock;
+}
+
+/// Deforms the blocks from `first` to before `end`, and no other vertex is written.
+void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
+    const SkinModel& model = *job.model;
+    const SkinBlocks& blocks = model.blocks();
+    const std::size_t endVertex = firstVertexOf(model, end);
+    KernelChain chain(model, *job.pose);
+    KernelCall call;
+    call.correctionCount = 0;
+    std::optional<KernelCorrections> corrections;
+    if (model.correctives()) corrections.emplace(model, *job.pose);
+    for (std::size_t g = groupOf(blocks, first); blocks.firstBlock[g] < end; ++g) {
+        const SkinModel::Group& group = model.groups()[g];
+        const std::size_t from = std::max(first, blocks.firstBlock[g]) - blocks.firstBlock[g];
+        const std::size_t to = std::min(end, blocks.firstBlock[g + 1]) - blocks.firstBlock[g];
+        const std::size_t vertex = group.firstVertex + from * kBlock;
+        const std::size_t out = blocks.inOrder ? vertex : 0;
+        chain.prepare(group, call);
+        if (corrections) corrections->prepare(g, from, call);
+        call.rows =
+            &blocks.rows[blocks.firstRow[g] + from * SkinBlocks::rowsPerBlock(group.partialCount)];
+        call.vertexCount = std::min<std::size_t>(group.vertexCount, to * kBlock) - from * kBlock;
+        call.room = endVertex - vertex;
+        call.scatter = blocks.inOrder ? nullptr : model.order().data() + vertex;
+        call.positions = &job.positions[out].x;
+        call.normals = job.normals ? &job.normals[out].x : nullptr;
+        call.tangents = job.tangents ? &job.tangents[out].x : nullptr;
+        call.tangentRows =
+            job.tangents ? job.restTangents->blocks(g) + from * SkinBlocks::kTangentRows : nullptr;
+        runKernel(call);
+    }
+}
+
+} // namespace
+
+const char* DeformJob::validate() const noexcept {
+    if (!model) return "no model";
+    if (!pose) return "no pose";
+    if (pose->size() != model->joints().size()) return "the pose is not one of the model's joints";
+    if (!positions) return "no output for positions";
+    if (positionCount != model->vertexCount()) return "as many positions as vertices are needed";
+    if (normals && normalCount != model->vertexCount())
+        return "as many normals as vertices are needed";
+    if (!tangents) return nullptr;
+    if (!normals) return "tangents are turned beside normals only";
+    if (!restTangents) return "no rest tangents";
+    if (restTangents->model().get() != model) return "the rest tangents are another model's";
+    if (tangentCount != model->vertexCount()) return "as many tangents as vertices are needed";
+    return nullptr;
+}
+
+bool DeformJob::run() const noexcept {
+    if (validate()) return false;
+    runBlocks(*this, 0, model->blocks().firstBlock.back());
+    return true;
+}
+
+std::size_t DeformJob::partCount() const noexcept {
+    if (validate()) return 0;
+    return (model->blocks().firstBlock.back() + kPartBlocks - 1) / kPartBlocks;
+}
+
+void DeformJob::runPart(std::size_t part) const noexcept {
+    if (part >= partCount()) return;
+    const std::size_t first = part * kPartBlocks;
+    runBlocks(*this, first, std::min(first + kPartBlocks, model->blocks().firstBlock.back()));
+}
+
+bool DeformJob::runReference() const noexcept {
+    if (validate()) return false;
+    std::optional<ReferenceCorrections> corrections;
+    if (model->correctives()) corrections.emplace(*model, *pose);
+    for (std::size_t g = 0; g < model->groups().size(); ++g) {
+        const SkinModel::Group& group = model->groups()[g];
+        const Chain chain(*model, group, *pose);
+        const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;
+        const std::uint32_t* order = model->order().data() + group.firstVertex;
+        for (std::uint32_t i = 0; i < group.vertexCount; ++i, ratios += group.partialCount) {
+            const std::uint32_t v = order[i];
+            glm::vec3 position = model->positions()[v];
+            glm::vec3 normal = model->normals()[v];
+            if (corrections) corrections->apply(g, i, position);
+            const glm::vec4 rest = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
+            glm::vec3 tangent(rest);
+            chain.apply(ratios, position, normals ? &normal : nullptr,
+                        tangents ? &tangent : nullptr);
+            positions[v] = position;
+            if (normals) normals[v] = normal;
+            if (tangents) tangents[v] = glm::vec4(tangent, rest.w);
+        }
+    }
+    return true;
+}
+
+} // namespace osgSkin

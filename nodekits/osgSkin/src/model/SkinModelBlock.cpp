@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/SkinModelBlock>
+
+#include "model/CorrectiveBlocks.h"
+#include "model/CorrectivesWords.h"
+
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+std::vector<glm::vec3> readVectors(WordReader& in, std::uint32_t count, const char* what) {
+    std::vector<glm::vec3> vectors(count);
+    for (std::uint32_t v = 0; v < count; ++v)
+        for (glm::length_t axis = 0; axis < 3; ++axis) {
+            vectors[v][axis] = in.real();
+            if (!std::isfinite(vectors[v][axis]))
+                in.fail("vertex " + std::to_string(v) + " has a " + what + " that is not finite");
+        }
+    return vectors;
+}
+
+BoundJoint readJoint(WordReader& in) {
+    BoundJoint joint;
+    joint.parent = static_cast<int>(in.word());
+    joint.name = in.text();
+    joint.centre = in.longVector();
+    joint.boneAxis = in.longVector();
+    joint.twistAxis = in.longVector();
+    return joint;
+}
+
+} // namespace
+
+Binding bindingOf(const SkinModel& model) {
+    // Per vertex first: groups list their vertices in an order of their own.
+    std::vector<std::vector<Influence>> influences(model.vertexCount());
+    for (const SkinModel::Group& group : model.groups()) {
+        const SkinModel::Ratio* ratio = model.ratios().data() + group.firstRatio;
+        for (std::uint32_t i = 0; i < group.vertexCount; ++i) {
+            std::vector<Influence>& list = influences[model.order()[group.firstVertex + i]];
+            for (std::uint32_t k = 0; k < group.linkCount; ++k) {
+                const SkinModel::Link& link = model.links()[group.firstLink + k];
+                list.push_back({link.joint, link.partial ? ratio->bend : 1.0f,
+                                link.partial ? ratio->twist : 1.0f});
+                if (link.partial) ++ratio;
+            }
+        }
+    }
+    Binding binding;
+    binding.joints = model.joints();
+    binding.firstInfluence.push_back(0);
+    for (const std::vector<Influence>& list : influences) {
+        std::uint32_t region = 0;
+        for (const Influence& influence : list)
+            if (influence.bend >= 0.5f) region = influence.joint;
+        binding.regions.push_back(region);
+        binding.influences.insert(binding.influences.end(), list.begin(), list.end());
+        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+    binding.correctives = correctivesOf(model);
+    return binding;
+}
+
+std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
+    const Binding binding = bindingOf(model);
+    WordWriter out;
+    const bool plain = binding.correctives.empty(); // then older programs read it, too
+    out.put(plain ? std::uint32_t{1} : kSkinModelBlockVersion);
+    out.put(binding.joints.size());
+    for (const BoundJoint& joint : binding.joints) {
+        out.put(static_cast<std::uint32_t>(joint.parent));
+        out.put(joint.name);
+        out.putVector(joint.centre);
+        out.putVector(joint.boneAxis);
+        out.putVector(joint.twistAxis);
+    }
+    out.put(model.vertexCount());
+    for (const glm::vec3& position : model.positions()) out.putVector(position);
+    for (const glm::vec3& normal : model.normals()) out.putVector(normal);
+    for (std::size_t v = 0; v < model.vertexCount(); ++v) {
+        const std::uint32_t first = binding.firstInfluence[v];
+        const std::uint32_t end = binding.firstInfluence[v + 1];
+        out.put(end - first);
+        for (std::uint32_t i = first; i < end; ++i) {
+            out.put(binding.influences[i].joint);
+            out.put(binding.influences[i].bend);
+            out.put(binding.influences[i].twist);
+        }
+    }
+    if (!plain) putCorrectives(binding.correctives, out);
+    return out.words;
+}
+
+std::shared_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& words) {
+    WordReader in(words);
+    const std::uint32_t version = in.word();
+    if (version < 1 || version > kSkinModelBlockVersion)
+        in.fail("it has version " + std::to_string(version) + ", expected 1 to " +
+                std::to_string(kSkinModelBlockVersion));
+    Binding binding;
+    const std::uint32_t joints = in.count("joints", 20);
+    for (std::uint32_t j = 0; j < joints; ++j) binding.joints.push_back(readJoint(in));
+    const std::uint32_t vertices = in.count("vertices", 10);
+    if (vertices == 0) in.fail("it has no vertex");
+    std::vector<glm::vec3> positions = readVectors(in, vertices, "position");
+    std::vector<glm::vec3> normals = readVectors(in, vertices, "normal");
+    std::vector<std::uint32_t> source;
+    binding.firstInfluence.push_back(0);
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+        const std::uint32_t influences = in.count("influences", 3);
+        for (std::uint32_t i = 0; i < influences; ++i) {
+            Influence influence;
+            influence.joint = in.word();
+            influence.bend = in.real();
+            influence.twist = in.real();
+            binding.influences.push_back(influence);
+        }
+        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+        binding.regions.push_back(0);
+        source.push_back(v);
+    }
+    if (version >= 2) binding.correctives = takeCorrectives(in, vertices);
+    if (!in.atEnd()) in.fail("there is more in it than a model");
+    // Indices, ratios, axes and the tree of joints are checked there.
+    return SkinModel::create(binding, std::move(positions), std::move(normals), source);
+}
+
+} // namespace osgSkin

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinBind/BindWeights>
+
+#include "bind/CheckOptions.h"
+#include "joints/BoundJoints.h"
+#include "joints/JointPlan.h"
+#include "mesh/NearestPoint.h"
+#include "mesh/WeldedMesh.h"
+#include "ratios/PackInfluences.h"
+#include "shapes/FastShapes.h"
+
+#include <osgSkin/Error>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+namespace osgSkin {
+namespace {
+
+/// For each welded vertex, each joint's share; sums to 1, or is empty where nothing is painted.
+using Shares = std::vector<std::vector<double>>;
+
+double checkedSum(const std::vector<JointWeight>& entries, std::size_t vertex, std::size_t joints) {
+    const std::string place = "bind: weights of vertex " + std::to_string(vertex);
+    double sum = 0.0;
+    for (const JointWeight& entry : entries) {
+        if (entry.joint >= joints)
+            throw Error(place + ": joint " + std::to_string(entry.joint) +
+                        " is not there, expected one of " + std::to_string(joints));
+        if (!std::isfinite(entry.weight) || entry.weight < 0.0)
+            throw Error(place + ": expected finite numbers of 0 or more, found " +
+                        std::to_string(entry.weight));
+        sum += entry.weight;
+    }
+    return sum;
+}
+
+/// Copies of a vertex at a seam must move alike, so they share the mean of what each was given.
+Shares weldedShares(const WeldedMesh& skin, const VertexWeights& weights, std::size_t joints) {
+    Shares shares(skin.vertexCount());
+    std::vector<double> copies(skin.vertexCount(), 0.0);
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        const double sum = checkedSum(weights[v], v, joints);
+        if (!(sum > 0.0)) continue;
+        std::vector<double>& share = shares[skin.weldedOf[v]];
+        share.resize(joints, 0.0);
+        for (const JointWeight& entry : weights[v]) share[entry.joint] += entry.weight / sum;
+        copies[skin.weldedOf[v]] += 1.0;
+    }
+    for (std::size_t v = 0; v < shares.size(); ++v)
+        for (double& share : shares[v]) share /= copies[v];
+    return shares;
+}
+
+/// Fills in what nobody painted. Returns how many welded vertices that were.
+std::size_t fillGaps(const WeldedMesh& skin, Shares& shares) {
+    std::vector<std::uint32_t> painted;
+    for (std::uint32_t v = 0; v < shares.size(); ++v)
+        if (!shares[v].empty()) painted.push_back(v);
+    if (painted.empty()) throw Error("bind: no vertex has weights, expected at least one above 0");
+    if (painted.size() == shares.size()) return 0;
+    const NearestPoint nearest(skin.positions, painted);
+    for (std::uint32_t v = 0; v < shares.size(); ++v)
+        if (shares[v].empty()) shares[v] = shares[nearest.find(skin.positions[v])];
+    return shares.size() - painted.size();
+}
+
+/// The ratio of each joint is its subtree's share of the weights. Adding up from the leaves keeps
+/// it at or below the parent's, to the last bit.
+JointFields ratiosFrom(const std::vector<double>& share, const std::vector<PlannedJoint>& joints) {
+    std::vector<double> sums = share;
+    for (std::size_t j = joints.size(); j-- > 1;)
+        sums[static_cast<std::size_t>(joints[j].parent)] += sums[j];
+    JointFields fields(joints.size(), std::vector<double>(1, 1.0));
+    for (std::size_t j = 1; j < joints.size(); ++j) fields[j][0] = sums[j] / sums[0];
+    return fields;
+}
+
+std::vector<BindReport::Region> regionsOf(const Binding& binding) {
+    std::vector<BindReport::Region> all(binding.joints.size());
+    for (const std::uint32_t joint : binding.regions) ++all[joint].vertices;
+    std::vector<BindReport::Region> result;
+    for (std::size_t j = 0; j < all.size(); ++j) {
+        if (all[j].vertices == 0) continue;
+        all[j].joint = binding.joints[j].name;
+        result.push_back(all[j]);
+    }
+    return result;
+}
+
+} // namespace
+
+bool isWellPainted(const VertexWeights& weights) {
+    std::size_t painted = 0;
+    std::set<std::uint32_t> joints;
+    for (const std::vector<JointWeight>& list : weights) {
+        bool any = false;
+        for (const JointWeight& entry : list) {
+            if (!(entry.weight > 0.0)) continue;
+            any = true;
+            joints.insert(entry.joint);
+        }
+        painted += any ? 1 : 0;
+    }
+    return joints.size() > 1 &&
+           static_cast<double>(painted) >= 0.98 * static_cast<double>(weights.size());
+}
+
+Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
+                    const VertexWeights& weights, const BindOptions& options, BindReport* report) {
+    const auto start = std::chrono::steady_clock::now();
+    mesh.validate();
+    skeleton.validate();
+    checkOptions(skeleton, options);
+    if (weights.size() != mesh.positions.size())
+        throw Error("bind: weights for " + std::to_string(weights.size()) +
+                    " vertices, expected one list for each of the mesh's " +
+                    std::to_string(mesh.positions.size()));
+
+    BindReport found;
+    const WeldedMesh skin(mesh);
+    std::vector<std::string> aboutRegions; // which are not looked for here
+    const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, aboutRegions);
+    Shares shares = weldedShares(skin, weights, joints.size());
+    if (const std::size_t gaps = fillGaps(skin, shares))
+        found.notes.push_back(std::to_string(gaps) +
+                              " vertices have no weights, they take those of the nearest that has");
+
+    Binding binding;
+    binding.joints = boundJoints(skeleton, joints);
+    binding.firstInfluence.push_back(0);
+    std::size_t partial = 0;
+    for (const std::uint32_t v : skin.weldedOf) {
+        const auto heaviest = std::max_element(shares[v].begin(), shares[v].end());
+        binding.regions.push_back(static_cast<std::uint32_t>(heaviest - shares[v].begin()));
+        const JointFields ratios = ratiosFrom(shares[v], joints);
+        if (packInfluences(joints, ratios, ratios, 0, options.mostPartialJoints,
+                           binding.influences))
+            ++found.cappedVertices;
+        for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
+            if (isPartial(binding.influences[i])) ++partial;
+        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+    if (options.shapes == BindOptions::Shapes::Fast)
+        binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
+    binding.validate();
+
+    found.regions = regionsOf(binding);
+    found.vertices = mesh.positions.size();
+    found.weldedVertices = skin.vertexCount();
+    found.shells = skin.shells;
+    found.openEdges = skin.openEdges;
+    found.influencesPerVertex = static_cast<double>(partial) / static_cast<double>(found.vertices);
+    found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (report) *report = found;
+    return binding;
+}
+
+} // namespace osgSkin

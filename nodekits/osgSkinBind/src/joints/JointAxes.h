@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_JOINTAXES_H
+#define OSGSKINBIND_JOINTAXES_H
+
+#include "joints/JointPlan.h"
+
+namespace osgSkin {
+
+/// Fills in centre, parent, child, bone and axes of the joints; centres closer than `tolerance` are
+/// one point.
+void setJointAxes(const RestSkeleton& skeleton, double tolerance,
+                  std::vector<PlannedJoint>& joints);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgSkin/SkinMesh>
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace osgSkin {
+
+/// Normals at the corners, smooth over the skin and weighted by area. Vertices at one position
+/// count as one, so that seams of texture coordinates do not show.
+std::vector<glm::vec3> smoothNormals(const SkinMesh& mesh);
+
+} // namespace osgSkin

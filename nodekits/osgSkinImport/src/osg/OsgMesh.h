@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mesh/CornerMesh.h"
+
+#include <osgDB/Options>
+
+#include <string>
+
+namespace osgSkin {
+
+/// Reads the geometries of a file that osgDB reads.
+/// \throw osgSkin::Error as readObjMesh()
+CornerMesh readOsgMesh(const std::string& path, const osgDB::Options* options);
+
+} // namespace osgSkin
