@@ -44,6 +44,12 @@ SkinOptions::Bind bindOf(const std::string& value) {
     fail("bind", value, "smooth, paper, weights or default");
 }
 
+BindOptions::Shapes shapesOf(const std::string& value) {
+    if (value == "none") return BindOptions::Shapes::None;
+    if (value == "fast") return BindOptions::Shapes::Fast;
+    fail("shapes", value, "none or fast");
+}
+
 std::vector<std::string> namesOf(const std::string& value) {
     std::vector<std::string> names;
     if (value == "none") return names;
@@ -61,6 +67,7 @@ SkinOptions SkinOptions::parse(const osgDB::Options* options) {
     if (options == nullptr) return result;
     for (const auto& [key, value] : wordsOf(options->getOptionString())) {
         if (key == "bind") result.bind = bindOf(value);
+        if (key == "shapes") result.shapes = shapesOf(value);
         if (key == "rigid") result.rigid = namesOf(value);
         if (key == "motion") {
             if (value.empty()) fail(key, value, "a clip's name, a motion file, or none");
@@ -81,6 +88,8 @@ const std::vector<std::pair<const char*, const char*>>& SkinOptions::list() {
         {"motion=<clip|file|none>", "the clip to play by its name, or a motion file to carry over"},
         {"rigid=<joint,joint|none>",
          "joints that move as rigid bodies; head, hands, feet by default"},
+        {"shapes=<none|fast>",
+         "what keeps bent limbs from swelling and from going through themselves"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };
     return options;

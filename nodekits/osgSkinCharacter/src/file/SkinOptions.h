@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <osgSkinBind/BindOptions>
+
 #include <osgDB/Options>
 
 #include <optional>
@@ -19,6 +21,7 @@ struct SkinOptions {
         Weights
     };
     Bind bind = Bind::Default;
+    std::optional<BindOptions::Shapes> shapes; ///< unset: what the file says; none for a rig
     std::optional<std::string> motion; ///< a clip's name or a motion file; "none": stay at rest
     std::optional<std::vector<std::string>> rigid; ///< joints; empty: none
     bool showRegions = false;

@@ -140,6 +140,7 @@ void change(SkinFile& file, const SkinOptions& wanted, const osgDB::Options* opt
                                                                    : BindOptions::Method::Smooth;
     }
     if (wanted.rigid) file.bind.rigid = wanted.rigid;
+    if (wanted.shapes) file.bind.shapes = *wanted.shapes;
     if (!wanted.motion) return;
     if (*wanted.motion == "none") {
         file.motions.clear();

@@ -40,6 +40,7 @@ Binding bindRig(const std::string& file, const ImportedRig& rig, const SkinOptio
         steps.within(what, share);
     };
     options.rigid = wanted.rigid;
+    if (wanted.shapes) options.shapes = *wanted.shapes;
     if (wanted.bind == Bind::Paper) options.method = BindOptions::Method::Paper;
     VertexWeights weights;
     bool painted = wanted.bind == Bind::Weights;
@@ -110,6 +111,7 @@ osg::ref_ptr<osg::Group> loadByOsg(const std::string& file, const osgDB::Options
                                                     : ConvertOptions::Ratios::Own;
     if (wanted.bind == Bind::Paper) convert.bind.method = BindOptions::Method::Paper;
     convert.bind.rigid = wanted.rigid;
+    if (wanted.shapes) convert.bind.shapes = *wanted.shapes;
     convert.showRegions = wanted.showRegions;
     steps.begin("binding");
     convert.bind.progress = [&steps](const std::string& what, double share) {
