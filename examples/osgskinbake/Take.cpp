@@ -67,18 +67,20 @@ std::vector<Take> takesOf(Character& character, double rate) {
     return takes;
 }
 
-Character loadCharacter(const std::string& file, bool quiet) {
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+Character loadCharacter(const std::string& file, const std::string& shapes, bool quiet) {
+    const osg::ref_ptr<osgDB::Options> options =
+        new osgDB::Options(shapes.empty() ? shapes : "shapes=" + shapes);
+    const osgSkin::SkinOptions wanted = osgSkin::SkinOptions::parse(options);
     if (quiet) osgSkin::setLoadProgress(*options, new Silence);
     if (osgDB::getLowerCaseFileExtension(file) == "skin") {
         const std::string model = osgDB::getNameLessExtension(file);
         if (osgDB::fileExists(file) || osgDB::getFileExtension(model).empty())
-            return Character::load(file, options);
-        return loadCharacter(model, quiet);
+            return Character::load(file, options, wanted);
+        return loadCharacter(model, shapes, quiet);
     }
     if (!osgSkin::isReadByAssimp(file))
         throw osgSkin::Error(file + ": expected a .skin file, or a rigged model that Assimp reads");
-    return osgSkin::loadRig(file, options, {});
+    return osgSkin::loadRig(file, options, wanted);
 }
 
 } // namespace bake

@@ -25,8 +25,8 @@ struct Take {
 std::vector<Take> takesOf(osgSkin::Character& character, double rate);
 
 /// Reads a `.skin` file, or a rigged model, with or without `.skin` after its name, as the plug-in
-/// does. \param quiet without progress on the terminal
-/// \throw osgSkin::Error with the file and the reason
-osgSkin::Character loadCharacter(const std::string& file, bool quiet);
+/// does. \param shapes none or fast; empty: as the character has them \param quiet without progress
+/// on the terminal \throw osgSkin::Error with the file and the reason
+osgSkin::Character loadCharacter(const std::string& file, const std::string& shapes, bool quiet);
 
 } // namespace bake

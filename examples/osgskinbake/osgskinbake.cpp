@@ -79,7 +79,8 @@ void bakeFrames(const Arguments& arguments, Character& character) {
 }
 
 int run(const Arguments& arguments) {
-    Character character = bake::loadCharacter(arguments.character, arguments.quiet);
+    Character character =
+        bake::loadCharacter(arguments.character, arguments.shapes, arguments.quiet);
     if (!arguments.binding.empty())
         bake::writeJson(arguments.binding, bake::bindingJson(character.binding));
     if (!arguments.rest.empty())

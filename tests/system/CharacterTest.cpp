@@ -37,7 +37,10 @@ protected:
     void SetUp() override {
         std::string why;
         if (!test::isAvailable(GetParam(), why)) GTEST_SKIP() << why;
-        character = Character::load(test::skinFile(GetParam(), test::makeTestFolder()));
+        const osg::ref_ptr<osgDB::Options> options =
+            new osgDB::Options(std::string("shapes=") + GetParam().shapes);
+        character = Character::load(test::skinFile(GetParam(), test::makeTestFolder()), options,
+                                    osgSkin::SkinOptions::parse(options));
     }
 
     void setFrame(std::size_t frame) { character.pose(character.motions.front(), frame); }
