@@ -6,6 +6,7 @@
 
 #include <osgSkinBind/Bind>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -95,7 +96,9 @@ std::vector<FoldFigure> measureFolds(const Subject& plain, const Subject& shaped
             figure.limb = knee ? "knee" : "elbow";
             figure.flexion = flexion;
             for (const std::string side : {"Left", "Right"}) {
-                const Limb limb = limbOf(plain, side + (knee ? "Leg" : "ForeArm"), knee);
+                const std::string name = side + (knee ? "Leg" : "ForeArm");
+                if (plain.joint(name) < 0) continue;
+                const Limb limb = limbOf(plain, name, knee);
                 const auto skinning =
                     singleTurn(plain, limb.joint, limb.axis, glm::radians(flexion - limb.atRest));
                 for (int way = 0; way < FoldFigure::Ways; ++way) {

@@ -37,7 +37,7 @@ std::vector<double> splines(const std::vector<double>& knots, double x) {
 } // namespace
 
 ReferenceShapes::ReferenceShapes(const nlohmann::json& json)
-    : _joint(json["joint"]), _basis(json["basis"]),
+    : _joint(json["joint"].get<std::string>()), _basis(json["basis"].get<std::string>()),
       _axis(json["axis"][0], json["axis"][1], json["axis"][2]),
       _low(json["low"][0], json["low"][1]), _high(json["high"][0], json["high"][1]),
       _knots(json["knots"].get<std::vector<double>>()),
