@@ -25,7 +25,9 @@ struct BodyParts {
     double lowest = 0.0;
 };
 
-/// \param roles of the tree's joints
+/// Finds them.
+/// \param tree at rest, +y up
+/// \param roles of its joints
 BodyParts findBodyParts(const SkeletonTree& tree, const JointRoles& roles);
 
 } // namespace osgSkin
