@@ -129,7 +129,7 @@ osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& 
 }
 
 void unpackSkinModel(const std::vector<std::uint32_t>& words, SkinModel& empty) {
-    if (empty.vertexCount() > 0) fail("the model to be filled is not empty");
+    if (empty.vertexCount() > 0) WordReader::fail("the model to be filled is not empty");
     SkinModelAccess::fill(empty, *unpackSkinModel(words));
 }
 

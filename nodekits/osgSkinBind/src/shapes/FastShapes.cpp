@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/FastShapes.h"
 
-#include "limbs/BinaryField.h"
+#include "limbs/HermiteRatio.h"
 #include "shapes/BendRange.h"
 #include "shapes/FastTargets.h"
 #include "shapes/PackShapes.h"
@@ -61,7 +61,7 @@ double volumeOf(const ShapedJoint& joint, const Points& points) {
 class BentSkin {
 public:
     BentSkin(const ShapedJoint& joint, const BendTwist& bend)
-        : _joint(joint), _fold(foldAt(joint, partialTurn(bend, joint.twistAxis, 1.0, 1.0))) {
+        : _joint(joint), _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0))) {
         for (const ShapedJoint::Vertex& vertex : joint.vertices)
             _posed.push_back(joint.turnOf(vertex, bend) * vertex.from);
     }
@@ -73,8 +73,9 @@ public:
             const ShapedJoint::Vertex& vertex = _joint.vertices[i];
             glm::dvec3 target = clampBulge(_fold, vertex.from, _posed[i]);
             const double r = glm::length(vertex.from) / _joint.radius;
-            target = swell(_fold, target,
-                           swelling * (1.0 - hermite((r - kSwellFull) / (kSwellEnd - kSwellFull))));
+            target =
+                swell(_fold, target,
+                      swelling * (1.0 - hermiteRatio((r - kSwellFull) / (kSwellEnd - kSwellFull))));
             target = pressFold(_fold, vertex.from, target);
             targets.push_back(_posed[i] + vertex.limb * vertex.fade * (target - _posed[i]));
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/FastTargets.h"
 
-#include "limbs/BinaryField.h"
+#include "limbs/HermiteRatio.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -41,7 +41,7 @@ double softMax(double a, double b, double width) {
 
 /// 0 up to an angle, 1 from another on; both later where the limb is bent at rest.
 double since(const FoldShape& fold, double from, double full) {
-    return hermite((fold.angle - std::max(from, fold.angleAtRest)) / (full - from));
+    return hermiteRatio((fold.angle - std::max(from, fold.angleAtRest)) / (full - from));
 }
 
 } // namespace
@@ -67,7 +67,7 @@ glm::dvec3 swell(const FoldShape& fold, const glm::dvec3& posed, double share) {
     const glm::dvec3 m = glm::dot(fold.above + fold.bone, posed) < 0.0 ? -fold.above : fold.bone;
     const glm::dvec3 radial = posed - std::max(glm::dot(m, posed), 0.0) * m;
     const double depth = glm::dot(inwards / length, posed) / fold.radius;
-    return posed + share * hermite((depth - kSwellFrom) / (kSwellFull - kSwellFrom)) * radial;
+    return posed + share * hermiteRatio((depth - kSwellFrom) / (kSwellFull - kSwellFrom)) * radial;
 }
 
 glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
@@ -81,12 +81,12 @@ glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::d
     const double limit = kGap * r * h0 / (std::abs(h0) + r);
     const double childs = softMax(h, limit, kSoftness * r);
     const double parents = -softMax(-h, -limit, kSoftness * r);
-    const double side = hermite(0.5 + h0 / (0.5 * r));
+    const double side = hermiteRatio(0.5 + h0 / (0.5 * r));
     // The crease itself lies between both sides: else it pricks the one that is pressed upon it.
     const double deep = since(fold, kCreaseFrom, kCreaseFull) *
-                        (1.0 - hermite((std::abs(h0) / r - kCreaseCore) / kCreaseEdge));
+                        (1.0 - hermiteRatio((std::abs(h0) / r - kCreaseCore) / kCreaseEdge));
     const double pressed = glm::mix(glm::mix(parents, childs, side), limit, deep);
-    const double inside = hermite(0.2 + 2.0 * glm::dot(glm::normalize(inwards), posed) / r);
+    const double inside = hermiteRatio(0.2 + 2.0 * glm::dot(glm::normalize(inwards), posed) / r);
     return posed + onset * inside * (pressed - h) * n;
 }
 

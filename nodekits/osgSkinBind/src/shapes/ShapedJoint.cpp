@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/ShapedJoint.h"
 
-#include "limbs/BinaryField.h"
+#include "limbs/HermiteRatio.h"
 #include "shapes/BendRange.h"
 #include "shapes/JointRatios.h"
 #include "shapes/MainAxis.h"
@@ -54,7 +54,7 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
         const double r = glm::length(from) / shaped.radius;
         const double limb = above == 0 ? 1.0 : ratios.bend(v, above);
         // Where skin meets a rigid part, nothing may move them apart.
-        const double fade = (1.0 - hermite((r - kFadeFrom) / (kReach - kFadeFrom))) *
+        const double fade = (1.0 - hermiteRatio((r - kFadeFrom) / (kReach - kFadeFrom))) *
                             (1.0 - ratios.rigid(v, joints));
         if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
         const Influence own = ratios.of(v, shaped.functions.joint);

@@ -45,7 +45,7 @@ struct ShapedJoint {
 
     /// What a bend does to a vertex at its own ratios, from the joint's centre to there.
     glm::dquat turnOf(const Vertex& vertex, const BendTwist& bend) const {
-        return partialTurn(bend, twistAxis, vertex.bend, vertex.twist);
+        return partialRotation(bend, twistAxis, vertex.bend, vertex.twist);
     }
 };
 
