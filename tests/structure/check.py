@@ -244,7 +244,11 @@ def check_pages(house):
 
 
 def check_steps(house, page, text):
-    """The files and functions that the architecture's page names are there."""
+    """The folders, files and functions that the architecture's page names are there."""
+    for kit, rooms in house.rooms.items():
+        row = re.search(rf"^\| \[?{kit}\b.*\| ([^|]*)\|$", text, re.M)
+        if not row or re.findall(r"`([^`]+)`", row[1]) != rooms:
+            house.breach(page, f"its table does not end {kit}'s row with the rooms of rooms.txt")
     for number, line in enumerate(text.splitlines(), 1):
         linked = re.findall(r"\]\(([^)#:\s]+)\)", line)
         files = [f for f in (page.parent / name for name in linked) if f.is_file()]

@@ -9,6 +9,8 @@ import tempfile
 MIT = "// SPDX-License-Identifier: MIT\n"
 GPL = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
 
+ROWS = "| low | `ground`, `first` |\n| high | `only` |\n"
+
 SOUND = {
     "nodekits/rooms.txt": "kit low MIT\n  ground  Export\n  first\n"
                           "kit high GPL-3.0-or-later needs low\n  only\n"
@@ -24,7 +26,7 @@ SOUND = {
     "nodekits/low/src/first/Table.cpp": MIT + "int table[] = {1};\n",
     "nodekits/high/src/only/Top.h": GPL + "#include <low/Up>\n",
     "nodekits/high/src/only/Top.cpp": GPL + '#include "only/Top.h"\n',
-    "nodekits/README.md": "# House\n\nSee [the base](low/src/ground/Base.cpp), `S::f()`, and [above](#house).\n",
+    "nodekits/README.md": ROWS + "# House\n\nSee [the base](low/src/ground/Base.cpp), `S::f()`, and [above](#house).\n",
     "README.md": "#include <osgSkin/A>\n// Shown.\nint a = 1;\n",
     "examples/Plain.cpp": MIT + "int main() {}\n",
     "examples/osgskinthrow/ThrowScene.cpp": MIT + "// [readme] Shown.\n int a = 1;\n// [readme]\n",
@@ -62,10 +64,12 @@ BROKEN = [
     ({"README.md": "#include <osgSkin/A>\n// Shown.\nint a = 2;\n"},
      "README.md: lacks a line of examples/osgskinthrow/ThrowScene.cpp: int a = 1;"),
     ({"tests/downstream/main.cpp": MIT}, "README.md: shows #include <osgSkin/A>, which tests/downstream"),
-    ({"nodekits/README.md": "[gone](low/Gone.h)\n"}, "nodekits/README.md: links low/Gone.h, which does not exist"),
-    ({"nodekits/README.md": "# House\n[there](#hut)\n"}, "nodekits/README.md: links #hut, which has no such heading"),
-    ({"nodekits/README.md": "[the base](low/src/ground/Base.cpp): `S::g()`\n"},
-     "nodekits/README.md: line 1: no file linked in it has S::g()"),
+    ({"nodekits/README.md": ROWS + "[gone](low/Gone.h)\n"}, "nodekits/README.md: links low/Gone.h, which does not exist"),
+    ({"nodekits/README.md": ROWS + "# House\n[there](#hut)\n"}, "nodekits/README.md: links #hut, which has no such heading"),
+    ({"nodekits/README.md": ROWS.replace("`ground`", "`cellar`")},
+     "nodekits/README.md: its table does not end low's row"),
+    ({"nodekits/README.md": ROWS + "[the base](low/src/ground/Base.cpp): `S::g()`\n"},
+     "nodekits/README.md: line 3: no file linked in it has S::g()"),
 ]
 
 

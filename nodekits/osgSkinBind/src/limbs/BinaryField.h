@@ -35,8 +35,9 @@ struct BinaryField {
     /// the regions of the joint and of the one above.
     ///
     /// \param joint index in `joints`
-    /// \param upper, lower where the boundaries cross the bone, from the joint's centre, in units
-    ///        of the bone's length
+    /// \param upper where the upper boundary crosses the bone, from the joint's centre, in units of
+    ///        the bone's length
+    /// \param lower the same of the lower boundary
     /// \return one value for each welded vertex
     std::vector<double> bounded(std::size_t joint, double upper, double lower) const;
 

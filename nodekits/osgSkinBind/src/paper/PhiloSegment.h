@@ -9,8 +9,9 @@ namespace osgSkin {
 ///
 /// Between parallel planes that segment is the perpendicular. In a wedge it is Philo's line, which
 /// depends on the distances to both planes and their angle only.
-/// \param toUpper, toLower distances of the point from the planes, in any unit; not negative, and
-///        not both 0
+///
+/// \param toUpper distance of the point from the upper plane, in any unit; not negative
+/// \param toLower distance from the lower one, in that unit; not negative, and not 0 with `toUpper`
 /// \param angle between the planes, where the point is: 0 (parallel) to below pi; radians
 double philoShare(double toUpper, double toLower, double angle);
 

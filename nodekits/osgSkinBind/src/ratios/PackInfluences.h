@@ -20,7 +20,8 @@ namespace osgSkin {
 /// it), and keeps each joint's ratios at most its parent's.
 ///
 /// \param joints of planJoints()
-/// \param bend, twist of each joint
+/// \param bend ratios of each joint
+/// \param twist ratios of each joint
 /// \param vertex index in the fields
 /// \param mostPartial how many influences may be fractional
 /// \param influences what is found is added at its end

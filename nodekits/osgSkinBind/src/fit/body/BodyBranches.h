@@ -25,8 +25,8 @@ struct BodyBranches {
     /// arm and the leg of one index are on one side.
     ///
     /// \param skeleton of the standing body
-    /// \param legsGiven, armsGiven landmarks stand in for limbs that are not found: their paths are
-    ///        left empty
+    /// \param legsGiven landmarks stand in for legs that are not found: their paths are left empty
+    /// \param armsGiven the same for arms
     /// \throw Error where there are not a head above, two legs below and two arms between
     static BodyBranches find(const CurveSkeleton& skeleton, bool legsGiven, bool armsGiven);
 

@@ -25,7 +25,8 @@ struct FitBody {
     ///
     /// \param mesh the body, rest space
     /// \param options its up axis and whom to tell
-    /// \param legsGiven, armsGiven landmarks stand in for limbs that are not found
+    /// \param legsGiven landmarks stand in for legs that are not found
+    /// \param armsGiven landmarks stand in for arms that are not found
     /// \param notes gets a line for each thing that is unusual
     /// \throw Error where the surface is not that of a body that stands
     FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiven, bool armsGiven,

@@ -26,7 +26,8 @@ struct Fork {
 /// until the sections around `a` and around `b` are one.
 ///
 /// \param surface the body's
-/// \param a, b medial curves of the two limbs
+/// \param a medial curve of one limb
+/// \param b medial curve of the other
 /// \param outside a point between the limbs, away from the fork
 /// \param direction unit, out of the fork
 /// \param reach how far to move, in heights
