@@ -69,7 +69,7 @@ def units(entries):
         else:
             made[flags_of(entry)].append([[file], set(names[file]), lines])
     result = [(flags, unit[0]) for flags, list_ in made.items() for unit in list_]
-    return sorted(result, key=lambda unit: -len(unit[0]))
+    return sorted(result, key=lambda unit: -len(unit[1]))  # the longest first
 
 
 def run(folder, flags, files, checks):

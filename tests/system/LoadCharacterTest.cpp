@@ -62,7 +62,7 @@ std::string rigOfOsg() {
     (*map)["bone"].assign({{0, 1.0f}, {1, 1.0f}, {2, 1.0f}, {3, 1.0f}});
     rig->setInfluenceMap(map);
     skeleton->addChild(rig);
-    const std::string file = testing::TempDir() + "load_character_rig.osgt";
+    std::string file = testing::TempDir() + "load_character_rig.osgt";
     EXPECT_TRUE(osgDB::writeNodeFile(*skeleton, file));
     return file;
 }

@@ -66,34 +66,40 @@ void PrintTo(const Dialect& dialect, std::ostream* out) {
 }
 
 const Dialect kSame[] = {
-    {"Tabs", [](std::string t) { return replaced(replaced(t, "  ", "\t"), " ", "\t"); }},
-    {"CarriageReturnLineFeed", [](std::string t) { return replaced(t, "\n", "\r\n"); }},
-    {"CarriageReturn", [](std::string t) { return replaced(t, "\n", "\r"); }},
+    {"Tabs", [](const std::string& t) { return replaced(replaced(t, "  ", "\t"), " ", "\t"); }},
+    {"CarriageReturnLineFeed", [](const std::string& t) { return replaced(t, "\n", "\r\n"); }},
+    {"CarriageReturn", [](const std::string& t) { return replaced(t, "\n", "\r"); }},
     {"LowerCase",
      [](std::string t) {
          for (char& c : t) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
          return replaced(replaced(t, "hips", "Hips"), "spine", "Spine");
      }},
     {"UpperCaseChannels",
-     [](std::string t) { return replaced(replaced(t, "rotation", "ROTATION"), "End", "END"); }},
-    {"EndSiteInLowerCase", [](std::string t) { return replaced(t, "End Site", "End site"); }},
-    {"ByteOrderMark", [](std::string t) { return "\xef\xbb\xbf" + t; }},
-    {"TrailingBlankLines", [](std::string t) { return t + " \n\n\t\n"; }},
+     [](const std::string& t) {
+         return replaced(replaced(t, "rotation", "ROTATION"), "End", "END");
+     }},
+    {"EndSiteInLowerCase",
+     [](const std::string& t) { return replaced(t, "End Site", "End site"); }},
+    {"ByteOrderMark", [](const std::string& t) { return "\xef\xbb\xbf" + t; }},
+    {"TrailingBlankLines", [](const std::string& t) { return t + " \n\n\t\n"; }},
     {"NoLastLineEnd",
      [](std::string t) {
          t.pop_back();
          return t;
      }},
-    {"LeadingBlankLines", [](std::string t) { return "\n\n" + t; }},
-    {"BlanksAtLineEnds", [](std::string t) { return replaced(t, "\n", "  \n"); }},
-    {"BraceBehindTheName", [](std::string t) { return replaced(t, "\n{", " {"); }},
-    {"BraceAgainstTheName", [](std::string t) { return replaced(t, "Hips\n{", "Hips{"); }},
-    {"NameOnTheNextLine", [](std::string t) { return replaced(t, "ROOT ", "ROOT\n"); }},
+    {"LeadingBlankLines", [](const std::string& t) { return "\n\n" + t; }},
+    {"BlanksAtLineEnds", [](const std::string& t) { return replaced(t, "\n", "  \n"); }},
+    {"BraceBehindTheName", [](const std::string& t) { return replaced(t, "\n{", " {"); }},
+    {"BraceAgainstTheName", [](const std::string& t) { return replaced(t, "Hips\n{", "Hips{"); }},
+    {"NameOnTheNextLine", [](const std::string& t) { return replaced(t, "ROOT ", "ROOT\n"); }},
     {"ColonsWithoutABlank",
-     [](std::string t) { return replaced(replaced(t, "Frames: ", "Frames:"), "Time: ", "Time:"); }},
-    {"BlanksBeforeColons", [](std::string t) { return replaced(t, ":", " :"); }},
-    {"Exponents", [](std::string t) { return replaced(t, " 40 50 ", " 4e1 5.0E+01 "); }},
-    {"SignsAndPoints", [](std::string t) { return replaced(t, " 40 50 60", " +40 50. +60.0"); }},
+     [](const std::string& t) {
+         return replaced(replaced(t, "Frames: ", "Frames:"), "Time: ", "Time:");
+     }},
+    {"BlanksBeforeColons", [](const std::string& t) { return replaced(t, ":", " :"); }},
+    {"Exponents", [](const std::string& t) { return replaced(t, " 40 50 ", " 4e1 5.0E+01 "); }},
+    {"SignsAndPoints",
+     [](const std::string& t) { return replaced(t, " 40 50 60", " +40 50. +60.0"); }},
 };
 
 class SameMotion : public testing::TestWithParam<Dialect> {};

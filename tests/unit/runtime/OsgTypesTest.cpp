@@ -20,12 +20,14 @@ namespace {
 std::vector<glm::dmat4> somePose(const test::Tube& tube) {
     std::mt19937_64 random(3);
     std::vector<glm::dquat> rotations;
+    rotations.reserve(3);
     for (int j = 0; j < 3; ++j) rotations.push_back(test::randomRotation(random));
     return test::skinningFrom(tube.binding.joints, rotations, {0.5, 1.0, -2.0});
 }
 
 std::vector<osg::Matrixd> inOsg(const std::vector<glm::dmat4>& matrices) {
     std::vector<osg::Matrixd> result;
+    result.reserve(matrices.size());
     for (const glm::dmat4& matrix : matrices) result.push_back(toOsg(matrix));
     return result;
 }

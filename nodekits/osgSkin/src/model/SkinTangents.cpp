@@ -9,7 +9,7 @@
 
 namespace osgSkin {
 
-osg::ref_ptr<const SkinTangents> SkinTangents::create(osg::ref_ptr<const SkinModel> model,
+osg::ref_ptr<const SkinTangents> SkinTangents::create(const osg::ref_ptr<const SkinModel>& model,
                                                       std::vector<glm::vec4> tangents) {
     if (!model) throw Error("skin tangents: expected a model");
     if (tangents.size() != model->vertexCount())
@@ -21,11 +21,12 @@ osg::ref_ptr<const SkinTangents> SkinTangents::create(osg::ref_ptr<const SkinMod
             if (!std::isfinite(tangents[v][axis]))
                 throw Error("skin tangents: vertex " + std::to_string(v) +
                             " has a tangent that is not finite");
-    return new SkinTangents(std::move(model), std::move(tangents));
+    return new SkinTangents(model, std::move(tangents));
 }
 
-SkinTangents::SkinTangents(osg::ref_ptr<const SkinModel> model, std::vector<glm::vec4> tangents)
-    : _model(std::move(model)), _tangents(std::move(tangents)) {
+SkinTangents::SkinTangents(const osg::ref_ptr<const SkinModel>& model,
+                           std::vector<glm::vec4> tangents)
+    : _model(model), _tangents(std::move(tangents)) {
     for (const SkinModel::Group& group : _model->groups()) {
         const glm::dmat3 frame = restFrame(*_model, group);
         const std::size_t first = _rows.size();

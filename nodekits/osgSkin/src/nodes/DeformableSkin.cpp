@@ -31,7 +31,7 @@ DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& c
 
 DeformableSkin::~DeformableSkin() = default;
 
-void DeformableSkin::setSkin(osg::Geometry* rest, osg::ref_ptr<const SkinModel> model) {
+void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinModel>& model) {
     if (!rest || !model) throw Error("deformable skin: expected a geometry and a model");
     const auto* vertices = dynamic_cast<const osg::Vec3Array*>(rest->getVertexArray());
     const auto* normals = dynamic_cast<const osg::Vec3Array*>(rest->getNormalArray());
@@ -42,7 +42,7 @@ void DeformableSkin::setSkin(osg::Geometry* rest, osg::ref_ptr<const SkinModel> 
                     " vertices and normals, as many as the model has");
     _tangents = tangentsOf(*rest, _tangentAttribute, *model);
     _rest = rest;
-    _model = std::move(model);
+    _model = model;
     _pose = Pose(_model->joints());
     setStateSet(rest->getStateSet());
     makeBuffers();

@@ -39,7 +39,7 @@ struct SkinFile {
     std::optional<FitOptions> fit; ///< instead of a skeleton file
     std::vector<MotionEntry> motions;
     std::vector<Prop> props;
-    BindOptions bind; ///< its `names` serve retargeting, too
+    BindOptions bind;            ///< its `names` serve retargeting, too
     bool paintedWeights = false; ///< the binding comes from painted weights
     std::string weights;         ///< their file; empty: the mesh's own
     bool zUp = false;            ///< the character's files have Z up, not Y
