@@ -31,8 +31,8 @@ constexpr double kMostSwelling = 0.03;
 
 /// How far from the joint it does so, in radii: fully, and at all. Further up a thigh there is
 /// another one beside it.
-constexpr double kSwellFull = 2.0;
-constexpr double kSwellEnd = 4.0;
+constexpr double kSwellsFully = 2.0;
+constexpr double kSwellsNoMore = 4.0;
 
 /// What the skin inside a fold counts against the outer one, which everybody sees, where there are
 /// too many shapes to meet all.
@@ -78,9 +78,9 @@ public:
             const ShapedJoint::Vertex& vertex = _joint.vertices[i];
             glm::dvec3 target = clampBulge(_fold, vertex.from, _posed[i]);
             const double r = glm::length(vertex.from) / _joint.radius;
-            target =
-                swell(_fold, target,
-                      swelling * (1.0 - hermiteRatio((r - kSwellFull) / (kSwellEnd - kSwellFull))));
+            target = swell(_fold, target,
+                           swelling * (1.0 - hermiteRatio((r - kSwellsFully) /
+                                                          (kSwellsNoMore - kSwellsFully))));
             target = pressFold(_fold, vertex.from, target);
             targets.push_back(_posed[i] + vertex.limb * vertex.fade * (target - _posed[i]));
         }
