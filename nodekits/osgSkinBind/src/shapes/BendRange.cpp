@@ -18,6 +18,8 @@ namespace {
 constexpr double kMostFlexion = 155.0;
 constexpr double kBeyondStraight = 12.0;
 constexpr double kSideways = 30.0;
+/// How far a ball joint swings from its rest.
+constexpr double kMostSwing = 130.0;
 /// Between knots and between samples.
 constexpr double kKnotStep = 30.0;
 constexpr double kRoundKnotStep = 20.0;
@@ -73,6 +75,14 @@ void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint)
         setHinge(*mainAxis, joint);
     else
         setRound(joint);
+}
+
+void setBallRange(ShapedJoint& joint) {
+    CorrectiveJoint& functions = joint.functions;
+    functions.basis = CorrectiveJoint::Basis::Ball;
+    functions.axis = anyPerpendicular(joint.twistAxis);
+    functions.low = glm::dvec2(-sineOfHalf(kMostSwing));
+    functions.high = -functions.low;
 }
 
 std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint) {

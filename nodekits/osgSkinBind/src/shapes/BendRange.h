@@ -14,6 +14,10 @@ namespace osgSkin {
 /// \pre above, bone and twistAxis are set
 void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint);
 
+/// The same of a joint at the trunk, which may bend in all directions.
+/// \pre twistAxis is set
+void setBallRange(ShapedJoint& joint);
+
 /// The bends, as coordinates (x, y) of the joint's functions, whose shapes those are fitted to: all
 /// over the range and to its end, the rest pose left out.
 std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint);

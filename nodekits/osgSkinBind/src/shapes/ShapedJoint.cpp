@@ -5,6 +5,7 @@
 #include "shapes/BendRange.h"
 #include "shapes/JointRatios.h"
 #include "shapes/MainAxis.h"
+#include "shapes/TrunkByShape.h"
 
 #include <glm/geometric.hpp>
 
@@ -20,6 +21,9 @@ constexpr double kLimbLength = 2.2;
 /// How far skin is shaped, in radii from the joint, and where it begins to be shaped less.
 constexpr double kReach = 6.0;
 constexpr double kFadeFrom = 0.75 * kReach;
+
+/// Of a joint at the trunk, skin that follows it by less is taken for the trunk's.
+constexpr double kTrunkFollows = 0.25;
 
 /// Of fewer vertices no shape can be made.
 constexpr std::size_t kLeastVertices = 16;
@@ -52,12 +56,15 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
     const auto add = [&](std::uint32_t v, bool withinReach) {
         const glm::dvec3 from = mesh.positions[v] - shaped.centre;
         const double r = glm::length(from) / shaped.radius;
-        const double limb = above == 0 ? 1.0 : ratios.bend(v, above);
+        const Influence own = ratios.of(v, shaped.functions.joint);
+        const double limb = shaped.isAtTrunk()
+                                ? hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows)
+                            : above == 0 ? 1.0
+                                         : ratios.bend(v, above);
         // Where skin meets a rigid part, nothing may move them apart.
         const double fade = (1.0 - hermiteRatio((r - kFadeFrom) / (kReach - kFadeFrom))) *
                             (1.0 - ratios.rigid(v, joints));
         if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
-        const Influence own = ratios.of(v, shaped.functions.joint);
         placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
         shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
                                    static_cast<double>(own.twist), limb, withinReach ? fade : 0.0});
@@ -90,26 +97,30 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
                                           const WeldedMesh& mesh, const Binding& binding) {
     const JointRatios ratios(mesh, binding);
+    const std::vector<bool> trunk = trunkByShape(joints, mesh.size);
     std::vector<ShapedJoint> result;
     std::vector<double> bend(mesh.vertexCount());
     for (std::uint32_t j = 1; j < joints.size(); ++j) {
         const PlannedJoint& planned = joints[j];
-        if (planned.trunk || planned.extremity || planned.rigid >= 0 || !planned.holdsRegion)
-            continue;
+        if (trunk[j] || planned.extremity || planned.rigid >= 0 || !planned.holdsRegion) continue;
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
-        if (joints[above].trunk) continue;
+        const bool atTrunk = trunk[above];
         for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
         ShapedJoint shaped;
         shaped.radius = radiusAt(planned, mesh, bend);
         if (!(shaped.radius > 0.0) || planned.boneLength < kLimbLength * shaped.radius ||
-            planned.lengthAbove < kLimbLength * shaped.radius)
+            (!atTrunk && planned.lengthAbove < kLimbLength * shaped.radius))
             continue;
         shaped.centre = planned.centre;
         shaped.twistAxis = binding.joints[j].twistAxis;
-        shaped.above = planned.comingFrom;
+        // What is above a shoulder or a hip is no limb: there the rest pose counts as straight.
+        shaped.above = atTrunk ? planned.boneAxis : planned.comingFrom;
         shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
-        setBendRange(findMainAxis(skeleton, joints, j), shaped);
+        if (atTrunk)
+            setBallRange(shaped);
+        else
+            setBendRange(findMainAxis(skeleton, joints, j), shaped);
         addSkin(mesh, joints, ratios, above, shaped);
         if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
     }
