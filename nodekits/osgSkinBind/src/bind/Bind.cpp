@@ -13,7 +13,9 @@
 #include "ratios/PackInfluences.h"
 #include "ratios/TwistFields.h"
 #include "regions/Regions.h"
+#include "muscles/MakeMuscles.h"
 #include "shapes/FastShapes.h"
+#include "shapes/MergeCorrectives.h"
 
 #include <chrono>
 
@@ -149,6 +151,10 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
         tell("shapes", kShapesBegin);
         binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
     }
+    if (options.muscles || !options.ownMuscles.empty())
+        binding.correctives =
+            mergeCorrectives(binding.correctives,
+                             makeMuscles(skeleton, joints, skin, binding, options, found.notes));
     binding.validate();
 
     found.vertices = mesh.positions.size();
