@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/BendRange.h"
 
+#include <osgSkin/GlmTypes>
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -37,12 +39,6 @@ std::vector<double> steps(double from, double to, double step) {
     std::vector<double> result;
     for (int i = 0; i <= count; ++i) result.push_back(from + (to - from) * i / count);
     return result;
-}
-
-/// Any unit vector perpendicular to w, always the same one.
-glm::dvec3 anyPerpendicular(const glm::dvec3& w) {
-    const glm::dvec3 helper = std::abs(w.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    return glm::normalize(glm::cross(helper, w));
 }
 
 void setHinge(const glm::dvec3& axis, ShapedJoint& joint) {
