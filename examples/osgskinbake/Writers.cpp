@@ -114,7 +114,11 @@ nlohmann::json poseJson(std::size_t frame, const osgSkin::Binding& binding,
         joints[binding.joints[j].name] = {{"rotation", {q.w, q.x, q.y, q.z}},
                                           {"translation", array(transform.translation)}};
     }
-    return {{"frame", frame}, {"joints", std::move(joints)}};
+    nlohmann::json result{{"frame", frame}, {"joints", std::move(joints)}};
+    const std::vector<std::string>& inputs = binding.correctives.inputs;
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        result["inputs"][inputs[i]] = double(pose.input(i));
+    return result;
 }
 
 void writeJson(const std::string& file, const nlohmann::json& json) {

@@ -104,8 +104,8 @@ Character load(const Arguments& arguments) {
 void tense(Character& character, const Arguments& arguments) {
     for (const auto& [name, activation] : arguments.activations) {
         bool known = false;
-        for (const osg::ref_ptr<osgSkin::DeformableSkin>& skin : character.skins)
-            known = skin->setActivation(name, activation) || known;
+        for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins)
+            known = skin.drawable->setActivation(name, activation) || known;
         if (!known)
             throw UsageError{"--tense: " + arguments.character + " has no muscle \"" + name + "\""};
     }

@@ -11,8 +11,7 @@ glm::dvec2 CorrectiveWeights::coordinatesOf(const CorrectiveJoint& joint) const 
     if (joint.basis == CorrectiveJoint::Basis::Input)
         return {double(_pose.input(joint.joint)), 0.0};
     const BendTwist bend = _pose.transform(joint.joint).split;
-    return joint.coordinates(bend.bendAxis, bend.bendAngle,
-                             _model.joints()[joint.joint].twistAxis);
+    return joint.coordinates(bend.bendAxis, bend.bendAngle, _model.joints()[joint.joint].twistAxis);
 }
 
 const CorrectiveWeights::Weights* CorrectiveWeights::of(std::uint32_t joint) noexcept {

@@ -84,10 +84,10 @@ void checkJoint(const CorrectiveJoint& joint, const Correctives& correctives,
     if (joint.joint >= (input ? correctives.inputs.size() : bound.size()))
         throw Error(std::string("correctives: ") + (input ? "input " : "joint ") +
                     std::to_string(joint.joint) + " is not there");
-    const std::string place =
-        "correctives: those of " + (input ? "input \"" + correctives.inputs[joint.joint]
-                                          : "joint \"" + bound[joint.joint].name) +
-        "\"";
+    const std::string place = "correctives: those of " +
+                              (input ? "input \"" + correctives.inputs[joint.joint]
+                                     : "joint \"" + bound[joint.joint].name) +
+                              "\"";
     if (joint.basis > Basis::Input) throw Error(place + " have functions of no known kind");
     if (input)
         checkInput(joint, place);

@@ -6,8 +6,8 @@
 #include "joints/JointPlan.h"
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
-#include "ratios/PackInfluences.h"
 #include "muscles/MakeMuscles.h"
+#include "ratios/PackInfluences.h"
 #include "shapes/FastShapes.h"
 #include "shapes/MergeCorrectives.h"
 

@@ -2,7 +2,10 @@
 #include "bind/CheckOptions.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmTypes>
 #include <osgSkin/SkinModel>
+
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <set>
@@ -32,6 +35,8 @@ void checkMuscle(const RestSkeleton& skeleton, const BindOptions::Muscle& muscle
         throw Error(where + " lies from " + std::to_string(muscle.from) + " to " +
                     std::to_string(muscle.to) +
                     ", expected fractions of the bone from -0.5 to 1.5 that are 0.1 apart");
+    if (muscle.towards && !(isFinite(*muscle.towards) && glm::length(*muscle.towards) > 0.0))
+        throw Error(where + ": its direction is not one, expected finite numbers, not all 0");
     for (const double growth : {muscle.growth, muscle.tension})
         if (!(growth >= 0.0 && growth <= 0.5))
             throw Error(where + " grows by " + std::to_string(growth) + ", expected 0 to 0.5");

@@ -32,6 +32,15 @@ const struct {
     {"Calf", "Foot", Options::Side::Extensor, 0.02, 0.7, 0.06, 0.06},
 };
 
+/// The axis of the bend that takes what lies on `along` that way; perpendicular to the twist axis.
+std::optional<glm::dvec3> axisTowards(const glm::dvec3& way, const glm::dvec3& along,
+                                      const glm::dvec3& twistAxis) {
+    const glm::dvec3 across = glm::cross(along, way);
+    const glm::dvec3 axis = across - twistAxis * glm::dot(across, twistAxis);
+    if (!(glm::length(axis) > 1e-3 * glm::length(way))) return std::nullopt;
+    return glm::normalize(axis);
+}
+
 /// Why it cannot be made; empty where it can, and then `muscle` is set but for its radius.
 std::string make(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                  const std::vector<BoundJoint>& bound, const Options& options, std::size_t joint,
@@ -40,7 +49,10 @@ std::string make(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& 
     const std::size_t above = joint > 0 ? regionAbove(joints, joint) : 0;
     const glm::dvec3 line = hinge.centre - joints[above].centre;
     if (above == 0 || !(glm::length(line) > 0.0)) return "has no bone above it";
-    const std::optional<glm::dvec3> axis = findMainAxis(skeleton, joints, joint);
+    const glm::dvec3 along = glm::normalize(line);
+    const std::optional<glm::dvec3> axis =
+        options.towards ? axisTowards(*options.towards, along, bound[joint].twistAxis)
+                        : findMainAxis(skeleton, joints, joint);
     if (!axis) return "bends in no direction that its limb or its name tells";
     ShapedJoint range;
     range.above = hinge.comingFrom;
@@ -53,8 +65,7 @@ std::string make(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& 
     muscle.above = static_cast<std::uint32_t>(above);
     muscle.begin = joints[above].centre;
     muscle.end = hinge.centre;
-    muscle.shortens = options.side == Options::Side::Flexor ? 1.0 : -1.0;
-    const glm::dvec3 along = glm::normalize(line);
+    muscle.shortens = options.towards || options.side == Options::Side::Flexor ? 1.0 : -1.0;
     const glm::dvec3 side = muscle.shortens * glm::cross(*axis, along);
     if (!(glm::length(side) > 1e-3)) return "bends along the bone above it";
     muscle.side = glm::normalize(side);
@@ -82,13 +93,8 @@ std::vector<Muscle> findMuscles(const RestSkeleton& skeleton,
                 if (std::any_of(options.ownMuscles.begin(), options.ownMuscles.end(),
                                 [&](const Options& own) { return own.name == name; }))
                     continue; // the author's own goes first
-                const Options asked{name,
-                                    {},
-                                    known.side,
-                                    known.from,
-                                    known.to,
-                                    known.growth,
-                                    known.tension};
+                const Options asked{name,       {},       known.side,   {},
+                                    known.from, known.to, known.growth, known.tension};
                 const auto role = roles.joints.find(std::string(side) + known.hinge);
                 Muscle muscle;
                 std::string reason = "no joint is known as its " + std::string(known.hinge);

@@ -20,6 +20,9 @@ using Heights = MuscleSkin::Heights;
 /// How far a flexor's hinge is bent from straight where its growth is given, in degrees.
 constexpr double kFlexion = 120.0;
 
+/// The same where its tension is.
+constexpr double kTensedAt = 80.0;
+
 /// Length over that at rest of the contractile part of a muscle that is tensed but does not get
 /// shorter as a whole: its tendons give.
 constexpr double kTensed = 0.75;
@@ -91,8 +94,14 @@ Correctives makeMuscles(const RestSkeleton& skeleton, const std::vector<PlannedJ
         const Heights lifted = amount > 0.05 ? calibrate(skin, skin.spindle(kShortest), already,
                                                          amount, (1.0 + muscle.growth) * girth)
                                              : Heights{};
-        const Heights tensed =
-            calibrate(skin, skin.spindle(kTensed), none, 1.0, (1.0 + muscle.tension) * girth);
+        // Tensed halfway through its bend: it is shortened already.
+        Heights meanwhile = none;
+        if (!lifted.empty() && muscle.isFlexor())
+            for (std::size_t i = 0; i < meanwhile.size(); ++i)
+                meanwhile[i] =
+                    lifted[i] * contractionAt(muscle, glm::radians(kTensedAt) - muscle.flexed);
+        const Heights tensed = calibrate(skin, skin.spindle(kTensed), meanwhile, 1.0,
+                                         (1.0 + muscle.tension) * skin.girth(meanwhile));
         if (lifted.empty() && tensed.empty()) {
             notes.push_back("muscle " + muscle.name + " is left out: its limb has no skin to lift");
             continue;

@@ -9,7 +9,10 @@ BindOptions::Muscle readMuscle(const JsonReader& reader) {
     BindOptions::Muscle muscle;
     muscle.name = reader.require("name", "the muscle's name").string();
     muscle.joint = reader.require("joint", "the joint whose bend shortens it").string();
-    if (const auto side = reader.find("side")) {
+    const auto side = reader.find("side");
+    if (side && side->isList()) {
+        muscle.towards = side->vector();
+    } else if (side) {
         const std::string name = side->string();
         if (name != "flexor" && name != "extensor")
             side->failWith("expected \"flexor\" or \"extensor\", found \"" + name + "\"");

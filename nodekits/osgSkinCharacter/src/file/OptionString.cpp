@@ -101,7 +101,8 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
          "joints that move as rigid bodies; head, hands, feet by default"},
         {"shapes=<none|fast>",
          "what keeps bent limbs from swelling and from going through themselves"},
-        {"muscles=<on|off>", "biceps, triceps, quadriceps, hamstrings and calves that swell; off by default"},
+        {"muscles=<on|off>",
+         "biceps, triceps, quadriceps, hamstrings and calves that swell; off by default"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };
     return words;
