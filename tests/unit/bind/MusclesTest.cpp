@@ -248,7 +248,7 @@ TEST(Muscles, BadOnesAreRefused) {
     using Muscle = BindOptions::Muscle;
     const KnownBody body = KnownBody::thrower();
     const Muscle good{"A", "LeftForeArm", Muscle::Side::Flexor, {}, 0.1, 0.9, 0.1, 0.1};
-    const auto refused = [&](Muscle muscle, const std::string& reason, bool twice = false) {
+    const auto refused = [&](const Muscle& muscle, const std::string& reason, bool twice = false) {
         BindOptions options;
         options.ownMuscles.push_back(muscle);
         if (twice) options.ownMuscles.push_back(muscle);
