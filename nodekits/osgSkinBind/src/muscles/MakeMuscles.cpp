@@ -28,7 +28,7 @@ constexpr double kTensedAt = 80.0;
 constexpr double kTensed = 0.75;
 
 /// Lifts that make no difference, in radii of the limb.
-constexpr double kTolerance = 2e-3;
+constexpr double kLeastLift = 2e-3;
 
 struct MadeMuscle {
     Muscle muscle;
@@ -41,7 +41,7 @@ FittedShapes asShape(const MuscleSkin& skin, const Heights& lifted, const Muscle
     shape.functions = muscle.functions;
     shape.functions.modes = 1;
     shape.vertices = skin.vertices();
-    shape.tolerance = kTolerance * muscle.radius;
+    shape.tolerance = kLeastLift * muscle.radius;
     double highest = 0.0;
     for (const double h : lifted) highest = std::max(highest, std::abs(h));
     for (std::size_t i = 0; i < lifted.size(); ++i)
