@@ -7,6 +7,7 @@
 #include "limbs/LimbRadius.h"
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
+#include "muscles/MakeMuscles.h"
 #include "paper/PaperBoundaries.h"
 #include "paper/PaperFields.h"
 #include "ratios/BendFields.h"
@@ -14,6 +15,7 @@
 #include "ratios/TwistFields.h"
 #include "regions/Regions.h"
 #include "shapes/FastShapes.h"
+#include "shapes/MergeCorrectives.h"
 
 #include <chrono>
 
@@ -149,6 +151,10 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
         tell("shapes", kShapesBegin);
         binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
     }
+    if (options.muscles || !options.ownMuscles.empty())
+        binding.correctives =
+            mergeCorrectives(binding.correctives,
+                             makeMuscles(skeleton, joints, skin, binding, options, found.notes));
     binding.validate();
 
     found.vertices = mesh.positions.size();

@@ -6,8 +6,10 @@
 #include "joints/JointPlan.h"
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
+#include "muscles/MakeMuscles.h"
 #include "ratios/PackInfluences.h"
 #include "shapes/FastShapes.h"
+#include "shapes/MergeCorrectives.h"
 
 #include <osgSkin/Error>
 
@@ -143,6 +145,10 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
     }
     if (options.shapes == BindOptions::Shapes::Fast)
         binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
+    if (options.muscles || !options.ownMuscles.empty())
+        binding.correctives =
+            mergeCorrectives(binding.correctives,
+                             makeMuscles(skeleton, joints, skin, binding, options, found.notes));
     binding.validate();
 
     found.regions = regionsOf(binding);

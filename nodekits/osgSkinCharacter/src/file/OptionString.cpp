@@ -51,6 +51,12 @@ BindOptions::Shapes shapesOf(const std::string& value) {
     fail("shapes", value, "none or fast");
 }
 
+bool musclesOf(const std::string& value) {
+    if (value == "on") return true;
+    if (value == "off") return false;
+    fail("muscles", value, "on or off");
+}
+
 std::vector<std::string> namesOf(const std::string& value) {
     std::vector<std::string> names;
     if (value == "none") return names;
@@ -71,6 +77,7 @@ LoadOptions toLoadOptions(const osgDB::Options* options) {
     for (const auto& [key, value] : wordsOf(options->getOptionString())) {
         if (key == "bind") result.method = methodOf(value);
         if (key == "shapes") result.shapes = shapesOf(value);
+        if (key == "muscles") result.muscles = musclesOf(value);
         if (key == "rigid") result.rigid = namesOf(value);
         if (key == "motion") {
             if (value.empty()) fail(key, value, "a clip's name, a motion file, or none");
@@ -94,6 +101,8 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
          "joints that move as rigid bodies; head, hands, feet by default"},
         {"shapes=<none|fast>",
          "what keeps bent limbs from swelling and from going through themselves"},
+        {"muscles=<on|off>",
+         "biceps, triceps, quadriceps, hamstrings and calves that swell; off by default"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };
     return words;

@@ -26,6 +26,7 @@ ConvertOptions convertOptionsOf(const LoadOptions& options) {
     if (options.method == Method::Paper) convert.bind.method = BindOptions::Method::Paper;
     convert.bind.rigid = options.rigid;
     if (options.shapes) convert.bind.shapes = *options.shapes;
+    convert.bind.muscles = options.muscles.value_or(false);
     convert.showRegions = options.showRegions;
     return convert;
 }

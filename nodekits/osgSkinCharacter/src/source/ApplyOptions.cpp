@@ -66,6 +66,10 @@ void applyOptions(CharacterSource& source, const LoadOptions& options) {
     applyMethod(source, options.method);
     if (options.rigid) source.bind.rigid = options.rigid;
     if (options.shapes) source.bind.shapes = *options.shapes;
+    if (options.muscles) {
+        source.bind.muscles = *options.muscles;
+        if (!*options.muscles) source.bind.ownMuscles.clear();
+    }
     if (options.atRest) {
         source.animations.clear();
         source.motions.clear();
