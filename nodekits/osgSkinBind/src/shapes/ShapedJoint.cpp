@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/ShapedJoint.h"
 
+#include "joints/TrunkByShape.h"
 #include "limbs/HermiteRatio.h"
 #include "shapes/BendRange.h"
 #include "shapes/JointRatios.h"
 #include "shapes/MainAxis.h"
-#include "shapes/TrunkByShape.h"
 
 #include <glm/geometric.hpp>
 

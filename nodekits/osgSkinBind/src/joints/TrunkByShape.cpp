@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shapes/TrunkByShape.h"
+#include "joints/TrunkByShape.h"
 
 #include <glm/geometric.hpp>
 
