@@ -17,7 +17,7 @@ constexpr std::size_t kModes = 3;
 constexpr std::size_t kRoundModes = CorrectiveJoint::kMostModes;
 
 /// What makes no difference, in radii of the limb.
-constexpr double kTolerance = 5e-3;
+constexpr double kTolerance = 1e-2;
 
 JointShapes shapesOf(const ShapedJoint& joint) {
     JointShapes shapes;
