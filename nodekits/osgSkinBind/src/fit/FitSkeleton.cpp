@@ -35,6 +35,7 @@ bool isDirection(const glm::dvec3& d) {
 /// The landmarks by the names that a fitted skeleton has; those that are not known stay.
 std::map<std::string, glm::dvec3> renamed(const std::map<std::string, glm::dvec3>& landmarks) {
     std::vector<std::string> names;
+    names.reserve(landmarks.size());
     for (const auto& [name, centre] : landmarks) names.push_back(name);
     const std::map<std::string, std::string> known = fittedNamesOf(names);
     std::map<std::string, glm::dvec3> result;
