@@ -21,7 +21,10 @@ bool isUpperArm(const std::vector<PlannedJoint>& joints, const PlannedJoint& joi
 bool isCollarBone(const std::vector<PlannedJoint>& joints, const PlannedJoint& joint) {
     if (joint.trunk || joint.parent < 0 || joint.child < 0 || joint.rigid >= 0) return false;
     const PlannedJoint& next = joints[static_cast<std::size_t>(joint.child)];
-    if (!joints[static_cast<std::size_t>(joint.parent)].trunk || next.rigid >= 0) return false;
+    const PlannedJoint& above = joints[static_cast<std::size_t>(joint.parent)];
+    if (!above.trunk || next.rigid >= 0) return false;
+    // An upper arm behind its collar bone is none, however long its forearm is.
+    if (above.collarBone && isUpperArm(joints, joint)) return false;
     const double most = isUpperArm(joints, next) ? kCollarLengthBeforeArm : kCollarLength;
     return joint.boneLength < most * next.boneLength;
 }

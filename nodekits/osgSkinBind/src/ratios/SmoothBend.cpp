@@ -3,6 +3,7 @@
 
 #include "limbs/LimbRadius.h"
 #include "limbs/MiddleThird.h"
+#include "ratios/SlopeShare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace {
 /// rigid part starts close behind its joint, and the skin above takes up more of the rotation.
 constexpr double kTrunkWidth = 0.75;
 constexpr double kAboveRigidWidth = 1.5;
-constexpr double kRigidWidth = 0.4;
+constexpr double kRigidWidth = 0.6;
 
 /// A spine runs behind the belly. A plane this much below the joint, in radii, loses less of the
 /// belly's volume.
@@ -45,11 +46,14 @@ Widths firstWidths(const PlannedJoint& joint, double radius, double smoothing) {
     return {width, width};
 }
 
+/// \param share of the width that a vertex takes, for each; none where all take 1
 std::vector<double> spread(const SkinSmoother& smoother, const std::vector<double>& binary,
-                           const Widths& widths, double cutOff) {
+                           const Widths& widths, const std::vector<double>& share, double cutOff) {
     std::vector<double> width(binary.size());
-    for (std::size_t v = 0; v < width.size(); ++v)
+    for (std::size_t v = 0; v < width.size(); ++v) {
         width[v] = binary[v] < 0.5 ? widths.above : widths.below;
+        if (!share.empty()) width[v] *= share[v];
+    }
     std::vector<double> field = binary;
     smoother.smooth(field, width);
     stretch(field, cutOff);
@@ -57,10 +61,10 @@ std::vector<double> spread(const SkinSmoother& smoother, const std::vector<doubl
 }
 
 /// Narrows a width, down to `least`, where `excess`, what the middle third has too much, is above
-/// `most`. What a field has left a distance away goes about with the fourth power of its width.
+/// `most`. What a field has left a distance away goes about with the fifth power of its width.
 bool narrow(double& width, double least, double excess, double most) {
     if (width <= least || excess <= kTolerance * most) return false;
-    width = std::max(least, width * std::max(0.6, std::pow(most / excess, 0.25)));
+    width = std::max(least, width * std::max(0.6, std::pow(most / excess, 0.2)));
     return true;
 }
 
@@ -85,9 +89,12 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     const MiddleThird previous = onLimb ? MiddleThird(binary, above) : MiddleThird();
     Widths widths = firstWidths(planned, radius, options.smoothing);
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
+    std::vector<double> share;
+    if (limb && binary.joints[above].trunk)
+        share = slopeShare(binary.mesh, spread(smoother, start, widths, {}, options.cutOff));
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
-        field = spread(smoother, start, widths, options.cutOff);
+        field = spread(smoother, start, widths, share, options.cutOff);
         bool narrower = false;
         if (!own.empty())
             narrower = narrow(widths.below, least.below, 1.0 - own.mean(field), 1.0 - kOwnRigidity);
