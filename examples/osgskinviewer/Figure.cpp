@@ -5,6 +5,7 @@
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
+#include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinImport/ImportRig>
 
 #include <stdexcept>
@@ -58,6 +59,10 @@ osg::ref_ptr<osg::Group> readScene(const std::string& file) {
     return root;
 }
 
+osg::ref_ptr<osg::Group> loadScene(const std::string& file) {
+    return osgSkin::loadCharacter(file).root;
+}
+
 } // namespace
 
 Figure::Figure(const std::string& file, const std::string& weights,
@@ -72,7 +77,9 @@ Figure::Figure(const std::string& file, const std::string& weights,
     root->accept(finder);
     if (!skins.empty()) return;
     // A scene of rigs: the pseudo-loader makes skins of them.
-    root = readScene(file + ".skin");
+    manager = nullptr;
+    managed = nullptr;
+    root = loadScene(file);
     root->accept(finder);
     if (skins.empty()) throw std::runtime_error(file + ": no skin in it, expected a character");
 }

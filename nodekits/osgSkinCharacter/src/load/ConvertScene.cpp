@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load/ConvertScene.h"
 
+#include "load/BonesFirst.h"
+#include "load/SceneMotions.h"
+
 #include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
 
+#include <osg/Transform>
 #include <osgDB/Registry>
+
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -39,12 +45,28 @@ osg::ref_ptr<osg::Group> asGroup(osg::Node* node) {
     return group;
 }
 
+/// The one body of a scene is the character's.
+void takeBody(ConvertedBody& body, const BindOptions& options, Character& character) {
+    character.body.mesh = std::move(body.mesh);
+    character.body.parts = std::move(body.parts);
+    character.rest = std::move(body.rest);
+    character.binding = std::move(body.binding);
+    character.bindReport = std::move(body.report);
+    character.bindOptions = options;
+    character.bindOptions.progress = {};
+    character.skeleton = body.skeleton;
+    character.skin.skins = std::move(body.skins);
+    const osg::NodePathList paths = body.skeleton->getParentalNodePaths(character.root);
+    if (!paths.empty()) character.toWorld = osg::computeLocalToWorld(paths.front());
+}
+
 } // namespace
 
 Character convertScene(const std::string& file, const LoadOptions& options, LoadStages& stages) {
     stages.plan(LoadStages::kModel + LoadStages::kBinding);
     stages.begin("model", LoadStages::kModel);
     const osg::ref_ptr<osg::Node> scene = readScene(file, options.readOptions.get());
+    putBonesFirst(*scene);
     ConvertOptions convert = convertOptionsOf(options);
     convert.bind.progress = stages.begin("binding", LoadStages::kBinding);
     ConvertReport report = convertRigs(*scene, convert);
@@ -57,6 +79,8 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     character.notes = report.notes;
     for (const auto& skin : report.skins) character.skin.skins.push_back({skin, {}});
     character.root = asGroup(scene);
+    if (report.bodies.size() == 1) takeBody(report.bodies.front(), convert.bind, character);
+    takeSceneMotions(options, character);
     stages.finish();
     return character;
 }
