@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osg/Notify>
+#include <osg/ref_ptr>
 
 #include <algorithm>
 #include <string>

@@ -3,6 +3,7 @@
 // the format's definition.
 #include "BlendError.h"
 #include "GltfBuilder.h"
+#include "Notices.h"
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
@@ -197,6 +198,63 @@ TEST(WildGltf, SplinesAndStepsAreReadAsSuch) {
     const BlendError error = blendError(column.save("splines.gltf"));
     EXPECT_EQ(error.clips, 2u);
     EXPECT_LT(error.whole, 1e-3) << error.clip; // 30 samples a second between the keys
+}
+
+/// A box of the column's first vertices and faces as a mesh without a skin.
+static std::size_t addBox(GltfColumn& column) {
+    std::vector<double> places(column.places.begin(), column.places.begin() + 24);
+    std::vector<double> indices;
+    for (const int corner : {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6}) indices.push_back(corner);
+    column.json["meshes"].push_back(
+        {{"name", "box"},
+         {"primitives",
+          {{{"attributes", {{"POSITION", column.accessor("VEC3", places)}}},
+            {"indices", column.accessor("SCALAR", indices, 5123)}}}}});
+    return column.json["meshes"].size() - 1;
+}
+
+TEST(WildGltf, ThingsFollowTheNodeThatTheyHangOn) {
+    GltfColumn column;
+    column.bend();
+    // A thing on an animated node below a joint, which no skin names.
+    const std::size_t grip = column.node({{"name", "grip"}, {"translation", {0.5, 0.5, 0}}});
+    const std::size_t thing =
+        column.node({{"name", "thing"}, {"mesh", addBox(column)}, {"translation", {0, 0.2, 0}}});
+    column.json["nodes"][column.joints[2]]["children"] = {grip};
+    column.json["nodes"][grip]["children"] = {thing};
+    column.animate("bend", grip, "rotation", {0.0, 1.0}, GltfColumn::turns({0, 80}));
+    expectExact(column.save("thing.gltf"));
+}
+
+TEST(WildGltf, SceneryIsNoPartOfTheFigure) {
+    GltfColumn column;
+    column.bend();
+    const std::size_t box = addBox(column);
+    const std::size_t floor =
+        column.node({{"name", "floor"}, {"mesh", box}, {"scale", {20, 0.1, 20}}});
+    const std::size_t stand =
+        column.node({{"name", "stand"}, {"mesh", box}, {"translation", {5, 0, 0}}});
+    const std::size_t eye =
+        column.node({{"name", "eye"}, {"mesh", box}, {"scale", {0.2, 0.2, 0.2}}});
+    column.json["scenes"][0]["nodes"] = {0, column.meshNode, floor, stand, eye};
+    const test::Notices notices;
+    const Character character = loadCharacter(column.save("scenery.gltf"));
+    EXPECT_EQ(character.body.mesh.positions.size(), 24u + 8u);
+    EXPECT_TRUE(notices.say("2 things beside the figure are left out, \"floor\" among them"))
+        << notices.text();
+}
+
+TEST(WildGltf, NonUniformScaleIsNotedOnceAndAboveFivePerCent) {
+    for (const double scale : {1.04, 1.2}) {
+        GltfColumn column;
+        for (const std::size_t joint : column.joints)
+            column.animate("squash", joint, "scale", {0.0, 1.0}, {1, 1, 1, 1, scale, 1});
+        const test::Notices notices;
+        const Character character = loadCharacter(column.save("squash.gltf"));
+        EXPECT_EQ(character.notes.size(), scale > 1.05 ? 1u : 0u);
+        EXPECT_EQ(notices.lines(), scale > 1.05 ? 1u : 0u) << notices.text();
+        if (scale > 1.05) EXPECT_TRUE(notices.say("\"squash\" and 2 more scaled non-uniformly"));
+    }
 }
 
 TEST(WildGltf, ClipsMayBeginLate) {

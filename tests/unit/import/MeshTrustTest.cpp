@@ -70,7 +70,7 @@ TEST(MeshTrust, MissingTexturesAreOneLine) {
     const test::Notices notices;
     osgSkin::importMesh(cube("textured.obj", 1.0, "textured.mtl"));
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
-    EXPECT_TRUE(notices.say("6 textures cannot be read, \"nowhere0.png\" among them"))
+    EXPECT_TRUE(notices.say("6 textures, \"nowhere0.png\" among them, cannot be read"))
         << notices.text();
 }
 

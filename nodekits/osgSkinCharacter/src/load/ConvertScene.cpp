@@ -7,6 +7,7 @@
 #include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
 
+#include <osg/StateSet>
 #include <osg/Transform>
 #include <osgDB/Registry>
 
@@ -45,6 +46,16 @@ osg::ref_ptr<osg::Group> asGroup(osg::Node* node) {
     return group;
 }
 
+/// The state that all nodes down to a skin set together.
+osg::ref_ptr<osg::StateSet> stateOf(const osg::Node& skin) {
+    osg::ref_ptr<osg::StateSet> merged = new osg::StateSet;
+    const osg::NodePathList paths = skin.getParentalNodePaths();
+    if (paths.empty()) return merged;
+    for (const osg::Node* node : paths.front())
+        if (node->getStateSet() != nullptr) merged->merge(*node->getStateSet());
+    return merged;
+}
+
 /// The one body of a scene is the character's.
 void takeBody(ConvertedBody& body, const BindOptions& options, Character& character) {
     character.body.mesh = std::move(body.mesh);
@@ -56,6 +67,8 @@ void takeBody(ConvertedBody& body, const BindOptions& options, Character& charac
     character.bindOptions.progress = {};
     character.skeleton = body.skeleton;
     character.skin.skins = std::move(body.skins);
+    for (std::size_t i = 0; i < character.skin.skins.size(); ++i)
+        character.body.parts[i].geometry->setStateSet(stateOf(*character.skin.skins[i].drawable));
     const osg::NodePathList paths = body.skeleton->getParentalNodePaths(character.root);
     if (!paths.empty()) character.toWorld = osg::computeLocalToWorld(paths.front());
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -97,6 +98,21 @@ private:
     const Binding& _binding;
 };
 
+/// Takes correctives off vertices that do not bend.
+void dropCorrectives(const std::vector<int>& jointOf, Correctives& correctives) {
+    if (correctives.firstEntry.empty()) return;
+    std::vector<Correctives::Entry> entries;
+    std::vector<std::uint32_t> firsts{0};
+    for (std::size_t v = 0; v < jointOf.size(); ++v) {
+        if (jointOf[v] < 0)
+            entries.insert(entries.end(), correctives.entries.begin() + correctives.firstEntry[v],
+                           correctives.entries.begin() + correctives.firstEntry[v + 1]);
+        firsts.push_back(static_cast<std::uint32_t>(entries.size()));
+    }
+    correctives.entries = std::move(entries);
+    correctives.firstEntry = std::move(firsts);
+}
+
 /// Lets some vertices follow one joint, and those above it, in full. [vertex] -1: left as it is.
 void follow(const std::vector<int>& jointOf, Binding& binding) {
     std::vector<Influence> influences;
@@ -117,6 +133,7 @@ void follow(const std::vector<int>& jointOf, Binding& binding) {
     }
     binding.influences = std::move(influences);
     binding.firstInfluence = std::move(firsts);
+    dropCorrectives(jointOf, binding.correctives);
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 
 #include "text/FileText.h"
 
+#include <osg/Notify>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -106,11 +108,13 @@ bool movesANode(const json& channel) {
 void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
     const auto animations = file.json.find("animations");
     if (animations == file.json.end()) return;
+    bool morphs = false;
     for (std::size_t a = 0; a < animations->size(); ++a) {
         json& animation = animations->at(a);
         json kept = json::array();
         std::set<std::size_t> done; // samplers, which channels may share
         for (const json& channel : animation.at("channels")) {
+            morphs = morphs || channel.at("target").at("path") == "weights";
             if (!movesANode(channel)) continue;
             kept.push_back(channel);
             const auto sampler = channel.at("sampler").get<std::size_t>();
@@ -124,6 +128,8 @@ void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
         }
         animation["channels"] = kept;
     }
+    if (morphs)
+        OSG_NOTICE << file.path << ": morph targets are animated, which is not played" << std::endl;
     for (std::size_t a = animations->size(); a-- > 0;)
         if (animations->at(a).at("channels").empty()) animations->erase(a);
     if (animations->empty()) file.json.erase("animations");

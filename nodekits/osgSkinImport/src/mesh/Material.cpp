@@ -8,7 +8,7 @@
 #include <osg/Texture2D>
 
 #include <osgDB/FileNameUtils>
-#include <osgDB/ReadFile>
+#include <osgDB/Registry>
 
 #include <algorithm>
 
@@ -68,7 +68,9 @@ osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string&
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
     const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
-    osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile(fileName, local);
+    // osgDB::readImageFile() would warn of each by itself.
+    osg::ref_ptr<osg::Image> image =
+        osgDB::Registry::instance()->readImage(fileName, local).getImage();
     if (!image) missing.add(name);
     return image;
 }
