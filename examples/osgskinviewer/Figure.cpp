@@ -76,7 +76,7 @@ Figure::Figure(const std::string& file, const std::string& weights,
     Finder finder(*this);
     root->accept(finder);
     if (!skins.empty()) return;
-    // A scene of rigs: the pseudo-loader makes skins of them.
+    // A scene of rigs, which a load makes skins of.
     manager = nullptr;
     managed = nullptr;
     root = loadScene(file);
