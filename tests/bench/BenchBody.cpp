@@ -61,6 +61,7 @@ osgSkin::Binding blend(const osgSkin::Binding& binding, const std::vector<Blend>
     result.firstInfluence.push_back(0);
     for (const Blend& vertex : vertices) {
         std::map<std::uint32_t, std::pair<double, double>> sum;
+        std::map<std::uint32_t, osgSkin::RatioGradient> gradients;
         for (std::size_t k = 0; k < 3; ++k) {
             if (vertex.share[k] == 0.0) continue;
             const std::uint32_t v = vertex.corner[k];
@@ -70,8 +71,13 @@ osgSkin::Binding blend(const osgSkin::Binding& binding, const std::vector<Blend>
                 sum[influence.joint].first += vertex.share[k] * static_cast<double>(influence.bend);
                 sum[influence.joint].second +=
                     vertex.share[k] * static_cast<double>(influence.twist);
+                if (binding.gradients.empty()) continue;
+                osgSkin::RatioGradient& gradient = gradients[influence.joint];
+                gradient.bend += static_cast<float>(vertex.share[k]) * binding.gradients[i].bend;
+                gradient.twist += static_cast<float>(vertex.share[k]) * binding.gradients[i].twist;
             }
         }
+        for (const auto& [joint, gradient] : gradients) result.gradients.push_back(gradient);
         for (const auto& [joint, ratio] : sum)
             result.influences.push_back({joint, std::min(1.0f, static_cast<float>(ratio.first)),
                                          std::min(1.0f, static_cast<float>(ratio.second))});
@@ -111,7 +117,7 @@ void bringIntoOrder(Body& body) {
     for (std::uint32_t& corner : body.triangles) corner = source[corner];
 }
 
-Body load(bool shaped) {
+Body load(Kind kind) {
     const Files file = files();
     Body body;
     body.name = file.name;
@@ -119,7 +125,8 @@ Body load(bool shaped) {
     body.rig = osgSkin::importSkeleton(file.skeleton);
     body.clip = osgSkin::retarget(osgSkin::importMotion(file.motion, file.skipFrames), body.rig);
     osgSkin::BindOptions options;
-    if (shaped) options.shapes = osgSkin::BindOptions::Shapes::Fast;
+    options.surfaceNormals = kind != Kind::Turned;
+    if (kind == Kind::Shaped) options.shapes = osgSkin::BindOptions::Shapes::Fast;
     body.binding = osgSkin::bind(mesh, body.rig, options);
     body.positions.assign(mesh.positions.begin(), mesh.positions.end());
     body.triangles = mesh.triangles();
@@ -170,12 +177,12 @@ double Body::partialPerVertex() const {
     return static_cast<double>(partial) / static_cast<double>(positions.size());
 }
 
-const Body& body(std::uint32_t parts, bool shaped) {
-    static std::map<std::pair<std::uint32_t, bool>, Body> bodies;
-    const auto found = bodies.find({parts, shaped});
+const Body& body(std::uint32_t parts, Kind kind) {
+    static std::map<std::pair<std::uint32_t, Kind>, Body> bodies;
+    const auto found = bodies.find({parts, kind});
     if (found != bodies.end()) return found->second;
-    Body made = parts == 1 ? load(shaped) : refine(body(1, shaped), parts);
-    return bodies.emplace(std::pair(parts, shaped), std::move(made)).first->second;
+    Body made = parts == 1 ? load(kind) : refine(body(1, kind), parts);
+    return bodies.emplace(std::pair(parts, kind), std::move(made)).first->second;
 }
 
 } // namespace bench

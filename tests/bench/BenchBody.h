@@ -37,9 +37,13 @@ struct Body {
     double partialPerVertex() const;
 };
 
+/// What a body is bound with: normals that turn with their vertices, those of the deformed surface,
+/// and with those the shapes "fast".
+enum class Kind { Turned, Surface, Shaped };
+
 /// body4k_neutral in a walk where the third-party data is there, else our own thrower.
 /// `parts` splits every edge (Subdivide.h); ratios, weights and normals are interpolated.
-/// Made once for each kind and kept. `shaped` ones are bound with the shapes "fast".
-const Body& body(std::uint32_t parts, bool shaped = false);
+/// Made once for each kind and kept.
+const Body& body(std::uint32_t parts, Kind kind = Kind::Turned);
 
 } // namespace bench

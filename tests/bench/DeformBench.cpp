@@ -67,9 +67,10 @@ void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target,
     count(state, positions.size());
 }
 
-/// Ours with shapes beside ours without, and positions alone beside positions and normals.
-void shapes(benchmark::State& state, std::uint32_t parts, bool shaped, bool withNormals) {
-    const bench::Body& body = bench::body(parts, shaped);
+/// Ours with shapes beside ours without, and positions alone beside positions and normals of both
+/// kinds.
+void shapes(benchmark::State& state, std::uint32_t parts, bench::Kind kind, bool withNormals) {
+    const bench::Body& body = bench::body(parts, kind);
     const auto model = body.model();
     osgSkin::Pose pose(model->joints());
     std::vector<glm::vec3> positions(body.positions.size()), normals(body.normals.size());
@@ -154,10 +155,11 @@ int main(int argc, char** argv) {
             add("osgAnimation", osgAnimationRig)->UseManualTime();
         }
         if (size.parts <= 10) {
-            add("positions", shapes, false, false);
-            add("positions, fast shapes", shapes, true, false);
-            add("normals, too", shapes, false, true);
-            add("normals, fast shapes", shapes, true, true);
+            add("positions", shapes, bench::Kind::Turned, false);
+            add("positions, fast shapes", shapes, bench::Kind::Shaped, false);
+            add("normals, turned", shapes, bench::Kind::Turned, true);
+            add("normals of the surface", shapes, bench::Kind::Surface, true);
+            add("normals, fast shapes", shapes, bench::Kind::Shaped, true);
         }
         add("ours, 1 thread", ours, std::int64_t{0}, one.get())->UseRealTime();
         add("ours, 2 threads", ours, std::int64_t{0}, two.get())->UseRealTime();

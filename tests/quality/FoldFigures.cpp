@@ -106,12 +106,16 @@ std::vector<FoldFigure> measureFolds(const Subject& plain, const Subject& shaped
                                           : way == FoldFigure::DualQuaternion
                                               ? Method::DualQuaternion
                                               : Method::Ours;
-                    const compare::Points posed =
-                        deform(way == FoldFigure::Shaped ? shaped : plain, method, skinning);
+                    const PosedSkin posed = deformWithNormals(
+                        way == FoldFigure::Shaped ? shaped : plain, method, skinning);
                     const auto i = static_cast<std::size_t>(way);
-                    figure.bulge[i] = std::max(figure.bulge[i],
-                                               bulgeOf(plain, limb, posed, skinning[limb.joint]));
-                    figure.pairs[i] += intersections.beyondRest(posed);
+                    figure.bulge[i] = std::max(
+                        figure.bulge[i], bulgeOf(plain, limb, posed.points, skinning[limb.joint]));
+                    const NormalError normals = normalError(plain, posed, limb.vertices);
+                    NormalError& worst = figure.normals[i];
+                    worst.mean = std::max(worst.mean, normals.mean);
+                    worst.percentile95 = std::max(worst.percentile95, normals.percentile95);
+                    figure.pairs[i] += intersections.beyondRest(posed.points);
                 }
             }
         }
@@ -135,7 +139,9 @@ ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>&
     figures.shapes = "fast";
     figures.seconds = -seconds(plain);
     figures.seconds += seconds(shaped);
-    figures.bytesPerVertex = 2.0 * static_cast<double>(shaped.binding.correctives.shares.size()) /
+    figures.bytesPerVertex = 2.0 *
+                             static_cast<double>(shaped.binding.correctives.shares.size() +
+                                                 shaped.binding.correctives.normalShares.size()) /
                              static_cast<double>(subject.rest.size());
     figures.folds = measureFolds(plain, shaped);
     figures.steps = measureShapedBends(shaped);
@@ -158,6 +164,9 @@ void printTable(const ShapeFigures& figures, std::ostream& out) {
         for (const double bulge : fold.bulge) out << format("%12.3f", bulge);
         out << format("\n  %-28s", "  pairs, both sides");
         for (const std::size_t pairs : fold.pairs) out << format("%12zu", pairs);
+        out << format("\n  %-28s", "  normals, mean / 95 %");
+        for (const NormalError& error : fold.normals)
+            out << format("%12s", format("%.2f / %.1f", error.mean, error.percentile95).c_str());
         out << '\n';
     }
     const auto row = [&](const char* name, const char* pattern, double PoseFigures::*figure) {
@@ -171,6 +180,13 @@ void printTable(const ShapeFigures& figures, std::ostream& out) {
     row("  volume error", "%.4f", &PoseFigures::volumeError);
     row("  bulge of limbs", "%.3f", &PoseFigures::bulge);
     row("  self-intersections", "%.2f", &PoseFigures::intersections);
+    out << format("  %-28s%24s%12s%12s\n", "  normals, mean / 95 %", "",
+                  format("%.2f / %.2f", figures.clips.plain.normals.mean,
+                         figures.clips.plain.normals.percentile95)
+                      .c_str(),
+                  format("%.2f / %.2f", figures.clips.shaped.normals.mean,
+                         figures.clips.shaped.normals.percentile95)
+                      .c_str());
     out << format("  worst step of a shaped bend: %.2f x a rigid arc (%s)\n", figures.steps.worst,
                   figures.steps.joint.c_str());
     out << format("  poses with over 2 %% + 2 pairs more: %zu; %.1f bytes a vertex, %.3f s more to "

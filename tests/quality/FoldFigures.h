@@ -19,6 +19,8 @@ struct FoldFigure {
     /// of the skin within four limb radii of the joint that the painted weights give to the two.
     /// The worse side.
     std::array<double, Ways> bulge{};
+    /// Of the same vertices; the worse side of each.
+    std::array<NormalError, Ways> normals{};
     std::array<std::size_t, Ways> pairs{}; ///< see SelfIntersections, of both sides together
 };
 

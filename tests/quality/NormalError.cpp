@@ -6,14 +6,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace quality {
 
 NormalError normalError(const Subject& subject, const PosedSkin& posed) {
+    std::vector<std::uint32_t> all(posed.points.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return normalError(subject, posed, all);
+}
+
+NormalError normalError(const Subject& subject, const PosedSkin& posed,
+                        const std::vector<std::uint32_t>& vertices) {
     const compare::Points shown = skinNormals(posed.points, subject.triangles);
     std::vector<double> angles;
     NormalError error;
-    for (std::size_t v = 0; v < shown.size(); ++v) {
+    for (const std::uint32_t v : vertices) {
         if (shown[v] == glm::dvec3(0.0)) continue;
         const double cosine = glm::dot(shown[v], posed.normals[v]);
         const double sine = glm::length(glm::cross(shown[v], posed.normals[v]));

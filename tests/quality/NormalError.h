@@ -13,4 +13,8 @@ struct NormalError {
 /// Over the vertices that the skin's triangles use.
 NormalError normalError(const Subject& subject, const PosedSkin& posed);
 
+/// Over those of `vertices` that the skin's triangles use.
+NormalError normalError(const Subject& subject, const PosedSkin& posed,
+                        const std::vector<std::uint32_t>& vertices);
+
 } // namespace quality

@@ -78,9 +78,9 @@ inline osgSkin::Correctives someCorrectives(const osgSkin::Binding& binding, dou
     return result;
 }
 
-/// What they add to a vertex in a pose, by the formula in osgSkin/Correctives.
+/// What they add to a vertex in a pose, or to its normal, by the formula in osgSkin/Correctives.
 inline glm::dvec3 correctionOf(const osgSkin::Binding& binding, const osgSkin::Pose& pose,
-                               std::uint32_t vertex) {
+                               std::uint32_t vertex, bool ofNormal = false) {
     const osgSkin::Correctives& from = binding.correctives;
     glm::dvec3 sum(0.0);
     for (std::uint32_t i = from.firstEntry[vertex]; i < from.firstEntry[vertex + 1]; ++i) {
@@ -96,11 +96,18 @@ inline glm::dvec3 correctionOf(const osgSkin::Binding& binding, const osgSkin::P
                                             binding.joints[joint.joint].twistAxis),
                           beta);
         }
-        const std::int16_t* u = &from.shares[from.entries[i].firstShare];
+        const std::vector<std::int16_t>& shares = ofNormal ? from.normalShares : from.shares;
+        const std::int16_t* u = &shares[from.entries[i].firstShare];
         for (std::size_t k = 0; k < joint.modes; ++k, u += 3)
-            sum += beta[k] / 32767.0 * glm::dvec3(u[0], u[1], u[2]);
+            sum += beta[k] * (ofNormal ? joint.normalScales[k] : 1.0) / 32767.0 *
+                   glm::dvec3(u[0], u[1], u[2]);
     }
     return sum;
+}
+
+inline glm::dvec3 normalCorrectionOf(const osgSkin::Binding& binding, const osgSkin::Pose& pose,
+                                     std::uint32_t vertex) {
+    return correctionOf(binding, pose, vertex, true);
 }
 
 } // namespace test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a skin model's block says is not to be believed: refused with a reason, never a crash.
+#include "SlopedTube.h"
 #include "SomeCorrectives.h"
 #include "Tube.h"
 #include "words/SkinModelBlock.h"
@@ -39,9 +40,10 @@ std::ostream& operator<<(std::ostream& out, const BadBlock& bad) {
 
 const std::vector<BadBlock> kBad = {
     {"Empty", "ends too early", [](Words& w) { w.clear(); }},
-    {"Version", "version 3", [](Words& w) { w[0] = 3; }},
+    {"Version", "version 4", [](Words& w) { w[0] = 4; }},
     {"VersionNought", "version 0", [](Words& w) { w[0] = 0; }},
     {"NoCorrectives", "ends too early", [](Words& w) { w[0] = 2; }},
+    {"NoGradients", "ends too early", [](Words& w) { w[0] = 3; }},
     {"NoJoint", "", [](Words& w) { w[kJoints] = 0; }},
     {"ManyJoints", "joints have no room", [](Words& w) { w[kJoints] = 0xffffffffu; }},
     {"Cycle", "after its parent", [](Words& w) { w[kParent] = 1; }},
@@ -93,9 +95,12 @@ TEST(HostileBlockAtRandom, NeverCrashes) {
     const Words plain = osgSkin::packSkinModel(*tube.model());
     tube.binding.correctives = test::someCorrectives(tube.binding, 0.1, 1, true);
     const Words corrected = osgSkin::packSkinModel(*tube.model());
+    test::SlopedTube slopedTube(5, 6);
+    slopedTube.binding.correctives = tube.binding.correctives;
+    const Words sloped = osgSkin::packSkinModel(*slopedTube.model());
     const std::uint32_t extreme[] = {0, 1, 0x7fffffffu, 0x80000000u, 0xffffffffu, kNan, kTwo};
     for (int round = 0; round < 20000; ++round) {
-        Words words = round % 2 ? plain : corrected;
+        Words words = round % 3 == 0 ? plain : round % 3 == 1 ? corrected : sloped;
         for (int change = 0; change < 1 + round % 3; ++change)
             words[random() % words.size()] =
                 random() % 2 ? extreme[random() % 7] : static_cast<std::uint32_t>(random());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "words/SkinModelBlock.h"
+#include "SlopedTube.h"
 #include "SomeCorrectives.h"
 #include "Tube.h"
 #include "Version1Block.h"
@@ -45,6 +46,30 @@ TEST(SkinModelBlock, ModelComesBackExactly) {
     expectEqual(*osgSkin::unpackSkinModel(osgSkin::packSkinModel(*model)), *model);
 }
 
+TEST(SkinModelBlock, GradientsComeBackExactly) {
+    for (const bool corrected : {false, true}) {
+        test::SlopedTube tube(21, 7);
+        if (corrected) tube.binding.correctives = test::someCorrectives(tube.binding, 0.3, 2, true);
+        const auto model = tube.model();
+        const std::vector<std::uint32_t> words = osgSkin::packSkinModel(*model);
+        EXPECT_EQ(words[0], 3u);
+        const auto again = osgSkin::unpackSkinModel(words);
+        expectEqual(*again, *model);
+        EXPECT_TRUE(again->hasSurfaceNormals());
+        EXPECT_EQ(again->hasCorrectives(), corrected);
+        EXPECT_EQ(osgSkin::packSkinModel(*again), words);
+        const osgSkin::Binding binding = osgSkin::bindingOf(*again);
+        ASSERT_EQ(binding.gradients.size(), tube.binding.gradients.size());
+        for (std::size_t i = 0; i < binding.gradients.size(); ++i) {
+            if (!tube.binding.influences[i].isPartial()) continue;
+            const osgSkin::RatioGradient &is = binding.gradients[i],
+                                         &was = tube.binding.gradients[i];
+            EXPECT_LE(glm::distance(is.bend, was.bend), 1e-4f) << i;
+            EXPECT_LE(glm::distance(is.twist, was.twist), 1e-4f) << i;
+        }
+    }
+}
+
 TEST(SkinModelBlock, BindingComesBackExactly) {
     const test::Tube tube;
     const osgSkin::Binding binding = osgSkin::bindingOf(*tube.model());
@@ -58,11 +83,13 @@ TEST(SkinModelBlock, BindingComesBackExactly) {
     }
 }
 
-TEST(SkinModelBlock, StartsWithItsVersion) {
+TEST(SkinModelBlock, StartsWithTheEarliestVersionThatWillDo) {
     EXPECT_EQ(osgSkin::packSkinModel(*test::Tube().model()).front(), 1u);
-    test::Tube tube;
-    tube.binding.correctives = test::someCorrectives(tube.binding, 0.1, 1);
+    test::SlopedTube tube;
     EXPECT_EQ(osgSkin::packSkinModel(*tube.model()).front(), osgSkin::kSkinModelBlockVersion);
+    tube.binding.gradients.clear();
+    tube.binding.correctives = test::someCorrectives(tube.binding, 0.1, 1);
+    EXPECT_EQ(osgSkin::packSkinModel(*tube.model()).front(), 2u);
 }
 
 TEST(SkinModelBlock, VersionOneIsRead) {

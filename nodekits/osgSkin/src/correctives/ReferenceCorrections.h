@@ -20,7 +20,8 @@ public:
     /// \param group an index
     /// \param row of the group
     /// \param position rest space; changed
-    void apply(std::size_t group, std::uint32_t row, glm::vec3& position) noexcept;
+    /// \param tilt what its rest normal gets, added to
+    void apply(std::size_t group, std::uint32_t row, glm::vec3& position, glm::vec3& tilt) noexcept;
 
 private:
     const CorrectiveBlocks& _blocks;

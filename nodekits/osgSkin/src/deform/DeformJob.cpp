@@ -8,6 +8,8 @@
 #include "deform/DeformKernel.h"
 #include "deform/KernelChain.h"
 #include "deform/KernelCorrections.h"
+#include "deform/KernelSlopes.h"
+#include "deform/SurfaceChain.h"
 #include "model/SkinModelAccess.h"
 
 #include <algorithm>
@@ -40,8 +42,11 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
     KernelChain chain(model, *job.pose);
     KernelCall call;
     call.correctionCount = 0;
+    call.gradients = nullptr;
     std::optional<KernelCorrections> corrections;
     if (SkinModelAccess::correctives(model)) corrections.emplace(model, *job.pose);
+    std::optional<KernelSlopes> slopes;
+    if (job.normals && SkinModelAccess::gradients(model)) slopes.emplace(model);
     for (std::size_t g = groupOf(blocks, first); blocks.firstBlock[g] < end; ++g) {
         const SkinModel::Group& group = model.groups()[g];
         const std::size_t from = std::max(first, blocks.firstBlock[g]) - blocks.firstBlock[g];
@@ -50,6 +55,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
         const std::size_t out = blocks.inOrder ? vertex : 0;
         chain.prepare(group, call);
         if (corrections) corrections->prepare(g, from, call);
+        if (slopes) slopes->prepare(g, from, call);
         call.rows =
             &blocks.rows[blocks.firstRow[g] + from * SkinBlocks::rowsPerBlock(group.partialCount)];
         call.vertexCount = std::min<std::size_t>(group.vertexCount, to * kBlock) - from * kBlock;
@@ -120,17 +126,27 @@ bool DeformJob::runReference() const noexcept {
     for (std::size_t g = 0; g < model->groups().size(); ++g) {
         const SkinModel::Group& group = model->groups()[g];
         const Chain chain(*model, group, *pose);
+        std::optional<SurfaceChain> surface;
+        if (SkinModelAccess::gradients(*model)) surface.emplace(*model, g, *pose);
+        if (surface && !surface->tilts()) surface.reset();
         const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;
         const std::uint32_t* order = model->order().data() + group.firstVertex;
         for (std::uint32_t i = 0; i < group.vertexCount; ++i, ratios += group.partialCount) {
             const std::uint32_t v = order[i];
             glm::vec3 position = model->positions()[v];
             glm::vec3 normal = model->normals()[v];
-            if (corrections) corrections->apply(g, i, position);
+            glm::vec3 tilt(0.0f); // of the rest normal
+            if (corrections) corrections->apply(g, i, position, tilt);
             const glm::vec4 rest = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
             glm::vec3 tangent(rest);
-            chain.apply(ratios, position, normals ? &normal : nullptr,
-                        tangents ? &tangent : nullptr);
+            if (normals && surface) {
+                surface->apply(i, ratios, position, normal, tilt, tangents ? &tangent : nullptr);
+                chain.apply(ratios, position, nullptr);
+            } else {
+                if (tilt != glm::vec3(0.0f)) tiltNormal(tilt, normal, tangent);
+                chain.apply(ratios, position, normals ? &normal : nullptr,
+                            tangents ? &tangent : nullptr);
+            }
             positions[v] = position;
             if (normals) normals[v] = normal;
             if (tangents) tangents[v] = glm::vec4(tangent, rest.w);

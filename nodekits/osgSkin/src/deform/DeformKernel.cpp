@@ -15,6 +15,7 @@
 #include "deform/KernelCorrect-inl.h"
 #include "deform/KernelPasses-inl.h"
 #include "deform/KernelStore-inl.h"
+#include "deform/KernelSurface-inl.h"
 #include "deform/KernelTurns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,10 +29,19 @@ constexpr std::size_t kAhead = 512;
 /// The same for the skin's rows, this group's and the next one's, where a skin is larger than the
 /// caches.
 constexpr std::size_t kRowsAhead = 32;
+constexpr std::size_t kGradientsAhead = 4 * kBlock; ///< vertices
 
 struct Outputs {
     Output positions, normals, tangents;
 };
+
+template <bool kNormals>
+HWY_INLINE void prefetch(const Outputs& out, std::size_t first) {
+    for (std::size_t i = 0; i < 3 * hn::Lanes(D()); i += 16) {
+        hwy::Prefetch(out.positions.to + 3 * first + kAhead + i);
+        if (kNormals) hwy::Prefetch(out.normals.to + 3 * first + kAhead + i);
+    }
+}
 
 template <bool kNormals, bool kTangents>
 HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::size_t first,
@@ -51,6 +61,8 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
         ty = hn::Load(d, tangentRows + kBlock);
         tz = hn::Load(d, tangentRows + 2 * kBlock);
     }
+    if (kNormals && HWY_UNLIKELY(call.correctionCount > 0))
+        correctNormals<kTangents>(call, first, nx, ny, nz, tx, ty, tz);
     if (call.lead) {
         if (HWY_UNLIKELY(call.leadScaled)) scaleBy(constant(call.leadScale), x, y, z);
         apply(*call.lead, x, y, z);
@@ -77,28 +89,154 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
         if (kNormals) turn(link->out, nx, ny, nz);
         if (kTangents) turn(link->out, tx, ty, tz);
     }
-    for (std::size_t i = 0; i < 3 * hn::Lanes(d); i += 16) {
-        hwy::Prefetch(out.positions.to + 3 * first + kAhead + i);
-        if (kNormals) hwy::Prefetch(out.normals.to + 3 * first + kAhead + i);
-    }
+    prefetch<kNormals>(out, first);
     store(out.positions, first, x, y, z);
     if (kNormals) store(out.normals, first, nx, ny, nz);
     if (kTangents) store(out.tangents, first, tx, ty, tz, hn::Load(d, tangentRows + 3 * kBlock));
 }
 
+/// The same with normals and tangents of the deformed surface: two directions along the skin go
+/// through the chain up to the last link that tilts it, what they span behind that.
+template <bool kTangents>
+HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::size_t first,
+                              const float* HWY_RESTRICT rows,
+                              const float* HWY_RESTRICT tangentRows) {
+    const D d;
+    V x = hn::Load(d, rows), y = hn::Load(d, rows + kBlock), z = hn::Load(d, rows + 2 * kBlock);
+    if (HWY_UNLIKELY(call.correctionCount > 0)) correct(call, first, x, y, z);
+    const std::int16_t* HWY_RESTRICT slopes = gradientLanes(call, first);
+    V ux, uy, uz, vx, vy, vz;
+    skinDirections(call, first, hn::Load(d, rows + 3 * kBlock), hn::Load(d, rows + 4 * kBlock),
+                   hn::Load(d, rows + 5 * kBlock), ux, uy, uz, vx, vy, vz);
+    V tx = hn::Zero(d), ty = tx, tz = tx, alongU = tx, alongV = tx, square = tx;
+    if (kTangents) {
+        tx = hn::Load(d, tangentRows);
+        ty = hn::Load(d, tangentRows + kBlock);
+        tz = hn::Load(d, tangentRows + 2 * kBlock);
+        alongU = dot(tx, ty, tz, ux, uy, uz);
+        alongV = dot(tx, ty, tz, vx, vy, vz);
+        square = dot(tx, ty, tz, tx, ty, tz);
+    }
+    if (call.lead) {
+        if (HWY_UNLIKELY(call.leadScaled)) {
+            scaleBy(constant(call.leadScale), x, y, z);
+            scaleBy(constant(call.leadScale), ux, uy, uz);
+            scaleBy(constant(call.leadScale), vx, vy, vz);
+        }
+        apply(*call.lead, x, y, z);
+        turn(*call.lead, ux, uy, uz);
+        turn(*call.lead, vx, vy, vz);
+    }
+    const float* HWY_RESTRICT ratio = rows + 6 * kBlock;
+    bool inJointFrame = !call.lead;
+    const KernelLink* link = call.links + call.linkCount;
+    const KernelLink* const last = call.links + call.lastSlope;
+    V nx = tx, ny = tx, nz = tx;
+    for (;;) {
+        --link;
+        const KernelSlope& slope = call.slopes[link - call.links];
+        const V bendRatio = hn::Load(d, ratio);
+        V sine, cosine;
+        sineCosine(link->twist, hn::Load(d, ratio + kBlock), sine, cosine);
+        if (inJointFrame) takeAzimuthOff(call, sine, cosine);
+        if (slope.tilt.twists) {
+            addSlope(slopeAt(slopes, kTwistAlongU, slope.twist), x, y, ux, uy);
+            addSlope(slopeAt(slopes, kTwistAlongV, slope.twist), x, y, vx, vy);
+        }
+        turnPlane(sine, cosine, x, y);
+        turnPlane(sine, cosine, ux, uy);
+        turnPlane(sine, cosine, vx, vy);
+        sineCosine(link->bend, bendRatio, sine, cosine);
+        if (slope.tilt.bends) {
+            addSlope(slopeAt(slopes, kBendAlongU, slope.bend), y, z, uy, uz);
+            addSlope(slopeAt(slopes, kBendAlongV, slope.bend), y, z, vy, vz);
+        }
+        turnPlane(sine, cosine, y, z);
+        if (link == last && HWY_LIKELY(!link->adjusted)) {
+            cross(ux, uy, uz, vx, vy, vz, nx, ny, nz);
+            turnPlane(sine, cosine, ny, nz);
+            if (kTangents) {
+                combine(alongU, alongV, ux, uy, uz, vx, vy, vz, tx, ty, tz);
+                turnPlane(sine, cosine, ty, tz);
+            }
+            apply(link->out, x, y, z);
+            break;
+        }
+        turnPlane(sine, cosine, uy, uz);
+        turnPlane(sine, cosine, vy, vz);
+        if (HWY_UNLIKELY(link->adjusted)) {
+            adjustAlong(*link, bendRatio, slopeAt(slopes, kBendAlongU, slope.step), x, y, z, ux, uy,
+                        uz);
+            adjustAlong(*link, bendRatio, slopeAt(slopes, kBendAlongV, slope.step), x, y, z, vx, vy,
+                        vz);
+            adjust(*link, bendRatio, x, y, z);
+        }
+        apply(link->out, x, y, z);
+        if (link == last) {
+            cross(ux, uy, uz, vx, vy, vz, nx, ny, nz);
+            if (kTangents) combine(alongU, alongV, ux, uy, uz, vx, vy, vz, tx, ty, tz);
+            break;
+        }
+        turn(link->out, ux, uy, uz);
+        turn(link->out, vx, vy, vz);
+        ratio += 2 * kBlock;
+        slopes += kSlopeRows * kBlock;
+        inJointFrame = false;
+    }
+    // Nothing waits for the lengths until all is stored.
+    const V length = inverseRoot(dot(nx, ny, nz, nx, ny, nz));
+    turn(last->out, nx, ny, nz);
+    if (kTangents) {
+        scaleBy(hn::Mul(hn::Sqrt(square), inverseRoot(dot(tx, ty, tz, tx, ty, tz))), tx, ty, tz);
+        turn(last->out, tx, ty, tz);
+    }
+    ratio += 2 * kBlock;
+    while (link-- != call.links) {
+        const V bendRatio = hn::Load(d, ratio);
+        V sine, cosine;
+        sineCosine(link->twist, hn::Load(d, ratio + kBlock), sine, cosine);
+        turnPlane(sine, cosine, x, y);
+        turnPlane(sine, cosine, nx, ny);
+        if (kTangents) turnPlane(sine, cosine, tx, ty);
+        sineCosine(link->bend, bendRatio, sine, cosine);
+        turnPlane(sine, cosine, y, z);
+        turnPlane(sine, cosine, ny, nz);
+        if (kTangents) turnPlane(sine, cosine, ty, tz);
+        if (HWY_UNLIKELY(link->adjusted)) adjust(*link, bendRatio, x, y, z);
+        apply(link->out, x, y, z);
+        turn(link->out, nx, ny, nz);
+        if (kTangents) turn(link->out, tx, ty, tz);
+        ratio += 2 * kBlock;
+    }
+    prefetch<true>(out, first);
+    store(out.positions, first, x, y, z);
+    scaleBy(length, nx, ny, nz);
+    store(out.normals, first, nx, ny, nz);
+    if (kTangents) store(out.tangents, first, tx, ty, tz, hn::Load(d, tangentRows + 3 * kBlock));
+}
+
 /// Deforms a group vector by vector, each through its whole chain.
-template <bool kNormals, bool kTangents>
+template <bool kNormals, bool kTangents, bool kSurface>
 void deformByVectors(const KernelCall& call) {
     const Outputs out{Output(call, call.positions), Output(call, call.normals),
                       Output(call, call.tangents)};
     const std::size_t blockRows = SkinBlocks::rowsPerBlock(call.linkCount);
+    const std::size_t gradientRows = GradientBlocks::rowsPerBlock(call.linkCount);
     const BlockRow* rows = call.rows;
     for (std::size_t first = 0; first < call.vertexCount; first += kBlock, rows += blockRows) {
         for (std::size_t i = 0; i < blockRows; ++i) hwy::Prefetch(rows + kRowsAhead + i);
+        if (kSurface) {
+            const std::int16_t* ahead = gradientLanes(call, first + kGradientsAhead);
+            for (std::size_t i = 0; i < gradientRows; i += 2) hwy::Prefetch(ahead + i * kBlock);
+        }
         const std::size_t end = HWY_MIN(first + kBlock, call.vertexCount);
         for (std::size_t v = first; v < end; v += hn::Lanes(D()))
-            deformVector<kNormals, kTangents>(call, out, v, rows->lane + v % kBlock,
-                                              kTangents ? tangentLanes(call, v) : nullptr);
+            if (kSurface)
+                deformSurface<kTangents>(call, out, v, rows->lane + v % kBlock,
+                                         kTangents ? tangentLanes(call, v) : nullptr);
+            else
+                deformVector<kNormals, kTangents>(call, out, v, rows->lane + v % kBlock,
+                                                  kTangents ? tangentLanes(call, v) : nullptr);
     }
 }
 
@@ -107,11 +245,13 @@ void deform(const KernelCall& call) {
     deformByLinks(call);
 #else
     if (call.tangents)
-        deformByVectors<true, true>(call);
+        call.gradients ? deformByVectors<true, true, true>(call)
+                       : deformByVectors<true, true, false>(call);
     else if (call.normals)
-        deformByVectors<true, false>(call);
+        call.gradients ? deformByVectors<true, false, true>(call)
+                       : deformByVectors<true, false, false>(call);
     else
-        deformByVectors<false, false>(call);
+        deformByVectors<false, false, false>(call);
 #endif
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/SkinBlocks.h"
+#include "pose/LinkTilt.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +46,9 @@ struct KernelAngle {
         value = range == kQuartered ? 0.25 * angle : range == kHalved ? 0.5 * angle : angle;
         return *this;
     }
+    double whole() const {
+        return double(value.value[0]) * (range == kQuartered ? 4.0 : range == kHalved ? 2.0 : 1.0);
+    }
 };
 
 /// One partial joint of a group's chain in the present pose.
@@ -60,6 +64,15 @@ struct KernelLink {
     Splat growth;      ///< the joint's scale less 1; the same
     Splat outScale;    ///< of positions, before `out`
     KernelMap out; ///< from this frame to that of the next partial joint outwards, or rest space
+};
+
+/// What the growth of a link's ratios along the skin does to directions along it, by the numbers
+/// that GradientBlocks has of it.
+struct KernelSlope {
+    LinkTilt tilt;
+    Splat bend;  ///< psi, in units of those numbers
+    Splat twist; ///< phi, the same
+    Splat step;  ///< 1, the same
 };
 
 /// The correctives of one joint on a range of a group's blocks, see Correctives.
@@ -89,10 +102,16 @@ struct KernelCall {
     const KernelCorrection* corrections; ///< what is added to rest positions before all else
     std::size_t correctionCount;
     const KernelMap* correctionFrame; ///< turns it into the blocks' frame; null: rest space
-    float* positions;                 ///< x, y, z of the group's first vertex
-    float* normals;                   ///< may be null
-    float* tangents;                  ///< x, y, z, w; may be null; null where normals is
-    std::size_t room; ///< vertices from there on that may be overwritten, >= vertexCount
+    /// GradientBlocks' rows, for normals and tangents of the deformed surface; null: they turn as
+    /// their vertices do.
+    const std::int16_t* gradients;
+    const BlockRow* directions; ///< GradientBlocks'; where gradients is not null
+    const KernelSlope* slopes;  ///< of each of `links`
+    std::size_t lastSlope;      ///< of the outermost link that tilts normals
+    float* positions;           ///< x, y, z of the group's first vertex
+    float* normals;             ///< may be null
+    float* tangents;            ///< x, y, z, w; may be null; null where normals is
+    std::size_t room;           ///< vertices from there on that may be overwritten, >= vertexCount
     const std::uint32_t* scatter; ///< vertex of each row, where output is not in order; else null
 };
 

@@ -39,24 +39,67 @@ HWY_INLINE void addModes(const float* HWY_RESTRICT weights, std::size_t modes,
     }
 }
 
-/// Adds the correctives to the rest positions of the vertices from `first` on, a vector of them.
-HWY_INLINE void correct(const KernelCall& call, std::size_t first, V& x, V& y, V& z) {
+/// What the correctives add to rest positions, or to their normals, of the vertices from `first`
+/// on, a vector of them; in the blocks' frame.
+/// \return false where that is nothing
+template <bool kOfNormals>
+HWY_INLINE bool corrections(const KernelCall& call, std::size_t first, V& dx, V& dy, V& dz) {
     const std::size_t block = first / kBlock;
-    V dx = hn::Zero(D()), dy = dx, dz = dx;
+    dx = dy = dz = hn::Zero(D());
     bool any = false;
     for (std::size_t i = 0; i < call.correctionCount; ++i) {
         const KernelCorrection& of = call.corrections[i];
         const std::size_t at = block - of.firstBlock; // large where the block comes before
         if (at >= of.blockCount) continue;
+        if (kOfNormals && !of.normalWeights) continue;
         any = true;
-        addModes(of.weights, of.modes, of.shares + at * of.blockShares + first % kBlock, dx, dy,
-                 dz);
+        const std::int16_t* shares = of.shares + at * of.blockShares + first % kBlock;
+        addModes(kOfNormals ? of.normalWeights : of.weights, of.modes,
+                 kOfNormals ? shares + 3 * of.modes * kBlock : shares, dx, dy, dz);
     }
-    if (!any) return;
-    if (call.correctionFrame) turn(*call.correctionFrame, dx, dy, dz);
+    if (any && call.correctionFrame) turn(*call.correctionFrame, dx, dy, dz);
+    return any;
+}
+
+/// Adds the correctives to rest positions.
+HWY_INLINE void correct(const KernelCall& call, std::size_t first, V& x, V& y, V& z) {
+    V dx, dy, dz;
+    if (!corrections<false>(call, first, dx, dy, dz)) return;
     x = hn::Add(x, dx);
     y = hn::Add(y, dy);
     z = hn::Add(z, dz);
+}
+
+HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
+    return hn::MulAdd(ax, bx, hn::MulAdd(ay, by, hn::Mul(az, bz)));
+}
+
+/// 1 / sqrt(square), to the last few bits.
+HWY_INLINE V inverseRoot(V square) {
+    const D d;
+    const V safe = hn::Max(square, hn::Set(d, 1e-30f)); // padding has no normals
+    const V guess = hn::ApproximateReciprocalSqrt(safe);
+    const V half = hn::Mul(hn::Mul(hn::Set(d, 0.5f), safe), guess);
+    return hn::Mul(guess, hn::NegMulAdd(half, guess, hn::Set(d, 1.5f)));
+}
+
+/// Adds the correctives to rest normals, which keep their length; and keeps tangents upright.
+template <bool kTangents>
+HWY_INLINE void correctNormals(const KernelCall& call, std::size_t first, V& nx, V& ny, V& nz,
+                               V& tx, V& ty, V& tz) {
+    V dx, dy, dz;
+    if (!corrections<true>(call, first, dx, dy, dz)) return;
+    nx = hn::Add(nx, dx);
+    ny = hn::Add(ny, dy);
+    nz = hn::Add(nz, dz);
+    scaleBy(inverseRoot(dot(nx, ny, nz, nx, ny, nz)), nx, ny, nz);
+    if (!kTangents) return;
+    const V off = dot(nx, ny, nz, tx, ty, tz);
+    const V square = dot(tx, ty, tz, tx, ty, tz);
+    tx = hn::NegMulAdd(off, nx, tx);
+    ty = hn::NegMulAdd(off, ny, ty);
+    tz = hn::NegMulAdd(off, nz, tz);
+    scaleBy(hn::Mul(hn::Sqrt(square), inverseRoot(dot(tx, ty, tz, tx, ty, tz))), tx, ty, tz);
 }
 
 } // namespace HWY_NAMESPACE

@@ -14,6 +14,7 @@
 #include "deform/DeformKernel.h"
 #include "deform/KernelCorrect-inl.h"
 #include "deform/KernelStore-inl.h"
+#include "deform/KernelSurface-inl.h"
 #include "deform/KernelTurns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,6 +33,8 @@ struct alignas(64) Chunk {
     std::size_t blocks = 0;        ///< at most kChunkBlocks
     std::size_t ratioStride = 0;   ///< floats from a block's ratios to the next one's
     const float* ratios = nullptr; ///< of the link at hand: bend, behind it twist
+    std::size_t slopeStride = 0;
+    const std::int16_t* slopes = nullptr; ///< of the link at hand, see SlopeRow
 
     float twistSine[kChunk], twistCosine[kChunk]; ///< of the link at hand
     float bendSine[kChunk], bendCosine[kChunk];
@@ -42,6 +45,12 @@ struct alignas(64) ChunkStream {
     const float* from = nullptr; ///< in the skin's blocks at first, then in `state`
     std::size_t stride = 0;
     float state[3 * kChunk]; ///< between two links
+};
+
+/// What of a chunk's normals and tangents of the surface is kept on their way.
+struct alignas(64) ChunkSurface {
+    ChunkStream u, v;                                     ///< directions along the skin
+    float alongU[kChunk], alongV[kChunk], square[kChunk]; ///< of tangents at rest
 };
 
 /// Sines and cosines of an angle's shares, as sineCosine() has them; the polynomials are scaled so
@@ -150,6 +159,13 @@ HWY_INLINE void pass(const KernelCall& call, const Chunk& chunk, const KernelMap
     stream.stride = 3 * kBlock;
 }
 
+HWY_INLINE void storeRows(V x, V y, V z, float* HWY_RESTRICT to) {
+    const D d;
+    hn::Store(x, d, to);
+    hn::Store(y, d, to + kBlock);
+    hn::Store(z, d, to + 2 * kBlock);
+}
+
 /// The chunk's rest positions with their correctives, from where the first link takes them.
 inline HWY_NOINLINE void correctChunk(const KernelCall& call, const Chunk& chunk, ChunkStream& stream) {
     const D d;
@@ -168,6 +184,136 @@ inline HWY_NOINLINE void correctChunk(const KernelCall& call, const Chunk& chunk
     stream.stride = 3 * kBlock;
 }
 
+/// The same of rest normals and tangents.
+template <bool kTangents>
+HWY_NOINLINE void correctDirections(const KernelCall& call, const Chunk& chunk,
+                                    ChunkStream& normals, ChunkStream& tangents) {
+    const D d;
+    for (std::size_t b = 0; b < chunk.blocks; ++b)
+        for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
+            const float* n = normals.from + b * normals.stride + lane;
+            V nx = hn::Load(d, n), ny = hn::Load(d, n + kBlock), nz = hn::Load(d, n + 2 * kBlock);
+            V tx = hn::Zero(d), ty = tx, tz = tx;
+            const float* t = kTangents ? tangents.from + b * tangents.stride + lane : nullptr;
+            if (kTangents) {
+                tx = hn::Load(d, t);
+                ty = hn::Load(d, t + kBlock);
+                tz = hn::Load(d, t + 2 * kBlock);
+            }
+            correctNormals<kTangents>(call, chunk.first + b * kBlock + lane, nx, ny, nz, tx, ty,
+                                      tz);
+            storeRows(nx, ny, nz, normals.state + 3 * b * kBlock + lane);
+            if (kTangents) storeRows(tx, ty, tz, tangents.state + 3 * b * kBlock + lane);
+        }
+    normals.from = normals.state;
+    normals.stride = 3 * kBlock;
+    if (!kTangents) return;
+    tangents.from = tangents.state;
+    tangents.stride = 3 * kBlock;
+}
+
+/// Sets out with the directions along a chunk's skin at rest.
+template <bool kTangents>
+HWY_NOINLINE void startSurface(const KernelCall& call, const Chunk& chunk,
+                               const ChunkStream& normals, const ChunkStream& tangents,
+                               ChunkSurface& surface) {
+    const D d;
+    for (std::size_t b = 0; b < chunk.blocks; ++b)
+        for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
+            const std::size_t v = b * kBlock + lane;
+            const float* n = normals.from + b * normals.stride + lane;
+            V ux, uy, uz, vx, vy, vz;
+            skinDirections(call, chunk.first + v, hn::Load(d, n), hn::Load(d, n + kBlock),
+                           hn::Load(d, n + 2 * kBlock), ux, uy, uz, vx, vy, vz);
+            if (kTangents) {
+                const float* t = tangents.from + b * tangents.stride + lane;
+                const V tx = hn::Load(d, t), ty = hn::Load(d, t + kBlock),
+                        tz = hn::Load(d, t + 2 * kBlock);
+                hn::Store(dot(tx, ty, tz, ux, uy, uz), d, surface.alongU + v);
+                hn::Store(dot(tx, ty, tz, vx, vy, vz), d, surface.alongV + v);
+                hn::Store(dot(tx, ty, tz, tx, ty, tz), d, surface.square + v);
+            }
+            if (call.lead && HWY_UNLIKELY(call.leadScaled)) {
+                scaleBy(constant(call.leadScale), ux, uy, uz);
+                scaleBy(constant(call.leadScale), vx, vy, vz);
+            }
+            storeRows(ux, uy, uz, surface.u.state + 3 * b * kBlock + lane);
+            storeRows(vx, vy, vz, surface.v.state + 3 * b * kBlock + lane);
+        }
+    for (ChunkStream* stream : {&surface.u, &surface.v}) {
+        stream->from = stream->state;
+        stream->stride = 3 * kBlock;
+    }
+}
+
+/// A direction along the skin through a link, but for the map behind it; before the positions.
+template <SlopeRow kBend, SlopeRow kTwist>
+HWY_NOINLINE void passDirection(const KernelCall& call, const Chunk& chunk, const KernelLink& link,
+                                const ChunkStream& positions, ChunkStream& direction) {
+    const D d;
+    const KernelSlope& slope = call.slopes[&link - call.links];
+    const float* HWY_RESTRICT from = positions.from;
+    const std::int16_t* HWY_RESTRICT slopes = chunk.slopes;
+    float* HWY_RESTRICT to = direction.state;
+    for (std::size_t b = 0; b < chunk.blocks;
+         ++b, from += positions.stride, slopes += chunk.slopeStride, to += 3 * kBlock)
+        for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
+            const std::size_t v = b * kBlock + lane;
+            V x = hn::Load(d, from + lane), y = hn::Load(d, from + kBlock + lane),
+              z = hn::Load(d, from + 2 * kBlock + lane);
+            V ux = hn::Load(d, to + lane), uy = hn::Load(d, to + kBlock + lane),
+              uz = hn::Load(d, to + 2 * kBlock + lane);
+            V sine = hn::Load(d, chunk.twistSine + v), cosine = hn::Load(d, chunk.twistCosine + v);
+            if (slope.tilt.twists)
+                addSlope(slopeAt(slopes + lane, kTwist, slope.twist), x, y, ux, uy);
+            turnPlane(sine, cosine, x, y);
+            turnPlane(sine, cosine, ux, uy);
+            sine = hn::Load(d, chunk.bendSine + v);
+            cosine = hn::Load(d, chunk.bendCosine + v);
+            if (slope.tilt.bends) addSlope(slopeAt(slopes + lane, kBend, slope.bend), y, z, uy, uz);
+            turnPlane(sine, cosine, uy, uz);
+            if (HWY_UNLIKELY(link.adjusted)) {
+                turnPlane(sine, cosine, y, z);
+                adjustAlong(link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane),
+                            slopeAt(slopes + lane, kBend, slope.step), x, y, z, ux, uy, uz);
+            }
+            storeRows(ux, uy, uz, to + lane);
+        }
+}
+
+/// From the directions along the skin to normals and tangents, behind the last link that tilts
+/// them.
+template <bool kTangents>
+HWY_NOINLINE void crossChunk(const Chunk& chunk, const ChunkSurface& surface, ChunkStream& normals,
+                             ChunkStream& tangents) {
+    const D d;
+    for (std::size_t b = 0; b < chunk.blocks; ++b)
+        for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
+            const std::size_t v = b * kBlock + lane, at = 3 * b * kBlock + lane;
+            const float* a = surface.u.state + at;
+            const V ux = hn::Load(d, a), uy = hn::Load(d, a + kBlock),
+                    uz = hn::Load(d, a + 2 * kBlock);
+            a = surface.v.state + at;
+            const V vx = hn::Load(d, a), vy = hn::Load(d, a + kBlock),
+                    vz = hn::Load(d, a + 2 * kBlock);
+            V nx, ny, nz;
+            cross(ux, uy, uz, vx, vy, vz, nx, ny, nz);
+            scaleBy(inverseRoot(dot(nx, ny, nz, nx, ny, nz)), nx, ny, nz);
+            storeRows(nx, ny, nz, normals.state + at);
+            if (!kTangents) continue;
+            combine(hn::Load(d, surface.alongU + v), hn::Load(d, surface.alongV + v), ux, uy, uz,
+                    vx, vy, vz, nx, ny, nz);
+            scaleBy(hn::Mul(hn::Sqrt(hn::Load(d, surface.square + v)),
+                            inverseRoot(dot(nx, ny, nz, nx, ny, nz))),
+                    nx, ny, nz);
+            storeRows(nx, ny, nz, tangents.state + at);
+        }
+    normals.from = normals.state;
+    normals.stride = 3 * kBlock;
+    tangents.from = tangents.state;
+    tangents.stride = 3 * kBlock;
+}
+
 /// Deforms a group link by link, a chunk of vertices at a time.
 ///
 /// Where there are 16 registers and no fused multiply-add, this is a quarter faster than taking
@@ -178,10 +324,29 @@ HWY_INLINE void deformByLinks(const KernelCall& call) {
     Chunk chunk;
     ChunkStream positions, normals, tangents;
     chunk.ratioStride = blockFloats;
+    ChunkSurface surface;
+    bool alongSkin = false; // whether normals and tangents are still on their way as directions
     const auto streams = [&](const KernelMap& map, const KernelLink* link, bool last) HWY_ATTR {
+        const KernelLink* turned = link; // not yet turned by it: normals and tangents
+        if (alongSkin) {
+            if (link) {
+                passDirection<kBendAlongU, kTwistAlongU>(call, chunk, *link, positions, surface.u);
+                passDirection<kBendAlongV, kTwistAlongV>(call, chunk, *link, positions, surface.v);
+            }
+            turned = nullptr;
+        }
         pass<Stream::Positions>(call, chunk, map, link, last, positions);
-        if (call.normals) pass<Stream::Normals>(call, chunk, map, link, last, normals);
-        if (call.tangents) pass<Stream::Tangents>(call, chunk, map, link, last, tangents);
+        if (alongSkin && link != call.links + call.lastSlope) {
+            pass<Stream::Normals>(call, chunk, map, nullptr, false, surface.u);
+            pass<Stream::Normals>(call, chunk, map, nullptr, false, surface.v);
+            return;
+        }
+        if (alongSkin)
+            (call.tangents ? crossChunk<true> : crossChunk<false>)(chunk, surface, normals,
+                                                                   tangents);
+        alongSkin = false;
+        if (call.normals) pass<Stream::Normals>(call, chunk, map, turned, last, normals);
+        if (call.tangents) pass<Stream::Tangents>(call, chunk, map, turned, last, tangents);
     };
     for (chunk.first = 0; chunk.first < call.vertexCount; chunk.first += kChunk) {
         const std::size_t left = (call.vertexCount - chunk.first + kBlock - 1) / kBlock;
@@ -193,7 +358,19 @@ HWY_INLINE void deformByLinks(const KernelCall& call) {
         tangents.from = call.tangents ? tangentLanes(call, chunk.first) : nullptr;
         tangents.stride = SkinBlocks::kTangentRows * kBlock;
         chunk.ratios = rows + 6 * kBlock;
-        if (HWY_UNLIKELY(call.correctionCount > 0)) correctChunk(call, chunk, positions);
+        if (HWY_UNLIKELY(call.correctionCount > 0)) {
+            correctChunk(call, chunk, positions);
+            if (call.normals && !call.gradients)
+                (call.tangents ? correctDirections<true>
+                               : correctDirections<false>)(call, chunk, normals, tangents);
+        }
+        alongSkin = call.gradients != nullptr;
+        if (alongSkin) {
+            chunk.slopes = gradientLanes(call, chunk.first);
+            chunk.slopeStride = GradientBlocks::rowsPerBlock(call.linkCount) * kBlock;
+            (call.tangents ? startSurface<true> : startSurface<false>)(call, chunk, normals,
+                                                                       tangents, surface);
+        }
 
         bool inJointFrame = !call.lead;
         if (call.lead) streams(*call.lead, nullptr, call.linkCount == 0);
@@ -205,6 +382,7 @@ HWY_INLINE void deformByLinks(const KernelCall& call) {
             turnShares<false>(link->bend, call, chunk, chunk.ratios, chunk.bendSine,
                               chunk.bendCosine);
             streams(link->out, link, link == call.links);
+            if (call.gradients) chunk.slopes += kSlopeRows * kBlock;
         }
     }
 }

@@ -32,6 +32,16 @@ void validateJoints(const std::vector<BoundJoint>& joints) {
     }
 }
 
+void validateGradients(const Binding& binding) {
+    if (binding.gradients.empty()) return;
+    if (binding.gradients.size() != binding.influences.size())
+        throw Error("binding: expected a gradient of each influence or none at all");
+    for (const RatioGradient& gradient : binding.gradients)
+        if (!std::isfinite(glm::dot(gradient.bend, gradient.bend)) ||
+            !std::isfinite(glm::dot(gradient.twist, gradient.twist)))
+            throw Error("binding: a gradient is not finite");
+}
+
 } // namespace
 
 void Binding::validate() const {
@@ -58,6 +68,7 @@ void Binding::validate() const {
                 throw Error(place + " has a ratio outside [0, 1]");
         }
     }
+    validateGradients(*this);
     correctives.validate(joints, vertices);
 }
 

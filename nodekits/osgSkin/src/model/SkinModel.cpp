@@ -3,6 +3,7 @@
 
 #include "model/BoundsProxy.h"
 #include "model/CorrectiveBlocks.h"
+#include "model/GradientBlocks.h"
 #include "model/SkinBlocks.h"
 #include "model/VertexGroups.h"
 
@@ -52,7 +53,7 @@ SkinModel::SkinModel(const SkinModel& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), _joints(other._joints), _positions(other._positions),
       _normals(other._normals), _order(other._order), _groups(other._groups), _links(other._links),
       _ratios(other._ratios), _blocks(other._blocks), _boundsProxy(other._boundsProxy),
-      _correctives(other._correctives) {}
+      _correctives(other._correctives), _gradients(other._gradients) {}
 
 SkinModel::~SkinModel() = default;
 
@@ -123,6 +124,9 @@ osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
     if (!vertices.binding().correctives.empty())
         model->_correctives =
             std::make_shared<CorrectiveBlocks>(*model, vertices.binding(), vertices.source());
+    if (!vertices.binding().gradients.empty())
+        model->_gradients =
+            std::make_shared<GradientBlocks>(*model, vertices.binding(), vertices.source());
     return model;
 }
 

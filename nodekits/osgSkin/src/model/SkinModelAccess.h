@@ -25,6 +25,11 @@ struct SkinModelAccess {
         return model._correctives.get();
     }
 
+    /// The ratios' gradients as DeformJob reads them; null where there are none.
+    static const GradientBlocks* gradients(const SkinModel& model) {
+        return model._gradients.get();
+    }
+
     /// A group's tangents, SkinBlocks::kTangentRows rows a block.
     static const BlockRow* blocks(const SkinTangents& tangents, std::size_t group) {
         return tangents._rows.data() + tangents._firstRow[group];
@@ -49,6 +54,7 @@ struct SkinModelAccess {
         empty._blocks = model._blocks;
         empty._boundsProxy = model._boundsProxy;
         empty._correctives = model._correctives;
+        empty._gradients = model._gradients;
     }
 };
 

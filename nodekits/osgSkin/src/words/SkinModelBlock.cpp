@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "words/SkinModelBlock.h"
 
-#include "model/SkinModelAccess.h"
-
 #include "model/CorrectiveBlocks.h"
+#include "model/GradientBlocks.h"
+#include "model/SkinModelAccess.h"
 #include "words/CorrectivesWords.h"
 
 #include <cmath>
@@ -32,11 +32,32 @@ BoundJoint readJoint(WordReader& in) {
     return joint;
 }
 
+void putGradients(const Binding& binding, WordWriter& out) {
+    for (std::size_t i = 0; i < binding.influences.size(); ++i) {
+        if (!binding.influences[i].isPartial()) continue;
+        out.putVector(binding.gradients[i].bend);
+        out.putVector(binding.gradients[i].twist);
+    }
+}
+
+std::vector<RatioGradient> takeGradients(WordReader& in, const std::vector<Influence>& influences) {
+    std::vector<RatioGradient> gradients(influences.size());
+    for (std::size_t i = 0; i < influences.size(); ++i) {
+        if (!influences[i].isPartial()) continue;
+        for (glm::vec3* vector : {&gradients[i].bend, &gradients[i].twist})
+            for (glm::length_t axis = 0; axis < 3; ++axis) (*vector)[axis] = in.real();
+    }
+    return gradients;
+}
+
 } // namespace
 
 Binding bindingOf(const SkinModel& model) {
     // Per vertex first: groups list their vertices in an order of their own.
     std::vector<std::vector<Influence>> influences(model.vertexCount());
+    std::vector<std::vector<RatioGradient>> gradients(model.vertexCount());
+    const std::vector<RatioGradient> grouped = gradientsOf(model);
+    auto gradient = grouped.begin();
     for (const SkinModel::Group& group : model.groups()) {
         const SkinModel::Ratio* ratio = model.ratios().data() + group.firstRatio;
         for (std::uint32_t i = 0; i < group.vertexCount; ++i) {
@@ -47,6 +68,10 @@ Binding bindingOf(const SkinModel& model) {
                                 link.partial ? ratio->twist : 1.0f});
                 if (link.partial) ++ratio;
             }
+            if (grouped.empty()) continue;
+            gradients[model.order()[group.firstVertex + i]].assign(gradient,
+                                                                   gradient + group.linkCount);
+            gradient += group.linkCount;
         }
     }
     Binding binding;
@@ -60,6 +85,8 @@ Binding bindingOf(const SkinModel& model) {
         binding.influences.insert(binding.influences.end(), list.begin(), list.end());
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
+    for (const std::vector<RatioGradient>& list : gradients)
+        binding.gradients.insert(binding.gradients.end(), list.begin(), list.end());
     binding.correctives = correctivesOf(model);
     return binding;
 }
@@ -67,8 +94,10 @@ Binding bindingOf(const SkinModel& model) {
 std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
     const Binding binding = bindingOf(model);
     WordWriter out;
-    const bool plain = binding.correctives.empty(); // then older programs read it, too
-    out.put(plain ? std::uint32_t{1} : kSkinModelBlockVersion);
+    // As early a version as will do: older programs read it, too.
+    const bool corrected = !binding.correctives.empty();
+    const bool sloped = !binding.gradients.empty();
+    out.put(sloped ? kSkinModelBlockVersion : std::uint32_t{corrected ? 2u : 1u});
     out.put(binding.joints.size());
     for (const BoundJoint& joint : binding.joints) {
         out.put(static_cast<std::uint32_t>(joint.parent));
@@ -90,7 +119,11 @@ std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
             out.put(binding.influences[i].twist);
         }
     }
-    if (!plain) putCorrectives(binding.correctives, out);
+    if (sloped) {
+        putGradients(binding, out);
+        out.put(std::uint32_t{corrected ? 1u : 0u});
+    }
+    if (corrected) putCorrectives(binding.correctives, out);
     return out.words;
 }
 
@@ -122,7 +155,13 @@ osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& 
         binding.regions.push_back(0);
         source.push_back(v);
     }
-    if (version >= 2) binding.correctives = takeCorrectives(in, vertices);
+    if (version >= 3) {
+        binding.gradients = takeGradients(in, binding.influences);
+        const std::uint32_t corrected = in.word();
+        if (corrected > 1) in.fail("it has neither correctives nor none");
+        if (corrected == 1) binding.correctives = takeCorrectives(in, vertices);
+    }
+    if (version == 2) binding.correctives = takeCorrectives(in, vertices);
     if (!in.atEnd()) in.fail("there is more in it than a model");
     // Indices, ratios, axes and the tree of joints are checked there.
     return SkinModel::create(binding, std::move(positions), std::move(normals), source);

@@ -16,11 +16,13 @@ namespace osgSkin {
 /// The binding that a model was made from, for the model's own vertices.
 ///
 /// Ratios come back exactly. Regions are not part of a model: a vertex's region is here the last
-/// joint that it follows by half or more. Correctives that are 0 are left out.
+/// joint that it follows by half or more. Correctives that are 0 are left out, and of gradients
+/// what SkinModel::create() leaves out.
 OSGSKIN_EXPORT Binding bindingOf(const SkinModel& model);
 
-/// The latest version. packSkinModel() writes it for a model with correctives, and 1 for any other.
-constexpr std::uint32_t kSkinModelBlockVersion = 2;
+/// The latest version. packSkinModel() writes it for a model with gradients, 2 for one with
+/// correctives alone, and 1 for any other.
+constexpr std::uint32_t kSkinModelBlockVersion = 3;
 
 /// A model as 32-bit words, every number with all its bits: the same in each file format.
 ///
@@ -34,6 +36,9 @@ constexpr std::uint32_t kSkinModelBlockVersion = 2;
 /// modes; number of coefficients, the coefficients; number of normals' scales, those (all doubles);
 /// of each vertex: number of entries, and of each: which of the correctives' joints, its shares
 /// (two a word, the first lower; of an odd number the last alone), the same of normals.
+///
+/// Version 3 goes on after the influences with the gradients of those that are partial: bend x, y
+/// and z, twist x, y and z (floats). Then 1 where the correctives follow, else 0.
 OSGSKIN_EXPORT std::vector<std::uint32_t> packSkinModel(const SkinModel& model);
 
 /// The model in `words`, which may come from anybody.

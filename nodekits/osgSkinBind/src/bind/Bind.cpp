@@ -2,6 +2,7 @@
 #include <osgSkinBind/Bind>
 
 #include "bind/CheckOptions.h"
+#include "bind/NormalCorrectives.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
 #include "limbs/LimbRadius.h"
@@ -12,6 +13,7 @@
 #include "paper/PaperFields.h"
 #include "ratios/BendFields.h"
 #include "ratios/PackInfluences.h"
+#include "ratios/RatioGradients.h"
 #include "ratios/TwistFields.h"
 #include "regions/Regions.h"
 #include "shapes/FastShapes.h"
@@ -147,6 +149,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
             if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
+    if (options.surfaceNormals) binding.gradients = ratioGradients(skin, binding);
     if (options.shapes == BindOptions::Shapes::Fast) {
         tell("shapes", kShapesBegin);
         binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
@@ -155,6 +158,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
         binding.correctives =
             mergeCorrectives(binding.correctives,
                              makeMuscles(skeleton, joints, skin, binding, options, found.notes));
+    if (options.surfaceNormals && !binding.correctives.empty()) addNormalCorrectives(skin, binding);
     binding.validate();
 
     found.vertices = mesh.positions.size();

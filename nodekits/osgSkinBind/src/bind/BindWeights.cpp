@@ -2,12 +2,14 @@
 #include <osgSkinBind/BindWeights>
 
 #include "bind/CheckOptions.h"
+#include "bind/NormalCorrectives.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
 #include "muscles/MakeMuscles.h"
 #include "ratios/PackInfluences.h"
+#include "ratios/RatioGradients.h"
 #include "shapes/FastShapes.h"
 #include "shapes/MergeCorrectives.h"
 
@@ -143,12 +145,14 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
             if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
+    if (options.surfaceNormals) binding.gradients = ratioGradients(skin, binding);
     if (options.shapes == BindOptions::Shapes::Fast)
         binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
     if (options.muscles || !options.ownMuscles.empty())
         binding.correctives =
             mergeCorrectives(binding.correctives,
                              makeMuscles(skeleton, joints, skin, binding, options, found.notes));
+    if (options.surfaceNormals && !binding.correctives.empty()) addNormalCorrectives(skin, binding);
     binding.validate();
 
     found.regions = regionsOf(binding);

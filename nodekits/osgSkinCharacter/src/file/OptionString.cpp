@@ -57,6 +57,11 @@ bool musclesOf(const std::string& value) {
     fail("muscles", value, "on or off");
 }
 
+bool surfaceNormalsOf(const std::string& value) {
+    if (value != "surface" && value != "turned") fail("normals", value, "surface or turned");
+    return value == "surface";
+}
+
 std::vector<std::string> namesOf(const std::string& value) {
     std::vector<std::string> names;
     if (value == "none") return names;
@@ -78,6 +83,7 @@ LoadOptions toLoadOptions(const osgDB::Options* options) {
         if (key == "bind") result.method = methodOf(value);
         if (key == "shapes") result.shapes = shapesOf(value);
         if (key == "muscles") result.muscles = musclesOf(value);
+        if (key == "normals") result.surfaceNormals = surfaceNormalsOf(value);
         if (key == "rigid") result.rigid = namesOf(value);
         if (key == "motion") {
             if (value.empty()) fail(key, value, "a clip's name, a motion file, or none");
@@ -99,6 +105,8 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
         {"motion=<clip|file|file#clip|none>", "the motion to play by its name, or a motion file to "
                                               "retarget, or one of the file's clips by "
                                               "name or number"},
+        {"normals=<surface|turned>",
+         "those of the deformed surface, or the rest skin's as their vertices turn them: faster"},
         {"rigid=<joint,joint|none>",
          "joints that move as rigid bodies; head, hands, feet by default"},
         {"shapes=<none|fast>",

@@ -131,9 +131,18 @@ BindOptions::Shapes readShapes(const JsonReader& reader) {
     reader.failWith("expected \"none\" or \"fast\", found \"" + name + "\"");
 }
 
+bool readSurfaceNormals(const JsonReader& reader) {
+    const std::string name = reader.string();
+    if (name != "surface" && name != "turned")
+        reader.failWith("expected \"surface\" or \"turned\", found \"" + name + "\"");
+    return name == "surface";
+}
+
 void readBinding(const JsonReader& root, BindOptions& bind) {
     if (const auto shapes = root.find("shapes")) bind.shapes = readShapes(*shapes);
     if (const auto muscles = root.find("muscles")) readMuscles(*muscles, bind);
+    if (const auto normals = root.find("normals"))
+        bind.surfaceNormals = readSurfaceNormals(*normals);
     if (const auto rigid = root.find("rigid")) {
         bind.rigid.emplace();
         rigid->forEachItem([&](const JsonReader& name) { bind.rigid->push_back(name.string()); });
@@ -152,7 +161,7 @@ SkinFile SkinFile::read(const std::string& file) {
     const std::string folder = osgDB::getFilePath(file);
     checkVersion(root);
     root.warnUnknown({"osgskin", "mesh", "skeleton", "motions", "props", "rigid", "bind", "weights",
-                      "joints", "up", "names", "shapes", "muscles"});
+                      "joints", "up", "names", "shapes", "muscles", "normals"});
 
     SkinFile skin;
     skin.file = file;

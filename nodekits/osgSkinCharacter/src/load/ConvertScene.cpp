@@ -34,6 +34,7 @@ ConvertOptions convertOptionsOf(const LoadOptions& options) {
     convert.bind.rigid = options.rigid;
     if (options.shapes) convert.bind.shapes = *options.shapes;
     convert.bind.muscles = options.muscles.value_or(false);
+    if (options.surfaceNormals) convert.bind.surfaceNormals = *options.surfaceNormals;
     convert.showRegions = options.showRegions;
     return convert;
 }

@@ -88,6 +88,7 @@ void applyOptions(CharacterSource& source, const LoadOptions& options) {
         source.bind.muscles = *options.muscles;
         if (!*options.muscles) source.bind.ownMuscles.clear();
     }
+    if (options.surfaceNormals) source.bind.surfaceNormals = *options.surfaceNormals;
     if (options.atRest) {
         source.animations.clear();
         source.motions.clear();

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "deform/DeformKernel.h"
+
+#include <osgSkin/SkinModel>
+
+#include <array>
+
+namespace osgSkin {
+
+/// Tells the kernel which of a group's links tilt its normals in one pose; on the stack.
+class KernelSlopes {
+public:
+    /// \pre the model has gradients
+    explicit KernelSlopes(const SkinModel& model) noexcept : _model(model) {}
+
+    /// Sets what `call` has of gradients; it is good until the next call.
+    ///
+    /// \param group an index
+    /// \param firstBlock of the group's, with which the call begins
+    /// \param call has its links already; changed
+    void prepare(std::size_t group, std::size_t firstBlock, KernelCall& call) noexcept;
+
+private:
+    const SkinModel& _model;
+    std::array<KernelSlope, SkinModel::kMaxPartialInfluences> _slopes;
+};
+
+} // namespace osgSkin

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+//
+// Included by DeformKernel.cpp once for each instruction set.
+#if defined(OSGSKIN_KERNELSURFACE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef OSGSKIN_KERNELSURFACE_INL_H
+#undef OSGSKIN_KERNELSURFACE_INL_H
+#else
+#define OSGSKIN_KERNELSURFACE_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "deform/DeformKernel.h"
+#include "deform/KernelCorrect-inl.h"
+#include "deform/KernelTurns-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace osgSkin {
+namespace HWY_NAMESPACE {
+
+/// Where a link's gradients stand in a block of GradientBlocks: of the bend ratio along u and along
+/// v, of the twist ratio the same.
+enum SlopeRow : std::size_t { kBendAlongU, kBendAlongV, kTwistAlongU, kTwistAlongV, kSlopeRows };
+
+/// The lanes of the vertices from `first` on in the gradients' blocks.
+HWY_INLINE const std::int16_t* gradientLanes(const KernelCall& call, std::size_t first) {
+    return call.gradients + first / kBlock * GradientBlocks::rowsPerBlock(call.linkCount) * kBlock +
+           first % kBlock;
+}
+
+/// The gradient of a link's ratio along one direction, `row` of its rows, times `by`.
+HWY_INLINE V slopeAt(const std::int16_t* HWY_RESTRICT slopes, SlopeRow row, const Splat& by) {
+    return hn::Mul(sharesAt(slopes + row * kBlock), constant(by));
+}
+
+/// A turn by a growing share of its angle: what that adds to a direction along the skin in the
+/// turn's plane, where the vertex is at (a, b); before the turn, or behind it with all behind it.
+HWY_INLINE void addSlope(V slope, V a, V b, V& alongA, V& alongB) {
+    alongA = hn::NegMulAdd(slope, b, alongA);
+    alongB = hn::MulAdd(slope, a, alongB);
+}
+
+/// The same of adjust(), which is yet to be applied to the vertex.
+HWY_INLINE void adjustAlong(const KernelLink& link, V bendRatio, V step, V x, V y, V z, V& alongX,
+                            V& alongY, V& alongZ) {
+    const V growth = constant(link.growth);
+    const V factor = hn::MulAdd(bendRatio, growth, hn::Set(D(), 1.0f));
+    const auto along = [&](const Splat& move, V at, V& to) HWY_ATTR {
+        to = hn::MulAdd(factor, to, hn::Mul(step, hn::MulAdd(growth, at, constant(move))));
+        to = hn::Mul(to, constant(link.outScale));
+    };
+    along(link.move[0], x, alongX);
+    along(link.move[1], y, alongY);
+    along(link.move[2], z, alongZ);
+}
+
+HWY_INLINE void cross(V ax, V ay, V az, V bx, V by, V bz, V& x, V& y, V& z) {
+    x = hn::MulSub(ay, bz, hn::Mul(az, by));
+    y = hn::MulSub(az, bx, hn::Mul(ax, bz));
+    z = hn::MulSub(ax, by, hn::Mul(ay, bx));
+}
+
+/// The directions u and v along the skin, as correctives tilt it at rest: u - (d . u) n and the
+/// same of v, where d is what they add to the normal; their cross product is n + d then, but for
+/// what d has along n.
+HWY_INLINE void skinDirections(const KernelCall& call, std::size_t first, V nx, V ny, V nz, V& ux,
+                               V& uy, V& uz, V& vx, V& vy, V& vz) {
+    const D d;
+    const float* HWY_RESTRICT from =
+        call.directions[first / kBlock * GradientBlocks::kDirectionRows].lane + first % kBlock;
+    ux = hn::Load(d, from);
+    uy = hn::Load(d, from + kBlock);
+    uz = hn::Load(d, from + 2 * kBlock);
+    cross(nx, ny, nz, ux, uy, uz, vx, vy, vz);
+    if (HWY_LIKELY(call.correctionCount == 0)) return;
+    V dx, dy, dz;
+    if (!corrections<true>(call, first, dx, dy, dz)) return;
+    const V alongU = dot(dx, dy, dz, ux, uy, uz), alongV = dot(dx, dy, dz, vx, vy, vz);
+    ux = hn::NegMulAdd(alongU, nx, ux);
+    uy = hn::NegMulAdd(alongU, ny, uy);
+    uz = hn::NegMulAdd(alongU, nz, uz);
+    vx = hn::NegMulAdd(alongV, nx, vx);
+    vy = hn::NegMulAdd(alongV, ny, vy);
+    vz = hn::NegMulAdd(alongV, nz, vz);
+}
+
+/// A tangent by its parts along u and v, not yet as long as it was.
+HWY_INLINE void combine(V alongU, V alongV, V ux, V uy, V uz, V vx, V vy, V vz, V& tx, V& ty,
+                        V& tz) {
+    tx = hn::MulAdd(alongU, ux, hn::Mul(alongV, vx));
+    ty = hn::MulAdd(alongU, uy, hn::Mul(alongV, vy));
+    tz = hn::MulAdd(alongU, uz, hn::Mul(alongV, vz));
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace osgSkin
+HWY_AFTER_NAMESPACE();
+
+#endif

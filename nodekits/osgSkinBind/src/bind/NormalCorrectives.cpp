@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bind/NormalCorrectives.h"
+
+#include "shapes/JointRatios.h"
+
+#include <osgSkin/BendTwist>
+#include <osgSkin/GlmTypes>
+
+#include <Eigen/Cholesky>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+/// Samples of a joint's bends: along its main axis and across, or around and outwards.
+constexpr int kAlong = 40;
+constexpr int kAcross = 3;
+constexpr int kAround = 12;
+constexpr int kOutwards = 12;
+
+constexpr double kRidge = 1e-6;
+
+/// Where the skin has folded over, its normals are followed no further: least cosine.
+constexpr double kLeastCosine = 0.15;
+
+std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& joint) {
+    std::vector<glm::dvec2> samples;
+    if (joint.basis == CorrectiveJoint::Basis::Input)
+        for (int i = 1; i <= kOutwards; ++i)
+            for (const double end : {joint.low.x, joint.high.x})
+                samples.emplace_back(end * i / kOutwards, 0.0);
+    if (!samples.empty()) return samples;
+    const auto add = [&](const glm::dvec2& xy) {
+        if (glm::length(xy) > 1e-3 && glm::length(xy) < 1.0) samples.push_back(xy);
+    };
+    if (joint.basis == CorrectiveJoint::Basis::Hinge) {
+        for (int i = 0; i <= kAlong; ++i)
+            for (int j = 0; j < kAcross; ++j)
+                add(joint.low + (joint.high - joint.low) *
+                                    glm::dvec2(double(i) / kAlong, (j + 1.0) / (kAcross + 1.0)));
+        return samples;
+    }
+    for (int i = 0; i < kAround; ++i)
+        for (int j = 1; j <= kOutwards; ++j) {
+            const double angle = glm::two_pi<double>() * i / kAround;
+            const glm::dvec2 way(std::cos(angle), std::sin(angle));
+            add(double(j) / kOutwards * way *
+                glm::dvec2(way.x < 0.0 ? -joint.low.x : joint.high.x,
+                           way.y < 0.0 ? -joint.low.y : joint.high.y));
+        }
+    return samples;
+}
+
+/// One joint's correctives on the skin, other joints being at rest.
+class CorrectedSkin {
+public:
+    CorrectedSkin(const WeldedMesh& mesh, const Binding& binding, std::uint32_t corrective)
+        : _mesh(mesh), _binding(binding), _functions(binding.correctives.joints[corrective]),
+          _turns(_functions.basis != CorrectiveJoint::Basis::Input),
+          _joint(binding.joints[_turns ? _functions.joint : 0]), _ratios(mesh, binding),
+          _posed(mesh.vertexCount()), _areas(mesh.vertexCount()) {
+        std::vector<bool> touched(mesh.vertexCount(), false);
+        for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v) {
+            const Correctives& from = binding.correctives;
+            for (std::uint32_t i = from.firstEntry[v]; i < from.firstEntry[v + 1]; ++i) {
+                if (from.entries[i].joint != corrective || touched[mesh.weldedOf[v]]) continue;
+                touched[mesh.weldedOf[v]] = true;
+                addVertex(v, from.entries[i].firstShare);
+            }
+        }
+        std::vector<bool> corner(mesh.vertexCount(), false);
+        for (const std::array<std::uint32_t, 3>& t : mesh.triangles) {
+            if (!touched[t[0]] && !touched[t[1]] && !touched[t[2]]) continue;
+            _triangles.push_back(t);
+            for (const std::uint32_t v : t) {
+                if (!touched[v] && !corner[v]) _others.push_back(v);
+                corner[v] = true;
+            }
+        }
+        _rest = normals(mesh.positions);
+    }
+
+    struct Vertex {
+        std::uint32_t welded;
+        std::size_t firstShare;
+        Influence ratios;
+        RatioGradient gradient;
+    };
+    const std::vector<Vertex>& vertices() const { return _vertices; }
+
+    /// What each vertex's rest normal has to be tilted by in a bend, along the skin.
+    /// \param corrected whether rest positions are; without, it is what the gradients leave
+    std::vector<glm::dvec3> tilts(const glm::dvec2& xy, bool corrected = true) {
+        BendTwist bend;
+        if (const double sine = glm::length(xy); _turns) {
+            const glm::dvec3 other = glm::cross(_joint.twistAxis, _functions.axis);
+            bend.bendAxis = (xy.x * _functions.axis + xy.y * other) / sine;
+            bend.bendAngle = 2.0 * std::asin(std::min(sine, 1.0));
+        }
+        double beta[CorrectiveJoint::kMostModes] = {};
+        if (corrected) _functions.weights(xy, beta);
+        for (const std::uint32_t v : _others)
+            _posed[v] = turnOf(_ratios.of(v, _turns ? _functions.joint : 0), bend) *
+                        (_mesh.positions[v] - _joint.centre);
+        for (const Vertex& vertex : _vertices)
+            _posed[vertex.welded] =
+                turnOf(vertex.ratios, bend) *
+                (_mesh.positions[vertex.welded] + offset(vertex, beta) - _joint.centre);
+        const std::vector<glm::dvec3> wanted = normals(_posed);
+        std::vector<glm::dvec3> result;
+        for (std::size_t v = 0; v < _vertices.size(); ++v)
+            result.push_back(tilt(_vertices[v], bend, _rest[v], wanted[v]));
+        return result;
+    }
+
+private:
+    void addVertex(std::uint32_t v, std::size_t firstShare) {
+        Vertex vertex{_mesh.weldedOf[v], firstShare, {_functions.joint, 0.0f, 0.0f}, {}};
+        for (std::uint32_t i = _binding.firstInfluence[v]; i < _binding.firstInfluence[v + 1]; ++i)
+            if (_turns && _binding.influences[i].joint == _functions.joint) {
+                vertex.ratios = _binding.influences[i];
+                vertex.gradient = _binding.gradients[i];
+            }
+        _vertices.push_back(vertex);
+    }
+
+    glm::dquat turnOf(const Influence& ratios, const BendTwist& bend) const {
+        return partialRotation(bend, _joint.twistAxis, double(ratios.bend), double(ratios.twist));
+    }
+
+    glm::dvec3 offset(const Vertex& vertex, const double* beta) const {
+        const std::int16_t* share = &_binding.correctives.shares[vertex.firstShare];
+        glm::dvec3 sum(0.0);
+        for (std::size_t k = 0; k < _functions.modes; ++k, share += 3)
+            sum += beta[k] / Correctives::kUnit * glm::dvec3(share[0], share[1], share[2]);
+        return sum;
+    }
+
+    /// Of the corrected vertices: unit, weighted by area; 0 where no triangle is.
+    std::vector<glm::dvec3> normals(const std::vector<glm::dvec3>& points) {
+        for (const Vertex& vertex : _vertices) _areas[vertex.welded] = glm::dvec3(0.0);
+        for (const std::array<std::uint32_t, 3>& t : _triangles) {
+            const glm::dvec3 area =
+                glm::cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
+            for (const std::uint32_t v : t) _areas[v] += area;
+        }
+        std::vector<glm::dvec3> result;
+        for (const Vertex& vertex : _vertices) {
+            const glm::dvec3& area = _areas[vertex.welded];
+            const double length = glm::length(area);
+            result.push_back(length > 0.0 ? area / length : glm::dvec3(0.0));
+        }
+        return result;
+    }
+
+    /// Tilted by d, the directions u and v along the skin become u - (d . u) n and v - (d . v) n.
+    /// The gradients add to them; then they have to be perpendicular to the normal that is wanted.
+    glm::dvec3 tilt(const Vertex& vertex, const BendTwist& bend, const glm::dvec3& n,
+                    const glm::dvec3& wanted) const {
+        if (n == glm::dvec3(0.0) || wanted == glm::dvec3(0.0)) return glm::dvec3(0.0);
+        const glm::dquat back = glm::conjugate(turnOf(vertex.ratios, bend));
+        const glm::dvec3 slide =
+            back * (bend.bendAngle * glm::cross(bend.bendAxis, _posed[vertex.welded]));
+        const glm::dvec3 target = back * wanted;
+        const double cosine = std::max(glm::dot(n, target), kLeastCosine);
+        const glm::dvec3 u = anyPerpendicular(n), v = glm::cross(n, u);
+        const auto along = [&](const glm::dvec3& direction) {
+            return glm::dot(direction +
+                                glm::dot(glm::dvec3(vertex.gradient.bend), direction) * slide,
+                            target) /
+                   cosine;
+        };
+        return along(u) * u + along(v) * v;
+    }
+
+    const WeldedMesh& _mesh;
+    const Binding& _binding;
+    const CorrectiveJoint& _functions;
+    bool _turns;              ///< else it is an input that moves the skin
+    const BoundJoint& _joint; ///< then any
+    JointRatios _ratios;
+    std::vector<Vertex> _vertices;                        ///< that the joint corrects
+    std::vector<std::array<std::uint32_t, 3>> _triangles; ///< with a corner among them
+    std::vector<std::uint32_t> _others;                   ///< their other corners
+    std::vector<glm::dvec3> _rest;                        ///< normals of `_vertices`
+    std::vector<glm::dvec3> _posed;                       ///< from the joint's centre
+    std::vector<glm::dvec3> _areas; ///< of vertices of the mesh, see normals()
+};
+
+/// modes x coordinates of all vertices: the least squares' solution of weights x that = tilts.
+Eigen::MatrixXd fit(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts) {
+    const Eigen::VectorXd length = weights.colwise().norm().cwiseMax(1e-12);
+    const Eigen::MatrixXd unit = weights * length.cwiseInverse().asDiagonal();
+    Eigen::MatrixXd normal = unit.transpose() * unit;
+    normal.diagonal().array() += kRidge;
+    return length.cwiseInverse().asDiagonal() * normal.ldlt().solve(unit.transpose() * tilts);
+}
+
+} // namespace
+
+void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
+    Correctives& to = binding.correctives;
+    std::vector<std::int16_t> shares(to.shares.size(), 0);
+    std::vector<std::vector<double>> scales;
+    for (std::uint32_t j = 0; j < to.joints.size(); ++j) {
+        const CorrectiveJoint& joint = to.joints[j];
+        CorrectedSkin skin(mesh, binding, j);
+        // What the gradients leave is made good once for each joint.
+        const bool again = std::any_of(
+            to.joints.begin(), to.joints.begin() + j, [&joint](const CorrectiveJoint& other) {
+                return other.joint == joint.joint &&
+                       (other.basis == CorrectiveJoint::Basis::Input) ==
+                           (joint.basis == CorrectiveJoint::Basis::Input);
+            });
+        const std::vector<glm::dvec2> samples = samplesOf(joint);
+        const auto rows = Eigen::Index(samples.size());
+        Eigen::MatrixXd weights(rows, Eigen::Index(joint.modes));
+        Eigen::MatrixXd tilts(rows, Eigen::Index(3 * skin.vertices().size()));
+        for (Eigen::Index s = 0; s < rows; ++s) {
+            double beta[CorrectiveJoint::kMostModes];
+            joint.weights(samples[std::size_t(s)], beta);
+            for (std::size_t k = 0; k < joint.modes; ++k) weights(s, Eigen::Index(k)) = beta[k];
+            std::vector<glm::dvec3> wanted = skin.tilts(samples[std::size_t(s)]);
+            if (again) {
+                const std::vector<glm::dvec3> without = skin.tilts(samples[std::size_t(s)], false);
+                for (std::size_t v = 0; v < wanted.size(); ++v) wanted[v] -= without[v];
+            }
+            for (std::size_t v = 0; v < wanted.size(); ++v)
+                for (int axis = 0; axis < 3; ++axis)
+                    tilts(s, Eigen::Index(3 * v) + axis) = wanted[v][axis];
+        }
+        const Eigen::MatrixXd modes = fit(weights, tilts);
+        std::vector<double>& scale = scales.emplace_back();
+        for (std::size_t k = 0; k < joint.modes; ++k) {
+            const double most =
+                modes.cols() > 0 ? modes.row(Eigen::Index(k)).cwiseAbs().maxCoeff() : 0.0;
+            scale.push_back(most > 0.0 ? most : 1.0);
+            for (std::size_t v = 0; v < skin.vertices().size(); ++v)
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    shares[skin.vertices()[v].firstShare + 3 * k + axis] =
+                        static_cast<std::int16_t>(std::lrint(
+                            Correctives::kUnit *
+                            modes(Eigen::Index(k), Eigen::Index(3 * v + axis)) / scale[k]));
+        }
+        // Copies of a vertex have entries of their own.
+        std::vector<std::size_t> firstOf(mesh.vertexCount(), shares.size());
+        for (const CorrectedSkin::Vertex& vertex : skin.vertices())
+            firstOf[vertex.welded] = vertex.firstShare;
+        for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v)
+            for (std::uint32_t i = to.firstEntry[v]; i < to.firstEntry[v + 1]; ++i)
+                if (to.entries[i].joint == j)
+                    std::copy_n(shares.begin() + std::ptrdiff_t(firstOf[mesh.weldedOf[v]]),
+                                to.sharesOf(j),
+                                shares.begin() + std::ptrdiff_t(to.entries[i].firstShare));
+    }
+    for (std::size_t j = 0; j < to.joints.size(); ++j) to.joints[j].normalScales = scales[j];
+    to.normalShares = std::move(shares);
+}
+
+} // namespace osgSkin

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+//
+// Normals and tangents on every instruction set that this machine has, and in the scalar reference,
+// against differences between posed points of the surface.
+#include <osgSkin/DeformJob>
+
+#include "SlopedTube.h"
+#include "SomeCorrectives.h"
+#include "Turns.h"
+
+#include <glm/trigonometric.hpp>
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include <string>
+
+namespace {
+
+struct Way {
+    std::string name;
+    std::int64_t target; ///< of Highway; 0: the scalar reference
+};
+
+std::ostream& operator<<(std::ostream& out, const Way& way) {
+    return out << way.name;
+}
+
+std::vector<Way> ways() {
+    std::vector<Way> result = {{"reference", 0}};
+    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
+        result.push_back({hwy::TargetName(rest & -rest), rest & -rest});
+    return result;
+}
+
+/// What is left out where nobody can see it, and what rounding gradients costs; radians.
+constexpr double kTolerance = 5e-3;
+
+glm::dvec4 restTangentAt(const test::SlopedTube& tube, std::size_t v) {
+    const glm::dvec3 around = glm::cross(glm::dvec3(tube.normals[v]), glm::dvec3(0, 1, 0));
+    return {1.5 * glm::normalize(around + glm::dvec3(0, 0.7, 0)), v % 3 == 0 ? -1.0 : 1.0};
+}
+
+/// A posed skin with all that comes out of a job.
+struct Posed {
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec4> tangents;
+    osgSkin::DeformJob job;
+
+    Posed(const osgSkin::SkinModel& model, const osgSkin::SkinTangents* rest,
+          const osgSkin::Pose& pose)
+        : positions(model.vertexCount()), normals(positions), tangents(positions.size()) {
+        job.model = &model;
+        job.pose = &pose;
+        job.positions = positions.data();
+        job.normals = normals.data();
+        job.restTangents = rest;
+        job.tangents = rest ? tangents.data() : nullptr;
+        job.positionCount = job.normalCount = job.tangentCount = positions.size();
+    }
+};
+
+osg::ref_ptr<const osgSkin::SkinTangents> tangentsOf(const test::SlopedTube& tube,
+                                                     const osgSkin::SkinModel& model) {
+    std::vector<glm::vec4> tangents;
+    for (std::size_t v = 0; v < tube.positions.size(); ++v)
+        tangents.emplace_back(restTangentAt(tube, v));
+    return osgSkin::SkinTangents::create(osg::ref_ptr<const osgSkin::SkinModel>(&model),
+                                         std::move(tangents));
+}
+
+/// Turns of up to a right angle; where `moved`, with joints moved and scaled, too.
+osgSkin::Pose poseOf(const osgSkin::Binding& binding, std::mt19937_64& random, bool moved) {
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    std::vector<glm::dmat4> skinning;
+    const glm::dmat4 unit(1.0);
+    for (const osgSkin::BoundJoint& joint : binding.joints) {
+        const glm::dvec3 move(number(random), number(random), number(random));
+        const double scale = 1.0 + 0.2 * number(random);
+        glm::dmat4 turn =
+            glm::translate(unit, joint.centre + (moved ? 0.2 : 0.0) * move) *
+            glm::mat4_cast(glm::angleAxis(1.5 * number(random), test::randomUnit(random)));
+        if (moved) turn = glm::scale(turn, glm::dvec3(scale));
+        turn = glm::translate(turn, -joint.centre);
+        skinning.push_back(joint.parent < 0 ? turn : skinning[std::size_t(joint.parent)] * turn);
+    }
+    osgSkin::Pose pose(binding.joints);
+    EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
+    return pose;
+}
+
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+class SurfaceNormals : public testing::TestWithParam<Way> {
+protected:
+    void SetUp() override {
+        if (GetParam().target) hwy::SetSupportedTargetsForTest(GetParam().target);
+    }
+    void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
+
+    bool run(const osgSkin::DeformJob& job) const {
+        return GetParam().target ? job.run() : job.runReference();
+    }
+};
+
+} // namespace
+
+TEST_P(SurfaceNormals, AreThoseOfThePosedSurface) {
+    std::mt19937_64 random(11);
+    for (const bool moved : {false, true})
+        for (int sides = 1; sides <= 40; sides += 3) {
+            SCOPED_TRACE(sides);
+            test::SlopedTube tube(21, sides);
+            if (sides % 2 == 0) tube.bringIntoOrder();
+            const auto model = tube.model();
+            ASSERT_TRUE(model->hasSurfaceNormals());
+            const auto rest = tangentsOf(tube, *model);
+            const osgSkin::Pose pose = poseOf(tube.binding, random, moved);
+            Posed posed(*model, rest.get(), pose);
+            ASSERT_TRUE(run(posed.job));
+            Posed alone(*model, nullptr, pose); // normals without tangents
+            ASSERT_TRUE(run(alone.job));
+            for (std::size_t v = 0; v < posed.normals.size(); ++v) {
+                const glm::dvec3 x(tube.positions[v]), n(tube.normals[v]);
+                const glm::dvec3 around = glm::cross(glm::dvec3(0, 1, 0), n);
+                const glm::dvec3 normal = glm::cross(tube.posedWay(pose, x, around),
+                                                     tube.posedWay(pose, x, glm::cross(n, around)));
+                const glm::dvec3 is(posed.normals[v]);
+                ASSERT_LE(angleBetween(normal, is), kTolerance) << v;
+                ASSERT_NEAR(glm::length(is), 1.0, 1e-5);
+                ASSERT_LE(glm::distance(posed.normals[v], alone.normals[v]), 1e-5f);
+
+                const glm::dvec4 restTangent = restTangentAt(tube, v);
+                const glm::dvec3 tangent(posed.tangents[v]);
+                ASSERT_LE(angleBetween(tube.posedWay(pose, x, glm::dvec3(restTangent)), tangent),
+                          2.0 * kTolerance)
+                    << v;
+                ASSERT_NEAR(glm::length(tangent), 1.5, 1e-4);
+                ASSERT_NEAR(glm::dot(tangent, is), 0.0, 1e-4);
+                ASSERT_EQ(posed.tangents[v].w, float(restTangent.w));
+            }
+        }
+}
+
+TEST_P(SurfaceNormals, DifferFromTurnedOnesWherePositionsDoNot) {
+    std::mt19937_64 random(12);
+    const test::SlopedTube tube(25, 18);
+    test::SlopedTube plain = tube;
+    plain.binding.gradients.clear();
+    const auto model = tube.model(), turned = plain.model();
+    EXPECT_FALSE(turned->hasSurfaceNormals());
+    const osgSkin::Pose pose = poseOf(tube.binding, random, false);
+    Posed with(*model, nullptr, pose), without(*turned, nullptr, pose);
+    ASSERT_TRUE(run(with.job) && run(without.job));
+    EXPECT_EQ(with.positions, without.positions);
+    double most = 0.0;
+    for (std::size_t v = 0; v < with.normals.size(); ++v)
+        most = std::max(most, angleBetween(with.normals[v], without.normals[v]));
+    EXPECT_GE(glm::degrees(most), 10.0);
+}
+
+TEST_P(SurfaceNormals, AreTheRestNormalsInTheRestPose) {
+    const test::SlopedTube tube(25, 18);
+    const auto model = tube.model();
+    const auto rest = tangentsOf(tube, *model);
+    const osgSkin::Pose pose(tube.binding.joints);
+    Posed posed(*model, rest.get(), pose);
+    ASSERT_TRUE(run(posed.job));
+    for (std::size_t v = 0; v < posed.normals.size(); ++v) {
+        EXPECT_LE(glm::distance(posed.normals[v], tube.normals[v]), 2e-6f);
+        EXPECT_LE(glm::distance(posed.tangents[v], rest->tangents()[v]), 2e-6f);
+    }
+}
+
+TEST_P(SurfaceNormals, TakeWhatCorrectivesAdd) {
+    std::mt19937_64 random(13);
+    for (const bool sloped : {false, true})
+        for (const bool withTangents : {false, true}) {
+            test::SlopedTube tube(25, 37);
+            tube.binding.correctives = test::someCorrectives(tube.binding, 0.3, 3, true);
+            if (!sloped) tube.binding.gradients.clear();
+            if (withTangents) tube.bringIntoOrder();
+            const auto model = tube.model();
+            const auto rest = tangentsOf(tube, *model);
+            const osgSkin::Pose pose = poseOf(tube.binding, random, false);
+            Posed posed(*model, withTangents ? rest.get() : nullptr, pose);
+            ASSERT_TRUE(run(posed.job));
+            Posed plain(*model, rest.get(), pose);
+            ASSERT_TRUE(plain.job.runReference());
+            for (std::size_t v = 0; v < posed.normals.size(); ++v) {
+                ASSERT_LE(glm::distance(posed.normals[v], plain.normals[v]), 1e-4f) << v;
+                if (!withTangents) continue;
+                ASSERT_LE(glm::distance(posed.tangents[v], plain.tangents[v]), 1e-4f) << v;
+                ASSERT_NEAR(glm::dot(posed.normals[v], glm::vec3(posed.tangents[v])), 0.0f, 1e-4f);
+            }
+        }
+}
+
+TEST_P(SurfaceNormals, OfCorrectivesAloneAreTiltedAndTurned) {
+    std::mt19937_64 random(14);
+    test::SlopedTube tube(25, 12);
+    tube.binding.gradients.clear();
+    tube.binding.correctives = test::someCorrectives(tube.binding, 0.2, 4, true);
+    const auto model = tube.model();
+    const osgSkin::Pose pose = poseOf(tube.binding, random, false);
+    Posed posed(*model, nullptr, pose);
+    ASSERT_TRUE(run(posed.job));
+    for (std::uint32_t v = 0; v < posed.normals.size(); ++v) {
+        glm::dvec3 n =
+            glm::dvec3(tube.normals[v]) + test::normalCorrectionOf(tube.binding, pose, v);
+        n = glm::normalize(n);
+        for (std::uint32_t i = tube.binding.firstInfluence[v + 1];
+             i-- > tube.binding.firstInfluence[v];) {
+            const osgSkin::Influence& influence = tube.binding.influences[i];
+            n = osgSkin::partialRotation(pose.transform(influence.joint).split,
+                                         tube.binding.joints[influence.joint].twistAxis,
+                                         double(influence.bend), double(influence.twist)) *
+                n;
+        }
+        ASSERT_LE(glm::distance(glm::dvec3(posed.normals[v]), n), 1e-5) << v;
+    }
+}
+
+TEST_P(SurfaceNormals, PartsInAnyOrderMakeTheWhole) {
+    if (!GetParam().target) return; // the reference has no parts
+    std::mt19937_64 random(15);
+    for (const bool inOrder : {false, true}) {
+        test::SlopedTube tube(25, 777);
+        tube.binding.correctives = test::someCorrectives(tube.binding, 0.3, 5, true);
+        if (inOrder) tube.bringIntoOrder();
+        const auto model = tube.model();
+        const auto rest = tangentsOf(tube, *model);
+        const osgSkin::Pose pose = poseOf(tube.binding, random, false);
+        Posed whole(*model, rest.get(), pose), parts(*model, rest.get(), pose);
+        ASSERT_TRUE(whole.job.run());
+        ASSERT_GE(parts.job.partCount(), 3u);
+        for (std::size_t part = parts.job.partCount(); part-- > 0;) parts.job.runPart(part);
+        EXPECT_EQ(parts.normals, whole.normals);
+        EXPECT_EQ(parts.tangents, whole.tangents);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, SurfaceNormals, testing::ValuesIn(ways()),
+                         [](const auto& tested) { return tested.param.name; });
