@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "SolveElastic.h"
+
+#include "EachAtOnce.h"
+#include "JointSolving.h"
+#include "SharedProgress.h"
+
+namespace osgSkin {
+
+ElasticShapes solveElasticJoint(const ElasticSkin& skin, const ElasticJoint& joint,
+                                const ElasticProgress& progress) {
+    return solveElasticJoints(skin, {joint}, progress).front();
+}
+
+std::vector<ElasticShapes> solveElasticJoints(const ElasticSkin& skin,
+                                              const std::vector<ElasticJoint>& joints,
+                                              const ElasticProgress& progress) {
+    std::size_t whole = 0;
+    for (const ElasticJoint& joint : joints) whole += joint.samples.size();
+    elastic::SharedProgress shared(progress, whole);
+    std::vector<ElasticShapes> shapes(joints.size());
+    try {
+        elastic::eachAtOnce(joints.size(), [&](std::size_t i) {
+            shapes[i] = elastic::JointSolving(skin, joints[i], shared).run();
+        });
+    } catch (const elastic::GivenUp&) {
+        shared.rethrow();
+    }
+    return shapes;
+}
+
+} // namespace osgSkin
