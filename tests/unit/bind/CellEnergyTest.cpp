@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <elastic/CellEnergy.h>
+#include <elastic/energy/CellEnergy.h>
 
 #include <gtest/gtest.h>
 

@@ -2,13 +2,13 @@
 // The elastic solver's parts, each on its own.
 #include "ElasticTube.h"
 
-#include <elastic/BoneCores.h>
 #include <elastic/ElasticSamples.h>
-#include <elastic/Minimise.h>
-#include <elastic/Preconditioner.h>
-#include <elastic/SampleTree.h>
-#include <elastic/Unsolvable.h>
-#include <elastic/WindingTree.h>
+#include <elastic/energy/BoneCores.h>
+#include <elastic/lattice/Unsolvable.h>
+#include <elastic/skin/WindingTree.h>
+#include <elastic/solve/Minimise.h>
+#include <elastic/solve/Preconditioner.h>
+#include <elastic/solve/SampleTree.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "SolveElastic.h"
+#include "elastic/SolveElastic.h"
 
-#include "EachAtOnce.h"
-#include "JointSolving.h"
-#include "SharedProgress.h"
+#include "elastic/solve/EachAtOnce.h"
+#include "elastic/solve/JointSolving.h"
+#include "elastic/solve/SharedProgress.h"
 
 namespace osgSkin {
 

@@ -2,8 +2,8 @@
 #ifndef OSGSKINBIND_ELASTIC_SOLVEELASTIC_H
 #define OSGSKINBIND_ELASTIC_SOLVEELASTIC_H
 
-#include "ElasticJoint.h"
-#include "ElasticShapes.h"
+#include "elastic/ElasticJoint.h"
+#include "elastic/ElasticShapes.h"
 
 #include <array>
 #include <cstdint>
