@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # What `cmake --install` and `cpack -G DEB` give: three components, and with them three packages.
 #   runtime  libosgSkin and the serializers: all that a saved character needs (MIT)
-#   plugin   osgSkinBind, osgSkinImport, the .skin plug-in, osgskinbake (GPL-3.0-or-later)
+#   plugin   osgSkinBind, osgSkinImport, osgSkinCharacter, the .skin plug-in, osgskinbake
+#            (GPL-3.0-or-later)
 #   dev      headers, CMake and pkg-config files of whatever kits were built
 # Every path in them is relative, so the installed tree can be moved.
 include(CMakePackageConfigHelpers)
@@ -28,12 +29,17 @@ endfunction()
 file(RELATIVE_PATH osgskin_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 
 osgskin_install_kit(osgSkin runtime "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation")
+osgskin_install_kit(osgSkinRig runtime "Skeletons, motions and retargeting for osgSkin" "osgSkin")
 if(TARGET osgSkinBind)
-  osgskin_install_kit(osgSkinBind plugin "Binds a skin to a skeleton for osgSkin" "osgSkin")
+  osgskin_install_kit(osgSkinBind plugin "Binds a skin to a skeleton for osgSkin" "osgSkinRig")
 endif()
 if(TARGET osgSkinImport)
   osgskin_install_kit(osgSkinImport plugin "Reads meshes, skeletons and motions for osgSkin"
-    "osgSkin openscenegraph-osgDB")
+    "osgSkinRig openscenegraph-osgDB")
+endif()
+if(TARGET osgSkinCharacter)
+  osgskin_install_kit(osgSkinCharacter plugin "From a file to a character for osgSkin"
+    "osgSkinBind osgSkinImport")
 endif()
 if(TARGET osgdb_serializers_osgskin)
   install(TARGETS osgdb_serializers_osgskin
@@ -70,7 +76,7 @@ endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME "libosgskin${PROJECT_VERSION_MAJOR}")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME "libosgskin${OSGSKIN_SOVERSION}")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libosgskin-dev)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME osgskin-plugin)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Settings shared by our own targets; never global, so third-party code is left alone.
 
-# osgskin_settings(TARGET): language level, warnings, hidden symbols, sanitizers.
+# osgskin_settings(TARGET): language level, warnings, hidden symbols, sanitizers, coverage.
 function(osgskin_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
@@ -11,6 +11,10 @@ function(osgskin_settings target)
   if(OSGSKIN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE})
+  endif()
+  if(OSGSKIN_COVERAGE)
+    target_compile_options(${target} PRIVATE --coverage -fprofile-update=atomic)
+    target_link_options(${target} PRIVATE --coverage)
   endif()
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF
@@ -27,15 +31,49 @@ function(osgskin_nodekit name)
   target_include_directories(${name} PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
     "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  # Sources name each other by room: "pose/SplitUnit.h".
+  target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/src")
   set_target_properties(${name} PROPERTIES
-    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} INSTALL_RPATH "$ORIGIN")
+    VERSION ${PROJECT_VERSION} SOVERSION ${OSGSKIN_SOVERSION} INSTALL_RPATH "$ORIGIN")
+  osgskin_kit_build(${name})
   add_library(osgSkin::${name} ALIAS ${name})
+endfunction()
+
+# The number that libraries' names end with: layouts that differ never meet. Before 1.0.0 they may
+# change with the second number of the version.
+set(OSGSKIN_SOVERSION ${PROJECT_VERSION_MAJOR})
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(OSGSKIN_SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+endif()
+
+# osgskin_kit_build(NAME): puts the kit's build into its library, and into NAMEBuild.h for plug-ins,
+# which refuse a library of another build (osgPlugin/common/KitCheck.h).
+set(OSGSKIN_BUILD_HEADERS "${PROJECT_BINARY_DIR}/kit-build")
+function(osgskin_kit_build name)
+  set(script "${PROJECT_SOURCE_DIR}/cmake/KitBuild.cmake")
+  set(folder "${CMAKE_CURRENT_SOURCE_DIR}/include/${name}")
+  file(GLOB headers "${folder}/*")
+  set(made "${OSGSKIN_BUILD_HEADERS}/${name}Build.h" "${OSGSKIN_BUILD_HEADERS}/${name}Build.cpp")
+  add_custom_command(OUTPUT ${made}
+    COMMAND "${CMAKE_COMMAND}" -DKIT=${name} -DVERSION=${PROJECT_VERSION} "-DHEADERS=${folder}"
+            "-DOUT=${OSGSKIN_BUILD_HEADERS}" -P "${script}"
+    DEPENDS ${headers} "${script}" VERBATIM)
+  target_sources(${name} PRIVATE ${made})
 endfunction()
 
 # osgskin_plugin(TARGET): an OSG plug-in in lib/osgPlugins-x.y.z, found through OSG_LIBRARY_PATH.
 function(osgskin_plugin target)
   osgskin_settings(${target})
+  target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
+  target_include_directories(${target} PRIVATE
+    "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")
   set_target_properties(${target} PROPERTIES
     PREFIX "" INSTALL_RPATH "$ORIGIN/.."
     LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGSKIN_OSG_PLUGINS}")
+endfunction()
+
+# osgskin_start_up(SOURCE...): sources of the calling folder that read a command line and run once.
+# GCC spends ten seconds on each to inline CLI11.
+function(osgskin_start_up)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
 endfunction()

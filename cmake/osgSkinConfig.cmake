@@ -1,27 +1,33 @@
 # SPDX-License-Identifier: MIT
-# find_package(osgSkin COMPONENTS osgSkin osgSkinBind osgSkinImport): a target osgSkin::NAME for each.
-# The runtime, osgSkin::osgSkin, is always there.
+# find_package(osgSkin COMPONENTS osgSkinCharacter): a target osgSkin::NAME for each component, of
+# osgSkin, osgSkinRig, osgSkinBind, osgSkinImport and osgSkinCharacter, and for the kits that it
+# links. The runtime, osgSkin and osgSkinRig, is always there.
 include(CMakeFindDependencyMacro)
 find_dependency(glm)
 # OpenSceneGraph's targets first: ours name them.
 include("${CMAKE_CURRENT_LIST_DIR}/OsgTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinTargets.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/osgSkinRigTargets.cmake")
 
-set(osgSkin_osgSkin_FOUND TRUE)
+set(osgskin_kits osgSkin osgSkinRig)
 foreach(component IN LISTS osgSkin_FIND_COMPONENTS)
-  if(component STREQUAL "osgSkin")
-    continue()
+  if(component STREQUAL "osgSkinCharacter")
+    list(APPEND osgskin_kits osgSkinBind osgSkinImport)
   endif()
-  if(component MATCHES "^osgSkin[A-Za-z]+$" AND
-     EXISTS "${CMAKE_CURRENT_LIST_DIR}/${component}Targets.cmake")
-    include("${CMAKE_CURRENT_LIST_DIR}/${component}Targets.cmake")
-    set(osgSkin_${component}_FOUND TRUE)
+  list(APPEND osgskin_kits ${component})
+endforeach()
+list(REMOVE_DUPLICATES osgskin_kits)
+foreach(kit IN LISTS osgskin_kits)
+  if(kit MATCHES "^osgSkin[A-Za-z]*$" AND EXISTS "${CMAKE_CURRENT_LIST_DIR}/${kit}Targets.cmake")
+    include("${CMAKE_CURRENT_LIST_DIR}/${kit}Targets.cmake")
+    set(osgSkin_${kit}_FOUND TRUE)
   else()
-    set(osgSkin_${component}_FOUND FALSE)
-    if(osgSkin_FIND_REQUIRED_${component})
+    set(osgSkin_${kit}_FOUND FALSE)
+    if(osgSkin_FIND_REQUIRED_${kit})
       set(osgSkin_FOUND FALSE)
       set(osgSkin_NOT_FOUND_MESSAGE
-          "${component} was not built with this osgSkin, or is none of its components")
+          "${kit} was not built with this osgSkin, or is none of its components")
     endif()
   endif()
 endforeach()
+unset(osgskin_kits)

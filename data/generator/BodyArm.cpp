@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "BodyArm.h"
+
+#include "BodyHand.h"
 #include "BodyParts.h"
 
 namespace mannequin {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "BodyHand.h"
+
 #include "BodyParts.h"
 
 #include <glm/geometric.hpp>

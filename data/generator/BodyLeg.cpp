@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "BodyLeg.h"
+
+#include "BodyFoot.h"
 #include "BodyParts.h"
 
 namespace mannequin {

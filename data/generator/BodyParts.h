@@ -24,12 +24,4 @@ struct LimbSection {
 /// Solid about a chain of joints; `front` is the part of +Z that is orthogonal to the chain.
 Loft limbLoft(const std::vector<glm::dvec3>& chain, const std::vector<LimbSection>& sections);
 
-/// The parts of the body, each in the world's frame. Arm, hand and leg are those of the left side.
-Sculpture sculptTrunk();
-Sculpture sculptHead();
-Sculpture sculptArm();
-void sculptHand(Sculpture& arm);
-Sculpture sculptLeg();
-void sculptFoot(Sculpture& leg);
-
 } // namespace mannequin

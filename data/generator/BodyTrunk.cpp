@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "BodyTrunk.h"
+
 #include "BodyParts.h"
 
 namespace mannequin {

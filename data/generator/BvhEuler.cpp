@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "BvhWriter.h"
+#include "BvhEuler.h"
 
 #include <algorithm>
 #include <cmath>

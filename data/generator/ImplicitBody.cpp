@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "ImplicitBody.h"
+#include "BodyArm.h"
+#include "BodyHead.h"
+#include "BodyLeg.h"
 #include "BodyParts.h"
+#include "BodyTrunk.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,8 +2,8 @@
 #include "ThrowCheck.h"
 
 #include "ThrowClearance.h"
+#include "ThrowMeasure.h"
 #include "ThrowMotion.h"
-#include "ThrowReport.h"
 #include "ThrowTiming.h"
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ThrowLegs.h"
+#include "ThrowFoot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ThrowKeys.h"
+#include "ThrowFootKeys.h"
 
 #include "ThrowTiming.h"
 

@@ -36,10 +36,4 @@ struct FootKeys {
     Channel x, z, lift, yaw, heel, kneeOut;
 };
 
-BodyKeys bodyKeys();
-ArmKeys throwingArmKeys(); ///< the right arm
-ArmKeys gloveArmKeys();    ///< the left arm
-FootKeys pivotFootKeys();  ///< the right foot
-FootKeys leadFootKeys();   ///< the left foot
-
 } // namespace mannequin

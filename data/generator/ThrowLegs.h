@@ -1,26 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "ThrowArm.h"
-#include "ThrowKeys.h"
+#include "ThrowFoot.h"
 #include "ThrowPose.h"
 
 namespace mannequin {
-
-/// Where a foot is to be, in world space.
-struct FootTarget {
-    glm::dvec3 ankle{0};
-    glm::dvec3 toe{0}; ///< the joint ToeBase: the ball of the foot
-    glm::dquat rotation{1, 0, 0, 0};
-    double toeBend = 0; ///< degrees; extends the toes, which stay flat on the floor
-    double kneeYaw = 0; ///< degrees; where the knee points when the foot is on the floor
-};
-
-/// The keyed foot: its ball at (x, z), `lift` metres above the floor; `yaw` from the rest pose;
-/// `heel` degrees of heel raised (above 0) or toes raised (below 0). Raised as a whole as far as
-/// any of its points would be below the floor, so that a foot lands on its heel and leaves over
-/// its toes.
-FootTarget footTarget(const Skeleton& skeleton, Side side, const FootKeys& keys, double time);
 
 /// The least knee flexion, degrees: short of straight, where a small step of the hip needs a large
 /// one of the knee.
@@ -36,8 +20,5 @@ void poseLeg(const Skeleton& skeleton, Side side, const FootTarget& foot, Pose& 
 
 /// Flexion of the knee in degrees, 0 straight; below 0 when it bends the wrong way.
 double kneeFlexion(const Skeleton& skeleton, Side side, const WorldPose& world);
-
-/// Lowest height of the foot's sole: heel, ball and tip of the toes.
-double soleHeight(const Skeleton& skeleton, Side side, const WorldPose& world);
 
 } // namespace mannequin

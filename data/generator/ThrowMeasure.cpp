@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ThrowReport.h"
+#include "ThrowMeasure.h"
 
 #include "ThrowLegs.h"
 #include "ThrowTiming.h"

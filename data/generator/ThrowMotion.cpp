@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "ThrowMotion.h"
 
+#include "ThrowArmKeys.h"
+#include "ThrowBodyKeys.h"
+#include "ThrowFootKeys.h"
 #include "ThrowLegs.h"
 #include "ThrowTrunk.h"
 

@@ -3,9 +3,13 @@
 
 #include "DualQuaternionBlend.h"
 #include "LinearBlend.h"
-#include "WeightsFile.h"
+#include "ProgressLine.h"
 
 #include <osgSkin/DeformJob>
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+#include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinCharacter/ReadWeights>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -16,15 +20,15 @@
 namespace figures {
 namespace {
 
-using Share = std::vector<compare::JointWeight>;
+using VertexWeights = std::vector<compare::JointWeight>;
 
-void addNormalised(compare::SkinWeights& weights, Share vertex) {
+void addNormalised(compare::SkinWeights& weights, VertexWeights vertex) {
     double sum = 0.0;
-    for (const compare::JointWeight& share : vertex) sum += share.weight;
+    for (const compare::JointWeight& entry : vertex) sum += entry.weight;
     if (sum <= 0.0)
         vertex = {{0, 1.0}}; // nobody painted it: the root's
     else
-        for (compare::JointWeight& share : vertex) share.weight /= sum;
+        for (compare::JointWeight& entry : vertex) entry.weight /= sum;
     weights.add(vertex);
 }
 
@@ -41,7 +45,7 @@ compare::SkinWeights weightsOf(const osgSkin::Binding& binding) {
             const int parent = binding.joints[influence.joint].parent;
             if (parent >= 0) left[static_cast<std::size_t>(parent)] -= double(influence.bend);
         }
-        Share vertex;
+        VertexWeights vertex;
         for (std::uint32_t j = 0; j < left.size(); ++j)
             if (left[j] > 1e-6) vertex.push_back({j, left[j]});
         addNormalised(weights, vertex);
@@ -52,8 +56,8 @@ compare::SkinWeights weightsOf(const osgSkin::Binding& binding) {
 compare::SkinWeights painted(const std::string& file, const osgSkin::Character& character) {
     compare::SkinWeights weights;
     for (const auto& list :
-         osgSkin::readWeights(file, character.rig, character.body.mesh.positions.size())) {
-        Share vertex;
+         osgSkin::readWeights(file, character.rest, character.body.mesh.positions.size())) {
+        VertexWeights vertex;
         for (const osgSkin::JointWeight& entry : list)
             vertex.push_back({entry.joint, entry.weight});
         addNormalised(weights, vertex);
@@ -61,10 +65,20 @@ compare::SkinWeights painted(const std::string& file, const osgSkin::Character& 
     return weights;
 }
 
+osgSkin::Character load(const std::string& file) {
+    example::ProgressLine line(file);
+    osgSkin::LoadOptions options;
+    options.progress = line.progress();
+    osgSkin::Character character = osgSkin::loadCharacter(file, options);
+    if (!character.hasBody())
+        throw osgSkin::Error(file + ": expected a .skin file, or a rigged model that Assimp reads");
+    return character;
+}
+
 } // namespace
 
 Body::Body(const std::string& file, const std::string& weights)
-    : character(osgSkin::Character::load(file)), triangles(character.body.mesh.triangles()) {
+    : character(load(file)), triangles(character.body.mesh.triangles()) {
     std::vector<std::uint32_t> source(rest().size());
     std::iota(source.begin(), source.end(), 0u);
     _model = osgSkin::SkinModel::create(
@@ -74,10 +88,9 @@ Body::Body(const std::string& file, const std::string& weights)
 }
 
 std::size_t Body::find(const std::string& name) const {
-    const int index = character.rig.find(name);
+    const int index = character.rest.find(name);
     if (index < 0)
-        throw std::runtime_error(character.file.file + ": expected a joint called \"" + name +
-                                 "\"");
+        throw std::runtime_error(character.file + ": expected a joint called \"" + name + "\"");
     return static_cast<std::size_t>(index);
 }
 
@@ -85,13 +98,13 @@ std::vector<glm::dmat4> Body::turned(std::size_t joint, const glm::dvec3& axis,
                                      double degrees) const {
     const glm::dmat4 unit(1.0);
     const glm::dvec3& centre = character.binding.joints[joint].centre;
-    const glm::dmat4 turn = glm::translate(unit, centre) *
-                            glm::rotate(unit, glm::radians(degrees), axis) *
-                            glm::translate(unit, -centre);
-    std::vector<glm::dmat4> skinning(character.rig.joints.size(), unit);
+    const glm::dmat4 rotation = glm::translate(unit, centre) *
+                                glm::rotate(unit, glm::radians(degrees), axis) *
+                                glm::translate(unit, -centre);
+    std::vector<glm::dmat4> skinning(character.rest.joints.size(), unit);
     for (std::size_t j = joint; j < skinning.size(); ++j)
-        if (character.rig.isInSubtree(static_cast<int>(j), static_cast<int>(joint)))
-            skinning[j] = turn;
+        if (character.rest.isInSubtree(static_cast<int>(j), static_cast<int>(joint)))
+            skinning[j] = rotation;
     return skinning;
 }
 
@@ -112,11 +125,11 @@ std::vector<glm::dvec3> Body::deform(Method method, const std::vector<glm::dmat4
 }
 
 glm::dvec3 Body::toWorld(const glm::dvec3& v) const {
-    return character.file.zUp ? v : glm::dvec3(v.x, -v.z, v.y);
+    return osgSkin::toGlm(osgSkin::toOsg(v) * character.toWorld);
 }
 
 glm::dvec3 Body::fromWorld(const glm::dvec3& v) const {
-    return character.file.zUp ? v : glm::dvec3(v.x, v.z, -v.y);
+    return osgSkin::toGlm(osgSkin::toOsg(v) * osg::Matrixd::inverse(character.toWorld));
 }
 
 osgSkin::Influence influenceOf(const osgSkin::Binding& binding, std::size_t vertex,

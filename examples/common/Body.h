@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "Character.h"
 #include "SkinWeights.h"
 
 #include <osgSkin/SkinModel>
+#include <osgSkinCharacter/Character>
 
 #include <glm/mat4x4.hpp>
 
@@ -32,7 +32,7 @@ public:
     /// \throw std::runtime_error where the character has no such joint
     std::size_t find(const std::string& name) const;
 
-    /// Joint `joint` turned by `degrees`, with all that hangs on it.
+    /// Skinning matrices with joint `joint` rotated by `degrees` and its subtree with it.
     std::vector<glm::dmat4> turned(std::size_t joint, const glm::dvec3& axis, double degrees) const;
     std::vector<glm::dvec3> deform(Method method, const std::vector<glm::dmat4>& skinning) const;
 
@@ -41,11 +41,11 @@ public:
     glm::dvec3 fromWorld(const glm::dvec3& v) const;
 
 private:
-    std::shared_ptr<const osgSkin::SkinModel> _model;
+    osg::ref_ptr<const osgSkin::SkinModel> _model;
     compare::SkinWeights _weights;
 };
 
-/// A vertex's share of a joint's turn; zeros where it takes none.
+/// A vertex's bend and twist ratio of a joint; zeros where it has none.
 osgSkin::Influence influenceOf(const osgSkin::Binding& binding, std::size_t vertex,
                                std::size_t joint);
 

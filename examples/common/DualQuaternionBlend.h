@@ -13,8 +13,8 @@ struct DualQuaternion {
     glm::dquat dual{0.0, 0.0, 0.0, 0.0}; ///< half the translation times the rotation
 };
 
-/// The dual quaternion of a rigid matrix. \throw std::invalid_argument where the matrix is not
-/// finite, scales, shears or mirrors (to 1e-6)
+/// The dual quaternion of a rigid matrix.
+/// \throw std::invalid_argument where the matrix is not finite, scales, shears or mirrors (to 1e-6)
 DualQuaternion toDualQuaternion(const glm::dmat4& rigid);
 
 /// Dual quaternion skinning (Kavan, Collins, Zara and O'Sullivan 2008, DLB), the other peer that

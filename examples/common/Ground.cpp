@@ -39,13 +39,15 @@ osg::Matrix shadowMatrix() {
 
 } // namespace
 
-osg::ref_ptr<osg::Node> makeFloor(float size) {
+osg::ref_ptr<osg::Node> makeFloor(float size, float spacing) {
     const osg::ref_ptr<osg::Vec3Array> quad = new osg::Vec3Array;
     for (const auto& corner :
          {osg::Vec2(-1, -1), osg::Vec2(1, -1), osg::Vec2(1, 1), osg::Vec2(-1, 1)})
         quad->push_back({size * corner.x(), size * corner.y(), 0.0f});
     const osg::ref_ptr<osg::Vec3Array> lines = new osg::Vec3Array;
-    for (float at = -size; at <= size; at += 1.0f) {
+    const auto count = static_cast<int>(size / spacing);
+    for (int line = -count; line <= count; ++line) {
+        const float at = spacing * static_cast<float>(line);
         lines->push_back({at, -size, 0.0f});
         lines->push_back({at, size, 0.0f});
         lines->push_back({-size, at, 0.0f});

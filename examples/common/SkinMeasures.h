@@ -22,7 +22,8 @@ double loopArea(const Points& points, const std::vector<std::uint32_t>& loop);
 using Edge = std::array<std::uint32_t, 2>;
 
 /// Each edge of the faces once, as (lower index, higher index), sorted.
-/// \param sizes, vertices faces as osgSkin::SkinMesh keeps them
+/// \param sizes of the faces, as osgSkin::SkinMesh keeps them
+/// \param vertices of the faces, one face after the other
 std::vector<Edge> faceEdges(const std::vector<std::uint32_t>& sizes,
                             const std::vector<std::uint32_t>& vertices);
 

@@ -30,8 +30,7 @@ struct SkinWeights {
     /// Adds a vertex after the ones there are. Weights of 0 are left out.
     void add(const std::vector<JointWeight>& vertex);
 
-    /// \throw std::invalid_argument where offsets do not fit, a joint is not below `joints`, a
-    /// weight
+    /// \throw std::invalid_argument where offsets do not fit, a joint is not below `joints`, a weight
     ///        is negative or not finite, or a vertex's weights do not sum to 1 (to 1e-6)
     void validate(std::size_t joints) const;
 };

@@ -32,7 +32,8 @@ public:
     /// The scene at `time`, in seconds; times must not go back.
     osg::ref_ptr<osg::Image> take(double time);
 
-    /// The same, written to a file. \throw std::runtime_error where it cannot be written
+    /// The same, written to a file.
+    /// \throw std::runtime_error where it cannot be written
     void write(double time, const std::string& file);
 
 private:

@@ -111,7 +111,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     CLI::Option* rest =
         app.add_option("--rest", arguments.rest, "write the bind pose")->expected(0, 1);
     app.add_option("--binding", arguments.binding, "write joints, regions and ratios (JSON)");
-    app.add_option("--pose", arguments.pose, "write the joints' turns of the frames (JSON)");
+    app.add_option("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
     app.add_flag("--quiet", arguments.quiet, "no progress and no summary");
     try {
         app.parse(argc, argv);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Character.h"
 #include "PosedMesh.h"
+
+#include <osgSkinCharacter/Character>
 
 #include <cstddef>
 #include <memory>
@@ -29,7 +30,8 @@ public:
     /// \throw osgSkin::Error where it cannot be written
     virtual void add(std::size_t frame, const PosedMesh& posed) = 0;
 
-    /// After the last frame. \throw osgSkin::Error where it cannot be written
+    /// After the last frame.
+    /// \throw osgSkin::Error where it cannot be written
     virtual void finish() {}
 
     /// By the extension of `out`: .obj and .ply, a file a frame; .pc2 and .glb, one for all.

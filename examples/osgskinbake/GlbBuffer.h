@@ -20,7 +20,7 @@ namespace bake {
 class GlbBuffer {
 public:
     std::size_t addVectors(const std::vector<glm::dvec3>& vectors, bool withRange);
-    std::size_t addTexCoords(const std::vector<osg::Vec2>& texCoords); ///< turned to glTF's
+    std::size_t addTexCoords(const std::vector<osg::Vec2>& texCoords); ///< flipped for glTF
     std::size_t addColours(const std::vector<osg::Vec4>& linear);
     std::size_t addIndices(const std::vector<std::uint32_t>& indices);
     std::size_t addTimes(const std::vector<float>& ascending);

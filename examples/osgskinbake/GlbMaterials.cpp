@@ -18,10 +18,10 @@ int wrapOf(osg::Texture::WrapMode mode) {
 }
 
 /// The roughness of a highlight as wide as Blinn's.
-float roughnessOf(const SurfaceLook& look) {
-    const osg::Vec4& s = look.specular;
+float roughnessOf(const SurfaceMaterial& material) {
+    const osg::Vec4& s = material.specular;
     if (std::max({s.r(), s.g(), s.b()}) <= 0.0f) return 1.0f;
-    return std::pow(2.0f / (std::max(look.shininess, 0.0f) + 2.0f), 0.25f);
+    return std::pow(2.0f / (std::max(material.shininess, 0.0f) + 2.0f), 0.25f);
 }
 
 } // namespace
@@ -50,46 +50,46 @@ std::optional<std::size_t> GlbMaterials::image(const osg::Image& image) {
     return index;
 }
 
-std::size_t GlbMaterials::sampler(const SurfaceLook& look) {
+std::size_t GlbMaterials::sampler(const SurfaceMaterial& material) {
     const nlohmann::json sampler{{"magFilter", kLinear},
                                  {"minFilter", kLinearMipmapLinear},
-                                 {"wrapS", wrapOf(look.wrapS)},
-                                 {"wrapT", wrapOf(look.wrapT)}};
+                                 {"wrapS", wrapOf(material.wrapS)},
+                                 {"wrapT", wrapOf(material.wrapT)}};
     const auto found = std::find(_samplers.begin(), _samplers.end(), sampler);
     if (found != _samplers.end()) return static_cast<std::size_t>(found - _samplers.begin());
     _samplers.push_back(sampler);
     return _samplers.size() - 1;
 }
 
-std::optional<std::size_t> GlbMaterials::texture(const SurfaceLook& look) {
-    if (!look.image) return std::nullopt;
-    const std::optional<std::size_t> source = image(*look.image);
+std::optional<std::size_t> GlbMaterials::texture(const SurfaceMaterial& material) {
+    if (!material.image) return std::nullopt;
+    const std::optional<std::size_t> source = image(*material.image);
     if (!source) return std::nullopt;
-    const nlohmann::json texture{{"source", *source}, {"sampler", sampler(look)}};
+    const nlohmann::json texture{{"source", *source}, {"sampler", sampler(material)}};
     const auto found = std::find(_textures.begin(), _textures.end(), texture);
     if (found != _textures.end()) return static_cast<std::size_t>(found - _textures.begin());
     _textures.push_back(texture);
     return _textures.size() - 1;
 }
 
-std::size_t GlbMaterials::add(const SurfaceLook& look, const std::string& name) {
-    const osg::Vec4 base = linear(look.diffuse), light = linear(look.emission);
-    const auto share = [](float value) { return std::clamp(value, 0.0f, 1.0f); };
-    nlohmann::json surface{
-        {"baseColorFactor", {share(base.r()), share(base.g()), share(base.b()), share(base.a())}},
+std::size_t GlbMaterials::add(const SurfaceMaterial& material, const std::string& name) {
+    const osg::Vec4 base = linear(material.diffuse), light = linear(material.emission);
+    const auto unit = [](float value) { return std::clamp(value, 0.0f, 1.0f); };
+    nlohmann::json pbr{
+        {"baseColorFactor", {unit(base.r()), unit(base.g()), unit(base.b()), unit(base.a())}},
         {"metallicFactor", 0.0},
-        {"roughnessFactor", roughnessOf(look)}};
-    if (const auto index = texture(look)) surface["baseColorTexture"] = {{"index", *index}};
-    nlohmann::json material{{"name", name}, {"pbrMetallicRoughness", surface}};
+        {"roughnessFactor", roughnessOf(material)}};
+    if (const auto index = texture(material)) pbr["baseColorTexture"] = {{"index", *index}};
+    nlohmann::json entry{{"name", name}, {"pbrMetallicRoughness", pbr}};
     if (light.r() + light.g() + light.b() > 0.0f)
-        material["emissiveFactor"] = {share(light.r()), share(light.g()), share(light.b())};
-    if (look.twoSided) material["doubleSided"] = true;
-    if (look.alpha == SurfaceLook::Alpha::Blend) material["alphaMode"] = "BLEND";
-    if (look.alpha == SurfaceLook::Alpha::Mask) {
-        material["alphaMode"] = "MASK";
-        material["alphaCutoff"] = look.alphaCutOff;
+        entry["emissiveFactor"] = {unit(light.r()), unit(light.g()), unit(light.b())};
+    if (material.twoSided) entry["doubleSided"] = true;
+    if (material.alpha == SurfaceMaterial::Alpha::Blend) entry["alphaMode"] = "BLEND";
+    if (material.alpha == SurfaceMaterial::Alpha::Mask) {
+        entry["alphaMode"] = "MASK";
+        entry["alphaCutoff"] = material.alphaCutOff;
     }
-    _materials.push_back(material);
+    _materials.push_back(entry);
     return _materials.size() - 1;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "GlbBuffer.h"
-#include "SurfaceLook.h"
+#include "SurfaceMaterial.h"
 
 #include <osg/Image>
 
@@ -21,15 +21,15 @@ public:
     GlbMaterials(GlbBuffer& buffer, std::string folder);
 
     /// Adds a material. Returns its index.
-    std::size_t add(const SurfaceLook& look, const std::string& name);
+    std::size_t add(const SurfaceMaterial& material, const std::string& name);
 
     /// Puts what was added into the file's description.
     void finish(nlohmann::json& root) const;
 
 private:
-    std::optional<std::size_t> texture(const SurfaceLook& look);
+    std::optional<std::size_t> texture(const SurfaceMaterial& material);
     std::optional<std::size_t> image(const osg::Image& image);
-    std::size_t sampler(const SurfaceLook& look);
+    std::size_t sampler(const SurfaceMaterial& material);
 
     GlbBuffer& _buffer;
     std::string _folder;

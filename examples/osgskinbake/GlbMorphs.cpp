@@ -33,11 +33,11 @@ std::vector<glm::dvec3> differences(const std::vector<glm::dvec3>& a,
 
 GlbMorphs::GlbMorphs(std::string file, const FrameSeries& series)
     : _file(std::move(file)), _series(series),
-      _materials(_buffer, osgDB::getFilePath(series.character->file.mesh)) {
+      _materials(_buffer, osgDB::getFilePath(series.character->meshFile)) {
     for (Surface& surface : surfacesOf(*series.character)) {
         Primitive primitive;
         primitive.surface = std::move(surface);
-        primitive.look = SurfaceLook::of(primitive.surface);
+        primitive.material = SurfaceMaterial::of(primitive.surface);
         _primitives.push_back(std::move(primitive));
     }
 }
@@ -48,9 +48,9 @@ void GlbMorphs::addFirst(Primitive& primitive, const PosedMesh& posed) {
     primitive.normals = surface.normals(*_series.character);
     primitive.attributes = {{"POSITION", _buffer.addVectors(primitive.positions, true)},
                             {"NORMAL", _buffer.addVectors(primitive.normals, false)}};
-    if (primitive.look.image)
+    if (primitive.material.image)
         primitive.attributes["TEXCOORD_0"] = _buffer.addTexCoords(surface.texCoords);
-    if (!primitive.look.vertexColours) return;
+    if (!primitive.material.vertexColours) return;
     std::vector<osg::Vec4> colours;
     for (const osg::Vec4& colour : surface.colours) colours.push_back(linear(colour));
     primitive.attributes["COLOR_0"] = _buffer.addColours(colours);
@@ -95,13 +95,13 @@ void GlbMorphs::finish() {
         const std::string name = materialName(primitives.size());
         nlohmann::json entry{{"attributes", primitive.attributes},
                              {"indices", _buffer.addIndices(primitive.surface.triangles)},
-                             {"material", _materials.add(primitive.look, name)}};
+                             {"material", _materials.add(primitive.material, name)}};
         if (_frames > 1) entry["targets"] = primitive.targets;
         primitives.push_back(entry);
     }
     mesh["primitives"] = primitives;
     nlohmann::json node{{"name", "skin"}, {"mesh", 0}};
-    if (_series.character->file.zUp) node["rotation"] = {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
+    if (_series.character->isZUp()) node["rotation"] = {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
     nlohmann::json root{{"asset", {{"version", "2.0"}, {"generator", "osgskinbake"}}},
                         {"scene", 0},
                         {"scenes", {{{"nodes", {0}}}}}};

@@ -27,7 +27,7 @@ private:
     /// A surface while its frames come in.
     struct Primitive {
         Surface surface;
-        SurfaceLook look;
+        SurfaceMaterial material;
         std::vector<glm::dvec3> positions, normals; ///< of the first frame
         nlohmann::json attributes;
         nlohmann::json targets = nlohmann::json::array();

@@ -68,12 +68,12 @@ void writeLibrary(const std::string& file, const std::vector<Surface>& surfaces,
     Images images(file, folder);
     std::ostringstream out;
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
-        const SurfaceLook look = SurfaceLook::of(surfaces[s]);
-        out << "newmtl " << materialName(s) << "\nKd " << look.diffuse << "\nKs " << look.specular
-            << "\nKe " << look.emission << "\nNs " << look.shininess << "\nd " << look.diffuse.a()
-            << "\nillum 2\n";
-        if (!look.image) continue;
-        const std::string name = images.nameOf(*look.image);
+        const SurfaceMaterial material = SurfaceMaterial::of(surfaces[s]);
+        out << "newmtl " << materialName(s) << "\nKd " << material.diffuse << "\nKs "
+            << material.specular << "\nKe " << material.emission << "\nNs " << material.shininess
+            << "\nd " << material.diffuse.a() << "\nillum 2\n";
+        if (!material.image) continue;
+        const std::string name = images.nameOf(*material.image);
         if (!name.empty()) out << "map_Kd " << name << "\n";
     }
     writeBytes(file, out.str());

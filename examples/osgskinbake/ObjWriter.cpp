@@ -64,7 +64,7 @@ void ObjWriter::write(const std::string& file, const PosedMesh& posed) {
     if (std::ferror(out.get()) || std::fflush(out.get()) != 0) fail();
     const std::string library = osgDB::concatPaths(osgDB::getFilePath(file), _library);
     if (_libraries.insert(library).second)
-        writeLibrary(library, _surfaces, osgDB::getFilePath(_character.file.mesh));
+        writeLibrary(library, _surfaces, osgDB::getFilePath(_character.meshFile));
 }
 
 void ObjWriter::writeFaces(std::FILE* out) const {

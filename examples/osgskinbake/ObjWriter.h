@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Character.h"
 #include "PosedMesh.h"
 #include "Surface.h"
+
+#include <osgSkinCharacter/Character>
 
 #include <osg/Vec2>
 #include <osg/Vec4>
@@ -25,7 +26,8 @@ public:
     ObjWriter(const osgSkin::Character& character, const std::string& name);
 
     /// Writes the posed vertices, and after the first ones of a folder the library, with textures
-    /// beside it that are in no file of their own. \throw osgSkin::Error where it cannot
+    /// beside it that are in no file of their own.
+    /// \throw osgSkin::Error where it cannot
     void write(const std::string& file, const PosedMesh& posed);
 
 private:

@@ -2,7 +2,7 @@
 #include "PlyWriter.h"
 
 #include "Bytes.h"
-#include "SurfaceLook.h"
+#include "SurfaceMaterial.h"
 
 #include <cmath>
 

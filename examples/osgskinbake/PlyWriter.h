@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Character.h"
 #include "PosedMesh.h"
+
+#include <osgSkinCharacter/Character>
 
 #include <osg/Vec4>
 
@@ -17,7 +18,8 @@ class PlyWriter {
 public:
     explicit PlyWriter(const osgSkin::Character& character);
 
-    /// Writes the posed vertices. \throw osgSkin::Error where it cannot
+    /// Writes the posed vertices.
+    /// \throw osgSkin::Error where it cannot
     void write(const std::string& file, const PosedMesh& posed) const;
 
 private:

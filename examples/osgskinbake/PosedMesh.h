@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Character.h"
-
 #include <osgSkin/Pose>
+#include <osgSkinCharacter/Character>
 
 #include <glm/vec3.hpp>
 
@@ -25,7 +24,7 @@ struct PosedMesh {
     static PosedMesh rest(const osgSkin::Character& character);
 };
 
-/// The joints' turns in the pose that the character's bones are in now.
+/// The joints' transforms in the pose that the character's bones are in now.
 osgSkin::Pose currentPose(const osgSkin::Character& character);
 
 } // namespace bake

@@ -61,7 +61,7 @@ public:
     }
 
     Surface finish(osg::StateSet* state) {
-        std::vector<std::uint32_t> order(_vertices.size()), place(_vertices.size());
+        std::vector<std::uint32_t> order(_vertices.size()), newIndex(_vertices.size());
         std::iota(order.begin(), order.end(), 0u);
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
             return _vertices[a].source < _vertices[b].source;
@@ -70,7 +70,7 @@ public:
         result.state = state;
         for (std::uint32_t k = 0; k < order.size(); ++k) {
             const Vertex& vertex = _vertices[order[k]];
-            place[order[k]] = k;
+            newIndex[order[k]] = k;
             result.sourceVertex.push_back(vertex.source);
             result.drawn.push_back(vertex.drawn);
             if (_hasTexCoords) result.texCoords.push_back(vertex.texCoord);
@@ -79,7 +79,7 @@ public:
         std::stable_sort(_triangles.begin(), _triangles.end(),
                          [](const Triangle& a, const Triangle& b) { return a.face < b.face; });
         for (const Triangle& triangle : _triangles) {
-            for (const std::uint32_t v : triangle.vertices) result.triangles.push_back(place[v]);
+            for (const std::uint32_t v : triangle.vertices) result.triangles.push_back(newIndex[v]);
             result.sourceFace.push_back(triangle.face);
         }
         return result;
@@ -133,10 +133,10 @@ std::vector<glm::dvec3> Surface::normals(const Character& character) const {
     std::vector<glm::dvec3> result;
     result.reserve(drawn.size());
     for (const Drawn& at : drawn) {
-        const glm::dvec3 turned = osgSkin::toGlm(osg::Matrixd::transform3x3(
+        const glm::dvec3 normal = osgSkin::toGlm(osg::Matrixd::transform3x3(
             osg::Vec3d((*arrays[at.piece])[at.vertex]), matrices[at.piece]));
-        const double length = glm::length(turned);
-        result.push_back(length > 0.0 ? turned / length : glm::dvec3(0.0, 1.0, 0.0));
+        const double length = glm::length(normal);
+        result.push_back(length > 0.0 ? normal / length : glm::dvec3(0.0, 1.0, 0.0));
     }
     return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Character.h"
+#include <osgSkinCharacter/Character>
 
 #include <osg/StateSet>
 #include <osg/Vec2>
@@ -26,7 +26,7 @@ struct Surface {
     std::vector<std::uint32_t> sourceVertex; ///< of the mesh, one a vertex
     std::vector<Drawn> drawn;                ///< one a vertex
     std::vector<osg::Vec2> texCoords;        ///< one a vertex, from the lower left; or none
-    std::vector<osg::Vec4> colours;          ///< one a vertex, what a display takes; or none
+    std::vector<osg::Vec4> colours;          ///< one a vertex, sRGB; or none
     std::vector<std::uint32_t> triangles;    ///< three vertices each
     std::vector<std::uint32_t> sourceFace;   ///< of the mesh, one a triangle
 

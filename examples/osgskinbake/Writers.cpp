@@ -50,10 +50,10 @@ nlohmann::json poseJson(std::size_t frame, const osgSkin::Binding& binding,
                         const osgSkin::Pose& pose) {
     nlohmann::json joints = nlohmann::json::object();
     for (std::size_t j = 0; j < binding.joints.size(); ++j) {
-        const osgSkin::Pose::Turn& turn = pose.turn(j);
-        const glm::dquat& q = turn.rotation;
+        const osgSkin::JointTransform& transform = pose.transform(j);
+        const glm::dquat& q = transform.rotation;
         joints[binding.joints[j].name] = {{"rotation", {q.w, q.x, q.y, q.z}},
-                                          {"translation", array(turn.translation)}};
+                                          {"translation", array(transform.translation)}};
     }
     return {{"frame", frame}, {"joints", std::move(joints)}};
 }

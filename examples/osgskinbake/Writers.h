@@ -13,7 +13,7 @@ namespace bake {
 /// Joints in the product's order, and each vertex's region and ratios.
 nlohmann::json bindingJson(const osgSkin::Binding& binding);
 
-/// The joints' turns D_j of one frame.
+/// The joints' transforms D_j of one frame.
 nlohmann::json poseJson(std::size_t frame, const osgSkin::Binding& binding,
                         const osgSkin::Pose& pose);
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Arguments.h"
-#include "Character.h"
 #include "FrameWriter.h"
 #include "ObjWriter.h"
 #include "PosedMesh.h"
-#include "Progress.h"
-#include "Take.h"
+#include "ProgressLine.h"
+#include "SampledMotion.h"
 #include "Writers.h"
 
 #include <osgSkin/Error>
+#include <osgSkinCharacter/LoadCharacter>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -17,69 +18,87 @@
 namespace {
 
 using bake::Arguments;
-using bake::Take;
+using bake::SampledMotion;
 using bake::UsageError;
 using osgSkin::Character;
 
-Take chooseTake(Character& character, const Arguments& arguments) {
-    const std::vector<Take> takes = bake::takesOf(character, arguments.rate.value_or(30.0));
-    if (arguments.rate && character.clips.empty())
+SampledMotion chooseMotion(Character& character, const Arguments& arguments) {
+    const std::vector<SampledMotion> motions =
+        bake::sampledMotions(character, arguments.rate.value_or(30.0));
+    const bool hasOwn =
+        std::any_of(character.motions.begin(), character.motions.end(),
+                    [](const osgSkin::CharacterMotion& motion) { return !motion.isSampled(); });
+    if (arguments.rate && !hasOwn)
         throw UsageError{"--rate: " + arguments.character + " has no clips of its own; a motion " +
                          "file's own samples are baked"};
-    if (takes.empty())
+    if (motions.empty())
         throw UsageError{arguments.character + " has no motion, so there are no frames"};
-    if (arguments.motion.empty()) return takes.front();
+    if (arguments.motion.empty()) return motions.front();
     std::string known;
-    for (const Take& take : takes) {
-        if (take.name == arguments.motion) return take;
-        known += (known.empty() ? "\"" : ", \"") + take.name + "\"";
+    for (const SampledMotion& motion : motions) {
+        if (motion.name == arguments.motion) return motion;
+        known += (known.empty() ? "\"" : ", \"") + motion.name + "\"";
     }
     throw UsageError{"--motion: expected one of " + known + ", found \"" + arguments.motion + "\""};
 }
 
-bake::FrameRange chooseFrames(const Arguments& arguments, const Take& take) {
-    if (!arguments.frames) return {0, take.frames - 1, 1};
-    if (arguments.frames->last >= take.frames)
-        throw UsageError{"--frames: motion \"" + take.name + "\" has frames 0 to " +
-                         std::to_string(take.frames - 1) + ", found " +
+bake::FrameRange chooseFrames(const Arguments& arguments, const SampledMotion& motion) {
+    if (!arguments.frames) return {0, motion.frames - 1, 1};
+    if (arguments.frames->last >= motion.frames)
+        throw UsageError{"--frames: motion \"" + motion.name + "\" has frames 0 to " +
+                         std::to_string(motion.frames - 1) + ", found " +
                          std::to_string(arguments.frames->last)};
     return *arguments.frames;
 }
 
 void bakeFrames(const Arguments& arguments, Character& character) {
-    const Take take = chooseTake(character, arguments);
-    const bake::FrameRange range = chooseFrames(arguments, take);
+    const SampledMotion motion = chooseMotion(character, arguments);
+    const bake::FrameRange range = chooseFrames(arguments, motion);
     const std::size_t total = (range.last - range.first) / range.step + 1;
     if (total > 1 && !arguments.out.empty() && bake::FrameWriter::isSequence(arguments.out) &&
         !bake::hasNumber(arguments.out))
         throw UsageError{"--out: " + std::to_string(total) +
                          " frames need a %d in the name, found \"" + arguments.out + "\""};
-    const bake::FrameSeries series{&character, take.name, range.first, total,
-                                   take.frameTime * static_cast<double>(range.step)};
+    const bake::FrameSeries series{&character, motion.name, range.first, total,
+                                   motion.frameTime * static_cast<double>(range.step)};
     std::unique_ptr<bake::FrameWriter> writer;
     if (!arguments.out.empty()) writer = bake::FrameWriter::make(arguments.out, series);
-    bake::Progress progress("frame", total, arguments.quiet);
+    example::ProgressLine line("frames", arguments.quiet);
+    std::size_t done = 0;
     nlohmann::json poses = nlohmann::json::array();
     double seamGap = 0.0;
     for (std::size_t frame = range.first; frame <= range.last; frame += range.step) {
-        take.pose(frame);
+        line.show({std::to_string(done) + " of " + std::to_string(total),
+                   static_cast<double>(done) / static_cast<double>(total)});
+        motion.pose(frame);
         const bake::PosedMesh posed = bake::PosedMesh::read(character);
         seamGap = std::max(seamGap, posed.seamGap);
         if (writer) writer->add(frame, posed);
         if (!arguments.pose.empty())
             poses.push_back(bake::poseJson(frame, character.binding, bake::currentPose(character)));
-        progress.step();
+        ++done;
     }
     if (writer) writer->finish();
     if (!arguments.pose.empty()) bake::writeJson(arguments.pose, poses);
     if (!arguments.quiet)
-        std::cerr << total << " frames of \"" << take.name << "\", largest seam gap "
+        std::cerr << total << " frames of \"" << motion.name << "\", largest seam gap "
                   << seamGap / character.body.mesh.size() << " of the body's size\n"
-                  << take.notes << std::flush;
+                  << motion.notes << std::flush;
+}
+
+/// Reads a `.skin` file, or a rigged model, with or without `.skin` after its name.
+Character load(const std::string& file, bool quiet) {
+    example::ProgressLine line(file, quiet);
+    osgSkin::LoadOptions options;
+    options.progress = line.progress();
+    Character character = osgSkin::loadCharacter(file, options);
+    if (!character.hasBody())
+        throw osgSkin::Error(file + ": expected a .skin file, or a rigged model that Assimp reads");
+    return character;
 }
 
 int run(const Arguments& arguments) {
-    Character character = bake::loadCharacter(arguments.character, arguments.quiet);
+    Character character = load(arguments.character, arguments.quiet);
     if (!arguments.binding.empty())
         bake::writeJson(arguments.binding, bake::bindingJson(character.binding));
     if (!arguments.rest.empty())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Crowd.h"
 
-#include <osgSkin/DeformTogether>
+#include <osgSkin/ParallelDeformCallback>
 
 #include <osg/MatrixTransform>
 #include <osg/Timer>
@@ -24,26 +24,27 @@ Crowd::Crowd(const std::vector<SampledCharacter>& characters, std::size_t count,
         const std::size_t line = i / side;
         const double row = static_cast<double>(line);
         const double column = static_cast<double>(i % side) + (line % 2 == 0 ? 0.0 : 0.5);
-        const osg::Matrix place = osg::Matrix::translate(
+        const osg::Matrix transform = osg::Matrix::translate(
             static_cast<double>(width) * (column - 0.5 * static_cast<double>(side)),
             static_cast<double>(width) * (row - 0.5 * static_cast<double>(side)), 0.0);
-        _members.push_back(makeMember(characters[i % characters.size()], place, phase));
+        _members.push_back(makeMember(characters[i % characters.size()], transform, phase));
         phase += 37;
     }
     _scene->setUpdateCallback(this);
     // Nested in ours, which it therefore follows.
-    _scene->addUpdateCallback(new osgSkin::DeformTogether(pool));
+    _scene->addUpdateCallback(new osgSkin::ParallelDeformCallback(pool));
 }
 
-Crowd::Member Crowd::makeMember(const SampledCharacter& character, const osg::Matrix& place,
+Crowd::Member Crowd::makeMember(const SampledCharacter& character, const osg::Matrix& transform,
                                 std::size_t phase) {
     Member member{&character, phase, {}, {}};
-    const osg::ref_ptr<osg::MatrixTransform> stand = new osg::MatrixTransform(place);
+    const osg::ref_ptr<osg::MatrixTransform> stand = new osg::MatrixTransform(transform);
     for (const SampledCharacter::Skin& source : character.skins) {
         const osg::ref_ptr<osgSkin::DeformableSkin> skin =
             osg::clone(source.skin.get(), osg::CopyOp::SHALLOW_COPY);
         skin->setUpdateCallback(nullptr); // the crowd sets its pose
-        const osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(source.place);
+        const osg::ref_ptr<osg::MatrixTransform> upright =
+            new osg::MatrixTransform(source.toCharacter);
         upright->addChild(skin);
         stand->addChild(upright);
         member.skins.push_back(skin);

@@ -16,7 +16,7 @@
 /// its skin models.
 ///
 /// The update callback of its own scene: it sets the poses on the pool's threads, and with the same
-/// threads an osgSkin::DeformTogether deforms the skins that are in view.
+/// threads an osgSkin::ParallelDeformCallback deforms the skins that are in view.
 class Crowd : public osg::NodeCallback {
 public:
     /// \param characters at least one; they take turns. They must outlive the crowd.
@@ -40,7 +40,7 @@ private:
         std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins;
         std::vector<osg::ref_ptr<osg::MatrixTransform>> rigids;
     };
-    Member makeMember(const SampledCharacter& character, const osg::Matrix& place,
+    Member makeMember(const SampledCharacter& character, const osg::Matrix& transform,
                       std::size_t phase);
     static void pose(const Member& member, double time);
 

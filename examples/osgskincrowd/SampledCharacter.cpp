@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "SampledCharacter.h"
 
+#include "ProgressLine.h"
+
 #include <osgSkin/BoneReader>
 #include <osgSkin/RigidPart>
+#include <osgSkinCharacter/ProgressOption>
 
 #include <osg/NodeVisitor>
 #include <osgAnimation/BasicAnimationManager>
@@ -53,10 +56,18 @@ void updateTo(osg::Node& scene, double time, unsigned int frame) {
     scene.accept(update);
 }
 
+/// By osgDB, which also reads characters that were saved.
+osg::ref_ptr<osg::Node> readScene(const std::string& file) {
+    example::ProgressLine line(file);
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    osgSkin::setProgress(*options, line.progress());
+    return osgDB::readRefNodeFile(file, options);
+}
+
 } // namespace
 
 SampledCharacter::SampledCharacter(const std::string& file) {
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);
+    const osg::ref_ptr<osg::Node> scene = readScene(file);
     if (!scene) throw std::runtime_error(file + " cannot be read");
     FindParts found;
     scene->accept(found);
@@ -95,7 +106,7 @@ SampledCharacter::SampledCharacter(const std::string& file) {
         for (const Skin& skin : skins) {
             const osg::BoundingBox& local = skin.skin->getBoundingBox();
             for (unsigned int corner = 0; corner < 8; ++corner)
-                box.expandBy(local.corner(corner) * skin.place);
+                box.expandBy(local.corner(corner) * skin.toCharacter);
         }
     }
 }

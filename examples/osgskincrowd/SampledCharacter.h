@@ -20,7 +20,7 @@ struct SampledCharacter {
 
     struct Skin {
         osg::ref_ptr<osgSkin::DeformableSkin> skin;
-        osg::Matrix place;                            ///< to the character's space, upright
+        osg::Matrix toCharacter;                      ///< to the character's space, upright
         std::vector<std::vector<glm::dmat4>> samples; ///< [sample][joint], see BoneReader
     };
     struct Rigid {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "CompareFigure.h"
+
 #include "Drawing.h"
-#include "Figures.h"
 
 #include <glm/geometric.hpp>
 

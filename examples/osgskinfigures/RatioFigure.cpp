@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "RatioFigure.h"
+
 #include "Drawing.h"
-#include "Figures.h"
 #include "RatioPlot.h"
 
 #include <osgSkinBind/Bind>
@@ -32,7 +33,7 @@ public:
 
     bool holds(std::size_t vertex) const {
         const int region = int(_body.character.binding.regions[vertex]);
-        return _body.character.rig.isInSubtree(region, int(_shoulder));
+        return _body.character.rest.isInSubtree(region, int(_shoulder));
     }
 
     /// From the elbow, in forearms: down the forearm, or else up the upper arm (an elbow rests a
@@ -90,11 +91,11 @@ Tile picture(const Body& body, const Arm& arm, const RatioPlot& plot,
 /// Fig. 3a: only the method `paper` bends between boundaries; `smooth` is drawn beside it.
 Tile bendPicture(const Body& body, const Arm& arm) {
     const osgSkin::Character& character = body.character;
-    osgSkin::BindOptions options = character.file.bind;
+    osgSkin::BindOptions options = character.bindOptions;
     options.method = osgSkin::BindOptions::Method::Paper;
     osgSkin::BindReport report;
     const osgSkin::Binding printed =
-        osgSkin::bind(character.body.mesh, character.rig, options, &report);
+        osgSkin::bind(character.body.mesh, character.rest, options, &report);
     RatioPlot plot;
     plot.low = -0.8;
     plot.high = 0.8;
@@ -119,8 +120,8 @@ Tile twistPicture(const Body& body, const Arm& arm) {
     plot.high = 1.3;
     plot.axis = "0: elbow; 1: wrist; unit: the forearm's length";
     // The hand's boundaries are told from the wrist.
-    if (!character.report.boundaries.empty()) {
-        const auto& boundaries = character.report.boundaries[arm.hand];
+    if (!character.bindReport.boundaries.empty()) {
+        const auto& boundaries = character.bindReport.boundaries[arm.hand];
         if (boundaries.twistUpper && boundaries.twistLower) {
             plot.upper = 1.0 + *boundaries.twistUpper;
             plot.lower = 1.0 + *boundaries.twistLower;

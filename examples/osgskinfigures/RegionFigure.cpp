@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "RegionFigure.h"
+
 #include "Drawing.h"
-#include "Figures.h"
 
 #include <osg/BoundingBox>
 #include <osg/PolygonOffset>
@@ -20,7 +21,7 @@ constexpr int kHeight = 860;
 
 /// The seed's joint, or the rigid joint above it, whose region takes the seed in.
 std::size_t rigidOf(const Body& body, std::size_t vertex) {
-    const auto& report = body.character.report;
+    const auto& report = body.character.bindReport;
     int joint = report.seeds[vertex];
     const auto holds = [&](int j) {
         for (const auto& region : report.regions)
@@ -36,7 +37,7 @@ osg::ref_ptr<osg::Node> makeSeeds(const Body& body) {
     osg::ref_ptr<osg::Group> group = new osg::Group;
     std::map<std::size_t, std::vector<osg::Vec3>> points;
     for (std::size_t v = 0; v < body.rest().size(); ++v)
-        if (body.character.report.seeds[v] >= 0)
+        if (body.character.bindReport.seeds[v] >= 0)
             points[rigidOf(body, v)].push_back(toScene(body.toWorld(body.rest()[v])));
     for (const auto& [joint, places] : points)
         group->addChild(makeLines(places, osgSkin::regionColor(joint), GL_POINTS, 5.0f));
@@ -48,7 +49,7 @@ osg::ref_ptr<osg::Node> makeJoints(const Body& body, float radius) {
     osg::ref_ptr<osg::Group> joints = new osg::Group;
     joints->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     joints->getOrCreateStateSet()->setRenderBinDetails(5, "RenderBin");
-    for (const auto& region : body.character.report.regions) {
+    for (const auto& region : body.character.bindReport.regions) {
         if (region.vertices == 0) continue;
         const osg::Vec3 centre = toScene(body.toWorld(body.joint(body.find(region.joint)).centre));
         joints->addChild(makeBall(centre, radius, osg::Vec4(0.1f, 0.1f, 0.12f, 1.0f)));
@@ -78,7 +79,7 @@ Tile picture(const Body& body, const std::function<osg::Vec4(std::size_t)>& colo
 
 Tile regionFigure(const Body& body) {
     const auto& regions = body.character.binding.regions;
-    const osgSkin::BindReport& report = body.character.report;
+    const osgSkin::BindReport& report = body.character.bindReport;
     std::size_t seeds = 0;
     std::size_t count = 0;
     for (const auto& region : report.regions) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "SplitFigure.h"
+
 #include "Drawing.h"
-#include "Figures.h"
 
 #include <osg/Math>
 #include <osg/Matrix>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "ThrowFigure.h"
+
 #include "Drawing.h"
-#include "Figures.h"
 #include "Ground.h"
 
 #include <glm/common.hpp>
@@ -22,7 +23,7 @@ constexpr double kTo = 0.6;
 Tile throwFigure(Body& body) {
     osgSkin::Character& character = body.character;
     if (character.motions.empty())
-        throw std::runtime_error(character.file.file + ": expected a motion, for Fig. 4");
+        throw std::runtime_error(character.file + ": expected a motion, for Fig. 4");
     const osgSkin::Clip& clip = character.motions.front().clip;
     const osg::ref_ptr<osg::Group> scene = example::withShadow(character.root);
     const double size = character.body.mesh.size();

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "Body.h"
-#include "Figures.h"
+#include "CompareFigure.h"
+#include "RatioFigure.h"
+#include "RegionFigure.h"
+#include "SplitFigure.h"
+#include "ThrowFigure.h"
 
 #include <osgDB/FileUtils>
 

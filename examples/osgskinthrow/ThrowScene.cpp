@@ -4,11 +4,15 @@
 #include <osgSkin/AutoPlayManager>
 #include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/Bind>
-#include <osgSkinImport/Clip>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/Motion>
-#include <osgSkinImport/Prop>
-#include <osgSkinImport/Retarget>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Clip>
+#include <osgSkinRig/MakeAnimation>
+#include <osgSkinRig/MakeSkeleton>
+#include <osgSkinRig/Motion>
+#include <osgSkinRig/Prop>
+#include <osgSkinRig/Retarget>
 
 #include <osg/MatrixTransform>
 

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
     app.add_option("--data", data, "folder of thrower.obj, thrower.bvh and throw.bvh");
     app.add_option("--pictures", pictures, "write pictures to this folder; no window to look at");
     app.add_option("--count", count, "how many pictures")->check(CLI::Range(1u, 99u));
-    app.add_option("--from", from, "first picture's time, in shares of the throw's length")
+    app.add_option("--from", from, "first picture's time, as a fraction of the throw's length")
         ->check(CLI::Range(0.0, 1.0));
     app.add_option("--to", to, "last picture's time, the same")->check(CLI::Range(0.0, 1.0));
     try {

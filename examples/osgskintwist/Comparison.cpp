@@ -7,7 +7,8 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/Bind>
-#include <osgSkinImport/Clip>
+#include <osgSkinRig/Clip>
+#include <osgSkinRig/MakeSkeleton>
 
 #include <osgAnimation/BoneMapVisitor>
 #include <osgAnimation/UpdateBone>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgSkin/MeshPart>
-#include <osgSkin/SkinMesh>
+#include <osgSkinRig/MeshPart>
+#include <osgSkinRig/SkinMesh>
 
 #include <cstdint>
 #include <vector>

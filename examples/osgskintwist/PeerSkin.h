@@ -3,7 +3,7 @@
 
 #include "SkinWeights.h"
 
-#include <osgSkin/MeshPart>
+#include <osgSkinRig/MeshPart>
 
 #include <osg/Geometry>
 #include <osg/ref_ptr>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace viewer {
 namespace {
@@ -28,6 +29,11 @@ void changeSpeed(Clock& clock, double factor) {
         std::copysign(std::clamp(std::abs(clock.speed) * factor, 0.125, 8.0), clock.speed);
 }
 
+/// Whether a key shows what only a character with its mesh and binding has.
+bool needsBody(int key) {
+    return key > 0 && key < 128 && std::strchr("123gbtjJ", key) != nullptr;
+}
+
 } // namespace
 
 const char* keysHelp() {
@@ -46,6 +52,7 @@ const char* keysHelp() {
 bool press(Stage& stage, int key) {
     using figures::Method;
     Settings& settings = stage.settings;
+    if (needsBody(key) && !stage.hasBody()) return true;
     switch (key) {
     case ' ':
         toggle(stage.clock.playing);

@@ -4,12 +4,13 @@
 #include "Drawing.h"
 #include "Ground.h"
 #include "Keys.h"
+#include "StandingHeight.h"
 
 #include <osg/FrameStamp>
 #include <osg/NodeCallback>
 #include <osg/PolygonMode>
-#include <osg/Timer>
-#include <osgSkin/GlmOsg>
+#include <osg/Transform>
+#include <osgAnimation/Bone>
 #include <osgSkinBind/ShowRegions>
 
 #include <algorithm>
@@ -20,6 +21,7 @@
 namespace viewer {
 
 using figures::Method;
+using Timer = std::chrono::steady_clock;
 
 namespace {
 
@@ -63,6 +65,44 @@ osg::ref_ptr<osg::Geometry> makeBox(const osg::BoundingBox& box, const osg::Matr
     return figures::makeLines(points, osg::Vec4(0.95f, 0.8f, 0.3f, 1), GL_LINES, 1.5f);
 }
 
+/// The bones of a scene, as lines and points in its space.
+class BoneLines : public osg::NodeVisitor {
+public:
+    BoneLines() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Transform& node) override {
+        if (dynamic_cast<osgAnimation::Bone*>(&node) == nullptr) return traverse(node);
+        points.push_back(osg::Vec3() * osg::computeLocalToWorld(getNodePath()));
+        if (!_above.empty()) lines.insert(lines.end(), {_above.back(), points.back()});
+        _above.push_back(points.back());
+        traverse(node);
+        _above.pop_back();
+    }
+
+    std::vector<osg::Vec3> points, lines;
+
+private:
+    std::vector<osg::Vec3> _above;
+};
+
+/// The length of a figure, about: what its path takes is no part of it.
+double sizeOf(const Figure& figure) {
+    double result = 0.0;
+    for (const auto& skin : figure.skins)
+        result = std::max(result, 2.0 * static_cast<double>(skin->getBoundingBox().radius()));
+    return result > 0.0 ? result : 1.0;
+}
+
+/// How far apart a floor's lines are: the power of ten next to half a figure's size, a metre for a
+/// person in any unit.
+float lineSpacing(double size) {
+    return static_cast<float>(std::pow(10.0, std::round(std::log10(0.5 * size))));
+}
+
+double millisecondsSince(Timer::time_point start) {
+    return std::chrono::duration<double, std::milli>(Timer::now() - start).count();
+}
+
 } // namespace
 
 /// Runs after the character's own updates: it stands behind it in the scene.
@@ -80,26 +120,30 @@ private:
 };
 
 Stage::Stage(const std::string& character, const std::string& weights, int width, int height)
-    : _body(character, weights), _bones(_body.character.binding.joints, *_body.character.skeleton),
-      _root(new osg::Group), _study(new osg::Group), _lines(new osg::Group),
-      _boxes(new osg::Group) {
-    const osgSkin::Character& loaded = _body.character;
-    for (const auto& skin : loaded.skin.skins)
-        skin.drawable->setCullCallback(new HideSkin(_productShown));
-    for (const auto& rigid : loaded.skin.rigids)
-        rigid.node->setCullCallback(new Hide(_productShown));
+    : _file(character), _figure(character, weights), _root(new osg::Group), _study(new osg::Group),
+      _lines(new osg::Group), _boxes(new osg::Group), _floor(new osg::MatrixTransform) {
+    if (hasBody()) {
+        const osgSkin::Character& loaded = _figure.body->character;
+        _bones.emplace(loaded.binding.joints, *loaded.skeleton);
+        for (const auto& skin : loaded.skin.skins)
+            skin.drawable->setCullCallback(new HideSkin(_productShown));
+        for (const auto& rigid : loaded.skin.rigids)
+            rigid.node->setCullCallback(new Hide(_productShown));
+    }
     _study->setUpdateCallback(new Update(*this));
     _study->setCullingActive(false);
 
     const osg::ref_ptr<osg::Group> figure = new osg::Group;
-    figure->addChild(loaded.root);
+    figure->addChild(_figure.root);
     figure->addChild(_study);
-    _look = figure->getOrCreateStateSet();
-    const double size = loaded.body.mesh.size();
+    _state = figure->getOrCreateStateSet();
     const osg::ref_ptr<osg::Group> lit = figures::makeLit();
     lit->addChild(figure);
     _root->addChild(lit);
-    _root->addChild(example::makeFloor(static_cast<float>(5.0 * size)));
+    const double size = sizeOf(_figure);
+    const double reach = 5.0 * size + static_cast<double>(_figure.root->getBound().radius());
+    _floor->addChild(example::makeFloor(static_cast<float>(reach), lineSpacing(size)));
+    _root->addChild(_floor);
     _root->addChild(_lines);
     _root->addChild(_boxes);
 
@@ -114,35 +158,48 @@ Stage::Stage(const std::string& character, const std::string& weights, int width
     _lines->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     _lines->getOrCreateStateSet()->setRenderBinDetails(5, "RenderBin");
     changeJoint(1);
-    if (motionCount() > 0) clock = Clock(motionLength(0));
+    if (motionCount() > 0) clock = Clock(_figure.motion(0).getDuration());
+    placeFloor();
 }
 
-double Stage::motionLength(std::size_t index) const {
-    const osgSkin::Clip& clip = _body.character.motions[index].clip;
-    return clip.frameTime * static_cast<double>(clip.frames);
+void Stage::placeFloor() {
+    const osg::Vec3d centre = _figure.root->getBound().center();
+    const auto spacing = static_cast<double>(lineSpacing(sizeOf(_figure)));
+    // Moved along by whole squares: the origin stays where two lines cross.
+    _floor->setMatrix(osg::Matrix::translate(spacing * std::round(centre.x() / spacing),
+                                             spacing * std::round(centre.y() / spacing),
+                                             standingHeight(_figure, _motion)));
 }
 
 void Stage::setMotion(std::size_t index) {
     _motion = index % motionCount();
-    osgAnimation::BasicAnimationManager& manager = *_body.character.manager;
+    placeFloor();
+    osgAnimation::BasicAnimationManager& manager = *_figure.manager;
     manager.stopAll();
-    manager.playAnimation(manager.getAnimationList()[_motion]);
+    manager.playAnimation(&_figure.motion(_motion));
     _start = _given; // it starts at the time of the manager's last update
     const Clock before = clock;
-    clock = Clock(motionLength(_motion));
+    clock = Clock(_figure.motion(_motion).getDuration());
     clock.playing = before.playing;
     clock.speed = before.speed;
 }
 
 void Stage::setMotion(const std::string& name) {
     for (std::size_t i = 0; i < motionCount(); ++i)
-        if (_body.character.motions[i].clip.name == name) return setMotion(i);
-    throw std::runtime_error(_body.character.file.file + ": expected a motion called \"" + name +
-                             "\"");
+        if (_figure.motion(i).getName() == name) return setMotion(i);
+    throw std::runtime_error(_file + ": expected a motion called \"" + name + "\"");
+}
+
+void Stage::setJoint(const std::string& name) {
+    if (!hasBody())
+        throw std::runtime_error(_file + ": its ratios are not known, expected a .skin file or a "
+                                         "rigged model");
+    settings.joint = _figure.body->find(name);
 }
 
 void Stage::changeJoint(int step) {
-    const osgSkin::Binding& binding = _body.character.binding;
+    if (!hasBody()) return;
+    const osgSkin::Binding& binding = _figure.body->character.binding;
     std::vector<bool> followed(binding.joints.size());
     for (const osgSkin::Influence& i : binding.influences)
         if (i.joint > 0 && (i.bend < 1.0f || i.twist < 1.0f)) followed[i.joint] = true;
@@ -154,97 +211,90 @@ void Stage::changeJoint(int step) {
 }
 
 example::View Stage::view() const {
-    const osg::BoundingSphere& all = _body.character.root->getBound();
+    const osg::BoundingSphere& all = _figure.root->getBound();
     return {all.center() + osg::Vec3d(0.35, -0.95, 0.2) * (2.9 * all.radius()), all.center()};
 }
 
 osg::Vec4 Stage::colourOf(std::size_t vertex) const {
-    const osgSkin::Binding& binding = _body.character.binding;
+    const osgSkin::Binding& binding = _figure.body->character.binding;
     if (settings.colours == Colours::Regions) return osgSkin::regionColor(binding.regions[vertex]);
     if (settings.colours == Colours::Own) return figures::kSkin;
-    const osgSkin::Influence share = figures::influenceOf(binding, vertex, settings.joint);
+    const osgSkin::Influence ratios = figures::influenceOf(binding, vertex, settings.joint);
     return figures::ratioColour(
-        static_cast<double>(settings.colours == Colours::Bend ? share.bend : share.twist));
+        static_cast<double>(settings.colours == Colours::Bend ? ratios.bend : ratios.twist));
 }
 
-void Stage::updateFigure(const std::vector<glm::dmat4>& skinning) {
+void Stage::updateFigure() {
     _study->removeChildren(0, _study->getNumChildren());
     _productShown = settings.method == Method::Ours && settings.colours == Colours::Own;
-    const osg::ElapsedTime timer;
+    const Timer::time_point start = Timer::now();
     if (_productShown) {
-        for (const auto& skin : _body.character.skin.skins) skin.drawable->getDeformedGeometry();
-        _skinTime = timer.elapsedTime_m();
+        for (const auto& skin : _figure.skins) skin->getDeformedGeometry();
+        _skinTime = millisecondsSince(start);
         return;
     }
-    const std::vector<glm::dvec3> posed = _body.deform(settings.method, skinning);
-    _skinTime = timer.elapsedTime_m();
+    const std::vector<glm::dvec3> posed = _figure.body->deform(settings.method, _bones->read());
+    _skinTime = millisecondsSince(start);
     _study->addChild(
-        figures::makeSkin(_body, posed, [this](std::size_t v) { return colourOf(v); }));
+        figures::makeSkin(*_figure.body, posed, [this](std::size_t v) { return colourOf(v); }));
 }
 
-void Stage::updateSkeleton(const std::vector<glm::dmat4>& skinning) {
+void Stage::updateSkeleton() {
     _lines->removeChildren(0, _lines->getNumChildren());
     if (!settings.skeleton) return;
-    const auto& joints = _body.character.binding.joints;
-    std::vector<osg::Vec3> bones, places;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        places.push_back(figures::toScene(
-            _body.toWorld(glm::dvec3(skinning[j] * glm::dvec4(joints[j].centre, 1.0)))));
-        if (joints[j].parent < 0) continue;
-        bones.push_back(places[static_cast<std::size_t>(joints[j].parent)]);
-        bones.push_back(places.back());
-    }
-    _lines->addChild(figures::makeLines(bones, osg::Vec4(0.3f, 0.85f, 0.95f, 1), GL_LINES, 3.0f));
-    _lines->addChild(figures::makeLines(places, osg::Vec4(1, 1, 1, 1), GL_POINTS, 6.0f));
+    BoneLines bones;
+    _figure.root->accept(bones);
+    _lines->addChild(
+        figures::makeLines(bones.lines, osg::Vec4(0.3f, 0.85f, 0.95f, 1), GL_LINES, 3.0f));
+    _lines->addChild(figures::makeLines(bones.points, osg::Vec4(1, 1, 1, 1), GL_POINTS, 6.0f));
 }
 
 void Stage::updateBounds() {
     _boxes->removeChildren(0, _boxes->getNumChildren());
     if (!settings.bounds) return;
-    const osg::Matrix toWorld =
-        static_cast<osg::MatrixTransform&>(*_body.character.skeleton->getParent(0)).getMatrix();
-    for (const auto& skin : _body.character.skin.skins)
-        _boxes->addChild(makeBox(skin.drawable->getBoundingBox(), toWorld));
+    for (const auto& skin : _figure.skins)
+        for (const osg::NodePath& path : skin->getParentalNodePaths())
+            _boxes->addChild(makeBox(skin->getBoundingBox(), osg::computeLocalToWorld(path)));
 }
 
 void Stage::update() {
-    const osg::Timer_t now = osg::Timer::instance()->tick();
-    if (_lastFrame) {
-        const double last = osg::Timer::instance()->delta_m(_lastFrame, now);
+    if (_lastFrame != Timer::time_point()) {
+        const double last = millisecondsSince(_lastFrame);
         _frameTime = _frameTime > 0.0 ? 0.9 * _frameTime + 0.1 * last : last;
     }
-    _lastFrame = now;
+    _lastFrame = Timer::now();
 
-    const std::vector<glm::dmat4>& skinning = _bones.read();
-    updateFigure(skinning);
-    updateSkeleton(skinning);
+    updateFigure();
+    updateSkeleton();
     updateBounds();
     const osg::ref_ptr<osg::PolygonMode> mode =
         new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK,
                              settings.wireframe ? osg::PolygonMode::LINE : osg::PolygonMode::FILL);
-    _look->setAttribute(mode, osg::StateAttribute::OVERRIDE | osg::StateAttribute::ON);
+    _state->setAttribute(mode, osg::StateAttribute::OVERRIDE | osg::StateAttribute::ON);
     _help->setNodeMask(settings.help ? ~0u : 0u);
     _status->setNodeMask(settings.status ? ~0u : 0u);
-    char times[80];
-    std::snprintf(times, sizeof times, "\n%.1f ms a frame, the skin %.3f ms; h: keys", _frameTime,
-                  _skinTime);
     std::string text = summary();
     text.replace(text.find("; "), 2, "\n");
-    _status->setText(text + times);
+    _status->setText(text + "\n" + times() + "; h: keys");
+}
+
+std::string Stage::times() const {
+    char text[80];
+    std::snprintf(text, sizeof text, "%.1f ms a frame, the skin %.3f ms", _frameTime, _skinTime);
+    return text;
 }
 
 std::string Stage::summary() const {
-    const osgSkin::Character& character = _body.character;
-    char time[80] = "at rest";
+    char time[160] = "at rest";
     if (motionCount() > 0)
         std::snprintf(time, sizeof time, "%s %.2f of %.2f s, %s x%g",
-                      character.motions[_motion].clip.name.c_str(), clock.time(), clock.length(),
+                      _figure.motion(_motion).getName().c_str(), clock.time(), clock.length(),
                       clock.playing ? "playing" : "paused", clock.speed);
     std::string text = std::string(time) + "; " + nameOf(settings.method);
     if (settings.colours == Colours::Regions) text += "; regions";
     if (settings.colours == Colours::Bend || settings.colours == Colours::Twist)
         text += std::string(settings.colours == Colours::Bend ? "; bend" : "; twist") +
-                " ratios of " + character.binding.joints[settings.joint].name;
+                " ratios of " + _figure.body->character.binding.joints[settings.joint].name;
     if (settings.skeleton) text += "; skeleton";
     if (settings.wireframe) text += "; wireframe";
     if (settings.bounds) text += "; bounds";

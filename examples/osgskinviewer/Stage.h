@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINVIEWER_STAGE_H
+#define OSGSKINVIEWER_STAGE_H 1
 
-#include "Body.h"
 #include "Clock.h"
+#include "Figure.h"
 #include "Settings.h"
 #include "Snapshots.h"
 
 #include <osg/Group>
 #include <osg/MatrixTransform>
-#include <osg/Timer>
 #include <osgSkin/BoneReader>
 #include <osgText/Text>
 
+#include <chrono>
+#include <optional>
 #include <string>
 
 namespace viewer {
 
-/// The scene: a character as the `.skin` plug-in makes it, or in its place the same body deformed
-/// by a peer or coloured by what binding found; its skeleton, its bounds, and a line that says what
-/// is shown. One update traversal brings all of it to the simulation time that it is given.
+/// The scene: a character as loaded, or in its place the same body deformed by a peer or coloured
+/// by what binding found; its skeleton, its bounds, the floor under its feet, and a line that says
+/// what is shown. One update traversal brings all of it to the simulation time that it is given.
 class Stage {
 public:
     /// \throw std::exception where a file cannot be used
@@ -30,13 +32,16 @@ public:
     osg::Group* root() const { return _root.get(); }
     example::View view() const; ///< that shows all of the motion
 
-    std::size_t motionCount() const { return _body.character.motions.size(); }
+    std::size_t motionCount() const { return _figure.motionCount(); }
     std::size_t motion() const { return _motion; }
     void setMotion(std::size_t index);
     /// \throw std::runtime_error where there is none of that name
     void setMotion(const std::string& name);
     /// \throw std::runtime_error where there is none of that name
-    void setJoint(const std::string& name) { settings.joint = _body.find(name); }
+    void setJoint(const std::string& name);
+    /// Whether regions, ratios and the peers can be shown: not of a scene whose skins were bound
+    /// before.
+    bool hasBody() const { return _figure.body != nullptr; }
     /// Goes on to the next joint that skin follows in part, or to the one before.
     void changeJoint(int step);
 
@@ -44,30 +49,36 @@ public:
     double simulationTime() const { return _start + clock.time(); }
     /// The status line, without the times that differ from run to run.
     std::string summary() const;
+    /// How long the last frame and its skin took, milliseconds.
+    std::string times() const;
 
 private:
     class Update;
     void update();
-    double motionLength(std::size_t index) const;
-    void updateFigure(const std::vector<glm::dmat4>& skinning);
-    void updateSkeleton(const std::vector<glm::dmat4>& skinning);
+    void placeFloor();
+    void updateFigure();
+    void updateSkeleton();
     void updateBounds();
     osg::Vec4 colourOf(std::size_t vertex) const;
 
-    figures::Body _body;
-    osgSkin::BoneReader _bones;
+    std::string _file;
+    Figure _figure;
+    std::optional<osgSkin::BoneReader> _bones; ///< of the body
     std::size_t _motion = 0;
     double _start = 0.0;       ///< simulation time of the motion's beginning
     double _given = 0.0;       ///< the last simulation time that was given
     bool _productShown = true; ///< and not the body in its place
     double _skinTime = 0.0;    ///< milliseconds that this frame's skin took
     double _frameTime = 0.0;   ///< milliseconds from frame to frame, a mean of late
-    osg::Timer_t _lastFrame = 0;
+    std::chrono::steady_clock::time_point _lastFrame;
 
     osg::ref_ptr<osg::Group> _root, _study, _lines, _boxes;
-    osg::ref_ptr<osg::StateSet> _look;
+    osg::ref_ptr<osg::MatrixTransform> _floor;
+    osg::ref_ptr<osg::StateSet> _state; ///< of the figure
     osg::ref_ptr<osg::Node> _help;
     osg::ref_ptr<osgText::Text> _status;
 };
 
 } // namespace viewer
+
+#endif

@@ -40,7 +40,7 @@ int show(viewer::Stage& stage, const Size& size) {
 
 /// A picture of the start, then one after each of `keys`, with what each shows on stdout.
 void takePictures(viewer::Stage& stage, const std::string& keys, const std::string& folder,
-                  const Size& size) {
+                  const Size& size, bool times) {
     example::Snapshots snapshots(stage.root(), stage.view(), size.width, size.height);
     for (std::size_t i = 0; i <= keys.size(); ++i) {
         if (i > 0 && !viewer::press(stage, keys[i - 1]))
@@ -50,7 +50,7 @@ void takePictures(viewer::Stage& stage, const std::string& keys, const std::stri
             example::pictureName(folder, "viewer", static_cast<unsigned int>(i));
         snapshots.write(stage.simulationTime(), file);
         std::cout << file << ": " << (i > 0 ? std::string("'") + keys[i - 1] + "' " : "")
-                  << stage.summary() << std::endl;
+                  << stage.summary() << (times ? "; " + stage.times() : "") << std::endl;
     }
 }
 
@@ -65,8 +65,9 @@ int main(int argc, char** argv) {
     std::string weights, motion, joint, keys, pictures;
     Size size;
     double at = 0.0;
-    bool paused = false;
-    app.add_option("CHARACTER", character, "a .skin file");
+    bool paused = false, times = false;
+    app.add_option("CHARACTER", character,
+                   "a .skin file, a rigged model (.glb, .fbx, ...), or a scene (.osgb)");
     app.add_option("--weights", weights,
                    "painted weights (JSON) for the peers; without: from our ratios");
     app.add_option("--motion", motion, "name of the motion to start with");
@@ -77,6 +78,7 @@ int main(int argc, char** argv) {
     app.add_option("--pictures", pictures,
                    "write viewer_00.png, ... to this folder: no window to look at, but an X "
                    "display (Xvfb will do)");
+    app.add_flag("--times", times, "with --pictures: say how long each frame and its skin took");
     app.add_option("--width", size.width, "of the window, pixels")->check(CLI::Range(100, 8000));
     app.add_option("--height", size.height, "of the window, pixels")->check(CLI::Range(100, 8000));
     try {
@@ -91,7 +93,7 @@ int main(int argc, char** argv) {
         stage.clock.seek(at);
         stage.clock.playing = !paused;
         if (!pictures.empty()) {
-            takePictures(stage, keys, pictures, size);
+            takePictures(stage, keys, pictures, size, times);
             return 0;
         }
         for (const char key : keys) viewer::press(stage, key);

@@ -3,14 +3,15 @@
 #undef OBJECT_CAST
 #define OBJECT_CAST dynamic_cast
 
+#include "RegisterWrapper.h"
+
 #include <osgSkin/AutoPlayManager>
 
 #include <osgDB/InputStream>
-#include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 
-REGISTER_OBJECT_WRAPPER(osgSkin_AutoPlayManager, new osgSkin::AutoPlayManager,
-                        osgSkin::AutoPlayManager,
-                        "osg::Object osg::Callback osg::NodeCallback "
-                        "osgAnimation::AnimationManagerBase osgAnimation::BasicAnimationManager "
-                        "osgSkin::AutoPlayManager") {}
+REGISTER_OSGSKIN_WRAPPER(osgSkin_AutoPlayManager, new osgSkin::AutoPlayManager,
+                         osgSkin::AutoPlayManager,
+                         "osg::Object osg::Callback osg::NodeCallback "
+                         "osgAnimation::AnimationManagerBase osgAnimation::BasicAnimationManager "
+                         "osgSkin::AutoPlayManager") {}

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "RegisterWrapper.h"
 #include "RestGeometry.h"
+#include "SavedPose.h"
 
 #include <osgSkin/DeformableSkin>
 
 #include <osgDB/InputStream>
-#include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <exception>
@@ -29,7 +29,7 @@ bool checkSkin(const osgSkin::DeformableSkin& skin) {
 bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
     os << os.BEGIN_BRACKET << std::endl;
     os << skin.getRestGeometry();
-    os << skin.getSharedModel();
+    os << skin.getModel();
     os << os.END_BRACKET << std::endl;
     return true;
 }
@@ -37,13 +37,12 @@ bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
 bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     is >> is.BEGIN_BRACKET;
     const osg::ref_ptr<osg::Geometry> rest = is.readObjectOfType<osg::Geometry>();
-    const osg::ref_ptr<osgSkin::SharedSkinModel> model =
-        is.readObjectOfType<osgSkin::SharedSkinModel>();
+    const osg::ref_ptr<const osgSkin::SkinModel> model = is.readObjectOfType<osgSkin::SkinModel>();
     is >> is.END_BRACKET;
     if (is.getException()) return false;
     if (!rest) return fail(is, skin, "no rest geometry");
-    if (!model || !model->getModel()) return fail(is, skin, "no skin model");
-    const std::string wrong = whatIsWrongWith(*rest, model->getModel()->vertexCount());
+    if (!model) return fail(is, skin, "no skin model");
+    const std::string wrong = whatIsWrongWith(*rest, model->vertexCount());
     if (!wrong.empty()) return fail(is, skin, wrong);
     // osg::Node's part of the file has it already, and it need not be the geometry's.
     const osg::ref_ptr<osg::StateSet> stateSet = skin.getStateSet();
@@ -81,21 +80,14 @@ bool checkPose(const osgSkin::DeformableSkin& skin) {
     return skin.getModel() != nullptr;
 }
 
-/// Skinning matrices, from the joints' turns: what is seen before the first update moves the bones.
+/// Skinning matrices: what is seen before the first update moves the bones.
 bool writePose(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
-    const std::vector<osgSkin::BoundJoint>& joints = skin.getModel()->joints();
-    std::vector<glm::dmat4> skinning;
-    os.writeSize(static_cast<unsigned int>(joints.size()));
+    const std::vector<glm::dmat4> skinning = skinningOf(skin);
+    os.writeSize(static_cast<unsigned int>(skinning.size()));
     os << os.BEGIN_BRACKET << std::endl;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        const osgSkin::Pose::Turn& turn = skin.getPose().turn(j);
-        const glm::dmat4 own =
-            glm::translate(glm::dmat4(1.0), turn.offset) * glm::mat4_cast(turn.rotation);
-        skinning.push_back(joints[j].parent < 0
-                               ? own
-                               : skinning[static_cast<std::size_t>(joints[j].parent)] * own);
+    for (const glm::dmat4& matrix : skinning) {
         // Number by number: brackets around a matrix in a list are more than .osgx can nest.
-        for (int i = 0; i < 16; ++i) os << glm::value_ptr(skinning.back())[i];
+        for (int i = 0; i < 16; ++i) os << glm::value_ptr(matrix)[i];
         os << std::endl;
     }
     os << os.END_BRACKET << std::endl;
@@ -114,20 +106,26 @@ bool readPose(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     for (unsigned int j = 0; j < size; ++j) {
         glm::dmat4 matrix(0.0);
         for (int i = 0; i < 16; ++i) is >> glm::value_ptr(matrix)[i];
+        if (is.getException()) return false;
+        const std::string wrong = whatIsWrongWith(matrix);
+        if (!wrong.empty())
+            return fail(is, skin,
+                        "a pose whose joint \"" + skin.getModel()->joints()[j].name +
+                            "\" has a matrix " + wrong);
         skinning.push_back(matrix);
     }
     is >> is.END_BRACKET;
     if (is.getException()) return false;
     if (!skin.setPose(skinning.data(), skinning.size()))
-        return fail(is, skin, "a pose with a matrix that is no turn");
+        return fail(is, skin, "a pose with a matrix that is no transform");
     return true;
 }
 
 } // namespace
 
-REGISTER_OBJECT_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
-                        osgSkin::DeformableSkin,
-                        "osg::Object osg::Node osg::Drawable osgSkin::DeformableSkin") {
+REGISTER_OSGSKIN_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
+                         osgSkin::DeformableSkin,
+                         "osg::Object osg::Node osg::Drawable osgSkin::DeformableSkin") {
     ADD_BOOL_SERIALIZER(Eager, false);
     ADD_USER_SERIALIZER(Skin);
     ADD_USER_SERIALIZER(Tangents);

@@ -6,6 +6,7 @@ USE_SERIALIZER_WRAPPER(osgSkin_AutoPlayManager)
 USE_SERIALIZER_WRAPPER(osgSkin_DeformableSkin)
 USE_SERIALIZER_WRAPPER(osgSkin_RigidPart)
 USE_SERIALIZER_WRAPPER(osgSkin_SharedSkinModel)
+USE_SERIALIZER_WRAPPER(osgSkin_SkinModel)
 USE_SERIALIZER_WRAPPER(osgSkin_UpdateDeformableSkin)
 
 extern "C" void wrapper_serializer_library_osgSkin(void) {}

@@ -3,15 +3,16 @@
 #undef OBJECT_CAST
 #define OBJECT_CAST dynamic_cast
 
+#include "RegisterWrapper.h"
+
 #include <osgSkin/UpdateDeformableSkin>
 
 #include <osgDB/InputStream>
-#include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 
 // The bones are found again by their names.
-REGISTER_OBJECT_WRAPPER(osgSkin_UpdateDeformableSkin, new osgSkin::UpdateDeformableSkin,
-                        osgSkin::UpdateDeformableSkin,
-                        "osg::Object osg::Callback osgSkin::UpdateDeformableSkin") {
+REGISTER_OSGSKIN_WRAPPER(osgSkin_UpdateDeformableSkin, new osgSkin::UpdateDeformableSkin,
+                         osgSkin::UpdateDeformableSkin,
+                         "osg::Object osg::Callback osgSkin::UpdateDeformableSkin") {
     ADD_BOOL_SERIALIZER(UnwrapTwist, false);
 }

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Character.h"
-#include "RigCharacter.h"
+#include "KitCheck.h"
+#include "osgSkinBindBuild.h"
+#include "osgSkinBuild.h"
+#include "osgSkinCharacterBuild.h"
+#include "osgSkinImportBuild.h"
+#include "osgSkinRigBuild.h"
+
+#include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinCharacter/OptionString>
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
@@ -8,15 +15,16 @@
 #include <osgDB/Registry>
 
 #include <exception>
+#include <memory>
 
 /// Reads `.skin` files: a body, its skeleton and its motions, bound and playing. As a pseudo-loader
-/// it re-skins any rigged model: `model.glb.skin`.
+/// it re-skins any rigged model: `model.glb.skin`. All of it is osgSkin::loadCharacter().
 class ReaderWriterSkin : public osgDB::ReaderWriter {
 public:
     ReaderWriterSkin() {
         supportsExtension("skin", "osgSkin character: a mesh, a skeleton and motions");
         supportsExtension("*.skin", "pseudo-loader: any rigged model, re-skinned");
-        for (const auto& [option, meaning] : osgSkin::SkinOptions::list())
+        for (const auto& [option, meaning] : osgSkin::optionWords())
             supportsOption(option, meaning);
     }
 
@@ -29,27 +37,23 @@ public:
     ReadResult readNode(const std::string& file, const Options* options) const override {
         if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file)))
             return ReadResult::FILE_NOT_HANDLED;
+        const bool namesAModel =
+            !osgDB::getFileExtension(osgDB::getNameLessExtension(file)).empty();
+        if (!namesAModel && osgDB::findDataFile(file, options).empty())
+            return ReadResult::FILE_NOT_FOUND;
         try {
-            const osgSkin::SkinOptions wanted = osgSkin::SkinOptions::parse(options);
-            const std::string found = osgDB::findDataFile(file, options);
-            if (found.empty()) return readRigged(file, options, wanted);
-            osgSkin::Character character = osgSkin::Character::load(found, options, wanted);
-            // Bounds and pictures taken before the first update show the motion's first pose.
-            if (!character.motions.empty()) character.pose(character.motions.front(), 0);
-            return character.root.get();
+            return osgSkin::loadCharacter(file, osgSkin::toLoadOptions(options)).root.get();
         } catch (const std::exception& error) {
             return ReadResult(error.what());
         }
     }
-
-private:
-    /// `model.glb.skin`, where there is no such file: model.glb, re-skinned.
-    static ReadResult readRigged(const std::string& file, const Options* options,
-                                 const osgSkin::SkinOptions& wanted) {
-        const std::string model = osgDB::getNameLessExtension(file);
-        if (osgDB::getFileExtension(model).empty()) return ReadResult::FILE_NOT_FOUND;
-        return osgSkin::loadRigCharacter(model, options, wanted).get();
-    }
 };
 
-REGISTER_OSGPLUGIN(skin, ReaderWriterSkin)
+// As REGISTER_OSGPLUGIN, but only beside the libraries that it was built with.
+extern "C" void osgdb_skin(void) {}
+static const auto g_proxy =
+    plugin::mayUse("osgdb_skin", {OSGSKIN_KIT_BUILD(osgSkin), OSGSKIN_KIT_BUILD(osgSkinRig),
+                                  OSGSKIN_KIT_BUILD(osgSkinBind), OSGSKIN_KIT_BUILD(osgSkinImport),
+                                  OSGSKIN_KIT_BUILD(osgSkinCharacter)})
+        ? std::make_unique<osgDB::RegisterReaderWriterProxy<ReaderWriterSkin>>()
+        : nullptr;

@@ -6,8 +6,12 @@
 #include <osgSkin/BoneReader>
 #include <osgSkinBind/Bind>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/Motion>
-#include <osgSkinImport/Retarget>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/ApplyFrame>
+#include <osgSkinRig/MakeSkeleton>
+#include <osgSkinRig/Motion>
+#include <osgSkinRig/Retarget>
 
 #include <glm/geometric.hpp>
 
@@ -149,7 +153,7 @@ Body refine(const Body& coarse, std::uint32_t parts) {
 
 } // namespace
 
-std::shared_ptr<const osgSkin::SkinModel> Body::model() const {
+osg::ref_ptr<const osgSkin::SkinModel> Body::model() const {
     std::vector<std::uint32_t> source(positions.size());
     for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
     return osgSkin::SkinModel::create(binding, positions, normals, source);

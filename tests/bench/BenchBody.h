@@ -4,9 +4,9 @@
 #include "PaintedWeights.h"
 
 #include <osgSkin/Binding>
-#include <osgSkin/RestSkeleton>
 #include <osgSkin/SkinModel>
-#include <osgSkinImport/Clip>
+#include <osgSkinRig/Clip>
+#include <osgSkinRig/RestSkeleton>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -31,7 +31,7 @@ struct Body {
     /// Skinning matrices of every sample of the clip, [frame][joint].
     std::vector<std::vector<glm::dmat4>> skinning;
 
-    std::shared_ptr<const osgSkin::SkinModel> model() const;
+    osg::ref_ptr<const osgSkin::SkinModel> model() const;
 
     /// Mean number of joints that a vertex follows in part: what the deformation's cost depends on.
     double partialPerVertex() const;

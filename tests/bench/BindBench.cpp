@@ -5,7 +5,8 @@
 
 #include <osgSkinBind/Bind>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/Motion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Motion>
 
 #include <benchmark/benchmark.h>
 

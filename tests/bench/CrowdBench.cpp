@@ -34,7 +34,7 @@ struct Crowd {
         }
     }
 
-    std::shared_ptr<const osgSkin::SkinModel> model;
+    osg::ref_ptr<const osgSkin::SkinModel> model;
     std::vector<osgSkin::Pose> poses;
     std::vector<std::vector<glm::vec3>> outputs[2];
     std::vector<osgSkin::DeformJob> jobs;

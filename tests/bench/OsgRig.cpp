@@ -2,6 +2,8 @@
 #include "OsgRig.h"
 
 #include <osgSkin/GlmOsg>
+#include <osgSkinRig/ApplyFrame>
+#include <osgSkinRig/MakeSkeleton>
 
 #include <osgAnimation/RigTransformSoftware>
 

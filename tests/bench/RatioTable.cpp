@@ -7,6 +7,7 @@
 namespace bench {
 
 double RatioTable::Row::median() const {
+    if (seconds.empty()) return reportedMedian;
     std::vector<double> sorted = seconds;
     std::sort(sorted.begin(), sorted.end());
     const std::size_t middle = sorted.size() / 2;
@@ -22,21 +23,26 @@ const RatioTable::Row* RatioTable::find(const std::string& what, const std::stri
 void RatioTable::ReportRuns(const std::vector<Run>& runs) {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
-        if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+        const bool isMedian = run.run_type == Run::RT_Aggregate && run.aggregate_name == "median";
+        if ((run.run_type != Run::RT_Iteration && !isMedian) || run.error_occurred) continue;
         const std::string& name = run.run_name.function_name;
         const std::size_t slash = name.rfind('/');
         if (slash == std::string::npos) continue;
         const std::string what = name.substr(0, slash), size = name.substr(slash + 1);
         auto row = std::find_if(_rows.begin(), _rows.end(),
                                 [&](const Row& r) { return r.what == what && r.size == size; });
-        if (row == _rows.end()) row = _rows.insert(row, Row{what, size, 0.0, {}});
+        if (row == _rows.end()) row = _rows.insert(row, Row{what, size, 0.0, {}, 0.0});
         const auto vertices = run.counters.find("vertices");
         if (vertices != run.counters.end()) row->vertices = vertices->second;
         // Processor time, which other programs on the machine disturb less; a benchmark that keeps
         // its own time measures the same.
         const bool manual = !run.run_name.time_type.empty();
-        row->seconds.push_back((manual ? run.real_accumulated_time : run.cpu_accumulated_time) /
-                               static_cast<double>(run.iterations));
+        const double seconds = (manual ? run.real_accumulated_time : run.cpu_accumulated_time) /
+                               static_cast<double>(run.iterations);
+        if (isMedian)
+            row->reportedMedian = seconds;
+        else
+            row->seconds.push_back(seconds);
     }
 }
 

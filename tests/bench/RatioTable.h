@@ -24,7 +24,8 @@ private:
     struct Row {
         std::string what, size;
         double vertices = 0.0;
-        std::vector<double> seconds;
+        std::vector<double> seconds; ///< of each repetition
+        double reportedMedian = 0.0; ///< where only aggregates are reported
         double median() const;
     };
     const Row* find(const std::string& what, const std::string& size) const;

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The README's example as a program, against an installed osgSkin: the skin must follow the motion.
+// The README's example as a program, and a character in one call, against an installed osgSkin: the
+// skin must follow the motion.
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/DeformableSkin>
 #include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/Bind>
-#include <osgSkinImport/Clip>
+#include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/Motion>
-#include <osgSkinImport/Retarget>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/MakeAnimation>
+#include <osgSkinRig/MakeSkeleton>
+#include <osgSkinRig/Retarget>
 
 #include <osgUtil/UpdateVisitor>
 
@@ -32,6 +36,12 @@ int main(int argc, char** argv) {
     const std::string folder = argv[1];
 #include "readme.inc"
     skeleton->addUpdateCallback(manager);
+
+    const osgSkin::Character character = osgSkin::loadCharacter(folder + "/thrower.skin");
+    const osgSkin::DeformableSkin& loaded = *character.skin.skins.front().drawable;
+    if (lastVertexAt(0.5, *character.root, loaded) == lastVertexAt(1.0, *character.root, loaded))
+        return 1;
+
     for (unsigned int i = 0; i < skeleton->getNumChildren(); ++i)
         if (const auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(skeleton->getChild(i))) {
             const osg::Vec3 moved =

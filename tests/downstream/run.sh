@@ -34,7 +34,7 @@ cmake --build "$folder/project" >"$folder/build.txt"
 "$folder/project/downstream" "$source/data"
 
 echo "A component that is none is refused"
-sed 's/osgSkinBind osgSkinImport)$/osgSkinNone)/' "$source/tests/downstream/CMakeLists.txt" \
+sed 's/COMPONENTS osgSkinCharacter)$/COMPONENTS osgSkinNone)/' "$source/tests/downstream/CMakeLists.txt" \
   >"$folder/CMakeLists.txt"
 cp "$source/tests/downstream/main.cpp" "$folder"
 cmake -S "$folder" -B "$folder/none" -DCMAKE_PREFIX_PATH="$prefix" >"$folder/none.txt" 2>&1 &&
@@ -47,7 +47,7 @@ cat >"$folder/runtime.cpp" <<'CODE'
 int main() { return osg::ref_ptr<osgSkin::DeformableSkin>(new osgSkin::DeformableSkin)->getEager(); }
 CODE
 export PKG_CONFIG_PATH="$lib/pkgconfig"
-for kit in osgSkin osgSkinBind osgSkinImport; do pkg-config --print-errors --exists "$kit"; done
+for kit in osgSkin osgSkinRig osgSkinBind osgSkinImport osgSkinCharacter; do pkg-config --print-errors --exists "$kit"; done
 # shellcheck disable=SC2046 # options, one a word
 c++ -std=c++17 "$folder/runtime.cpp" -o "$folder/runtime" \
   $(pkg-config --cflags --libs osgSkin openscenegraph) -Wl,-rpath,"$lib"

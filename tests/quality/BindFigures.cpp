@@ -35,11 +35,6 @@ double farRegions(const Subject& subject) {
     return static_cast<double>(far) / static_cast<double>(subject.rest.size());
 }
 
-bool isPartial(const osgSkin::Influence& i) {
-    const auto inside = [](float a) { return a > 0.0f && a < 1.0f; };
-    return inside(i.bend) || inside(i.twist) || i.bend != i.twist;
-}
-
 } // namespace
 
 BindFigures measureBinding(const Subject& subject) {
@@ -50,7 +45,8 @@ BindFigures measureBinding(const Subject& subject) {
     for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
         const auto begin = binding.influences.begin() + binding.firstInfluence[v];
         const auto end = binding.influences.begin() + binding.firstInfluence[v + 1];
-        const auto count = static_cast<std::size_t>(std::count_if(begin, end, isPartial));
+        const auto count = static_cast<std::size_t>(std::count_if(
+            begin, end, [](const osgSkin::Influence& influence) { return influence.isPartial(); }));
         figures.mostInfluences = std::max(figures.mostInfluences, count);
         sum += count;
     }

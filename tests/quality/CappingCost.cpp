@@ -20,7 +20,7 @@ CappingCost measureCapping(const Subject& subject, const std::vector<NamedPose>&
     if (!subject.options) return cost; // by weights
     Subject free = subject;
     osgSkin::BindOptions options = *subject.options;
-    options.mostPartialJoints = osgSkin::BindOptions::kMostPartialJoints;
+    options.maxPartialInfluences = osgSkin::SkinModel::kMaxPartialInfluences;
     free.binding = osgSkin::bind(free.mesh, free.rig, options);
     free.model = modelOf(free);
     const PoseFigures uncapped = measureOurs(free, poses);

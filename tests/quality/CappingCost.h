@@ -15,7 +15,8 @@ struct CappingCost {
     std::string figure; ///< where that is
 };
 
-/// \param capped, wrist the subject's own figures
+/// \param capped the subject's own figures
+/// \param wrist the subject's own, too
 CappingCost measureCapping(const Subject& subject, const std::vector<NamedPose>& poses,
                            const PoseFigures& capped, const std::vector<WristTwist>& wrist);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Continuity.h"
 
+#include <osgSkin/GlmMath>
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -53,8 +55,7 @@ Continuity measureContinuity(const Subject& subject) {
     Continuity result;
     for (std::size_t j = 1; j < subject.rig.joints.size(); ++j) {
         const glm::dvec3& pole = subject.binding.joints[j].twistAxis;
-        const glm::dvec3 other = std::abs(pole.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-        const glm::dvec3 side = glm::normalize(glm::cross(pole, other));
+        const glm::dvec3 side = osgSkin::anyPerpendicular(pole);
         sweep(subject, j, side, result.bend);
         sweep(subject, j, glm::cross(pole, side), result.bend);
         sweep(subject, j, pole, result.twist);

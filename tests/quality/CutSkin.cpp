@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "CrossSections.h"
+#include "CutSkin.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,9 +3,7 @@
 
 #include "Methods.h"
 
-#include <nlohmann/json.hpp>
-
-#include <ostream>
+#include <vector>
 
 namespace quality {
 
@@ -24,8 +22,5 @@ std::vector<CylinderPose> measureCylinder();
 /// Area kept in every twist, volume kept in bends up to 120 degrees: the figures with limits.
 double leastTwistArea(const std::vector<CylinderPose>& poses);
 double mostVolumeError(const std::vector<CylinderPose>& poses);
-
-void printTable(const std::vector<CylinderPose>& poses, std::ostream& out);
-nlohmann::ordered_json toJson(const std::vector<CylinderPose>& poses);
 
 } // namespace quality

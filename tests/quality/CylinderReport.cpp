@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "CylinderFigures.h"
+#include "CylinderReport.h"
+
 #include "Format.h"
 
 namespace quality {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "Report.h"
+#include "Json.h"
+
+#include "Bars.h"
 
 namespace quality {
 namespace {

@@ -25,7 +25,8 @@ PosedSkin deformOurs(const Subject& subject, const std::vector<glm::dmat4>& skin
     job.positionCount = posed.size();
     job.normals = withNormals ? normals.data() : nullptr;
     job.normalCount = normals.size();
-    if (!job.run()) throw std::runtime_error(job.validate());
+    job.validate();
+    job.run();
     return {{posed.begin(), posed.end()}, {normals.begin(), normals.end()}};
 }
 

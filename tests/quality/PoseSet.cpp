@@ -2,8 +2,11 @@
 #include "PoseSet.h"
 
 #include <osgSkin/BoneReader>
-#include <osgSkinImport/Motion>
-#include <osgSkinImport/Retarget>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinRig/ApplyFrame>
+#include <osgSkinRig/MakeSkeleton>
+#include <osgSkinRig/Motion>
+#include <osgSkinRig/Retarget>
 
 #include <iterator>
 #include <map>

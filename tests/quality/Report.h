@@ -4,15 +4,12 @@
 #include "BindFigures.h"
 #include "CappingCost.h"
 #include "Continuity.h"
-#include "Format.h"
 #include "PoseFigures.h"
 #include "Rigidity.h"
 #include "WristTwist.h"
 
-#include <nlohmann/json.hpp>
-
 #include <optional>
-#include <ostream>
+#include <string>
 
 namespace quality {
 
@@ -27,11 +24,5 @@ struct Report {
     BindFigures binding;
     CappingCost capping;
 };
-
-/// The limits that hold for every body with default settings.
-std::vector<Bar> bars(const Report& report);
-
-void printTable(const Report& report, std::ostream& out);
-nlohmann::ordered_json toJson(const Report& report);
 
 } // namespace quality

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "Subject.h"
 
-#include <WeightsFile.h>
 #include <osgSkinBind/Bind>
+#include <osgSkinCharacter/ReadWeights>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/Motion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Motion>
 
 #include <glm/geometric.hpp>
 
@@ -70,7 +71,7 @@ Subject loadSubject(const SubjectFiles& files) {
     return subject;
 }
 
-std::shared_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject) {
+osg::ref_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject) {
     const compare::Points& rest = subject.rest;
     std::vector<std::uint32_t> source(rest.size());
     std::iota(source.begin(), source.end(), 0u);

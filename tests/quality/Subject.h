@@ -4,11 +4,11 @@
 #include <SkinMeasures.h>
 #include <SkinWeights.h>
 #include <osgSkin/Binding>
-#include <osgSkin/RestSkeleton>
-#include <osgSkin/SkinMesh>
 #include <osgSkin/SkinModel>
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/BindReport>
+#include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/SkinMesh>
 
 #include <memory>
 #include <optional>
@@ -38,7 +38,7 @@ struct Subject {
     /// The skin that is measured: corners name the first of the vertices that share a position.
     std::vector<std::uint32_t> triangles;
     std::vector<compare::Edge> edges;
-    std::shared_ptr<const osgSkin::SkinModel> model; ///< one vertex for each of the mesh
+    osg::ref_ptr<const osgSkin::SkinModel> model; ///< one vertex for each of the mesh
 
     /// Index of the joint of that name in any of the usual rigs ("LeftForeArm" is "lowerarm_l"
     /// elsewhere), -1 where there is none.
@@ -52,7 +52,7 @@ struct Subject {
 Subject loadSubject(const SubjectFiles& files);
 
 /// The model of the subject's binding.
-std::shared_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject);
+osg::ref_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject);
 
 /// A posed skin with the normals that its method gives.
 struct PosedSkin {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Measures deformed bodies: ours beside linear blending and dual quaternions with painted weights.
-#include "CylinderFigures.h"
-#include "Report.h"
+#include "Bars.h"
+#include "CylinderReport.h"
+#include "Json.h"
+#include "Table.h"
 
 #include <CLI/CLI.hpp>
 

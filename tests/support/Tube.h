@@ -40,7 +40,7 @@ struct Tube {
             }
     }
 
-    std::shared_ptr<const osgSkin::SkinModel> model() const {
+    osg::ref_ptr<const osgSkin::SkinModel> model() const {
         return osgSkin::SkinModel::create(binding, positions, normals, source);
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a .skin file may ask for beside the default way to find ratios.
-#include "Character.h"
+
+#include <osgSkinCharacter/LoadCharacter>
 
 #include <gtest/gtest.h>
 
@@ -28,19 +29,20 @@ void expectBend(const Character& character, const std::function<double(double)>&
 } // namespace
 
 TEST(BindMethod, WeightsGivesTheRatiosOfTheFile) {
-    expectBend(Character::load(OSGSKIN_TEST_DATA "/character/painted.skin"),
+    expectBend(osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/painted.skin"),
                [](double height) { return std::clamp(height - 1.5, 0.0, 1.0); });
 }
 
 TEST(BindMethod, WeightsAreReported) {
-    const Character character = Character::load(OSGSKIN_TEST_DATA "/character/painted.skin");
-    EXPECT_EQ(character.report.vertices, 56u);
-    EXPECT_EQ(character.report.regions.size(), 2u);
-    EXPECT_TRUE(character.report.notes.empty()) << character.report.text();
+    const Character character = osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/painted.skin");
+    EXPECT_EQ(character.bindReport.vertices, 56u);
+    EXPECT_EQ(character.bindReport.regions.size(), 2u);
+    EXPECT_TRUE(character.bindReport.notes.empty()) << character.bindReport.text();
 }
 
 TEST(BindMethod, WeightsMayBeTheMeshsOwn) {
-    const Character character = Character::load(OSGSKIN_TEST_DATA "/character/mesh_weights.skin");
+    const Character character =
+        osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/mesh_weights.skin");
     const osgSkin::Binding& binding = character.binding;
     ASSERT_EQ(binding.vertexCount(), 36u);
     for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
@@ -53,8 +55,9 @@ TEST(BindMethod, WeightsMayBeTheMeshsOwn) {
 }
 
 TEST(BindMethod, PaperGivesEquation5BetweenTheFilesBoundaries) {
-    expectBend(Character::load(OSGSKIN_TEST_DATA "/character/printed.skin"), [](double height) {
-        const double t = std::clamp((height - 1.0) / 2.0, 0.0, 1.0);
-        return t * t * (3.0 - 2.0 * t);
-    });
+    expectBend(osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/printed.skin"),
+               [](double height) {
+                   const double t = std::clamp((height - 1.0) / 2.0, 0.0, 1.0);
+                   return t * t * (3.0 - 2.0 * t);
+               });
 }

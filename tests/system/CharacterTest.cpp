@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The whole scene as the plug-in builds it: parts, seams, and a pose that a person could be in.
-#include "Character.h"
 #include "CharacterFiles.h"
 #include "Command.h"
 #include "DrawnSkin.h"
@@ -8,6 +7,7 @@
 #include <osg/TriangleIndexFunctor>
 #include <osgAnimation/BoneMapVisitor>
 #include <osgSkin/GlmOsg>
+#include <osgSkinCharacter/LoadCharacter>
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ protected:
     void SetUp() override {
         std::string why;
         if (!test::isAvailable(GetParam(), why)) GTEST_SKIP() << why;
-        character = Character::load(test::skinFile(GetParam(), test::makeTestFolder()));
+        character = osgSkin::loadCharacter(test::skinFile(GetParam(), test::makeTestFolder()));
     }
 
     void setFrame(std::size_t frame) { character.pose(character.motions.front(), frame); }

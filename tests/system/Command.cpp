@@ -32,9 +32,13 @@ std::string makeTestFolder() {
 }
 
 CommandResult runBake(const std::string& arguments, const std::string& folder) {
-    const std::string command = "cd '" + folder + "' && '" OSGSKIN_BAKE "' " + arguments +
-                                " >stdout.txt 2>stderr.txt </dev/null";
-    const int status = std::system(command.c_str()); // NOLINT(cert-env33-c): our own arguments
+    return runCommand("'" OSGSKIN_BAKE "' " + arguments, folder);
+}
+
+CommandResult runCommand(const std::string& command, const std::string& folder) {
+    const std::string whole =
+        "cd '" + folder + "' && " + command + " >stdout.txt 2>stderr.txt </dev/null";
+    const int status = std::system(whole.c_str()); // NOLINT(cert-env33-c): our own arguments
     CommandResult result;
     if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
     result.out = readFile(folder + "/stdout.txt");

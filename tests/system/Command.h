@@ -12,6 +12,9 @@ struct CommandResult {
     std::string err;
 };
 
+/// Runs a shell's command in `folder`.
+CommandResult runCommand(const std::string& command, const std::string& folder);
+
 /// Runs osgskinbake with `arguments` (a shell would split them) in `folder`.
 CommandResult runBake(const std::string& arguments, const std::string& folder);
 

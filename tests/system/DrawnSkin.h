@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "Character.h"
+#include <osgSkinCharacter/Character>
 
 #include <osg/Array>
 #include <osg/Matrixd>

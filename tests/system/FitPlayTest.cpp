@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Motions on bodies whose skeleton was fitted: they play, and the skin holds together.
-#include "Character.h"
 #include "Command.h"
 #include "DrawnSkin.h"
+
+#include <osgSkinCharacter/LoadCharacter>
 
 #include <glm/geometric.hpp>
 
@@ -77,7 +78,7 @@ protected:
                             << R"(", "skeleton": { "fit": true }, "motions": [ { "file": ")"
                             << motionFile(GetParam()) << R"(", "skipFrames": )"
                             << GetParam().skipFrames << " } ] }";
-        return Character::load(file);
+        return osgSkin::loadCharacter(file);
     }
 };
 
@@ -85,9 +86,9 @@ protected:
 
 TEST_P(FitPlay, SkinHoldsTogether) {
     Character character = load();
-    ASSERT_EQ(character.rig.joints.size(), 31u);
+    ASSERT_EQ(character.rest.joints.size(), 31u);
     EXPECT_EQ(character.fitReport.joints.size(), 31u);
-    const Character::Motion& motion = character.motions.front();
+    const osgSkin::CharacterMotion& motion = character.motions.front();
     for (const auto& entry : motion.report.entries)
         EXPECT_FALSE(entry.motionJoint.empty()) << entry.rigJoint;
     const std::size_t step = std::max<std::size_t>(1, motion.clip.frames / 24);
@@ -118,8 +119,8 @@ TEST(FitPlayThrower, ThrowsAsItDoesWithItsOwnSkeleton) {
     std::ofstream(file) << R"({ "osgskin": 1, "mesh": ")" OSGSKIN_DATA
                            R"(/thrower.obj", "skeleton": { "fit": true },
                               "motions": [ { "file": ")" OSGSKIN_DATA R"(/throw.bvh" } ] })";
-    Character fitted = Character::load(file);
-    Character own = Character::load(OSGSKIN_DATA "/thrower.skin");
+    Character fitted = osgSkin::loadCharacter(file);
+    Character own = osgSkin::loadCharacter(OSGSKIN_DATA "/thrower.skin");
     for (std::size_t frame = 0; frame < 360; frame += 30) {
         fitted.pose(fitted.motions.front(), frame);
         own.pose(own.motions.front(), frame);

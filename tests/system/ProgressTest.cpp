@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Who loads a character through osgDB can be told how far it has come.
-#include "LoadSteps.h"
+// Who loads a character can be told how far it has come; nothing but our programs prints it.
+#include "ProgressLine.h"
 
-#include <osgSkinImport/LoadProgress>
+#include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinCharacter/ProgressOption>
 
 #include <osgDB/ReadFile>
 
@@ -21,39 +22,50 @@
 
 namespace {
 
-struct Recorder : osgSkin::LoadProgress {
-    void step(const std::string& file, const std::string& what, std::size_t done,
-              std::size_t total) override {
-        if (what == giveUpAt) throw std::runtime_error("given up");
-        EXPECT_FALSE(file.empty());
-        steps.push_back(what);
-        dones.push_back(done);
-        totals.push_back(total);
+using Strings = std::vector<std::string>;
+
+/// Keeps what it is told, and may cancel.
+struct Recorder {
+    osgSkin::Progress progress() {
+        return [this](const osgSkin::ProgressStep& step) {
+            if (step.what == cancelAt) throw std::runtime_error("cancelled");
+            whats.push_back(step.what);
+            fractions.push_back(step.fraction);
+        };
     }
-    void within(const std::string&, const std::string& what, double share) override {
-        if (what == giveUpAt) throw std::runtime_error("given up");
-        parts.push_back(what);
-        shares.push_back(share);
+    /// The stages: what is told without a colon in it.
+    Strings stages() const {
+        Strings result;
+        for (const std::string& what : whats)
+            if (what.find(": ") == std::string::npos) result.push_back(what);
+        return result;
     }
-    std::string giveUpAt;
-    std::vector<std::string> steps;
-    std::vector<std::size_t> dones, totals;
-    std::vector<std::string> parts; ///< of long steps
-    std::vector<double> shares;
+    void expectRising() const {
+        ASSERT_FALSE(fractions.empty());
+        EXPECT_EQ(fractions.front(), 0.0);
+        EXPECT_EQ(fractions.back(), 1.0);
+        EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    }
+    bool has(const std::string& what) const {
+        return std::find(whats.begin(), whats.end(), what) != whats.end();
+    }
+    std::string cancelAt;
+    Strings whats;
+    std::vector<double> fractions;
 };
 
-osg::ref_ptr<osg::Node> read(const std::string& file, osgSkin::LoadProgress* progress) {
+/// By osgDB and its `.skin` plug-in.
+osg::ref_ptr<osg::Node> read(const std::string& file, const osgSkin::Progress& progress) {
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
-    osgSkin::setLoadProgress(*options, progress);
+    osgSkin::setProgress(*options, progress);
     return osgDB::readRefNodeFile(file, options);
 }
 
-void expectCounts(const Recorder& recorder) {
-    for (std::size_t i = 0; i < recorder.dones.size(); ++i) {
-        EXPECT_EQ(recorder.dones[i], i);
-        EXPECT_EQ(recorder.totals[i], recorder.dones.size() - 1);
-    }
+osgSkin::Character load(const std::string& file, Recorder& recorder) {
+    osgSkin::LoadOptions options;
+    options.progress = recorder.progress();
+    return osgSkin::loadCharacter(file, options);
 }
 
 /// Standard error is a terminal while this lives.
@@ -91,100 +103,130 @@ private:
 
 } // namespace
 
-TEST(LoadProgress, IsToldTheStepsOfACharacter) {
-    const osg::ref_ptr<Recorder> recorder = new Recorder;
-    ASSERT_NE(read(OSGSKIN_TEST_DATA "/character/good.skin", recorder), nullptr);
-    EXPECT_EQ(recorder->steps,
-              (std::vector<std::string>{"mesh", "skeleton", "binding", "motion move",
-                                        "motion later", "scene", "done"}));
-    expectCounts(*recorder);
+TEST(LoadProgress, TellsTheStagesOfACharacter) {
+    Recorder recorder;
+    load(OSGSKIN_TEST_DATA "/character/good.skin", recorder);
+    EXPECT_EQ(recorder.stages(), (Strings{"mesh", "skeleton", "binding", "motion move",
+                                          "motion later", "scene", "done"}));
+    recorder.expectRising();
 }
 
-TEST(LoadProgress, IsToldTheJointsWithinABinding) {
-    const osg::ref_ptr<Recorder> recorder = new Recorder;
-    ASSERT_NE(read(OSGSKIN_DATA "/thrower.skin", recorder), nullptr);
-    EXPECT_GT(recorder->parts.size(), 15u);
-    EXPECT_NE(std::find(recorder->parts.begin(), recorder->parts.end(), "bend of LeftForeArm"),
-              recorder->parts.end());
-    EXPECT_TRUE(std::is_sorted(recorder->shares.begin(), recorder->shares.end()));
-    EXPECT_EQ(recorder->shares.front(), 0.0);
-    EXPECT_EQ(recorder->shares.back(), 1.0);
-
-    const osg::ref_ptr<Recorder> leaver = new Recorder;
-    leaver->giveUpAt = "bend of LeftForeArm";
-    EXPECT_EQ(read(OSGSKIN_DATA "/thrower.skin", leaver), nullptr);
-    EXPECT_EQ(leaver->steps.back(), "binding");
+TEST(LoadProgress, TellsTheStagesOfARiggedModel) {
+    Recorder recorder;
+    load(OSGSKIN_TEST_DATA "/rig/tube.gltf.skin", recorder);
+    EXPECT_EQ(recorder.stages(), (Strings{"model", "binding", "scene", "done"}));
+    recorder.expectRising();
 }
 
-TEST(LoadProgress, IsToldTheStagesOfAFit) {
+TEST(LoadProgress, TellsTheStagesOfARetargetedModel) {
+    Recorder recorder;
+    osgSkin::LoadOptions options;
+    options.motion = OSGSKIN_TEST_DATA "/character/move.bvh";
+    options.progress = recorder.progress();
+    const osgSkin::Character character =
+        osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/rig/tube.gltf", options);
+    EXPECT_EQ(recorder.stages(), (Strings{"model", "binding", "motion move", "scene", "done"}));
+    recorder.expectRising();
+}
+
+TEST(LoadProgress, TellsTheJointsWithinABinding) {
+    Recorder recorder;
+    load(OSGSKIN_DATA "/thrower.skin", recorder);
+    recorder.expectRising();
+    EXPECT_GT(recorder.whats.size(), 20u);
+    EXPECT_TRUE(recorder.has("binding: bend of LeftForeArm"));
+}
+
+TEST(LoadProgress, TellsTheStagesOfAFit) {
     const std::string file = testing::TempDir() + "fitted_progress.skin";
     std::ofstream(file) << R"({"osgskin": 1, "mesh": ")" OSGSKIN_DATA
                            R"(/thrower.obj", "skeleton": {"fit": true}})";
-    const osg::ref_ptr<Recorder> recorder = new Recorder;
-    ASSERT_NE(read(file, recorder), nullptr);
-    const std::vector<std::string> stages{"surface", "medial curves", "facing", "joints", "done"};
-    const auto binding = std::find(recorder->parts.begin(), recorder->parts.end(), "welding");
-    ASSERT_NE(binding, recorder->parts.end());
-    std::vector<std::string> fit(recorder->parts.begin(), binding);
-    EXPECT_GT(std::count(fit.begin(), fit.end(), "medial curves"), 10) << "the longest stage";
-    EXPECT_TRUE(std::is_sorted(recorder->shares.begin(),
-                               recorder->shares.begin() + std::ptrdiff_t(fit.size())));
-    EXPECT_EQ(recorder->shares[fit.size() - 1], 1.0);
-    fit.erase(std::unique(fit.begin(), fit.end()), fit.end());
-    EXPECT_EQ(fit, stages);
+    Recorder recorder;
+    load(file, recorder);
+    recorder.expectRising();
+    const Strings& whats = recorder.whats;
+    EXPECT_GT(std::count(whats.begin(), whats.end(), "skeleton: medial curves"), 10)
+        << "the longest stage";
+    Strings fit;
+    for (const std::string& what : whats)
+        if (what.rfind("skeleton: ", 0) == 0 && (fit.empty() || fit.back() != what))
+            fit.push_back(what);
+    EXPECT_EQ(fit, (Strings{"skeleton: surface", "skeleton: medial curves", "skeleton: facing",
+                            "skeleton: joints", "skeleton: done"}));
 }
 
-TEST(LoadProgress, IsToldTheStepsOfARiggedModel) {
-    const osg::ref_ptr<Recorder> recorder = new Recorder;
-    ASSERT_NE(read(OSGSKIN_TEST_DATA "/rig/tube.gltf.skin", recorder), nullptr);
-    EXPECT_EQ(recorder->steps, (std::vector<std::string>{"model", "binding", "scene", "done"}));
-    expectCounts(*recorder);
-}
-
-TEST(LoadProgress, ALongStepIsShownOnATerminalWhileItLasts) {
-    const Terminal terminal;
-    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
-    {
-        osgSkin::LoadSteps steps("body.skin", 2, nullptr);
-        steps.begin("mesh");
-        // One second of nothing is not shown; then it is, though the step says nothing itself.
-        while (terminal.text().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        steps.begin("binding");
-        steps.within("bend of Spine", 0.425);
-        std::string text;
-        while (text.find("binding: bend of Spine, 42 % (1 of 2), ") == std::string::npos)
-            text += terminal.text();
-        steps.finish();
+TEST(LoadProgress, ThePlugInTellsTheSame) {
+    for (const char* file :
+         {OSGSKIN_DATA "/thrower.skin", OSGSKIN_TEST_DATA "/rig/tube.gltf.skin"}) {
+        Recorder direct, throughOsgDB;
+        load(file, direct);
+        ASSERT_NE(read(file, throughOsgDB.progress()), nullptr);
+        EXPECT_EQ(throughOsgDB.whats, direct.whats);
+        EXPECT_EQ(throughOsgDB.fractions, direct.fractions);
     }
-    EXPECT_NE(terminal.text().find("body.skin: done (2 of 2)"), std::string::npos);
 }
 
-TEST(LoadProgress, AShortLoadIsSilent) {
-    const Terminal terminal;
-    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
-    {
-        osgSkin::LoadSteps steps("body.skin", 1, nullptr);
-        steps.begin("mesh");
-        steps.finish();
+TEST(LoadProgress, MayCancel) {
+    for (const char* at : {"binding", "binding: bend of LeftForeArm", "scene"}) {
+        Recorder recorder;
+        recorder.cancelAt = at;
+        EXPECT_THROW(load(OSGSKIN_DATA "/thrower.skin", recorder), std::runtime_error) << at;
+        EXPECT_FALSE(recorder.has("done"));
+        EXPECT_EQ(read(OSGSKIN_DATA "/thrower.skin", recorder.progress()), nullptr) << at;
     }
-    EXPECT_EQ(terminal.text(), "");
-}
-
-TEST(LoadProgress, MayGiveUp) {
-    const osg::ref_ptr<Recorder> recorder = new Recorder;
-    recorder->giveUpAt = "binding";
-    EXPECT_EQ(read(OSGSKIN_TEST_DATA "/character/good.skin", recorder), nullptr);
-    EXPECT_EQ(recorder->steps.back(), "skeleton");
 }
 
 TEST(LoadProgress, TheLastOneSetCounts) {
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
-    EXPECT_EQ(osgSkin::getLoadProgress(options), nullptr);
-    EXPECT_EQ(osgSkin::getLoadProgress(nullptr), nullptr);
-    const osg::ref_ptr<Recorder> first = new Recorder, second = new Recorder;
-    osgSkin::setLoadProgress(*options, first);
-    osgSkin::setLoadProgress(*options, second);
-    EXPECT_EQ(osgSkin::getLoadProgress(options), second);
-    osgSkin::setLoadProgress(*options, nullptr);
-    EXPECT_EQ(osgSkin::getLoadProgress(options), nullptr);
+    EXPECT_FALSE(osgSkin::getProgress(options));
+    EXPECT_FALSE(osgSkin::getProgress(nullptr));
+    Recorder first, second;
+    osgSkin::setProgress(*options, first.progress());
+    osgSkin::setProgress(*options, second.progress());
+    const osg::ref_ptr<osgDB::Options> copy = options->cloneOptions();
+    osgSkin::getProgress(copy)({"mesh", 0.5});
+    EXPECT_TRUE(first.whats.empty());
+    EXPECT_EQ(second.whats, Strings{"mesh"});
+    osgSkin::setProgress(*options, {});
+    EXPECT_FALSE(osgSkin::getProgress(options));
+}
+
+TEST(LoadProgress, ThePlugInWritesNothingToATerminal) {
+    const Terminal terminal;
+    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
+    // A load that waits for longer than any display would keep silent.
+    const auto slow = [](const osgSkin::ProgressStep& step) {
+        if (step.what == "scene") std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    };
+    ASSERT_NE(read(OSGSKIN_DATA "/thrower.skin", slow), nullptr);
+    ASSERT_NE(read(OSGSKIN_DATA "/thrower.skin", {}), nullptr);
+    EXPECT_EQ(terminal.text(), "");
+}
+
+TEST(ProgressLine, ShowsLongWorkOnATerminalWhileItLasts) {
+    const Terminal terminal;
+    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
+    {
+        example::ProgressLine line("body.skin");
+        line.show({"mesh", 0.0});
+        // One second of nothing is not shown; then it is, though the work says nothing itself.
+        while (terminal.text().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        line.progress()({"binding: bend of Spine", 0.425});
+        std::string text;
+        while (text.find("body.skin: binding: bend of Spine, 42 %, ") == std::string::npos)
+            text += terminal.text();
+        line.show({"done", 1.0});
+    }
+    EXPECT_NE(terminal.text().find("body.skin: done, 100 %"), std::string::npos);
+}
+
+TEST(ProgressLine, IsSilentOnShortWork) {
+    const Terminal terminal;
+    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
+    {
+        example::ProgressLine line("body.skin");
+        line.show({"mesh", 0.0});
+        line.show({"done", 1.0});
+    }
+    EXPECT_EQ(terminal.text(), "");
 }

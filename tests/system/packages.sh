@@ -26,12 +26,14 @@ expect() {
   dpkg-deb -f "$deb" Depends >"$folder/$package.depends"
   echo "$package needs $(cat "$folder/$package.depends")"
 }
-expect libosgskin0 libosgSkin.so.0 osgdb_serializers_osgskin.so
-expect libosgskin-dev include/osgSkin/DeformableSkin include/osgSkinBind/Bind osgSkinConfig.cmake \
+expect libosgskin0.2 libosgSkin.so.0.2 libosgSkinRig.so.0.2 osgdb_serializers_osgskin.so
+expect libosgskin-dev include/osgSkin/DeformableSkin include/osgSkinBind/Bind \
+  include/osgSkinCharacter/LoadCharacter osgSkinConfig.cmake \
   OsgTargets.cmake pkgconfig/osgSkin.pc libosgSkin.so
-expect osgskin-plugin osgdb_skin.so bin/osgskinbake libosgSkinBind.so.0 libosgSkinImport.so.0
-grep -qE 'gmp|mpfr|assimp|cgal' "$folder/libosgskin0.depends" &&
+expect osgskin-plugin osgdb_skin.so bin/osgskinbake libosgSkinBind.so.0.2 libosgSkinImport.so.0.2 \
+  libosgSkinCharacter.so.0.2
+grep -qE 'gmp|mpfr|assimp|cgal' "$folder/libosgskin0.2.depends" &&
   fail "the runtime's package needs what only binding and importing need"
-grep -q 'libosgskin0' "$folder/osgskin-plugin.depends" || fail "the plug-ins need the runtime"
-grep -qE 'osgSkinBind|osgdb_skin\.so' "$folder/libosgskin0.txt" && fail "libosgskin0 holds more"
+grep -q 'libosgskin0.2' "$folder/osgskin-plugin.depends" || fail "the plug-ins need the runtime"
+grep -qE 'osgSkinBind|osgdb_skin\.so' "$folder/libosgskin0.2.txt" && fail "libosgskin0.2 holds more"
 echo "Three packages"

@@ -75,7 +75,7 @@ osg::ref_ptr<DeformableSkin> makeFollower() {
 }
 
 double bendOf(const DeformableSkin& skin) {
-    return skin.getPose().turn(1).split.bendAngle;
+    return skin.getPose().transform(1).split.bendAngle;
 }
 
 } // namespace

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# example.sh PROGRAM DATA FOLDER: presses every key of osgskinviewer, and looks for what each one does
-# in the pictures or in what the program says of them. Needs a display.
+# example.sh PROGRAM DATA FOLDER CYCLES RIG: presses every key of osgskinviewer, and looks for what each one does
+# in the pictures or in what the program says of them; then shows a character saved by CYCLES
+# (osgskin_cycles), the rigged model RIG, and a figure whose origin is not at its feet. Needs a display.
 set -euo pipefail
-program=$1 data=$2 folder=$3
+program=$1 data=$2 folder=$3 cycles=$4 rig=$5
 fail() {
   echo "FAILED: $1"
   exit 1
@@ -43,4 +44,36 @@ grep -q "no key '?'" "$folder/error.txt" || fail "an unknown key is not named"
 "$program" --motion none --pictures "$folder" 2>"$folder/error.txt" && fail "an unknown motion"
 grep -q 'expected a motion called "none"' "$folder/error.txt" || fail "the motion is not named"
 "$program" --help | grep -q 'space  play, pause' || fail "--help does not list the keys"
-echo "Every key does what it is for"
+
+# Any character is taken: a rigged model under its own name and the pseudo-loader's, a saved scene.
+"$cycles" "$data/thrower.skin" "$folder/saved.osgb" 1 1 >/dev/null || fail "no scene is saved"
+for file in "$rig" "$rig.skin" "$folder/saved.osgb"; do
+  mkdir -p "$folder/any"
+  "$program" "$file" --keys k --width 320 --height 280 --pictures "$folder/any" \
+    >"$folder/any.txt" 2>"$folder/error.txt" || fail "$file is refused: $(cat "$folder/error.txt")"
+  colours=$(identify -format %k "$folder/any/viewer_00.png")
+  [ "$colours" -gt 50 ] || fail "$file: $colours colours, no figure"
+  changed=$(compare -metric AE -fuzz 3% "$folder"/any/viewer_0[01].png null: 2>&1 || true)
+  [ "${changed%.*}" -gt 5 ] || fail "$file has no skeleton to see"
+done
+"$program" "$folder/saved.osgb" --keys 2g --pictures "$folder/any" >"$folder/any.txt"
+grep -q "blending\|regions" "$folder/any.txt" && fail "a scene's mesh is gone, yet a peer deforms it"
+"$program" "$data/thrower.obj" --pictures "$folder/any" 2>"$folder/error.txt" && fail "a plain mesh"
+grep -q 'thrower.obj: no mesh with bones' "$folder/error.txt" || fail "a plain mesh is not named"
+
+# The floor is under the feet, wherever the files have their origin: the picture stays the same.
+awk '$1 == "v" { $3 -= 0.9 } { print }' "$data/thrower.obj" >"$folder/low.obj"
+awk '$1 == "OFFSET" && !done { $3 -= 0.9; done = 1 } { print }' "$data/thrower.bvh" >"$folder/low.bvh"
+echo '{ "osgskin": 1, "mesh": "low.obj", "skeleton": "low.bvh" }' >"$folder/low.skin"
+echo "{ \"osgskin\": 1, \"mesh\": \"$data/thrower.obj\", \"skeleton\": \"$data/thrower.bvh\" }" \
+  >"$folder/feet.skin"
+for name in low feet; do
+  "$program" "$folder/$name.skin" --keys i --width 320 --height 280 --pictures "$folder/$name" >/dev/null
+done
+changed=$(compare -metric AE -fuzz 3% "$folder"/{low,feet}/viewer_01.png null: 2>&1 || true)
+[ "${changed%.*}" -lt 200 ] || fail "the floor is elsewhere where the origin is: $changed pixels"
+
+# A paused skin takes no time, and that is no negative number.
+"$program" --paused --times --keys iiii --width 320 --height 280 --pictures "$folder" >"$folder/times.txt"
+grep -c 'the skin [0-9.]* ms$' "$folder/times.txt" | grep -qx 5 || fail "times: $(cat "$folder/times.txt")"
+echo "Every key does what it is for, every character is shown, and stands on its floor"

@@ -52,8 +52,9 @@ const BadInput kCases[] = {
     {"CutOffOfHalf", [](Input& i) { i.options.cutOff = 0.5; }, "0 <= cutOff < 0.5"},
     {"NegativeCutOff", [](Input& i) { i.options.cutOff = -0.01; }, "0 <= cutOff < 0.5"},
     {"CutOffNaN", [](Input& i) { i.options.cutOff = kNaN; }, "0 <= cutOff < 0.5"},
-    {"NoPartialJoint", [](Input& i) { i.options.mostPartialJoints = 0; }, "expected 1 to 8"},
-    {"TooManyPartialJoints", [](Input& i) { i.options.mostPartialJoints = 9; }, "expected 1 to 8"},
+    {"NoPartialJoint", [](Input& i) { i.options.maxPartialInfluences = 0; }, "expected 1 to 8"},
+    {"TooManyPartialJoints", [](Input& i) { i.options.maxPartialInfluences = 9; },
+     "expected 1 to 8"},
     {"BoundariesSwapped",
      [](Input& i) {
          i.options.joints["joint1"].bendUpper = 0.5;

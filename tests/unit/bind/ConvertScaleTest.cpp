@@ -163,7 +163,7 @@ TEST(ConvertScale, ThatIsUnevenIsNoted) {
     EXPECT_EQ(report.skins.size(), 1u);
     ASSERT_EQ(report.notes.size(), 1u);
     EXPECT_EQ(report.notes[0], "skeleton \"figure\": bone \"bone1\" as it stands and 1 more scaled "
-                               "unevenly or mirrored, which skins do not follow");
+                               "non-uniformly or mirrored, which skins do not follow");
 }
 
 TEST(ConvertScale, ThatAClipMakesUnevenIsNoted) {
@@ -192,7 +192,7 @@ TEST(ConvertScale, ThatAClipMakesUnevenIsNoted) {
         ASSERT_EQ(report.notes.size(), even ? 0u : 1u);
         if (!even) {
             EXPECT_NE(
-                report.notes[0].find("bone \"bone2\" in the clip \"stretch\" scaled unevenly"),
+                report.notes[0].find("bone \"bone2\" in the clip \"stretch\" scaled non-uniformly"),
                 std::string::npos)
                 << report.notes[0];
         }

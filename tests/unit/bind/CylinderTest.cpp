@@ -51,7 +51,8 @@ protected:
         job.pose = &pose;
         job.positions = posed.data();
         job.positionCount = posed.size();
-        EXPECT_TRUE(job.run()) << job.validate();
+        EXPECT_NO_THROW(job.validate());
+        EXPECT_TRUE(job.run());
         return {posed.begin(), posed.end()};
     }
 
@@ -90,7 +91,7 @@ protected:
 
     SkinMesh mesh;
     Binding binding;
-    std::shared_ptr<const SkinModel> model;
+    osg::ref_ptr<const SkinModel> model;
 };
 
 } // namespace

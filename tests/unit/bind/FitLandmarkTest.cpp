@@ -103,3 +103,16 @@ TEST(FitLandmark, OnTheSkinIsMovedInside) {
     ASSERT_EQ(report.notes.size(), 1u) << report.text();
     EXPECT_NE(report.notes[0].find("landmark Head"), std::string::npos);
 }
+
+TEST(FitOptions, TakeOsgVectors) {
+    FitOptions options;
+    EXPECT_FALSE(options.facing);
+    options.setUp(osg::Vec3d(0, 0, 2));
+    options.setFacing(osg::Vec3d(0, -1, 0.5));
+    options.setLandmark("LeftHand", osg::Vec3d(1, 2, 3));
+    options.setLandmark("LeftHand", osg::Vec3d(4, 5, 6));
+    EXPECT_EQ(options.up, glm::dvec3(0, 0, 2));
+    EXPECT_EQ(options.facing, glm::dvec3(0, -1, 0.5));
+    ASSERT_EQ(options.landmarks.size(), 1u);
+    EXPECT_EQ(options.landmarks.at("LeftHand"), glm::dvec3(4, 5, 6));
+}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "KnownBody.h"
 
-#include "InsideSkin.h"
 #include "SharedBody.h"
+#include "mesh/InsideSkin.h"
 
 #include <osgSkin/DeformJob>
 #include <osgSkinBind/Bind>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <osgSkin/SkinMesh>
+#include <osgSkinRig/SkinMesh>
 
 #include <cstdint>
 #include <vector>

@@ -153,7 +153,7 @@ TEST(Ratios, StayContinuousWhereManyJointsMeet) {
     const Binding binding = bind(ball, skeleton, options, &report);
     expectSound(binding);
     EXPECT_GT(report.cappedVertices, 50u);
-    options.mostPartialJoints = 8;
+    options.maxPartialInfluences = 8;
     BindReport free;
     bind(ball, skeleton, options, &free);
     EXPECT_EQ(free.cappedVertices, 0u);

@@ -149,7 +149,8 @@ protected:
         job.pose = &pose;
         job.positions = result.data();
         job.positionCount = result.size();
-        EXPECT_TRUE(job.run()) << job.validate();
+        EXPECT_NO_THROW(job.validate());
+        EXPECT_TRUE(job.run());
         return result;
     }
 

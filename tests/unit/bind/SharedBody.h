@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <osgSkin/RestSkeleton>
-#include <osgSkin/SkinMesh>
+#include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/SkinMesh>
 
 #include <filesystem>
 #include <map>

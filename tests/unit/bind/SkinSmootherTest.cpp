@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "SkinSmoother.h"
+#include "mesh/SkinSmoother.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

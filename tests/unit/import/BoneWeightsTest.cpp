@@ -3,7 +3,8 @@
 #include "Paths.h"
 
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/Motion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Motion>
 
 #include <osg/MatrixTransform>
 #include <osgAnimation/Bone>

@@ -3,7 +3,10 @@
 #include "Figure.h"
 
 #include <osgSkin/GlmOsg>
-#include <osgSkinImport/Clip>
+#include <osgSkinRig/ApplyFrame>
+#include <osgSkinRig/Clip>
+#include <osgSkinRig/MakeAnimation>
+#include <osgSkinRig/MakeSkeleton>
 
 #include <osg/FrameStamp>
 #include <osgAnimation/BasicAnimationManager>

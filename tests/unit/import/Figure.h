@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgSkinImport/Clip>
-#include <osgSkinImport/Motion>
+#include <osgSkinRig/Clip>
+#include <osgSkinRig/Motion>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>

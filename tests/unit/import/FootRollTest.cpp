@@ -2,7 +2,9 @@
 #include "Figure.h"
 #include "Paths.h"
 
-#include <osgSkinImport/Retarget>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Retarget>
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +48,8 @@ TEST(FootRoll, BeyondARightAngleIsTakenBack) {
                   1e-6)
             << f;
     }
-    EXPECT_EQ(report.entries[kFoot].turnedOver, 180u); // 91 to 180 degrees, both ways
-    EXPECT_EQ(report.entries[kFoot - 1].turnedOver, 0u);
+    EXPECT_EQ(report.entries[kFoot].rolledOver, 180u); // 91 to 180 degrees, both ways
+    EXPECT_EQ(report.entries[kFoot - 1].rolledOver, 0u);
     EXPECT_NE(report.text().find("upside down in 180 samples"), std::string::npos);
 }
 
@@ -85,13 +87,13 @@ TEST(FootRoll, OfTheDancerIsWhatAnAnkleCan) {
     for (const char* name : {"LeftFoot", "RightFoot"}) {
         std::size_t foot = 0;
         while (rig.joints.at(foot).name != name) ++foot;
-        EXPECT_GT(report.entries[foot].turnedOver, clip.frames / 2);
+        EXPECT_GT(report.entries[foot].rolledOver, clip.frames / 2);
         std::size_t wrung = 0;
         for (std::size_t f = 0; f < clip.frames; ++f)
             if (angleBetween(glm::dquat(1, 0, 0, 0), clip.rotations[f * clip.joints + foot]) > 90.0)
                 ++wrung;
         // What is left are the samples in which the file bends the foot back as well.
-        EXPECT_LT(wrung, report.entries[foot].turnedOver / 7) << name;
+        EXPECT_LT(wrung, report.entries[foot].rolledOver / 7) << name;
     }
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "Paths.h"
 
-#include <osgSkinImport/Motion>
+#include <osgSkin/Error>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Motion>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -28,9 +31,9 @@ TEST(ImportMotion, ReadsTheDeclaredChannelOrderOfEachJoint) {
     ASSERT_EQ(motion.skeleton.joints.size(), 2u);
     EXPECT_EQ(motion.name, "two_joints");
     EXPECT_EQ(motion.frameTime, 0.025);
-    EXPECT_LT(difference(motion.rotation(0, 0), {1, 0, 0, 0}), 1e-6);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(10, z) * turn(20, y) * turn(30, x)), 1e-6);
-    EXPECT_LT(difference(motion.rotation(1, 1), turn(40, x) * turn(50, y) * turn(60, z)), 1e-6);
+    EXPECT_LT(difference(motion.rotation(0, 0), {1, 0, 0, 0}), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(10, z) * turn(20, y) * turn(30, x)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 1), turn(40, x) * turn(50, y) * turn(60, z)), 1e-12);
     EXPECT_GT(difference(motion.rotation(1, 1), turn(60, z) * turn(50, y) * turn(40, x)), 0.1);
 }
 
@@ -46,12 +49,12 @@ TEST(ImportMotion, RootWithoutPositionChannelsStaysAtItsOffset) {
     ASSERT_EQ(motion.frames, 1u);
     EXPECT_EQ(motion.frameTime, 0.5);
     EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
-    EXPECT_LT(difference(motion.rotation(0, 0), turn(10, y) * turn(20, x) * turn(30, z)), 1e-6);
+    EXPECT_LT(difference(motion.rotation(0, 0), turn(10, y) * turn(20, x) * turn(30, z)), 1e-12);
 }
 
-/// Of hips that move over a root on the ground, the way is the hips': turned by the root, from
+/// Of hips that move over a root on the ground, the path is the hips': rotated by the root, from
 /// where it stands.
-TEST(ImportMotion, BeginsWithTheJointThatGoesTheWay) {
+TEST(ImportMotion, BeginsWithTheJointThatMoves) {
     const osgSkin::Motion motion = osgSkin::importMotion(testData("root_on_ground.bvh"));
     ASSERT_EQ(motion.skeleton.joints.size(), 3u);
     EXPECT_EQ(motion.skeleton.joints[0].name, "pelvis");
@@ -59,10 +62,10 @@ TEST(ImportMotion, BeginsWithTheJointThatGoesTheWay) {
     EXPECT_EQ(motion.skeleton.joints[2].parent, 0);
     EXPECT_NO_THROW(motion.skeleton.validate());
     ASSERT_EQ(motion.rotations.size(), 6u);
-    EXPECT_LT(glm::distance(motion.rootPositions[0], glm::dvec3(0, 10, 0)), 1e-6);
-    EXPECT_LT(glm::distance(motion.rootPositions[1], glm::dvec3(5 + 3, 11, 0)), 1e-5);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, y)), 1e-5);
-    EXPECT_LT(difference(motion.rotation(1, 1), {1, 0, 0, 0}), 1e-5);
+    EXPECT_LT(glm::distance(motion.rootPositions[0], glm::dvec3(0, 10, 0)), 1e-12);
+    EXPECT_LT(glm::distance(motion.rootPositions[1], glm::dvec3(5 + 3, 11, 0)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, y)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 1), {1, 0, 0, 0}), 1e-12);
 }
 
 TEST(ImportMotion, LineEndsAndWrappedFramesDoNotMatter) {
@@ -104,7 +107,7 @@ TEST(ImportSkeleton, ReadsAMakeHumanRig) {
     OSGSKIN_NEEDS(path);
     const osgSkin::RestSkeleton rig = osgSkin::importSkeleton(path);
     EXPECT_EQ(rig.joints.size(), 31u);
-    EXPECT_LT(glm::distance(rig.joints[0].centre, glm::dvec3(0, 0.72685, 0.1445)), 1e-6);
+    EXPECT_LT(glm::distance(rig.joints[0].centre, glm::dvec3(0, 0.72685, 0.1445)), 1e-12);
     const int head = rig.find("Head");
     ASSERT_GE(head, 0);
     ASSERT_TRUE(rig.joints[static_cast<std::size_t>(head)].tip);
@@ -114,6 +117,32 @@ TEST(ImportSkeleton, ReadsAMakeHumanRig) {
 TEST(ImportMotion, PassesOverFramesBeyondTheDeclared) {
     const osgSkin::Motion motion = osgSkin::importMotion(testData("bvh/more_rows.bvh"));
     EXPECT_EQ(motion.frames, 2u);
+}
+
+/// A motion made in code, by GLM's types and by OSG's.
+TEST(Motion, IsMadeOfSamples) {
+    osgSkin::RestSkeleton skeleton;
+    EXPECT_EQ(skeleton.add("Hips", -1, glm::dvec3(0, 1, 0)), 0);
+    EXPECT_EQ(skeleton.add("Spine", 0, osg::Vec3d(0, 2, 0.5)), 1);
+    skeleton.validate();
+    EXPECT_EQ(skeleton.joints[1].centre, glm::dvec3(0, 2, 0.5));
+    EXPECT_EQ(skeleton.joints[1].parent, 0);
+
+    osgSkin::Motion motion;
+    motion.name = "bow";
+    motion.skeleton = skeleton;
+    const osg::Quat bow(osg::PI_2, osg::X_AXIS);
+    motion.addFrame(osg::Vec3d(1, 2, 3), {osg::Quat(), bow});
+    motion.addFrame(glm::dvec3(4, 5, 6), {turn(90, x), glm::dquat(1, 0, 0, 0)});
+    ASSERT_EQ(motion.frames, 2u);
+    EXPECT_LT(difference(motion.rotation(0, 1), turn(90, x)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, x)), 1e-12);
+    EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
+    EXPECT_EQ(motion.rootPositions[1], glm::dvec3(4, 5, 6));
+
+    EXPECT_THROW(motion.addFrame(osg::Vec3d(), {bow}), osgSkin::Error);
+    EXPECT_EQ(motion.frames, 2u);
+    EXPECT_EQ(motion.rotations.size(), 4u);
 }
 
 } // namespace

@@ -2,7 +2,9 @@
 #include "Figure.h"
 #include "Paths.h"
 
-#include <osgSkinImport/Retarget>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Retarget>
 
 #include <algorithm>
 

@@ -3,8 +3,10 @@
 #include "Figure.h"
 #include "Paths.h"
 
-#include <osgSkinImport/JointNames>
-#include <osgSkinImport/Retarget>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/JointNames>
+#include <osgSkinRig/Retarget>
 
 #include <algorithm>
 #include <array>

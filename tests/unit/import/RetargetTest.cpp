@@ -2,7 +2,7 @@
 #include "ExpectError.h"
 #include "Figure.h"
 
-#include <osgSkinImport/Retarget>
+#include <osgSkinRig/Retarget>
 
 #include <gtest/gtest.h>
 

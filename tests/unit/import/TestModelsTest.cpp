@@ -6,8 +6,10 @@
 
 #include <osgSkin/Error>
 #include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
-#include <osgSkinImport/Motion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Motion>
 
 #include <osg/Texture2D>
 

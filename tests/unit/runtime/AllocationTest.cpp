@@ -102,7 +102,7 @@ struct Frames {
         return poses[skin].set(matrices.data(), matrices.size());
     }
 
-    std::shared_ptr<const osgSkin::SkinModel> model;
+    osg::ref_ptr<const osgSkin::SkinModel> model;
     std::vector<osgSkin::Pose> poses;
     std::vector<std::vector<glm::vec3>> outputs;
     std::vector<osgSkin::DeformJob> jobs;

@@ -10,7 +10,7 @@
 #include <limits>
 
 using osgSkin::BendTwist;
-using osgSkin::partialTurn;
+using osgSkin::partialRotation;
 using osgSkin::splitBendTwist;
 
 namespace {
@@ -31,7 +31,7 @@ double distance(const glm::dquat& a, const glm::dquat& b) {
 
 double recompositionError(const glm::dquat& q, const glm::dvec3& pole) {
     const BendTwist split = splitBendTwist(q, pole);
-    return distance(partialTurn(split, pole, 1.0, 1.0), glm::normalize(q));
+    return distance(partialRotation(split, pole, 1.0, 1.0), glm::normalize(q));
 }
 
 bool isFinite(const BendTwist& s) {
@@ -50,7 +50,7 @@ TEST(BendTwist, MillionRandomRotationsRecompose) {
         const glm::dquat q = test::randomRotation(random);
         const glm::dvec3 w = test::randomUnit(random);
         const BendTwist split = splitBendTwist(q, w);
-        recomposition = std::max(recomposition, distance(partialTurn(split, w, 1.0, 1.0), q));
+        recomposition = std::max(recomposition, distance(partialRotation(split, w, 1.0, 1.0), q));
         perpendicular = std::max(perpendicular, std::abs(glm::dot(split.bendAxis, w)));
         ASSERT_GE(split.bendAngle, 0.0);
         ASSERT_LE(split.bendAngle, kPi);
@@ -160,6 +160,6 @@ TEST(BendTwist, RatiosTakeSharesOfTheAngles) {
     const BendTwist split = splitBendTwist(turn(v, 1.2) * turn(w, -0.8), w);
     EXPECT_NEAR(split.bendAngle, 1.2, 1e-14);
     EXPECT_NEAR(split.twistAngle, -0.8, 1e-14);
-    EXPECT_EQ(distance(partialTurn(split, w, 0.0, 0.0), glm::dquat(1, 0, 0, 0)), 0.0);
-    EXPECT_LE(distance(partialTurn(split, w, 0.5, 0.25), turn(v, 0.6) * turn(w, -0.2)), 1e-14);
+    EXPECT_EQ(distance(partialRotation(split, w, 0.0, 0.0), glm::dquat(1, 0, 0, 0)), 0.0);
+    EXPECT_LE(distance(partialRotation(split, w, 0.5, 0.25), turn(v, 0.6) * turn(w, -0.2)), 1e-14);
 }

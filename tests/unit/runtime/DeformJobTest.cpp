@@ -29,8 +29,8 @@ glm::dvec3 reference(const osgSkin::Binding& binding, std::uint32_t vertex, glm:
                                  skinning[influence.joint];
         const osgSkin::BendTwist split =
             osgSkin::splitBendTwist(glm::quat_cast(glm::dmat3(local)), joint.twistAxis);
-        x = joint.centre + osgSkin::partialTurn(split, joint.twistAxis, double(influence.bend),
-                                                double(influence.twist)) *
+        x = joint.centre + osgSkin::partialRotation(split, joint.twistAxis, double(influence.bend),
+                                                    double(influence.twist)) *
                                (x - joint.centre);
     }
     return x;
@@ -49,12 +49,12 @@ struct Deformed {
     }
     Deformed(const Deformed&) = delete;
 
-    std::shared_ptr<const osgSkin::SkinModel> model;
+    osg::ref_ptr<const osgSkin::SkinModel> model;
     Pose pose;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents;
-    std::shared_ptr<const osgSkin::SkinTangents> restTangents;
+    osg::ref_ptr<const osgSkin::SkinTangents> restTangents;
     DeformJob job;
 
     /// Asks for tangents along the tube, of either handedness.
@@ -68,12 +68,38 @@ struct Deformed {
     }
 };
 
+/// What validate() throws; empty where it throws nothing.
+std::string reasonAgainst(const DeformJob& job) {
+    try {
+        job.validate();
+        return "";
+    } catch (const osgSkin::Error& error) {
+        return error.what();
+    }
+}
+
 } // namespace
 
 TEST(DeformJob, DefaultIsInvalid) {
     const DeformJob job;
-    EXPECT_STREQ(job.validate(), "no model");
+    EXPECT_EQ(reasonAgainst(job), "deform job: no model");
+    EXPECT_FALSE(job.isValid());
     EXPECT_FALSE(job.run());
+    EXPECT_FALSE(job.runPart(0));
+}
+
+TEST(DeformJob, ModelWithoutVerticesGivesNone) {
+    const osg::ref_ptr<const osgSkin::SkinModel> model = new osgSkin::SkinModel;
+    const Pose pose(model->joints());
+    glm::vec3 nothing(7.0f);
+    DeformJob job;
+    job.model = model;
+    job.pose = &pose;
+    job.positions = &nothing;
+    EXPECT_TRUE(job.isValid());
+    EXPECT_TRUE(job.run());
+    EXPECT_EQ(job.partCount(), 0u);
+    EXPECT_EQ(nothing, glm::vec3(7.0f));
 }
 
 TEST(DeformJob, SaysWhatIsMissing) {
@@ -82,7 +108,8 @@ TEST(DeformJob, SaysWhatIsMissing) {
     good.addTangents();
     Deformed other(tube);
     other.addTangents();
-    ASSERT_EQ(good.job.validate(), nullptr);
+    ASSERT_EQ(reasonAgainst(good.job), "");
+    ASSERT_TRUE(good.job.isValid());
     const Pose foreign;
     struct Case {
         const char* name;
@@ -103,7 +130,8 @@ TEST(DeformJob, SaysWhatIsMissing) {
     for (const Case& c : cases) {
         DeformJob job = good.job;
         c.spoil(job);
-        EXPECT_NE(job.validate(), nullptr) << c.name;
+        EXPECT_NE(reasonAgainst(job), "") << c.name;
+        EXPECT_FALSE(job.isValid()) << c.name;
         EXPECT_FALSE(job.run()) << c.name;
         EXPECT_FALSE(job.runReference()) << c.name;
     }
@@ -188,7 +216,7 @@ TEST(Pose, RefusesWhatCannotBeUsedAndKeepsThePose) {
     std::vector<glm::dmat4> skinning(3, glm::dmat4(1.0));
     skinning[1] = glm::mat4_cast(glm::angleAxis(0.5, glm::dvec3(1, 0, 0)));
     ASSERT_TRUE(pose.set(skinning.data(), 3));
-    const glm::dquat before = pose.turn(1).rotation;
+    const glm::dquat before = pose.transform(1).rotation;
 
     EXPECT_FALSE(pose.set(skinning.data(), 2));
     auto spoilt = skinning;
@@ -197,7 +225,7 @@ TEST(Pose, RefusesWhatCannotBeUsedAndKeepsThePose) {
     spoilt = skinning;
     spoilt[2] = glm::dmat4(0.0);
     EXPECT_FALSE(pose.set(spoilt.data(), 3));
-    EXPECT_EQ(pose.turn(1).rotation, before);
+    EXPECT_EQ(pose.transform(1).rotation, before);
 }
 
 TEST(Pose, TakesEvenScaleApart) {
@@ -208,11 +236,11 @@ TEST(Pose, TakesEvenScaleApart) {
                                             glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
     skinning[2] = skinning[1] * glm::scale(glm::dmat4(1.0), glm::dvec3(1.5));
     ASSERT_TRUE(pose.set(skinning.data(), 3));
-    EXPECT_NEAR(std::abs(glm::dot(pose.turn(0).rotation, turn)), 1.0, 1e-12);
-    EXPECT_NEAR(std::abs(pose.turn(1).rotation.w), 1.0, 1e-12);
-    EXPECT_NEAR(pose.turn(0).scale, 2.0, 1e-12);
-    EXPECT_EQ(pose.turn(1).scale, 1.0) << "exactly: it costs nothing then";
-    EXPECT_NEAR(pose.turn(2).scale, 1.5, 1e-12);
+    EXPECT_NEAR(std::abs(glm::dot(pose.transform(0).rotation, turn)), 1.0, 1e-12);
+    EXPECT_NEAR(std::abs(pose.transform(1).rotation.w), 1.0, 1e-12);
+    EXPECT_NEAR(pose.transform(0).scale, 2.0, 1e-12);
+    EXPECT_EQ(pose.transform(1).scale, 1.0) << "exactly: it costs nothing then";
+    EXPECT_NEAR(pose.transform(2).scale, 1.5, 1e-12);
 }
 
 TEST(Pose, LeavesUnevenScaleAndMirroringOut) {
@@ -222,9 +250,9 @@ TEST(Pose, LeavesUnevenScaleAndMirroringOut) {
         std::vector<glm::dmat4> skinning(3, glm::dmat4(1.0));
         skinning[1] = glm::scale(glm::dmat4(1.0), scale);
         ASSERT_TRUE(pose.set(skinning.data(), 3));
-        EXPECT_EQ(pose.turn(1).scale, 1.0);
+        EXPECT_EQ(pose.transform(1).scale, 1.0);
         const glm::dvec3 centre = tube.binding.joints[1].centre;
-        EXPECT_LT(glm::distance(pose.turn(1).translation,
+        EXPECT_LT(glm::distance(pose.transform(1).translation,
                                 glm::dvec3(skinning[1] * glm::dvec4(centre, 1.0)) - centre),
                   1e-12)
             << "the joint itself goes where the bone puts it";

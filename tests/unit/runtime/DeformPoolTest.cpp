@@ -58,7 +58,7 @@ struct Crowd {
         osgSkin::Pose pose;
         std::vector<glm::vec3> positions, normals;
     };
-    std::shared_ptr<const osgSkin::SkinModel> model;
+    osg::ref_ptr<const osgSkin::SkinModel> model;
     std::vector<Skin> skins;
     std::vector<DeformJob> jobs;
 };

@@ -33,7 +33,7 @@ struct Count {
 TEST(DeformableSkin, DefaultIsEmptyAndHarmless) {
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
     EXPECT_EQ(skin->getDeformedGeometry(), nullptr);
-    EXPECT_FALSE(skin->setPose(nullptr, 0));
+    EXPECT_FALSE(skin->setPose(std::vector<osg::Matrixd>()));
     EXPECT_FALSE(skin->getBoundingBox().valid());
     cull(*skin, true);
     osg::TriangleFunctor<Count> count;
@@ -143,8 +143,8 @@ TEST(UpdateDeformableSkin, FollowsTheBonesOfTheSkeletonAbove) {
     const auto& vertices =
         static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
     EXPECT_LE((vertices.back() - osg::Vec3(std::cos(float(osg::PI) / 6), 2.5f, 4)).length(), 1e-5);
-    EXPECT_NEAR(skin->getPose().turn(1).split.bendAngle, osg::PI_2, 1e-12);
-    EXPECT_NEAR(skin->getPose().turn(2).split.bendAngle, 0.0, 1e-12);
+    EXPECT_NEAR(skin->getPose().transform(1).split.bendAngle, osg::PI_2, 1e-12);
+    EXPECT_NEAR(skin->getPose().transform(2).split.bendAngle, 0.0, 1e-12);
 }
 
 TEST(UpdateDeformableSkin, AJointWithoutABoneMovesWithItsParent) {
@@ -157,5 +157,5 @@ TEST(UpdateDeformableSkin, AJointWithoutABoneMovesWithItsParent) {
     middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(1.0, osg::Vec3(1, 0, 0)) *
                                     osg::Matrix::translate(0, 2, 0));
     ASSERT_TRUE(update->pose(*skin, *skeleton));
-    EXPECT_NEAR(std::abs(skin->getPose().turn(2).rotation.w), 1.0, 1e-12);
+    EXPECT_NEAR(std::abs(skin->getPose().transform(2).rotation.w), 1.0, 1e-12);
 }

@@ -141,10 +141,10 @@ void reference(const osgSkin::Binding& binding, const osgSkin::Pose& pose, std::
          i-- > binding.firstInfluence[vertex];) {
         const osgSkin::Influence& influence = binding.influences[i];
         const osgSkin::BoundJoint& joint = binding.joints[influence.joint];
-        const osgSkin::Pose::Turn& turn = pose.turn(influence.joint);
+        const osgSkin::JointTransform& turn = pose.transform(influence.joint);
         const auto bend = static_cast<double>(influence.bend);
-        const glm::dquat q = osgSkin::partialTurn(turn.split, joint.twistAxis, bend,
-                                                  static_cast<double>(influence.twist));
+        const glm::dquat q = osgSkin::partialRotation(turn.split, joint.twistAxis, bend,
+                                                      static_cast<double>(influence.twist));
         n = q * n;
         t = q * t;
         const double scale = 1.0 + bend * (turn.scale - 1.0);
@@ -154,7 +154,7 @@ void reference(const osgSkin::Binding& binding, const osgSkin::Pose& pose, std::
     }
 }
 
-using Model = std::shared_ptr<const osgSkin::SkinModel>;
+using Model = osg::ref_ptr<const osgSkin::SkinModel>;
 
 Model modelOf(const Skin& skin) {
     return osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
@@ -258,7 +258,7 @@ TEST_P(Kernel, FollowsEvenScale) {
         const Model model = modelOf(skin);
         for (const double moves : {0.0, 0.5}) {
             const osgSkin::Pose pose = randomPose(skin.binding, moves, random, 0.2);
-            EXPECT_GT(std::abs(pose.turn(2).scale - 1.0), 1e-3);
+            EXPECT_GT(std::abs(pose.transform(2).scale - 1.0), 1e-3);
             deform(skin, pose, model, Streams::NormalsAndTangents);
         }
     }

@@ -34,7 +34,7 @@ protected:
         osgUtil::UpdateVisitor update;
         update.setFrameStamp(stamp);
         skeleton->accept(update);
-        return skin->getPose().turn(1).split.twistAngle / kDegree;
+        return skin->getPose().transform(1).split.twistAngle / kDegree;
     }
 
     osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
@@ -81,7 +81,7 @@ TEST_F(TwistUnwrap, StartsAfreshOnASeek) {
     const auto wind = [&] {
         for (double degrees = 100.0; degrees <= 200.0; degrees += 20.0)
             twistAt(time += 0.05, degrees);
-        EXPECT_NEAR(skin->getPose().turn(1).split.twistAngle / kDegree, 200.0, 1e-9);
+        EXPECT_NEAR(skin->getPose().transform(1).split.twistAngle / kDegree, 200.0, 1e-9);
     };
     wind();
     EXPECT_NEAR(twistAt(time += 1.0, 200.1), -159.9, 1e-9);

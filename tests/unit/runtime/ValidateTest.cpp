@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Error>
-#include <osgSkin/RestSkeleton>
-#include <osgSkin/SkinMesh>
+#include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/SkinMesh>
 
 #include "Tube.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a skin model's block says is not to be believed: refused with a reason, never a crash.
 #include "Tube.h"
+#include "model/SkinModelBlock.h"
 
 #include <osgSkin/Error>
-#include <osgSkin/SkinModelBlock>
 
 #include <gtest/gtest.h>
 

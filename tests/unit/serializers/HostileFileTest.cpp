@@ -19,7 +19,7 @@ protected:
 
 /// Where the model's block starts: far enough back to be in our classes from there on.
 std::size_t ourPart(const std::string& file) {
-    for (const char* name : {"osgSkin::SharedSkinModel", "osgSkin--SharedSkinModel"})
+    for (const char* name : {"osgSkin::SkinModel", "osgSkin--SkinModel"})
         if (file.find(name) != std::string::npos) return file.find(name);
     return std::string::npos;
 }
@@ -41,7 +41,7 @@ TEST_P(HostileFile, CutShortInTheModelIsRefused) {
     const std::size_t start = ourPart(good);
     ASSERT_NE(start, std::string::npos);
     // Further on, OSG's XML parser makes do with what is there.
-    const std::size_t end = good.find("</osgSkin--SharedSkinModel", start);
+    const std::size_t end = good.find("</osgSkin--SkinModel", start);
     for (std::size_t size = start; size + 1000 < std::min(end, good.size()); size += 211)
         EXPECT_EQ(test::load(good.substr(0, size), GetParam()), nullptr) << size;
     for (std::size_t size = end; size < good.size(); size += 97)

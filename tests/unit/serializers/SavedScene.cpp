@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "SavedScene.h"
 
-#include "Tube.h"
 #include "Turns.h"
 
 #include <osgSkin/AutoPlayManager>
@@ -102,8 +101,7 @@ osg::ref_ptr<osgDB::Options> optionsFor(const std::string& extension) {
 
 } // namespace
 
-osg::ref_ptr<osg::Group> makeScene() {
-    const Tube tube;
+osg::ref_ptr<osg::Group> makeScene(const Tube& tube) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones(tube.binding.joints);
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
     skin->setSkin(makeGeometry(tube), tube.model());

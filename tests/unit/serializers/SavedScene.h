@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "Tube.h"
+
 #include <osgSkin/DeformableSkin>
 
 #include <osg/Group>
@@ -15,7 +17,7 @@ namespace test {
 
 /// A tube's skin and a copy of it under a skeleton of three bones, a rigid part on the last bone,
 /// an animation of the middle one, and a value other than the default in each field that is saved.
-osg::ref_ptr<osg::Group> makeScene();
+osg::ref_ptr<osg::Group> makeScene(const Tube& tube = Tube());
 
 /// All skins below `root`.
 std::vector<osgSkin::DeformableSkin*> skinsOf(osg::Node& root);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "model/SkinModelBlock.h"
 #include "Tube.h"
-
-#include <osgSkin/SkinModelBlock>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/FitSkeleton>
 
-#include "PlaceJoints.h"
+#include "fit/place/CheckProportions.h"
+#include "fit/place/PlaceArm.h"
+#include "fit/place/PlaceHand.h"
+#include "fit/place/PlaceLeg.h"
+#include "fit/place/PlaceTrunk.h"
+#include "fit/place/PushInside.h"
+#include "fit/place/Symmetrise.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmMath>
 
 #include <glm/geometric.hpp>
 
@@ -15,13 +22,9 @@
 namespace osgSkin {
 namespace {
 
-/// Shares of the time that are over when the steps begin.
+/// Fractions of the time that have passed when the steps begin.
 constexpr double kFacingBegins = 0.85;
 constexpr double kJointsBegin = 0.95;
-
-bool isFinite(const glm::dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 bool isDirection(const glm::dvec3& d) {
     return isFinite(d) && glm::length(d) > 0.0;
@@ -64,36 +67,36 @@ std::optional<glm::dvec3> leftOf(const FitOptions& options, const FitBody& body)
     return sum;
 }
 
-void requireLimb(const BodyBranches::Path& path, const JointSheet& sheet,
+void requireLimb(const BodyBranches::Path& path, const PlacedJoints& placed,
                  std::initializer_list<std::string> names) {
     for (const std::string& name : names)
-        if (path.empty() && !sheet.has(name))
+        if (path.empty() && !placed.has(name))
             throw Error("cannot fit a skeleton: " + name +
                         " cannot be told from the rest of the body; give a landmark for it");
 }
 
-void placeJoints(const FitBody& body, JointSheet& sheet, std::vector<std::string>& notes) {
-    if (body.isSymmetric()) mirrorLandmarks(sheet);
+void placeJoints(const FitBody& body, PlacedJoints& placed, std::vector<std::string>& notes) {
+    if (body.isSymmetric()) mirrorLandmarks(placed);
     for (const std::size_t side : {0u, 1u}) {
         const std::string& prefix = sidePrefix(side);
-        requireLimb(body.branches.legs[side], sheet, {prefix + "UpLeg", prefix + "Foot"});
-        requireLimb(body.branches.arms[side], sheet, {prefix + "Arm", prefix + "Hand"});
-        placeLeg(body, side, sheet);
+        requireLimb(body.branches.legs[side], placed, {prefix + "UpLeg", prefix + "Foot"});
+        requireLimb(body.branches.arms[side], placed, {prefix + "Arm", prefix + "Hand"});
+        placeLeg(body, side, placed);
     }
-    placeTrunk(body, sheet);
+    placeTrunk(body, placed);
     for (const std::size_t side : {0u, 1u}) {
-        placeArm(body, side, sheet);
-        placeHand(body, side, sheet);
+        placeArm(body, side, placed);
+        placeHand(body, side, placed);
     }
-    if (body.isSymmetric()) symmetrise(sheet);
-    checkProportions(sheet);
-    pushInside(body, sheet, notes);
+    if (body.isSymmetric()) symmetrise(placed);
+    checkProportions(placed);
+    pushInside(body, placed, notes);
 }
 
-RestSkeleton skeletonOf(const FitBody& body, JointSheet& sheet, FitReport& report) {
+RestSkeleton skeletonOf(const FitBody& body, PlacedJoints& placed, FitReport& report) {
     RestSkeleton skeleton;
     for (const FittedJoint& joint : fittedTree()) {
-        const JointSheet::Entry& entry = sheet.entries().at(joint.name);
+        const PlacedJoints::Entry& entry = placed.entries().at(joint.name);
         RestJoint& added = skeleton.joints.emplace_back();
         added.name = joint.name;
         added.parent = joint.parent;
@@ -111,8 +114,8 @@ RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& options, FitRep
     const auto start = std::chrono::steady_clock::now();
     mesh.validate();
     check(options);
-    const auto tell = [&options](const char* what, double share) {
-        if (options.progress) options.progress(what, share);
+    const auto tell = [&options](const char* what, double fraction) {
+        if (options.progress) options.progress({what, fraction});
     };
     FitReport found;
     tell("surface", 0.0);
@@ -126,16 +129,25 @@ RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& options, FitRep
     found.height = body.height();
     found.symmetryError = body.symmetryError;
 
-    JointSheet sheet;
+    PlacedJoints placed;
     for (const auto& [name, centre] : options.landmarks)
-        sheet.addLandmark(name, body.toBody(centre));
+        placed.addLandmark(name, body.toBody(centre));
     tell("joints", kJointsBegin);
-    placeJoints(body, sheet, found.notes);
-    RestSkeleton skeleton = skeletonOf(body, sheet, found);
+    placeJoints(body, placed, found.notes);
+    RestSkeleton skeleton = skeletonOf(body, placed, found);
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (report) *report = found;
     tell("done", 1.0);
     return skeleton;
+}
+
+const std::vector<std::string>& fittedJointNames() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> result;
+        for (const FittedJoint& joint : fittedTree()) result.emplace_back(joint.name);
+        return result;
+    }();
+    return names;
 }
 
 } // namespace osgSkin

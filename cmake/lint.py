@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""lint.py BUILD [FILE...]: clang-tidy over our sources, or over these; fails on any complaint.
+
+Nine tenths of clang-tidy's time go into headers, so sources that are compiled alike are read several
+to a unit. Those that share a name of their own file (by ctags) go into different units, and those
+that do not compile beside others after all are read by themselves.
+"""
+import collections
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+MOST_FILES = 12
+MOST_LINES = 1500
+# GCC's own warning options mean nothing to clang, and OSG's wrapper macros leave parameters unused.
+FLAGS = ["-Wno-unknown-warning-option", "-Wno-unused-parameter", "-Wdocumentation",
+         "-Wreserved-identifier"]
+# Made by macros, another in each file.
+TESTS = {"TEST", "TEST_F", "TEST_P", "INSTANTIATE_TEST_SUITE_P", "REGISTER_OBJECT_WRAPPER"}
+
+
+def flags_of(entry):
+    """What a source is compiled with, without its own name and the optimisation."""
+    words, flags = shlex.split(entry["command"]), []
+    words = words[next(i for i, word in enumerate(words) if word.startswith("-")):]
+    skip = False
+    for word in words:
+        if skip or word == "-c" or word == entry["file"]:
+            skip = False
+        elif word == "-o":
+            skip = True
+        elif not word.startswith("-O"):
+            flags.append(word)
+    return tuple(flags + FLAGS)
+
+
+def own_names(files):
+    """For each file the names that it keeps to itself, macros among them."""
+    command = ["ctags", "--kinds-C++=dfvscgtue", "--fields=+ZfK", "--output-format=json", "-f", "-"]
+    tags = subprocess.run([*command, *files], check=True, capture_output=True, text=True).stdout
+    names = collections.defaultdict(set)
+    for tag in map(json.loads, tags.splitlines()):
+        scope = tag.get("scope", "")
+        local = "__anon" in scope or tag.get("file") or tag["kind"] == "macro"
+        if local and tag.get("scopeKind") in (None, "namespace") and tag["name"] not in TESTS:
+            names[tag["path"]].add(tag["name"])
+    return names
+
+
+def units(entries):
+    """[(flags, files)]: files of one unit are compiled alike and share no name of their own."""
+    names = own_names([e["file"] for e in entries])
+    made = collections.defaultdict(list)  # flags -> [(files, names, lines)]
+    for entry in entries:
+        file = entry["file"]
+        lines = len(pathlib.Path(file).read_text().splitlines())
+        for unit in made[flags_of(entry)]:
+            if len(unit[0]) < MOST_FILES and unit[2] + lines <= MOST_LINES and not unit[1] & names[file]:
+                unit[0].append(file)
+                unit[1].update(names[file])
+                unit[2] += lines
+                break
+        else:
+            made[flags_of(entry)].append([[file], set(names[file]), lines])
+    result = [(flags, unit[0]) for flags, list_ in made.items() for unit in list_]
+    return sorted(result, key=lambda unit: -len(unit[1]))  # the longest first
+
+
+def run(folder, flags, files, checks):
+    """clang-tidy on files as one unit, with these checks added to ours. (exit status, complaints)."""
+    folder.mkdir(parents=True, exist_ok=True)
+    unit = folder / "unit.cpp"
+    unit.write_text("".join(f'#include "{file}"\n' for file in files))
+    source = str(unit) if len(files) > 1 else files[0]
+    command = {"directory": str(folder), "file": source, "arguments": ["c++", *flags, "-c", source]}
+    (folder / "compile_commands.json").write_text(json.dumps([command]))
+    done = subprocess.run(["clang-tidy", "-p", str(folder), "--quiet", f"--checks={checks}", source],
+                          capture_output=True, text=True)
+    return done.returncode, done.stdout or done.stderr
+
+
+def tidy(folder, flags, files):
+    """Complaints about one unit."""
+    status, found = run(folder, flags, files, "-bugprone-suspicious-include" if len(files) > 1 else "")
+    if status == 0:
+        return ""
+    if len(files) == 1 or "[clang-diagnostic-error]" not in found:
+        return found
+    blamed = [f for f in files if re.search(rf"^{re.escape(f)}:\d+:\d+: error: .*\[clang-diagnostic-error\]",
+                                            found, re.M)] or files
+    rest = [f for f in files if f not in blamed]
+    print("by themselves: " + " ".join(pathlib.Path(f).name for f in blamed), flush=True)
+    texts = [tidy(folder / pathlib.Path(file).stem, flags, [file]) for file in blamed]
+    return "".join(texts) + (tidy(folder, flags, rest) if rest else "")
+
+
+def main():
+    build = pathlib.Path(sys.argv[1]).resolve()
+    root = pathlib.Path(__file__).parents[1].resolve()
+    # These two are no part of the build: tests compile them by themselves.
+    listed = subprocess.run(["git", "ls-files", "*.cpp", ":!tests/downstream", ":!tests/unit/headers"], cwd=root, check=True,
+                            capture_output=True, text=True).stdout.split()
+    wanted = {str(root / f) for f in listed}
+    if sys.argv[2:]:
+        wanted &= {str(pathlib.Path(f).resolve()) for f in sys.argv[2:]}
+    commands = json.loads((build / "compile_commands.json").read_text())
+    entries = {e["file"]: e for e in reversed(commands) if e["file"] in wanted}
+    missing = wanted - set(entries)
+    if missing:
+        print("not in the build, so not looked at: " + " ".join(sorted(missing)), file=sys.stderr)
+    work = units(sorted(entries.values(), key=lambda e: e["file"]))
+    print(f"clang-tidy: {len(entries)} sources in {len(work)} units", flush=True)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = list(pool.map(lambda job: tidy(build / "lint" / str(job[0]), *job[1]), enumerate(work)))
+    seen = set()
+    for block in re.split(r"(?m)^(?=\S+:\d+:\d+: (?:warning|error))", "".join(found)):
+        if block.strip() and block not in seen:
+            seen.add(block)
+            sys.stderr.write(block)
+    return 1 if seen or missing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "SampledMotion.h"
+
+#include <cmath>
+
+namespace bake {
+namespace {
+
+using osgSkin::Character;
+using osgSkin::CharacterMotion;
+
+SampledMotion ownSamples(Character& character, const CharacterMotion& motion) {
+    return {motion.name(), motion.clip.frames, motion.clip.frameTime, motion.report.feetText(),
+            [&character, &motion](std::size_t frame) { character.pose(motion, frame); }};
+}
+
+SampledMotion samplesAt(Character& character, const CharacterMotion& motion, double rate) {
+    const double last = std::floor(motion.animation->getDuration() * rate + 1e-6);
+    return {motion.name(),
+            static_cast<std::size_t>(last) + 1,
+            1.0 / rate,
+            {},
+            [&character, &motion, rate](std::size_t frame) {
+                character.poseAt(motion, static_cast<double>(frame) / rate);
+            }};
+}
+
+} // namespace
+
+std::vector<SampledMotion> sampledMotions(Character& character, double rate) {
+    std::vector<SampledMotion> result;
+    for (const CharacterMotion& motion : character.motions)
+        result.push_back(motion.isSampled() ? ownSamples(character, motion)
+                                            : samplesAt(character, motion, rate));
+    return result;
+}
+
+} // namespace bake

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "Figure.h"
+
+#include <osg/NodeVisitor>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+#include <osgDB/Registry>
+#include <osgSkinImport/ImportRig>
+
+#include <stdexcept>
+
+namespace viewer {
+namespace {
+
+/// Finds the skins of a scene and what plays it.
+class Finder : public osg::NodeVisitor {
+public:
+    explicit Finder(Figure& figure) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _figure(figure) {}
+
+    void apply(osg::Node& node) override {
+        auto* manager =
+            dynamic_cast<osgAnimation::BasicAnimationManager*>(node.getUpdateCallback());
+        if (manager != nullptr && !_figure.manager) {
+            _figure.manager = manager;
+            _figure.managed = &node;
+        }
+        traverse(node);
+    }
+
+    void apply(osg::Drawable& drawable) override {
+        if (auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&drawable))
+            _figure.skins.emplace_back(skin);
+    }
+
+private:
+    Figure& _figure;
+};
+
+/// Whether the file says what its body is made of; other files are scenes.
+bool hasBody(const std::string& file) {
+    const bool isSkin = osgDB::getLowerCaseFileExtension(file) == "skin";
+    if (isSkin && osgDB::fileExists(file)) return true;
+    return osgSkin::isReadByAssimp(isSkin ? osgDB::getNameLessExtension(file) : file);
+}
+
+osg::ref_ptr<osg::Group> readScene(const std::string& file) {
+    osgDB::ReaderWriter::ReadResult read = osgDB::Registry::instance()->readNode(file, nullptr);
+    const osg::ref_ptr<osg::Node> node = read.getNode();
+    if (!node) {
+        const std::string& reason = read.message();
+        throw std::runtime_error(
+            reason.find(file) == std::string::npos
+                ? file + ": " + (reason.empty() ? "cannot be read as a character" : reason)
+                : reason);
+    }
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(node);
+    return root;
+}
+
+} // namespace
+
+Figure::Figure(const std::string& file, const std::string& weights) {
+    if (hasBody(file)) {
+        body = std::make_unique<figures::Body>(file, weights);
+        root = body->character.root;
+    } else {
+        root = readScene(file);
+    }
+    Finder finder(*this);
+    root->accept(finder);
+    if (!skins.empty()) return;
+    // A scene of rigs: the pseudo-loader makes skins of them.
+    root = readScene(file + ".skin");
+    root->accept(finder);
+    if (skins.empty()) throw std::runtime_error(file + ": no skin in it, expected a character");
+}
+
+} // namespace viewer

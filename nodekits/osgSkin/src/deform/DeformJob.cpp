@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/DeformJob>
+
+#include <osgSkin/Error>
+
+#include "deform/Chain.h"
+#include "deform/DeformKernel.h"
+#include "deform/KernelChain.h"
+#include "model/SkinModelAccess.h"
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+constexpr std::size_t kPartBlocks = 256;
+
+/// The group that a block belongs to.
+std::size_t groupOf(const SkinBlocks& blocks, std::size_t block) noexcept {
+    const auto behind = std::upper_bound(blocks.firstBlock.begin(), blocks.firstBlock.end(), block);
+    return static_cast<std::size_t>(behind - blocks.firstBlock.begin()) - 1;
+}
+
+/// The vertex, in the model's order, that a block begins with; all of them for the end.
+std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
+    const SkinBlocks& blocks = SkinModelAccess::blocks(model);
+    if (block >= blocks.firstBlock.back()) return model.vertexCount();
+    const std::size_t group = groupOf(blocks, block);
+    return model.groups()[group].firstVertex + (block - blocks.firstBlock[group]) * kBlock;
+}
+
+/// Deforms the blocks from `first` to before `end`, and no other vertex is written.
+void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
+    const SkinModel& model = *job.model;
+    const SkinBlocks& blocks = SkinModelAccess::blocks(model);
+    const std::size_t endVertex = firstVertexOf(model, end);
+    KernelChain chain(model, *job.pose);
+    KernelCall call;
+    for (std::size_t g = groupOf(blocks, first); blocks.firstBlock[g] < end; ++g) {
+        const SkinModel::Group& group = model.groups()[g];
+        const std::size_t from = std::max(first, blocks.firstBlock[g]) - blocks.firstBlock[g];
+        const std::size_t to = std::min(end, blocks.firstBlock[g + 1]) - blocks.firstBlock[g];
+        const std::size_t vertex = group.firstVertex + from * kBlock;
+        const std::size_t out = blocks.inOrder ? vertex : 0;
+        chain.prepare(group, call);
+        call.rows =
+            &blocks.rows[blocks.firstRow[g] + from * SkinBlocks::rowsPerBlock(group.partialCount)];
+        call.vertexCount = std::min<std::size_t>(group.vertexCount, to * kBlock) - from * kBlock;
+        call.room = endVertex - vertex;
+        call.scatter = blocks.inOrder ? nullptr : model.order().data() + vertex;
+        call.positions = &job.positions[out].x;
+        call.normals = job.normals ? &job.normals[out].x : nullptr;
+        call.tangents = job.tangents ? &job.tangents[out].x : nullptr;
+        call.tangentRows = job.tangents ? SkinModelAccess::blocks(*job.restTangents, g) +
+                                              from * SkinBlocks::kTangentRows
+                                        : nullptr;
+        runKernel(call);
+    }
+}
+
+/// Why a job cannot run; null where it can.
+const char* reasonAgainst(const DeformJob& job) noexcept {
+    if (!job.model) return "no model";
+    const std::size_t vertices = job.model->vertexCount();
+    if (!job.pose) return "no pose";
+    if (job.pose->size() != job.model->joints().size())
+        return "the pose is not one of the model's joints";
+    if (!job.positions) return "no output for positions";
+    if (job.positionCount != vertices) return "as many positions as vertices are needed";
+    if (job.normals && job.normalCount != vertices) return "as many normals as vertices are needed";
+    if (!job.tangents) return nullptr;
+    if (!job.normals) return "tangents are rotated beside normals only";
+    if (!job.restTangents) return "no rest tangents";
+    if (job.restTangents->model() != job.model) return "the rest tangents are another model's";
+    if (job.tangentCount != vertices) return "as many tangents as vertices are needed";
+    return nullptr;
+}
+
+} // namespace
+
+void DeformJob::validate() const {
+    if (const char* reason = reasonAgainst(*this))
+        throw Error(std::string("deform job: ") + reason);
+}
+
+bool DeformJob::isValid() const noexcept {
+    return !reasonAgainst(*this);
+}
+
+bool DeformJob::run() const noexcept {
+    if (!isValid()) return false;
+    runBlocks(*this, 0, SkinModelAccess::blocks(*model).firstBlock.back());
+    return true;
+}
+
+std::size_t DeformJob::partCount() const noexcept {
+    if (!isValid()) return 0;
+    return (SkinModelAccess::blocks(*model).firstBlock.back() + kPartBlocks - 1) / kPartBlocks;
+}
+
+bool DeformJob::runPart(std::size_t part) const noexcept {
+    if (part >= partCount()) return false;
+    const std::size_t first = part * kPartBlocks;
+    runBlocks(*this, first,
+              std::min(first + kPartBlocks, SkinModelAccess::blocks(*model).firstBlock.back()));
+    return true;
+}
+
+bool DeformJob::runReference() const noexcept {
+    if (!isValid()) return false;
+    for (const SkinModel::Group& group : model->groups()) {
+        const Chain chain(*model, group, *pose);
+        const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;
+        const std::uint32_t* order = model->order().data() + group.firstVertex;
+        for (std::uint32_t i = 0; i < group.vertexCount; ++i, ratios += group.partialCount) {
+            const std::uint32_t v = order[i];
+            glm::vec3 position = model->positions()[v];
+            glm::vec3 normal = model->normals()[v];
+            const glm::vec4 rest = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
+            glm::vec3 tangent(rest);
+            chain.apply(ratios, position, normals ? &normal : nullptr,
+                        tangents ? &tangent : nullptr);
+            positions[v] = position;
+            if (normals) normals[v] = normal;
+            if (tangents) tangents[v] = glm::vec4(tangent, rest.w);
+        }
+    }
+    return true;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+//
+// Compiled once for each instruction set by foreach_target.h, which includes this file again and
+// again; the best one is chosen at run time.
+#include "deform/DeformKernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "deform/DeformKernel.cpp"
+#include <hwy/foreach_target.h>
+// Must follow foreach_target.h.
+#include <hwy/highway.h>
+
+#include <hwy/cache_control.h>
+
+#include "deform/KernelPasses-inl.h"
+#include "deform/KernelStore-inl.h"
+#include "deform/KernelTurns-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace osgSkin {
+namespace HWY_NAMESPACE {
+
+/// How far ahead of what is being written the outputs' lines are asked for, in floats: a crowd's
+/// outputs are in no cache.
+constexpr std::size_t kAhead = 512;
+
+/// The same for the skin's rows, this group's and the next one's, where a skin is larger than the
+/// caches.
+constexpr std::size_t kRowsAhead = 32;
+
+struct Outputs {
+    Output positions, normals, tangents;
+};
+
+template <bool kNormals, bool kTangents>
+HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::size_t first,
+                             const float* HWY_RESTRICT rows,
+                             const float* HWY_RESTRICT tangentRows) {
+    const D d;
+    V x = hn::Load(d, rows), y = hn::Load(d, rows + kBlock), z = hn::Load(d, rows + 2 * kBlock);
+    V nx = hn::Zero(d), ny = nx, nz = nx, tx = nx, ty = nx, tz = nx;
+    if (kNormals) {
+        nx = hn::Load(d, rows + 3 * kBlock);
+        ny = hn::Load(d, rows + 4 * kBlock);
+        nz = hn::Load(d, rows + 5 * kBlock);
+    }
+    if (kTangents) {
+        tx = hn::Load(d, tangentRows);
+        ty = hn::Load(d, tangentRows + kBlock);
+        tz = hn::Load(d, tangentRows + 2 * kBlock);
+    }
+    if (call.lead) {
+        if (HWY_UNLIKELY(call.leadScaled)) scaleBy(constant(call.leadScale), x, y, z);
+        apply(*call.lead, x, y, z);
+        if (kNormals) turn(*call.lead, nx, ny, nz);
+        if (kTangents) turn(*call.lead, tx, ty, tz);
+    }
+    const float* HWY_RESTRICT ratio = rows + 6 * kBlock;
+    bool inJointFrame = !call.lead;
+    for (const KernelLink* link = call.links + call.linkCount; link-- != call.links;
+         ratio += 2 * kBlock, inJointFrame = false) {
+        const V bendRatio = hn::Load(d, ratio);
+        V sine, cosine;
+        sineCosine(link->twist, hn::Load(d, ratio + kBlock), sine, cosine);
+        if (inJointFrame) takeAzimuthOff(call, sine, cosine);
+        turnPlane(sine, cosine, x, y);
+        if (kNormals) turnPlane(sine, cosine, nx, ny);
+        if (kTangents) turnPlane(sine, cosine, tx, ty);
+        sineCosine(link->bend, bendRatio, sine, cosine);
+        turnPlane(sine, cosine, y, z);
+        if (kNormals) turnPlane(sine, cosine, ny, nz);
+        if (kTangents) turnPlane(sine, cosine, ty, tz);
+        if (HWY_UNLIKELY(link->adjusted)) adjust(*link, bendRatio, x, y, z);
+        apply(link->out, x, y, z);
+        if (kNormals) turn(link->out, nx, ny, nz);
+        if (kTangents) turn(link->out, tx, ty, tz);
+    }
+    for (std::size_t i = 0; i < 3 * hn::Lanes(d); i += 16) {
+        hwy::Prefetch(out.positions.to + 3 * first + kAhead + i);
+        if (kNormals) hwy::Prefetch(out.normals.to + 3 * first + kAhead + i);
+    }
+    store(out.positions, first, x, y, z);
+    if (kNormals) store(out.normals, first, nx, ny, nz);
+    if (kTangents) store(out.tangents, first, tx, ty, tz, hn::Load(d, tangentRows + 3 * kBlock));
+}
+
+/// Deforms a group vector by vector, each through its whole chain.
+template <bool kNormals, bool kTangents>
+void deformByVectors(const KernelCall& call) {
+    const Outputs out{Output(call, call.positions), Output(call, call.normals),
+                      Output(call, call.tangents)};
+    const std::size_t blockRows = SkinBlocks::rowsPerBlock(call.linkCount);
+    const BlockRow* rows = call.rows;
+    for (std::size_t first = 0; first < call.vertexCount; first += kBlock, rows += blockRows) {
+        for (std::size_t i = 0; i < blockRows; ++i) hwy::Prefetch(rows + kRowsAhead + i);
+        const std::size_t end = HWY_MIN(first + kBlock, call.vertexCount);
+        for (std::size_t v = first; v < end; v += hn::Lanes(D()))
+            deformVector<kNormals, kTangents>(call, out, v, rows->lane + v % kBlock,
+                                              kTangents ? tangentLanes(call, v) : nullptr);
+    }
+}
+
+void deform(const KernelCall& call) {
+#if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
+    deformByLinks(call);
+#else
+    if (call.tangents)
+        deformByVectors<true, true>(call);
+    else if (call.normals)
+        deformByVectors<true, false>(call);
+    else
+        deformByVectors<false, false>(call);
+#endif
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace osgSkin
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace osgSkin {
+
+HWY_EXPORT(deform);
+
+void runKernel(const KernelCall& call) noexcept {
+    HWY_DYNAMIC_DISPATCH(deform)(call);
+}
+
+} // namespace osgSkin
+#endif

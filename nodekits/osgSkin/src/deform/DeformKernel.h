@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "model/SkinBlocks.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace osgSkin {
+
+/// A constant four times over, so that 128-bit instructions can read it as an operand. Rounding
+/// errors are taken as 0: their products would be denormal numbers, which processors are many times
+/// slower with.
+struct alignas(16) Splat {
+    float value[4];
+
+    Splat& operator=(double x) {
+        const auto rounded = static_cast<float>(x > -1e-15 && x < 1e-15 ? 0.0 : x);
+        for (float& v : value) v = rounded;
+        return *this;
+    }
+};
+
+/// x -> turn x + move, in single precision, as the kernel reads it.
+struct KernelMap {
+    Splat turn[3][3]; ///< [row][column]
+    Splat move[3];
+};
+
+/// An angle of which each vertex takes its share. The smaller it is, the fewer terms its sine
+/// needs.
+struct KernelAngle {
+    /// Up to 0.34, 0.9, pi / 2, pi and 2 pi.
+    enum Range { kSmall, kMedium, kLarge, kHalved, kQuartered };
+    Splat value; ///< radians; half the angle where the range is kHalved, a quarter where kQuartered
+    Range range;
+
+    KernelAngle& operator=(double angle) {
+        const double size = angle < 0.0 ? -angle : angle;
+        range = size <= 0.34     ? kSmall
+                : size <= 0.9    ? kMedium
+                : size <= 1.5708 ? kLarge
+                : size <= 3.1416 ? kHalved
+                                 : kQuartered;
+        value = range == kQuartered ? 0.25 * angle : range == kHalved ? 0.5 * angle : angle;
+        return *this;
+    }
+};
+
+/// One partial joint of a group's chain in the present pose.
+///
+/// In the frame (v, w x v, w) about the joint centre, with bend axis v and twist axis w, the
+/// partial turn is a turn in the plane of the first two axes (by the twist) followed by one in the
+/// plane of the last two (by the bend).
+struct KernelLink {
+    KernelAngle bend;  ///< psi
+    KernelAngle twist; ///< phi
+    bool adjusted;     ///< the joint is moved or scaled, or joints further out are scaled
+    Splat move[3];     ///< the joint's translation, in its frame; comes in with the bend ratio
+    Splat growth;      ///< the joint's scale less 1; the same
+    Splat outScale;    ///< of positions, before `out`
+    KernelMap out; ///< from this frame to that of the next partial joint outwards, or rest space
+};
+
+/// All vertices of one group, with the constants that they have in common.
+struct KernelCall {
+    const BlockRow* rows;
+    const BlockRow* tangentRows; ///< SkinModelAccess::blocks(); where tangents is not null
+    std::size_t vertexCount;
+    std::size_t linkCount;   ///< partial links
+    const KernelLink* links; ///< outermost first
+    const KernelMap* lead;   ///< applied first; null where the blocks are in a joint's frame
+    Splat leadScale;         ///< of positions, before lead
+    bool leadScaled;         ///< leadScale is not 1; else it is not set
+    Splat azimuthCosine;     ///< of v in that frame; where lead is null
+    Splat azimuthSine;
+    float* positions; ///< x, y, z of the group's first vertex
+    float* normals;   ///< may be null
+    float* tangents;  ///< x, y, z, w; may be null; null where normals is
+    std::size_t room; ///< vertices from there on that may be overwritten, >= vertexCount
+    const std::uint32_t* scatter; ///< vertex of each row, where output is not in order; else null
+};
+
+/// Deforms a group with the best instructions that the machine has.
+///
+/// Without scatter, up to `room` vertices may be written beyond the group's: call in the groups'
+/// order. With it, the outputs are those of vertex 0.
+void runKernel(const KernelCall& call) noexcept;
+
+} // namespace osgSkin

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/DeformPool>
+
+#include <OpenThreads/Thread>
+
+#include <algorithm>
+#include <atomic>
+
+#ifdef OSGSKIN_HAS_TBB
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace osgSkin {
+
+#ifdef OSGSKIN_HAS_TBB
+
+/// At most so many threads at a time in what is run within it, the caller's among them.
+struct DeformPool::Arena {
+    explicit Arena(unsigned int count) : threads(count), arena(static_cast<int>(count)) {
+        if (count > 1) arena.initialize();
+    }
+    unsigned int threads;
+    tbb::task_arena arena;
+};
+
+bool DeformPool::hasThreads() noexcept {
+    return true;
+}
+
+void DeformPool::setThreadCount(unsigned int threads) {
+    const int processors = OpenThreads::GetNumberOfProcessors();
+    if (threads == 0) threads = static_cast<unsigned int>(std::max(1, processors));
+    if (!_arena || _arena->threads != threads) _arena = std::make_unique<Arena>(threads);
+}
+
+void DeformPool::callEach(std::size_t count, Call call, const void* function) const noexcept {
+    if (_arena->threads == 1 || count < 2) {
+        for (std::size_t i = 0; i < count; ++i) call(function, i);
+        return;
+    }
+    // Isolated: a thread that waits for the rest of a skin must not begin with another one, whose
+    // lock somebody may hold who waits for a thread.
+    _arena->arena.execute([&] {
+        tbb::this_task_arena::isolate([&] {
+            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { call(function, i); });
+        });
+    });
+}
+
+#else
+
+struct DeformPool::Arena {
+    unsigned int threads = 1;
+};
+
+bool DeformPool::hasThreads() noexcept {
+    return false;
+}
+
+void DeformPool::setThreadCount(unsigned int) {
+    if (!_arena) _arena = std::make_unique<Arena>();
+}
+
+void DeformPool::callEach(std::size_t count, Call call, const void* function) const noexcept {
+    for (std::size_t i = 0; i < count; ++i) call(function, i);
+}
+
+#endif
+
+DeformPool::DeformPool(unsigned int threads) {
+    setThreadCount(threads);
+}
+
+DeformPool::~DeformPool() = default;
+
+unsigned int DeformPool::getThreadCount() const noexcept {
+    return _arena->threads;
+}
+
+bool DeformPool::run(const DeformJob* jobs, std::size_t count) const noexcept {
+    bool good = true;
+    std::size_t vertices = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool valid = jobs[i].isValid();
+        good = good && valid;
+        if (valid) vertices += jobs[i].positionCount;
+    }
+    if (getThreadCount() == 1 || vertices < _minimumVertices) {
+        for (std::size_t i = 0; i < count; ++i) jobs[i].run();
+        return good;
+    }
+    forEach(count, [&](std::size_t i) {
+        const DeformJob& job = jobs[i];
+        if (job.positionCount < _minimumVertices)
+            job.run();
+        else
+            forEach(job.partCount(), [&job](std::size_t part) { job.runPart(part); });
+    });
+    return good;
+}
+
+} // namespace osgSkin

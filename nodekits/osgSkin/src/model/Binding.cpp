@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/Binding>
+
+#include <osgSkin/Error>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+bool isUnit(const glm::dvec3& v) {
+    return std::abs(glm::dot(v, v) - 1.0) < 1e-9;
+}
+bool isRatio(float r) {
+    return r >= 0.0f && r <= 1.0f;
+} // false for NaN too
+
+void validateJoints(const std::vector<BoundJoint>& joints) {
+    if (joints.empty()) throw Error("binding: no joint");
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        const std::string place = "binding: joint \"" + joints[j].name + "\"";
+        const bool parentFits =
+            j == 0 ? joints[j].parent == -1
+                   : joints[j].parent >= 0 && joints[j].parent < static_cast<int>(j);
+        if (!parentFits) throw Error(place + " does not come after its parent");
+        if (!isUnit(joints[j].boneAxis) || !isUnit(joints[j].twistAxis))
+            throw Error(place + " has an axis that is not a unit vector");
+        if (!std::isfinite(glm::dot(joints[j].centre, joints[j].centre)))
+            throw Error(place + " has a centre that is not finite");
+    }
+}
+
+} // namespace
+
+void Binding::validate() const {
+    validateJoints(joints);
+    const std::size_t vertices = regions.size();
+    if (firstInfluence.size() != vertices + 1 || firstInfluence.front() != 0 ||
+        firstInfluence.back() != influences.size())
+        throw Error("binding: the influences' offsets do not fit the vertices");
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const std::string place = "binding: vertex " + std::to_string(v);
+        if (regions[v] >= joints.size()) throw Error(place + " has no region");
+        if (firstInfluence[v] >= firstInfluence[v + 1] || firstInfluence[v + 1] > influences.size())
+            throw Error(place + " has no influence, expected at least the root's");
+        const Influence& root = influences[firstInfluence[v]];
+        if (root.joint != 0 || root.bend != 1.0f || root.twist != 1.0f)
+            throw Error(place + " does not follow the root with ratio 1");
+        for (std::uint32_t i = firstInfluence[v]; i < firstInfluence[v + 1]; ++i) {
+            const Influence& influence = influences[i];
+            if (influence.joint >= joints.size())
+                throw Error(place + " names a joint that is not there");
+            if (i > firstInfluence[v] && influence.joint <= influences[i - 1].joint)
+                throw Error(place + " lists its joints out of order");
+            if (!isRatio(influence.bend) || !isRatio(influence.twist))
+                throw Error(place + " has a ratio outside [0, 1]");
+        }
+    }
+}
+
+} // namespace osgSkin

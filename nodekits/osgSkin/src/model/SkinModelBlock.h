@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// What files hold of a model. Exported for the serializers alone: an application saves and reads
+// models by osgDB.
+#pragma once
+
+#include <osgSkin/Binding>
+#include <osgSkin/Export>
+#include <osgSkin/SkinModel>
+
+#include <cstdint>
+#include <vector>
+
+namespace osgSkin {
+
+/// The binding that a model was made from, for the model's own vertices.
+///
+/// Ratios come back exactly. Regions are not part of a model: a vertex's region is here the last
+/// joint that it follows by half or more.
+OSGSKIN_EXPORT Binding bindingOf(const SkinModel& model);
+
+/// The version that packSkinModel() writes.
+constexpr std::uint32_t kSkinModelBlockVersion = 1;
+
+/// A model as 32-bit words, every number with all its bits: the same in each file format.
+///
+/// Version; number of joints, and of each: parent, bytes in the name, the name (four bytes a word,
+/// the first lowest), centre, bone axis, twist axis (doubles, low word first); number of vertices,
+/// all positions, all normals (floats); of each vertex: number of influences, and of each: joint,
+/// bend, twist.
+OSGSKIN_EXPORT std::vector<std::uint32_t> packSkinModel(const SkinModel& model);
+
+/// The model in `words`, which may come from anybody.
+///
+/// \return never null
+/// \throw osgSkin::Error that names the first thing found wrong
+OSGSKIN_EXPORT osg::ref_ptr<const SkinModel>
+unpackSkinModel(const std::vector<std::uint32_t>& words);
+
+/// The same for readers that have to make the object first, as osgDB's do.
+///
+/// \param words as above
+/// \param empty a model that nobody uses yet; as it was where this throws
+/// \throw osgSkin::Error as above, and where the model is not empty
+OSGSKIN_EXPORT void unpackSkinModel(const std::vector<std::uint32_t>& words, SkinModel& empty);
+
+} // namespace osgSkin

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/DeformableSkin>
+
+#include <osgSkin/DeformJob>
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/PoseBounds>
+
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
+#include <utility>
+
+namespace osgSkin {
+
+DeformableSkin::DeformableSkin() {
+    setUseDisplayList(false);
+    setSupportsDisplayList(false);
+    setUseVertexBufferObjects(true);
+    // Keeps the Optimizer from merging two skins into one.
+    setDataVariance(osg::Object::DYNAMIC);
+}
+
+DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
+    : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
+      _eager(other._eager), _pool(other._pool), _tangentAttribute(other._tangentAttribute),
+      _tangents(other._tangents) {
+    makeBuffers();
+    poseChanged();
+}
+
+DeformableSkin::~DeformableSkin() = default;
+
+void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinModel>& model) {
+    if (!rest || !model) throw Error("deformable skin: expected a geometry and a model");
+    const auto* vertices = dynamic_cast<const osg::Vec3Array*>(rest->getVertexArray());
+    const auto* normals = dynamic_cast<const osg::Vec3Array*>(rest->getNormalArray());
+    if (!vertices || vertices->size() != model->vertexCount() || !normals ||
+        normals->size() != model->vertexCount())
+        throw Error("deformable skin: the geometry \"" + rest->getName() +
+                    "\" needs Vec3Arrays of " + std::to_string(model->vertexCount()) +
+                    " vertices and normals, as many as the model has");
+    _tangents = tangentsOf(*rest, _tangentAttribute, *model);
+    _rest = rest;
+    _model = model;
+    _pose = Pose(_model->joints());
+    setStateSet(rest->getStateSet());
+    makeBuffers();
+    poseChanged();
+}
+
+osg::ref_ptr<const SkinTangents> DeformableSkin::tangentsOf(const osg::Geometry& rest,
+                                                            int attribute, const SkinModel& model) {
+    if (attribute < 0) return nullptr;
+    const osg::Array* array = rest.getVertexAttribArray(static_cast<unsigned int>(attribute));
+    std::vector<glm::vec4> tangents;
+    if (const auto* four = dynamic_cast<const osg::Vec4Array*>(array))
+        for (const osg::Vec4& t : *four) tangents.emplace_back(t.x(), t.y(), t.z(), t.w());
+    else if (const auto* three = dynamic_cast<const osg::Vec3Array*>(array))
+        for (const osg::Vec3& t : *three) tangents.emplace_back(t.x(), t.y(), t.z(), 1.0f);
+    if (tangents.size() != model.vertexCount())
+        throw Error("deformable skin: the geometry \"" + rest.getName() +
+                    "\" needs a Vec4Array of " + std::to_string(model.vertexCount()) +
+                    " tangents as vertex attribute " + std::to_string(attribute));
+    return SkinTangents::create(&model, std::move(tangents));
+}
+
+void DeformableSkin::setTangentAttribute(int index) {
+    if (_model) _tangents = tangentsOf(*_rest, index, *_model);
+    _tangentAttribute = index;
+    if (!_model) return;
+    makeBuffers();
+    poseChanged();
+}
+
+namespace {
+
+/// Copies `source` into memory that a deformation may write, in the given buffer object.
+template <typename Array>
+osg::ref_ptr<Array> stream(const osg::Array& source, osg::VertexBufferObject& vbo) {
+    osg::ref_ptr<Array> array = new Array(osg::Array::BIND_PER_VERTEX, source.getNumElements());
+    if (const auto* same = dynamic_cast<const Array*>(&source))
+        array->asVector() = same->asVector();
+    array->setNormalize(source.getNormalize());
+    array->setVertexBufferObject(&vbo);
+    return array;
+}
+
+} // namespace
+
+void DeformableSkin::makeBuffers() {
+    releaseGLObjects();
+    _buffers = {};
+    _box.init();
+    _current = 0;
+    _handedOut = false;
+    if (!_rest) return;
+    for (osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
+        buffer = new osg::Geometry(*_rest, osg::CopyOp::SHALLOW_COPY);
+        buffer->setStateSet(nullptr); // the outer drawable's stands above it while culling
+        buffer->setUpdateCallback(nullptr);
+        buffer->setEventCallback(nullptr);
+        buffer->setCullCallback(nullptr);
+        buffer->setNodeMask(~0u);
+        buffer->setDataVariance(osg::Object::UNSPECIFIED); // DYNAMIC would hold up the next update
+        buffer->setUseDisplayList(false);
+        buffer->setSupportsDisplayList(false);
+        buffer->setUseVertexBufferObjects(getUseVertexBufferObjects());
+        // Each buffer streams from memory of its own: a draw thread may still read the other one.
+        const osg::ref_ptr<osg::VertexBufferObject> vbo = new osg::VertexBufferObject;
+        vbo->setUsage(GL_DYNAMIC_DRAW);
+        buffer->setVertexArray(stream<osg::Vec3Array>(*_rest->getVertexArray(), *vbo));
+        buffer->setNormalArray(stream<osg::Vec3Array>(*_rest->getNormalArray(), *vbo));
+        if (_tangents) {
+            const auto index = static_cast<unsigned int>(_tangentAttribute);
+            buffer->setVertexAttribArray(
+                index, stream<osg::Vec4Array>(*_rest->getVertexAttribArray(index), *vbo));
+        }
+        // Bounds are the skin's, known from the pose before any vertex is deformed: set as initial
+        // ones, to which the callback adds nothing.
+        static const osg::ref_ptr<osg::Drawable::ComputeBoundingBoxCallback> nothing =
+            new osg::Drawable::ComputeBoundingBoxCallback;
+        buffer->setComputeBoundingBoxCallback(nothing);
+        // Culled by the outer drawable already, before it was deformed.
+        buffer->setCullingActive(false);
+    }
+}
+
+bool DeformableSkin::setPose(const glm::dmat4* skinning, std::size_t count, Pose::Twist twist) {
+    bool changed = false;
+    if (!_model || !_pose.set(skinning, count, twist, &changed)) return false;
+    if (changed) poseChanged();
+    return true;
+}
+
+bool DeformableSkin::setPose(const osg::Matrixd* skinning, std::size_t count, Pose::Twist twist) {
+    return setPose(asGlm(skinning), count, twist);
+}
+
+/// Makes the buffers draw as the outer drawable is set to.
+void DeformableSkin::applyDrawSettings() {
+    for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
+        if (buffer->getUseVertexArrayObject() != getUseVertexArrayObject())
+            buffer->setUseVertexArrayObject(getUseVertexArrayObject());
+        osg::Drawable::DrawCallback* callback = getDrawCallback();
+        if (callback && buffer->getDrawCallback() != callback) buffer->setDrawCallback(callback);
+    }
+}
+
+void DeformableSkin::poseChanged() {
+    _dirty = true;
+    if (!_model) return;
+    _box = toOsg(computePoseBounds(*_model, _pose));
+    applyDrawSettings();
+    for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
+        buffer->setInitialBound(_box);
+        buffer->getBound(); // now: several cull threads may ask for it at once
+    }
+    dirtyBound();
+    if (_eager) deform();
+}
+
+void DeformableSkin::deform() const {
+    if (!_dirty.load(std::memory_order_acquire)) return;
+    const std::lock_guard<std::mutex> lock(_mutex);
+    if (!_dirty.load(std::memory_order_relaxed) || !_model) return;
+    // A draw may still read the buffer that a cull has handed out last; any other is free, since no
+    // update begins before the draw of the frame before the last one has ended.
+    const unsigned int next = _handedOut ? 1 - _current : _current.load();
+    osg::Geometry& buffer = *_buffers[next];
+    auto& vertices = static_cast<osg::Vec3Array&>(*buffer.getVertexArray());
+    auto& normals = static_cast<osg::Vec3Array&>(*buffer.getNormalArray());
+    DeformJob job;
+    job.model = _model.get();
+    job.pose = &_pose;
+    job.positions = asGlm(vertices.asVector().data());
+    job.positionCount = vertices.size();
+    job.normals = asGlm(normals.asVector().data());
+    job.normalCount = normals.size();
+    if (_tangents) {
+        auto& tangents = static_cast<osg::Vec4Array&>(
+            *buffer.getVertexAttribArray(static_cast<unsigned int>(_tangentAttribute)));
+        job.restTangents = _tangents.get();
+        job.tangents = asGlm(tangents.asVector().data());
+        job.tangentCount = tangents.size();
+        tangents.dirty();
+    }
+    if (_pool)
+        _pool->run(&job, 1);
+    else
+        job.run();
+    vertices.dirty();
+    normals.dirty();
+    buffer.dirtyGLObjects(); // a vertex array object looks at its arrays only when told to
+    _current = next;
+    _handedOut = false;
+    ++_deformCount;
+    _dirty.store(false, std::memory_order_release);
+}
+
+const osg::Geometry* DeformableSkin::getDeformedGeometry() const {
+    if (!_model) return nullptr;
+    deform();
+    return _buffers[_current].get();
+}
+
+void DeformableSkin::accept(osg::NodeVisitor& nv) {
+    if (!nv.validNodeMask(*this)) return;
+    nv.pushOntoNodePath(this);
+    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR)
+        cull(nv);
+    else
+        nv.apply(*this);
+    nv.popFromNodePath();
+}
+
+void DeformableSkin::cull(osg::NodeVisitor& nv) {
+    if (!_model) return;
+    osgUtil::CullVisitor* cv = nv.asCullVisitor();
+    if (osg::Callback* callback = getCullCallback()) {
+        osg::DrawableCullCallback* drawableCallback = callback->asDrawableCullCallback();
+        if (!drawableCallback)
+            callback->run(this, &nv);
+        else if (drawableCallback->cull(&nv, this, cv ? &cv->getRenderInfo() : nullptr))
+            return;
+    }
+    if (cv && isCullingActive() && cv->isCulled(getBoundingBox())) return;
+    deform();
+    _handedOut = true;
+    osg::StateSet* stateSet = cv ? getStateSet() : nullptr;
+    if (stateSet) cv->pushStateSet(stateSet);
+    _buffers[_current]->accept(nv);
+    if (stateSet) cv->popStateSet();
+}
+
+void DeformableSkin::accept(osg::PrimitiveFunctor& functor) const {
+    if (const osg::Geometry* geometry = getDeformedGeometry()) geometry->accept(functor);
+}
+
+void DeformableSkin::accept(osg::PrimitiveIndexFunctor& functor) const {
+    if (const osg::Geometry* geometry = getDeformedGeometry()) geometry->accept(functor);
+}
+
+void DeformableSkin::accept(osg::Drawable::ConstAttributeFunctor& functor) const {
+    if (const osg::Geometry* geometry = getDeformedGeometry()) geometry->accept(functor);
+}
+
+void DeformableSkin::setUseVertexBufferObjects(bool flag) {
+    osg::Drawable::setUseVertexBufferObjects(flag);
+    for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
+        if (buffer) buffer->setUseVertexBufferObjects(flag);
+}
+
+osg::BoundingBox DeformableSkin::computeBoundingBox() const {
+    return _model ? _box : osg::BoundingBox();
+}
+
+void DeformableSkin::drawImplementation(osg::RenderInfo& renderInfo) const {
+    if (const osg::Geometry* geometry = getDeformedGeometry()) {
+        _handedOut = true;
+        geometry->drawImplementation(renderInfo);
+    }
+}
+
+void DeformableSkin::compileGLObjects(osg::RenderInfo& renderInfo) const {
+    // One context's thread may compile while another's deforms.
+    const std::lock_guard<std::mutex> lock(_mutex);
+    for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
+        if (buffer) buffer->compileGLObjects(renderInfo);
+}
+
+void DeformableSkin::resizeGLObjectBuffers(unsigned int maxSize) {
+    osg::Drawable::resizeGLObjectBuffers(maxSize);
+    for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
+        if (buffer) buffer->resizeGLObjectBuffers(maxSize);
+}
+
+void DeformableSkin::releaseGLObjects(osg::State* state) const {
+    osg::Drawable::releaseGLObjects(state);
+    for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
+        if (buffer) buffer->releaseGLObjects(state);
+}
+
+} // namespace osgSkin

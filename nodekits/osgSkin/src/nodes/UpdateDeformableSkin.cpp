@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/UpdateDeformableSkin>
+
+#include <osg/FrameStamp>
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+osgAnimation::Skeleton* nearestSkeleton(const osg::NodePath& path) {
+    for (auto node = path.rbegin(); node != path.rend(); ++node)
+        if (auto* skeleton = dynamic_cast<osgAnimation::Skeleton*>(*node)) return skeleton;
+    return nullptr;
+}
+
+} // namespace
+
+UpdateDeformableSkin::UpdateDeformableSkin(const UpdateDeformableSkin& other,
+                                           const osg::CopyOp& copyop)
+    // Bones are not copied: the copy finds those of the skeleton that it comes to stand under.
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::DrawableUpdateCallback(other,
+                                                                                            copyop),
+      _unwrapTwist(other._unwrapTwist) {}
+
+void UpdateDeformableSkin::noticeSeek(const osg::NodeVisitor& nv) {
+    if (!nv.getFrameStamp()) return;
+    const double time = nv.getFrameStamp()->getSimulationTime();
+    if (std::abs(time - _time) > kSeekSeconds) startTwistAfresh();
+    _time = time;
+}
+
+void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable) {
+    auto* skin = dynamic_cast<DeformableSkin*>(drawable);
+    osgAnimation::Skeleton* skeleton = nv ? nearestSkeleton(nv->getNodePath()) : nullptr;
+    if (!skin || !skeleton) return;
+    noticeSeek(*nv);
+    pose(*skin, *skeleton);
+}
+
+bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
+    const SkinModel* model = skin.getModel();
+    if (!model) return false;
+    if (_skeleton.get() != &skeleton || _model != model) {
+        _reader = BoneReader(model->joints(), skeleton);
+        _skeleton = &skeleton;
+        _model = model;
+        startTwistAfresh();
+        for (const std::string& joint : _reader.missing())
+            OSG_WARN << "osgSkin: skin \"" << skin.getName() << "\": skeleton \""
+                     << skeleton.getName() << "\" has no bone \"" << joint
+                     << "\"; the joint moves with its parent" << std::endl;
+    }
+    const std::vector<glm::dmat4>& skinning = _reader.read();
+    if (!skin.setPose(skinning.data(), skinning.size(), _twist)) return false;
+    _twist = _unwrapTwist ? Pose::Twist::Continued : Pose::Twist::Shortest;
+    return true;
+}
+
+} // namespace osgSkin

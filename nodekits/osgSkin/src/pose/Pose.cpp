@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/Pose>
+
+#include <osgSkin/GlmOsg>
+
+#include "model/SkinBlocks.h"
+#include "pose/SplitUnit.h"
+
+#include <osgSkin/GlmMath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+/// The rotation in a 3 x 3 matrix that may also scale, and the uniform part of that scale; false
+/// where there is none to be found.
+bool rotationOf(const glm::dmat3& m, glm::dquat& rotation, double& scale) noexcept {
+    glm::dvec3 x = m[0];
+    glm::dvec3 y = m[1];
+    const double xx = glm::dot(x, x);
+    if (!std::isfinite(xx) || !(xx > 0.0)) return false;
+    y -= x * (glm::dot(x, y) / xx);
+    const double yy = glm::dot(y, y);
+    if (!std::isfinite(yy) || !(yy > 1e-24 * xx)) return false;
+    const double volume = std::abs(glm::dot(glm::cross(x, y), glm::dvec3(m[2])));
+    if (!std::isfinite(volume) || !(volume > 0.0)) return false;
+    // What numbers of a file or rotation are rounded by is no scale; and a root takes its time.
+    scale = std::abs(volume - 1.0) < 3e-6 ? 1.0 : std::cbrt(volume);
+    x *= 1.0 / std::sqrt(xx);
+    y *= 1.0 / std::sqrt(yy);
+    rotation = glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)));
+    return true;
+}
+
+/// A sine or cosine as a whole number of steps of 2^-30: as good as the kernel's floats, in half of
+/// a double's room.
+std::int32_t inSteps(double x) noexcept {
+    return static_cast<std::int32_t>(std::lrint(x * double(1 << 30)));
+}
+
+/// `twist` or 2 pi more or less, see Pose::Twist.
+double continued(double before, double twist) noexcept {
+    const double turn = 2.0 * glm::pi<double>();
+    for (const double angle : {twist, twist + turn, twist - turn})
+        if (std::abs(angle) < turn && std::abs(angle - before) <= 0.25 * turn) return angle;
+    return twist;
+}
+
+} // namespace
+
+Pose::Pose(const std::vector<BoundJoint>& joints) : _splits(joints.size()) {
+    const auto rest = std::make_shared<std::vector<Rest>>();
+    rest->reserve(joints.size());
+    for (const BoundJoint& joint : joints) {
+        const glm::dmat3 frame = jointFrame(joint);
+        rest->push_back({joint.parent, joint.centre, frame[2], frame[0], frame[1]});
+    }
+    _rest = rest;
+}
+
+bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool* changed) noexcept {
+    if (count != _splits.size()) return false;
+    struct Frame { // of G_j
+        glm::dquat rotation;
+        glm::dvec3 offset;
+        double scale;
+    };
+    static thread_local std::vector<Frame> frames;
+    if (frames.size() < count)
+        frames.resize(count, Frame{{1.0, 0.0, 0.0, 0.0}, glm::dvec3(0.0), 1.0});
+    for (std::size_t j = 0; j < count; ++j) {
+        Frame& frame = frames[j];
+        if (!rotationOf(glm::dmat3(skinning[j]), frame.rotation, frame.scale)) return false;
+        // The joint centre goes where the whole matrix, non-uniform scale included, puts it.
+        const glm::dvec3& centre = (*_rest)[j].centre;
+        frame.offset = glm::dvec3(skinning[j] * glm::dvec4(centre, 1.0)) -
+                       frame.scale * (frame.rotation * centre);
+        if (!isFinite(frame.offset)) return false;
+    }
+    bool other = false;
+    for (std::size_t j = 0; j < count; ++j) {
+        // D_j = G_parent^-1 G_j; the root has no parent.
+        const Rest& rest = (*_rest)[j];
+        Split now;
+        now.rotation = frames[j].rotation;
+        now.offset = frames[j].offset;
+        now.scale = frames[j].scale;
+        if (rest.parent >= 0) {
+            const Frame& parent = frames[static_cast<std::size_t>(rest.parent)];
+            const glm::dquat back = glm::conjugate(parent.rotation);
+            now.rotation = back * now.rotation;
+            now.offset = back * (now.offset - parent.offset);
+            if (now.scale != parent.scale || now.scale != 1.0) {
+                now.offset /= parent.scale;
+                now.scale /= parent.scale;
+                if (std::abs(now.scale - 1.0) < 1e-6) now.scale = 1.0;
+            }
+        }
+        const BendTwist split = splitUnit(now.rotation, rest.twistAxis);
+        now.azimuthCosine = inSteps(glm::dot(split.bendAxis, rest.e1));
+        now.azimuthSine = inSteps(glm::dot(split.bendAxis, rest.e2));
+        now.bendAngle = split.bendAngle;
+        now.twistAngle = split.twistAngle;
+        Split& before = _splits[j];
+        if (twist == Twist::Continued)
+            now.twistAngle = continued(before.twistAngle, now.twistAngle);
+        other = other || now.rotation != before.rotation || now.offset != before.offset ||
+                now.scale != before.scale || now.twistAngle != before.twistAngle;
+        before = now;
+    }
+    if (changed) *changed = other;
+    return true;
+}
+
+bool Pose::set(const osg::Matrixd* skinning, std::size_t count, Twist twist,
+               bool* changed) noexcept {
+    return set(asGlm(skinning), count, twist, changed);
+}
+
+} // namespace osgSkin

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinBind/Bind>
+
+#include "bind/CheckOptions.h"
+#include "joints/BoundJoints.h"
+#include "joints/JointPlan.h"
+#include "limbs/LimbRadius.h"
+#include "mesh/NearestPoints.h"
+#include "mesh/WeldedMesh.h"
+#include "paper/PaperBoundaries.h"
+#include "paper/PaperFields.h"
+#include "ratios/BendFields.h"
+#include "ratios/PackInfluences.h"
+#include "ratios/TwistFields.h"
+#include "regions/Regions.h"
+
+#include <chrono>
+
+namespace osgSkin {
+namespace {
+
+/// Fractions of the time that have passed when the steps begin, measured at 280,000 vertices.
+constexpr double kRegionsBegin = 0.2;
+constexpr double kBendsBegin = 0.8;
+constexpr double kTwistsBegin = 0.96;
+constexpr double kRatiosBegin = 0.98;
+
+/// Vertices that no face uses do as the nearest vertex of the skin does.
+std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
+    std::vector<std::uint32_t> result(mesh.vertexCount()), used, unused;
+    for (std::uint32_t v = 0; v < result.size(); ++v) {
+        result[v] = v;
+        (mesh.shellOf[v] != WeldedMesh::kNoShell ? used : unused).push_back(v);
+    }
+    if (used.empty() || unused.empty()) return result;
+    const std::vector<std::uint32_t> nearest = nearestPoints(mesh.positions, used, unused);
+    for (std::size_t i = 0; i < unused.size(); ++i) result[unused[i]] = nearest[i];
+    return result;
+}
+
+void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                   const Regions& regions, BindReport& report) {
+    std::vector<BindReport::Region> all(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        // A rigid joint's region takes in what its descendants seed.
+        const std::size_t owner =
+            joints[j].rigid >= 0 ? static_cast<std::size_t>(joints[j].rigid) : j;
+        all[owner].seeds += regions.seeds[j];
+    }
+    for (const std::uint32_t joint : regions.jointOf) ++all[joint].vertices;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        if (!joints[j].holdsRegion && all[j].vertices == 0) continue;
+        all[j].joint = skeleton.joints[j].name;
+        report.regions.push_back(all[j]);
+        if (all[j].vertices == 0)
+            report.notes.push_back("region of joint \"" + all[j].joint + "\" is empty");
+    }
+    report.rejectedEdges = regions.rejectedEdges;
+}
+
+std::vector<std::int32_t> seedsOf(const WeldedMesh& mesh, const Regions& regions) {
+    std::vector<std::int32_t> result;
+    result.reserve(mesh.weldedOf.size());
+    for (const std::uint32_t v : mesh.weldedOf) {
+        const std::uint32_t seed = regions.seedOf[v];
+        result.push_back(seed == Regions::kNone ? -1 : static_cast<std::int32_t>(seed));
+    }
+    return result;
+}
+
+std::vector<BindReport::Boundaries> boundariesOf(const std::vector<PlannedJoint>& joints,
+                                                 const std::vector<double>& radii, bool printed) {
+    std::vector<BindReport::Boundaries> result(joints.size());
+    for (std::size_t j = 1; j < joints.size(); ++j) {
+        if (!joints[j].holdsRegion) continue;
+        result[j].bendUpper = joints[j].options.bendUpper;
+        result[j].bendLower = joints[j].options.bendLower;
+        if (printed) {
+            const BoundarySpan bend = paperBendSpan(joints[j], radii[j]);
+            result[j].bendUpper = bend.upper;
+            result[j].bendLower = bend.lower;
+        }
+        const auto twist =
+            printed ? paperTwistSpan(joints[j], radii[j]) : twistSpan(joints[j], radii[j]);
+        if (!twist) continue;
+        result[j].twistUpper = twist->upper;
+        result[j].twistLower = twist->lower;
+    }
+    return result;
+}
+
+} // namespace
+
+Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptions& options,
+             BindReport* report) {
+    const auto start = std::chrono::steady_clock::now();
+    mesh.validate();
+    skeleton.validate();
+    checkOptions(skeleton, options);
+
+    const auto tell = [&options](const std::string& what, double fraction) {
+        if (options.progress) options.progress({what, fraction});
+    };
+    BindReport found;
+    tell("welding", 0.0);
+    const WeldedMesh skin(mesh);
+    const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
+    const Regions regions = findRegions(
+        skin, joints, subProgress(options.progress, kRegionsBegin, kBendsBegin)); // section 1
+
+    // Section 3: what fraction of each joint's rotation each vertex takes.
+    const BinaryField binary{skin, joints, regions.jointOf};
+    const std::vector<double> radii = limbRadii(binary);
+    JointFields bend, twist;
+    if (options.method == BindOptions::Method::Paper) {
+        tell("bend and twist between boundaries", kBendsBegin);
+        PaperFields printed(binary, radii);
+        bend.swap(printed.bend);
+        twist.swap(printed.twist);
+    } else {
+        bend = bendFields(binary, radii, options, [&](std::size_t joint) {
+            const double fraction = double(joint - 1) / double(joints.size() - 1);
+            tell("bend of " + skeleton.joints[joint].name,
+                 kBendsBegin + fraction * (kTwistsBegin - kBendsBegin));
+        });
+        tell("twists", kTwistsBegin);
+        twist = twistFields(skin, joints, radii, bend);
+    }
+
+    tell("ratios", kRatiosBegin);
+    const std::vector<std::uint32_t> shown = representatives(skin);
+    Binding binding;
+    binding.joints = boundJoints(skeleton, joints);
+    binding.firstInfluence.push_back(0);
+    std::size_t partial = 0;
+    for (const std::uint32_t welded : skin.weldedOf) {
+        const std::uint32_t v = shown[welded];
+        binding.regions.push_back(regions.jointOf[v]);
+        if (packInfluences(joints, bend, twist, v, options.maxPartialInfluences,
+                           binding.influences))
+            ++found.cappedVertices;
+        for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
+            if (binding.influences[i].isFractional()) ++partial;
+        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+    binding.validate();
+
+    found.vertices = mesh.positions.size();
+    found.weldedVertices = skin.vertexCount();
+    found.shells = skin.shells;
+    found.openEdges = skin.openEdges;
+    found.influencesPerVertex = static_cast<double>(partial) / static_cast<double>(found.vertices);
+    found.seeds = seedsOf(skin, regions);
+    found.boundaries = boundariesOf(joints, radii, options.method == BindOptions::Method::Paper);
+    reportRegions(skeleton, joints, regions, found);
+    found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (report) *report = found;
+    tell("done", 1.0);
+    return binding;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/body/BodyBranches.h"
+
+#include <osgSkin/Error>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <iomanip>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+namespace osgSkin {
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+/// The limbs' least length, as a fraction of the height, and how much longer they are than a third
+/// one: arms are about 0.4, ears, noses and hair far shorter.
+constexpr double kShortestArm = 0.15;
+constexpr double kThirdLimb = 0.6;
+
+/// No crotch is lower, no foot ends higher.
+constexpr double kLegZone = 0.3;
+constexpr double kFootZone = 0.1;
+
+[[noreturn]] void fail(const std::string& what) {
+    throw Error("cannot fit a skeleton: " + what);
+}
+
+class BranchFinder {
+public:
+    explicit BranchFinder(const CurveSkeleton& skeleton) : _skeleton(skeleton) {}
+
+    BodyBranches find(bool legsGiven, bool armsGiven) {
+        const CurveSkeleton::Paths toHead = _skeleton.pathsTo(highest());
+        Indices feet = footEnds(toHead);
+        if (feet.size() != 2) {
+            if (!legsGiven)
+                fail("expected two legs that reach the floor apart from each other, found " +
+                     std::to_string(feet.size()) +
+                     "; is the body upright, with `up` as its up axis?");
+            feet.assign(2, lowest());
+        }
+        std::array<Indices, 2> legs{toHead.pathFrom(feet[0]), toHead.pathFrom(feet[1])};
+        Indices trunk; // what both legs' paths to the head share
+        while (!legs[0].empty() && !legs[1].empty() && legs[0].back() == legs[1].back()) {
+            trunk.push_back(legs[0].back());
+            legs[0].pop_back();
+            legs[1].pop_back();
+        }
+        if (trunk.size() < 2) fail("expected a trunk between head and legs, found none");
+        BodyBranches result;
+        result.trunk = points(trunk);
+        for (std::size_t side = 0; side < 2 && !legs[side].empty(); ++side) {
+            legs[side].push_back(trunk.back());
+            std::reverse(legs[side].begin(), legs[side].end());
+            result.legs[side] = points(legs[side]);
+        }
+        if (const auto arms = findArms(trunk, legs, armsGiven))
+            result.arms = {points((*arms)[0]), points((*arms)[1])};
+        pairSides(result);
+        return result;
+    }
+
+private:
+    std::size_t highest() const {
+        std::size_t best = 0;
+        for (std::size_t p = 0; p < _skeleton.points.size(); ++p)
+            if (_skeleton.points[p].y > _skeleton.points[best].y) best = p;
+        return best;
+    }
+
+    std::size_t lowest() const {
+        std::size_t best = 0;
+        for (std::size_t p = 0; p < _skeleton.points.size(); ++p)
+            if (_skeleton.points[p].y < _skeleton.points[best].y) best = p;
+        return best;
+    }
+
+    BodyBranches::Path points(const Indices& indices) const {
+        BodyBranches::Path path;
+        for (const std::size_t p : indices) path.push_back(_skeleton.points[p]);
+        return path;
+    }
+
+    /// In each connected piece of the curves below the leg zone's top: the point farthest from the
+    /// head, if it is near the floor.
+    Indices footEnds(const CurveSkeleton::Paths& toHead) const {
+        std::vector<bool> known(_skeleton.points.size(), false);
+        Indices ends;
+        for (std::size_t start = 0; start < known.size(); ++start) {
+            if (known[start] || _skeleton.points[start].y > kLegZone) continue;
+            Indices open{start};
+            std::size_t end = start;
+            double lowest = 1.0;
+            known[start] = true;
+            while (!open.empty()) {
+                const std::size_t p = open.back();
+                open.pop_back();
+                lowest = std::min(lowest, _skeleton.points[p].y);
+                if (toHead.length[p] > toHead.length[end]) end = p;
+                for (const std::size_t q : _skeleton.neighbours[p])
+                    if (!known[q] && _skeleton.points[q].y <= kLegZone) {
+                        known[q] = true;
+                        open.push_back(q);
+                    }
+            }
+            if (lowest < kFootZone) ends.push_back(end);
+        }
+        return ends;
+    }
+
+    /// The two longest branches that leave the trunk.
+    std::optional<std::array<Indices, 2>> findArms(const Indices& trunk,
+                                                   const std::array<Indices, 2>& legs, bool given) {
+        std::vector<bool> taken(_skeleton.points.size(), false);
+        for (const std::size_t p : trunk) taken[p] = true;
+        for (const Indices& leg : legs)
+            for (const std::size_t p : leg) taken[p] = true;
+
+        std::vector<std::pair<double, Indices>> branches;
+        for (const std::size_t root : trunk)
+            for (const std::size_t first : _skeleton.neighbours[root]) {
+                if (taken[first]) continue;
+                const CurveSkeleton::Paths paths = _skeleton.pathsTo(first, taken);
+                std::size_t end = first;
+                for (std::size_t p = 0; p < paths.length.size(); ++p)
+                    if (paths.length[p] < std::numeric_limits<double>::infinity() &&
+                        paths.length[p] > paths.length[end])
+                        end = p;
+                Indices path = paths.pathFrom(end);
+                path.push_back(root);
+                std::reverse(path.begin(), path.end());
+                branches.emplace_back(paths.length[end], path);
+            }
+        std::stable_sort(branches.begin(), branches.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        std::size_t arms = 0;
+        while (arms < branches.size() && branches[arms].first > kShortestArm) ++arms;
+        if (given && arms != 2) return std::nullopt;
+        if (arms < 2)
+            fail("expected two arms that stand off the trunk (a T or an A pose), found " +
+                 std::to_string(arms));
+        if (arms > 2 && branches[2].first > kThirdLimb * branches[1].first) {
+            std::ostringstream what;
+            what << "expected two arms, found " << arms << " limbs between head and legs, at least "
+                 << std::setprecision(2) << branches[arms - 1].first << " of the height long";
+            fail(what.str());
+        }
+        return std::array<Indices, 2>{branches[0].second, branches[1].second};
+    }
+
+    static void pairSides(BodyBranches& body) {
+        if (body.arms[0].empty() || body.legs[0].empty()) return;
+        const glm::dvec3 legs = body.legs[0].back() - body.legs[1].back();
+        const glm::dvec3 arms = body.arms[0].back() - body.arms[1].back();
+        if (legs.x * arms.x + legs.z * arms.z < 0.0) std::swap(body.arms[0], body.arms[1]);
+    }
+
+    const CurveSkeleton& _skeleton;
+};
+
+} // namespace
+
+BodyBranches BodyBranches::find(const CurveSkeleton& skeleton, bool legsGiven, bool armsGiven) {
+    if (skeleton.points.empty()) fail("the body has no medial curve");
+    return BranchFinder(skeleton).find(legsGiven, armsGiven);
+}
+
+void BodyBranches::transform(const glm::dmat3& rotation, const glm::dvec3& origin) {
+    for (Path* path : {&trunk, &legs[0], &legs[1], &arms[0], &arms[1]})
+        for (glm::dvec3& p : *path) p = rotation * (p - origin);
+}
+
+void BodyBranches::sortSides() {
+    // Hips and shoulders: hands and feet may cross.
+    if (!legs[0].empty() && pathPoint(legs[0], 0.4).x < pathPoint(legs[1], 0.4).x)
+        std::swap(legs[0], legs[1]);
+    if (!arms[0].empty() && pathPoint(arms[0], 0.3).x < pathPoint(arms[1], 0.3).x)
+        std::swap(arms[0], arms[1]);
+}
+
+double pathLength(const BodyBranches::Path& path) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) length += glm::distance(path[i - 1], path[i]);
+    return length;
+}
+
+glm::dvec3 pathPoint(const BodyBranches::Path& path, double fraction) {
+    double left = fraction * pathLength(path);
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        const double step = glm::distance(path[i - 1], path[i]);
+        if (left <= step && step > 0.0) return glm::mix(path[i - 1], path[i], left / step);
+        left -= step;
+    }
+    return path.back();
+}
+
+} // namespace osgSkin

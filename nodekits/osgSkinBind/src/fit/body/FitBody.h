@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_FIT_FITBODY_H
+#define OSGSKINBIND_FIT_FITBODY_H
+
+#include "fit/body/BodyBranches.h"
+#include "fit/body/BodySurface.h"
+
+#include <osgSkinBind/FitOptions>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+
+/// A body in the frame in which it is measured: y up, +z where it faces, +x its left, the floor at
+/// y = 0, the top of the head at 1, x = 0 between left and right.
+struct FitBody {
+    BodySurface surface;
+    BodyBranches branches;
+    double symmetryError = 0.0; ///< RMS distance between the skin and its mirror image
+
+    /// Stands the body up along the options' axis and finds its branches; where it faces is not
+    /// known yet.
+    ///
+    /// \param mesh the body, rest space
+    /// \param options its up axis and whom to tell
+    /// \param legsGiven landmarks stand in for legs that are not found
+    /// \param armsGiven landmarks stand in for arms that are not found
+    /// \param notes gets a line for each thing that is unusual
+    /// \throw Error where the surface is not that of a body that stands
+    FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiven, bool armsGiven,
+            std::vector<std::string>& notes);
+
+    /// Rotates the body about its up axis until it faces +z.
+    ///
+    /// \param facing where it faces, rest space
+    /// \param left from its right to its left, rest space, of any length; where both are unset,
+    ///        feet, head and elbows tell
+    /// \return how the facing was found
+    std::string face(const std::optional<glm::dvec3>& facing,
+                     const std::optional<glm::dvec3>& left);
+
+    glm::dvec3 toBody(const glm::dvec3& rest) const {
+        return _scale * (_rotation * (rest - _origin));
+    }
+    glm::dvec3 toRest(const glm::dvec3& body) const {
+        return _origin + glm::transpose(_rotation) * (body / _scale);
+    }
+    bool isSymmetric() const { return symmetryError < 0.01; }
+    double height() const { return 1.0 / _scale; } ///< in the mesh's unit
+
+private:
+    void move(const glm::dmat3& rotation, const glm::dvec3& origin);
+    glm::dvec3 lateral(const std::optional<glm::dvec3>& left) const;
+    void faceBackwards();
+    void refineSymmetry();
+    double mirrorError(double angle, double x) const;
+
+    glm::dmat3 _rotation{1.0};
+    glm::dvec3 _origin{0.0};
+    double _scale = 1.0;
+};
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/place/PlaceLeg.h"
+
+#include "fit/body/LimbSections.h"
+#include "fit/place/Proportions.h"
+
+#include <osgSkin/Error>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace osgSkin {
+namespace {
+
+namespace part = proportions;
+
+const glm::dvec3 kUp(0.0, 1.0, 0.0);
+
+/// Level sections of one leg, from the ankle to below the crotch.
+class Leg {
+public:
+    Leg(const FitBody& body, std::size_t side) : _body(body), _side(side) {}
+
+    /// The leg's section at a height: at its medial curve, or about a guess where it has none.
+    std::optional<Section> at(double height, const glm::dvec3& guess) const {
+        glm::dvec3 point = guess;
+        const BodyBranches::Path& path = _body.branches.legs[_side];
+        for (std::size_t i = 1; i < path.size(); ++i)
+            if (path[i - 1].y >= height && path[i].y < height)
+                point = glm::mix(path[i - 1], path[i],
+                                 (path[i - 1].y - height) / (path[i - 1].y - path[i].y));
+        point.y = height;
+        return _body.surface.sectionAt(point, kUp, 0.03);
+    }
+
+    glm::dvec3 centre(double height, const glm::dvec3& guess) const {
+        const auto section = at(height, guess);
+        return section ? section->centre : glm::dvec3(guess.x, height, guess.z);
+    }
+
+    /// Height of the least girth between two heights, if it is no end of the range.
+    std::optional<double> thinnest(double low, double high, const glm::dvec3& guess) const {
+        constexpr double kStep = 0.004;
+        double best = low, least = std::numeric_limits<double>::infinity();
+        for (double y = low; y <= high; y += kStep) {
+            const auto section = at(y, guess);
+            if (!section || section->girth >= least) continue;
+            least = section->girth;
+            best = y;
+        }
+        if (best < low + 1.5 * kStep || best > high - 1.5 * kStep) return std::nullopt;
+        return best;
+    }
+
+private:
+    const FitBody& _body;
+    std::size_t _side;
+};
+
+void placeHip(const FitBody& body, std::size_t side, PlacedJoints& placed) {
+    const std::string name = sidePrefix(side) + "UpLeg";
+    if (placed.has(name)) return;
+    const auto& legs = body.branches.legs;
+    const auto crotch = findFork(body.surface, legs[0], legs[1], {0, 0.3, 0}, -kUp, 0.32);
+    if (!crotch)
+        throw Error("cannot fit a skeleton: expected legs that part between 30 % and 62 % of the "
+                    "height, found no such place; give landmarks for " +
+                    name);
+    const glm::dvec3 thigh = (side == 0 ? crotch->a : crotch->b).centre;
+    const double height = crotch->point.y + part::kHipAboveCrotch;
+    double depth = thigh.z;
+    if (const auto section = body.surface.sectionAt({0.0, height, thigh.z}, kUp, 0.05))
+        depth = glm::mix(section->low(2), section->high(2), part::kHipsDepth);
+    placed.place(name, {thigh.x, height, depth}, "above the crotch");
+}
+
+void placeAnkle(const Leg& leg, const std::string& name, PlacedJoints& placed,
+                const glm::dvec3& guess) {
+    if (placed.has(name)) return;
+    const auto thinnest = leg.thinnest(0.045, 0.14, guess);
+    const double height =
+        thinnest ? std::max(*thinnest - part::kAnkleBelowThinnest, 0.8 * part::kAnkleHeight)
+                 : part::kAnkleHeight;
+    // Lower sections belong to the foot.
+    glm::dvec3 centre = leg.centre(thinnest ? *thinnest - 0.015 : height, guess);
+    centre.y = height;
+    placed.place(name, centre, thinnest ? "below the thinnest section" : "share of the height");
+}
+
+void placeKnee(const FitBody& body, const Leg& leg, std::size_t side, PlacedJoints& placed) {
+    const std::string name = sidePrefix(side) + "Leg";
+    if (placed.has(name)) return;
+    const glm::dvec3 hip = placed.at(sidePrefix(side) + "UpLeg");
+    const glm::dvec3 ankle = placed.at(sidePrefix(side) + "Foot");
+    glm::dvec3 guess = glm::mix(hip, ankle, part::kThigh / (part::kThigh + part::kShin));
+    std::string how = "share of the leg";
+    const double reach = 0.12 * (hip.y - ankle.y);
+    if (body.branches.legs[side].empty()) {
+        placed.place(name, guess, how);
+        return;
+    }
+    if (const auto hollow = leg.thinnest(guess.y - reach - part::kKneeAboveThinnest,
+                                         guess.y + reach - part::kKneeAboveThinnest, guess)) {
+        guess.y = 0.5 * (guess.y + *hollow + part::kKneeAboveThinnest);
+        how = "share of the leg and the hollow above the calf";
+    }
+    placed.place(name, leg.centre(guess.y, guess), how);
+}
+
+void placeToes(const FitBody& body, std::size_t side, PlacedJoints& placed) {
+    const std::string name = sidePrefix(side) + "ToeBase";
+    const glm::dvec3 ankle = placed.at(sidePrefix(side) + "Foot");
+    std::vector<glm::dvec3> foot;
+    for (const glm::dvec3& p : body.surface.points())
+        if (p.y < 0.05 && std::abs(p.x - ankle.x) < 0.08 && (p.x > 0.0) == (ankle.x > 0.0))
+            foot.push_back(p);
+    double heel = ankle.z, toes = ankle.z;
+    for (const glm::dvec3& p : foot) {
+        heel = std::min(heel, p.z);
+        toes = std::max(toes, p.z);
+    }
+    glm::dvec3 centre(ankle.x, part::kToeBaseHeight, glm::mix(heel, toes, part::kToeBase));
+    double inner = std::numeric_limits<double>::infinity(), outer = -inner;
+    for (const glm::dvec3& p : foot)
+        if (std::abs(p.z - centre.z) < 0.02) {
+            inner = std::min(inner, p.x);
+            outer = std::max(outer, p.x);
+        }
+    if (inner < outer) centre.x = 0.5 * (inner + outer);
+    centre = placed.place(name, centre, "share of the foot");
+    placed.setTip(name, {centre.x, centre.y, std::max(toes, centre.z + 0.02)});
+}
+
+} // namespace
+
+void placeLeg(const FitBody& body, std::size_t side, PlacedJoints& placed) {
+    const Leg leg(body, side);
+    placeHip(body, side, placed);
+    const glm::dvec3 hip = placed.at(sidePrefix(side) + "UpLeg");
+    placeAnkle(leg, sidePrefix(side) + "Foot", placed, hip);
+    placeKnee(body, leg, side, placed);
+    placeToes(body, side, placed);
+}
+
+} // namespace osgSkin

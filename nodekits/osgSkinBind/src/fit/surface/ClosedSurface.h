@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_FIT_SURFACE_CLOSEDSURFACE_H
+#define OSGSKINBIND_FIT_SURFACE_CLOSEDSURFACE_H
+
+#include "fit/surface/SurfaceMesh.h"
+#include "mesh/WeldedMesh.h"
+
+#include <string>
+#include <vector>
+
+namespace osgSkin::fit {
+
+/// The shell with the largest area, oriented, its holes closed.
+///
+/// \param mesh whose shells are looked at
+/// \param notes gets one line for each thing that was left out or closed
+/// \throw Error where that does not give one closed surface
+Mesh closedSurface(const WeldedMesh& mesh, std::vector<std::string>& notes);
+
+} // namespace osgSkin::fit
+
+#endif

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "joints/JointPlan.h"
+
+#include "joints/JointAxes.h"
+#include "joints/RigidJoints.h"
+#include "joints/TrunkJoints.h"
+#include "mesh/InsideSkin.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+/// Joint centres closer than this fraction of the mesh's size are one point.
+constexpr double kCentreTolerance = 1e-6;
+
+bool hasParentPole(const JointBindOptions& options, JointPart part) {
+    if (options.twistPole == JointBindOptions::Pole::Automatic) return part == JointPart::Hand;
+    return options.twistPole == JointBindOptions::Pole::Parent;
+}
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// The earlier joint of the same centre that may have a region, kNone where there is none.
+std::size_t coincident(const std::vector<PlannedJoint>& joints, std::size_t joint,
+                       double tolerance) {
+    for (std::size_t other = 0; other < joint; ++other)
+        if (joints[other].holdsRegion &&
+            glm::distance(joints[other].centre, joints[joint].centre) <= tolerance)
+            return other;
+    return kNone;
+}
+
+/// Every joint that is not skipped and has a centre of its own gets a region. Of joints in one
+/// point the topmost gets it; none where they stand beside each other (two hips in the middle).
+void giveRegions(const RestSkeleton& skeleton, double tolerance,
+                 std::vector<PlannedJoint>& joints) {
+    std::vector<std::size_t> rivals;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        if (joints[j].options.skip) continue;
+        const std::size_t other = coincident(joints, j, tolerance);
+        if (other == kNone)
+            joints[j].holdsRegion = true;
+        else if (!skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(other)))
+            rivals.push_back(other);
+    }
+    for (const std::size_t rival : rivals) joints[rival].holdsRegion = false;
+}
+
+/// Joints inside the skin seed their regions. Outside, a joint in the middle of a chain claims the
+/// skin around it; a last joint gets none. Where all are outside, all keep theirs.
+void findSeeding(const RestSkeleton& skeleton, const WeldedMesh& mesh,
+                 std::vector<PlannedJoint>& joints, std::vector<std::string>& notes) {
+    bool anyInside = false;
+    for (PlannedJoint& joint : joints) {
+        joint.seeds = joint.holdsRegion && isInsideSkin(mesh, joint.centre);
+        anyInside = anyInside || joint.seeds;
+    }
+    if (!anyInside) {
+        notes.emplace_back("no joint lies inside the skin: regions by the nearest bone");
+        return;
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        PlannedJoint& joint = joints[j];
+        if (!joint.holdsRegion || joint.seeds) continue;
+        joint.claims = j > 0 && joint.child >= 0 && !joint.belowRigid(static_cast<int>(j));
+        joint.holdsRegion = joint.claims;
+        if (!joint.belowRigid(static_cast<int>(j)))
+            notes.push_back("joint \"" + skeleton.joints[j].name + "\" lies outside the skin" +
+                            (joint.claims ? ", its region is the skin nearest to it" : ""));
+    }
+}
+
+/// A rigid joint owns what its descendants seed, so it has a region although it may seed none.
+void giveRegionsToRigidJoints(std::vector<PlannedJoint>& joints) {
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (joints[j].rigid >= 0 && joints[j].holdsRegion)
+            joints[static_cast<std::size_t>(joints[j].rigid)].holdsRegion = true;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (joints[j].belowRigid(static_cast<int>(j))) joints[j].holdsRegion = false;
+}
+
+} // namespace
+
+glm::dvec3 planeNormal(const PlannedJoint& joint) {
+    const glm::dvec3 sum = joint.comingFrom + joint.boneAxis;
+    const double length = glm::length(sum);
+    return length > 1e-6 ? sum / length : joint.boneAxis; // a bone that folds straight back
+}
+
+double distanceToBone(const PlannedJoint& joint, const glm::dvec3& point) {
+    const glm::dvec3 d = point - joint.centre;
+    const double along = std::clamp(glm::dot(d, joint.boneAxis), 0.0, joint.boneLength);
+    return glm::length(d - along * joint.boneAxis);
+}
+
+bool isBelow(const std::vector<PlannedJoint>& joints, std::size_t joint, std::size_t above) {
+    for (int j = joints[joint].parent; j >= 0; j = joints[static_cast<std::size_t>(j)].parent)
+        if (static_cast<std::size_t>(j) == above) return true;
+    return false;
+}
+
+std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    int above = joints[joint].parent;
+    while (above > 0 && !joints[static_cast<std::size_t>(above)].holdsRegion)
+        above = joints[static_cast<std::size_t>(above)].parent;
+    return static_cast<std::size_t>(std::max(above, 0));
+}
+
+std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedMesh& mesh,
+                                     const BindOptions& options, std::vector<std::string>& notes) {
+    std::vector<PlannedJoint> joints(skeleton.joints.size());
+    const double tolerance = kCentreTolerance * mesh.size;
+    const JointRoles roles = recogniseJoints(skeleton, options.names);
+    const std::vector<int> rigid = rigidJoints(skeleton, options);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        joints[j].part = roles.parts[j];
+        joints[j].rigid = rigid[j];
+        const auto found = options.joints.find(skeleton.joints[j].name);
+        if (found != options.joints.end()) joints[j].options = found->second;
+        joints[j].poleIsParent =
+            skeleton.joints[j].parent >= 0 && hasParentPole(joints[j].options, joints[j].part);
+    }
+    for (const std::size_t joint : extremities(skeleton, roles)) joints[joint].extremity = true;
+    setJointAxes(skeleton, tolerance, joints);
+    markTrunk(joints);
+
+    giveRegions(skeleton, tolerance, joints);
+    findSeeding(skeleton, mesh, joints, notes);
+    giveRegionsToRigidJoints(joints);
+    return joints;
+}
+
+} // namespace osgSkin

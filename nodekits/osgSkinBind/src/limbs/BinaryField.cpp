@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "limbs/BinaryField.h"
+
+#include "limbs/HermiteRatio.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace osgSkin {
+
+std::vector<double> BinaryField::subtree(std::size_t joint) const {
+    std::vector<double> inside(joints.size());
+    for (std::uint32_t r = 0; r < joints.size(); ++r)
+        inside[r] = r == joint || isBelow(joints, r, joint) ? 1.0 : 0.0;
+    std::vector<double> field(mesh.vertexCount());
+    for (std::size_t v = 0; v < field.size(); ++v) field[v] = inside[regions[v]];
+    return field;
+}
+
+std::vector<double> BinaryField::divided(std::size_t joint, double shift) const {
+    const PlannedJoint& planned = joints[joint];
+    std::vector<double> field = subtree(joint);
+    if (planned.rigid >= 0 && planned.lengthAbove < planned.boneLength) return field;
+    const glm::dvec3 normal = planeNormal(planned);
+    const std::size_t above = regionAbove(joints, joint);
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        if (regions[v] != joint && (shift >= 0.0 || regions[v] != above)) continue;
+        const double along = glm::dot(mesh.positions[v] - planned.centre, normal);
+        field[v] = along > shift ? 1.0 : 0.0;
+    }
+    return field;
+}
+
+std::vector<double> BinaryField::bounded(std::size_t joint, double upper, double lower) const {
+    const glm::dvec3 normal = planeNormal(joints[joint]);
+    const double length = std::max(joints[joint].boneLength, 1e-9 * mesh.size);
+    const std::size_t above = regionAbove(joints, joint);
+    std::vector<double> field = subtree(joint);
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        if (regions[v] != joint && regions[v] != above) continue;
+        const double along = glm::dot(mesh.positions[v] - joints[joint].centre, normal) / length;
+        field[v] = hermiteRatio((along - upper) / (lower - upper)); // eq. 5
+    }
+    return field;
+}
+
+} // namespace osgSkin

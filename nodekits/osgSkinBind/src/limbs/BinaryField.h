@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_BINARYFIELD_H
+#define OSGSKINBIND_BINARYFIELD_H
+
+#include "joints/JointPlan.h"
+#include "mesh/WeldedMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace osgSkin {
+
+/// Where a joint's bend field starts from: regions and planes only, not yet continuous.
+///
+/// `regions` is the joint index of each welded vertex.
+struct BinaryField {
+    const WeldedMesh& mesh;
+    const std::vector<PlannedJoint>& joints;
+    const std::vector<std::uint32_t>& regions;
+
+    /// 1 over the subtree's regions and, in the joint's own region, below the joint's plane, which
+    /// bisects the bone above and its own; else 0.
+    ///
+    /// A rigid part behind a bone that is shorter than its own (a head on its neck) takes its whole
+    /// region: there the region's border, along the jaw, is as near to the joint as the plane is,
+    /// and follows the body better.
+    ///
+    /// \param joint index in `joints`
+    /// \param shift of the plane, towards the child; a plane that is shifted towards the parent
+    ///        divides the region above, too
+    /// \return one value for each welded vertex
+    std::vector<double> divided(std::size_t joint, double shift = 0.0) const;
+
+    /// The paper's two boundaries (section 3) instead of one plane: hermiteRatio() between them in
+    /// the regions of the joint and of the one above.
+    ///
+    /// \param joint index in `joints`
+    /// \param upper where the upper boundary crosses the bone, from the joint's centre, in units of
+    ///        the bone's length
+    /// \param lower the same of the lower boundary
+    /// \return one value for each welded vertex
+    std::vector<double> bounded(std::size_t joint, double upper, double lower) const;
+
+private:
+    std::vector<double> subtree(std::size_t joint) const;
+};
+
+} // namespace osgSkin
+
+#endif

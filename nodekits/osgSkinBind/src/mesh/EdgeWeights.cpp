@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/EdgeWeights.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+/// Bounds of an edge's weight. The lower one keeps needles connected and the values in range.
+constexpr double kLowestWeight = 1e-3;
+constexpr double kHighestWeight = 50.0;
+
+/// How much a fully concave edge costs.
+constexpr double kCreaseCost = 30.0;
+
+/// Cotangent of the angle at `a`; 0 where the triangle has no angle.
+double cotangent(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double twiceArea = glm::length(glm::cross(b - a, c - a));
+    return twiceArea > 0.0 ? glm::dot(b - a, c - a) / twiceArea : 0.0;
+}
+
+} // namespace
+
+std::vector<double> edgeWeights(const WeldedMesh& mesh) {
+    return edgeWeights(mesh.positions, mesh.triangles, mesh.firstNeighbour, mesh.neighbours);
+}
+
+std::vector<double> edgeWeights(const std::vector<glm::dvec3>& positions,
+                                const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                const std::vector<std::uint32_t>& firstNeighbour,
+                                const std::vector<std::uint32_t>& neighbours) {
+    const auto entry = [&](std::uint32_t from, std::uint32_t to) {
+        const auto begin = neighbours.begin();
+        const auto found =
+            std::lower_bound(begin + firstNeighbour[from], begin + firstNeighbour[from + 1], to);
+        return static_cast<std::size_t>(found - begin);
+    };
+    std::vector<double> weights(neighbours.size(), 0.0);
+    for (const auto& t : triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = t[k], b = t[(k + 1) % 3], opposite = t[(k + 2) % 3];
+            const double half = 0.5 * cotangent(positions[opposite], positions[a], positions[b]);
+            weights[entry(a, b)] += half;
+            weights[entry(b, a)] += half;
+        }
+    for (double& weight : weights) weight = std::clamp(weight, kLowestWeight, kHighestWeight);
+    return weights;
+}
+
+double creaseFactor(const WeldedMesh& mesh, std::uint32_t from, std::uint32_t to) {
+    const glm::dvec3 edge = mesh.positions[to] - mesh.positions[from];
+    const double length = glm::length(edge);
+    if (!(length > 0.0)) return 1.0;
+    // Normals that lean towards each other: 0 where flat or convex, up to 2.
+    const double lean = glm::dot(mesh.normals[from] - mesh.normals[to], edge) / length;
+    return 1.0 + kCreaseCost * std::max(0.0, lean);
+}
+
+} // namespace osgSkin

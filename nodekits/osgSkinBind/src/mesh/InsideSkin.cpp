@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/InsideSkin.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace osgSkin {
+
+bool isInsideSkin(const WeldedMesh& mesh, const glm::dvec3& point) {
+    double solidAngle = 0.0;
+    for (const auto& t : mesh.triangles) {
+        // The triangle's solid angle by van Oosterom and Strackee (1983).
+        const glm::dvec3 a = mesh.positions[t[0]] - point;
+        const glm::dvec3 b = mesh.positions[t[1]] - point;
+        const glm::dvec3 c = mesh.positions[t[2]] - point;
+        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+        const double numerator = glm::dot(a, glm::cross(b, c));
+        const double denominator =
+            la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+        solidAngle += 2.0 * std::atan2(numerator, denominator);
+    }
+    constexpr double kHalfSphere = 6.283185307179586;
+    return std::abs(solidAngle) > kHalfSphere;
+}
+
+} // namespace osgSkin

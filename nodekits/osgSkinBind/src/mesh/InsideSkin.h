@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_INSIDESKIN_H
+#define OSGSKINBIND_INSIDESKIN_H
+
+#include "mesh/WeldedMesh.h"
+
+namespace osgSkin {
+
+/// True where the skin winds around the point: the generalised winding number (Jacobson, Kavan &
+/// Sorkine-Hornung 2013) is above one half. Needs no closed mesh, and takes either winding.
+bool isInsideSkin(const WeldedMesh& mesh, const glm::dvec3& point);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ratios/PackInfluences.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace osgSkin {
+namespace {
+
+/// Ratios this close to 0 or 1 cost a frame's work for a movement that nobody sees.
+constexpr double kNothing = 1e-4;
+
+float ratio(double a) {
+    if (a < kNothing) return 0.0f;
+    return a > 1.0 - kNothing ? 1.0f : static_cast<float>(a);
+}
+
+float distanceToFull(float a) {
+    return std::min(a, 1.0f - a);
+}
+
+/// How far from 0 or 1 the joint's ratios are.
+float partialness(const Influence& i) {
+    return std::max(distanceToFull(i.bend), distanceToFull(i.twist));
+}
+
+/// partialness() of the joint that is one too many, 0 where there is none.
+float excess(const std::vector<Influence>& all, std::size_t mostPartial) {
+    std::vector<float> partial;
+    for (const Influence& influence : all)
+        if (influence.isFractional()) partial.push_back(partialness(influence));
+    if (partial.size() <= mostPartial) return 0.0f;
+    const auto extra = partial.begin() + static_cast<std::ptrdiff_t>(mostPartial);
+    std::nth_element(partial.begin(), extra, partial.end(), std::greater<>());
+    return *extra;
+}
+
+/// Stretches [margin, 1 - margin] to [0, 1] and clamps.
+float stretched(float a, float margin) {
+    if (margin >= 0.499f) return a < 0.5f ? 0.0f : 1.0f;
+    return std::clamp((a - margin) / (1.0f - 2.0f * margin), 0.0f, 1.0f);
+}
+
+} // namespace
+
+bool packInfluences(const std::vector<PlannedJoint>& joints, const JointFields& bend,
+                    const JointFields& twist, std::size_t vertex, std::size_t mostPartial,
+                    std::vector<Influence>& influences) {
+    std::vector<Influence> all(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        all[j] = {static_cast<std::uint32_t>(j), ratio(bend[j][vertex]), ratio(twist[j][vertex])};
+
+    const float margin = excess(all, mostPartial);
+    if (margin > 0.0f)
+        for (Influence& influence : all) {
+            influence.bend = stretched(influence.bend, margin);
+            influence.twist = stretched(influence.twist, margin);
+        }
+    for (const Influence& influence : all)
+        if (influence.bend > 0.0f || influence.twist > 0.0f) influences.push_back(influence);
+    return margin > 0.0f;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ratios/SmoothBend.h"
+
+#include "limbs/LimbRadius.h"
+#include "limbs/MiddleThird.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+/// Widths beside that of a limb. The trunk's joints stand so close that their fields overlap. A
+/// rigid part starts close behind its joint, and the skin above takes up more of the rotation.
+constexpr double kTrunkWidth = 0.75;
+constexpr double kAboveRigidWidth = 1.5;
+constexpr double kRigidWidth = 0.4;
+
+/// A spine runs behind the belly. A plane this much below the joint, in radii, loses less of the
+/// belly's volume.
+constexpr double kTrunkLift = 0.2;
+
+/// What of a joint's rotation the middle third of its own bone must take, and that of the bone
+/// above may.
+constexpr double kOwnRigidity = 0.975;
+constexpr double kNextRigidity = 0.003;
+
+/// How far a figure may miss its limit for the search to end, and how often the search tries.
+constexpr double kTolerance = 1.1;
+constexpr int kTries = 6;
+
+/// The least that a width may be narrowed to. Where an arm hangs so low that the armpit reaches
+/// into its middle third, no width leaves that third rigid, and a narrow one tears the armpit.
+constexpr double kNarrowest = 0.4;
+
+/// Width of a field on the two sides of its joint's plane.
+struct Widths {
+    double above, below;
+};
+
+Widths firstWidths(const PlannedJoint& joint, double radius, double smoothing) {
+    const double width = smoothing * radius;
+    if (joint.rigid >= 0) return {kAboveRigidWidth * width, kRigidWidth * width};
+    if (joint.trunk) return {kTrunkWidth * width, kTrunkWidth * width};
+    return {width, width};
+}
+
+std::vector<double> spread(const SkinSmoother& smoother, const std::vector<double>& binary,
+                           const Widths& widths, double cutOff) {
+    std::vector<double> width(binary.size());
+    for (std::size_t v = 0; v < width.size(); ++v)
+        width[v] = binary[v] < 0.5 ? widths.above : widths.below;
+    std::vector<double> field = binary;
+    smoother.smooth(field, width);
+    stretch(field, cutOff);
+    return field;
+}
+
+/// Narrows a width, down to `least`, where `excess`, what the middle third has too much, is above
+/// `most`. What a field has left a distance away goes about with the fourth power of its width.
+bool narrow(double& width, double least, double excess, double most) {
+    if (width <= least || excess <= kTolerance * most) return false;
+    width = std::max(least, width * std::max(0.6, std::pow(most / excess, 0.25)));
+    return true;
+}
+
+} // namespace
+
+void stretch(std::vector<double>& field, double cutOff) {
+    for (double& a : field) a = std::clamp((a - cutOff) / (1.0 - 2.0 * cutOff), 0.0, 1.0);
+}
+
+std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& smoother,
+                               std::size_t joint, const std::vector<double>& radii,
+                               const BindOptions& options) {
+    const PlannedJoint& planned = binary.joints[joint];
+    const double radius = radii[joint];
+    std::vector<double> start = binary.divided(joint, planned.trunk ? -kTrunkLift * radius : 0.0);
+    if (!(radius > 0.0)) return start;
+
+    const std::size_t above = regionAbove(binary.joints, joint);
+    const bool limb = isLimb(planned, radius);
+    const bool onLimb = above > 0 && isLimb(binary.joints[above], radii[above]);
+    const MiddleThird own = limb ? MiddleThird(binary, joint) : MiddleThird();
+    const MiddleThird previous = onLimb ? MiddleThird(binary, above) : MiddleThird();
+    Widths widths = firstWidths(planned, radius, options.smoothing);
+    const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
+    std::vector<double> field;
+    for (int i = 0; i < kTries; ++i) {
+        field = spread(smoother, start, widths, options.cutOff);
+        bool narrower = false;
+        if (!own.empty())
+            narrower = narrow(widths.below, least.below, 1.0 - own.mean(field), 1.0 - kOwnRigidity);
+        if (!previous.empty())
+            narrower =
+                narrow(widths.above, least.above, previous.mean(field), kNextRigidity) || narrower;
+        if (!narrower) break;
+    }
+    return field;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "regions/RemoveIslands.h"
+
+#include "regions/RegionLabels.h"
+#include "regions/SpreadRegions.h"
+
+#include <map>
+#include <utility>
+
+namespace osgSkin {
+namespace {
+
+struct Patch {
+    std::uint32_t joint = 0;
+    std::uint32_t shell = 0;
+    std::size_t seeds = 0;
+    std::vector<std::uint32_t> vertices;
+
+    bool outweighs(const Patch& other) const {
+        if (seeds != other.seeds) return seeds > other.seeds;
+        return vertices.size() > other.vertices.size();
+    }
+};
+
+std::vector<Patch> findPatches(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
+                               const std::vector<std::uint32_t>& jointOf) {
+    std::vector<Patch> patches;
+    std::vector<bool> visited(mesh.vertexCount(), false);
+    for (std::uint32_t start = 0; start < mesh.vertexCount(); ++start) {
+        if (visited[start] || mesh.shellOf[start] == WeldedMesh::kNoShell) continue;
+        Patch patch;
+        patch.joint = jointOf[start];
+        patch.shell = mesh.shellOf[start];
+        visited[start] = true;
+        patch.vertices.push_back(start);
+        for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
+            const std::uint32_t v = patch.vertices[k];
+            if (isSeed[v]) ++patch.seeds;
+            for (std::uint32_t i = mesh.firstNeighbour[v]; i < mesh.firstNeighbour[v + 1]; ++i) {
+                const std::uint32_t next = mesh.neighbours[i];
+                if (visited[next] || jointOf[next] != patch.joint) continue;
+                visited[next] = true;
+                patch.vertices.push_back(next);
+            }
+        }
+        patches.push_back(std::move(patch));
+    }
+    return patches;
+}
+
+} // namespace
+
+void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
+                   std::vector<std::uint32_t>& jointOf) {
+    const std::vector<Patch> patches = findPatches(mesh, isSeed, jointOf);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> main; // shell and joint -> patch
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+        const auto [entry, added] = main.emplace(std::pair(patches[p].shell, patches[p].joint), p);
+        if (!added && patches[p].outweighs(patches[entry->second])) entry->second = p;
+    }
+    for (std::size_t p = 0; p < patches.size(); ++p)
+        if (main.at({patches[p].shell, patches[p].joint}) != p)
+            for (const std::uint32_t v : patches[p].vertices) jointOf[v] = Regions::kNone;
+    // Each shell keeps at least one patch, so spreading reaches all of it again, and what it adds
+    // is connected to the patch that it comes from.
+    spreadRegions(mesh, jointOf);
+}
+
+} // namespace osgSkin

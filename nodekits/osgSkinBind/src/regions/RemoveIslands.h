@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_REGIONS_REMOVEISLANDS_H
+#define OSGSKINBIND_REGIONS_REMOVEISLANDS_H
+
+#include "mesh/WeldedMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace osgSkin {
+
+/// Joins each region's islands to the regions around them: of a region's connected patches on one
+/// shell the one with most seeds (then most vertices) stays.
+void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
+                   std::vector<std::uint32_t>& jointOf);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "regions/SeedRegions.h"
+
+#include "regions/DelaunayLinks.h"
+#include "regions/RegionLabels.h"
+
+#include <glm/geometric.hpp>
+
+#include <limits>
+
+namespace osgSkin {
+namespace {
+
+/// An edge may leave a vertex at most this far from the inward normal: the cosine of 45 degrees. A
+/// limb is seen by its own joint head-on, by a neighbour's slantwise.
+constexpr double kInwardCosine = 0.7;
+
+/// Normal filtering, after Amenta, Bern & Kamvysselis (1998): the edge from the skin to a joint
+/// that the skin belongs to runs inwards.
+bool runsInwards(const WeldedMesh& mesh, std::uint32_t vertex, const glm::dvec3& centre) {
+    const glm::dvec3 edge = centre - mesh.positions[vertex];
+    const glm::dvec3& normal = mesh.normals[vertex];
+    if (normal == glm::dvec3(0.0)) return true; // degenerate faces only: nothing to tell
+    return -glm::dot(edge, normal) >= kInwardCosine * glm::length(edge);
+}
+
+} // namespace
+
+Regions seedRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints) {
+    std::vector<glm::dvec3> centres;
+    std::vector<std::uint32_t> jointOfCentre;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (joints[j].seeds) {
+            centres.push_back(joints[j].centre);
+            jointOfCentre.push_back(static_cast<std::uint32_t>(j));
+        }
+
+    Regions regions;
+    regions.jointOf.assign(mesh.vertexCount(), Regions::kNone);
+    regions.seeds.assign(joints.size(), 0);
+    std::vector<double> nearest(mesh.vertexCount(), std::numeric_limits<double>::infinity());
+    for (const DelaunayLink& link : delaunayLinks(mesh.positions, centres)) {
+        if (mesh.shellOf[link.vertex] == WeldedMesh::kNoShell) continue; // has no normal, no edge
+        const glm::dvec3& centre = centres[link.centre];
+        if (!runsInwards(mesh, link.vertex, centre)) {
+            ++regions.rejectedEdges;
+            continue;
+        }
+        const double distance = glm::distance(centre, mesh.positions[link.vertex]);
+        if (distance < nearest[link.vertex]) {
+            nearest[link.vertex] = distance;
+            regions.jointOf[link.vertex] = jointOfCentre[link.centre];
+        }
+    }
+    for (const std::uint32_t joint : regions.jointOf)
+        if (joint != Regions::kNone) ++regions.seeds[joint];
+    return regions;
+}
+
+} // namespace osgSkin

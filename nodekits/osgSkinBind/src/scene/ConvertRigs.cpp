@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinBind/ConvertRigs>
+
+#include "scene/RigBody.h"
+#include "scene/RigCollector.h"
+
+#include <osgSkin/Error>
+#include <osgSkinBind/Bind>
+#include <osgSkinBind/MakeSkins>
+#include <osgSkinBind/NonUniformScale>
+#include <osgSkinBind/ShowRegions>
+#include <osgSkinRig/ReadSkeleton>
+
+#include <osg/Notify>
+#include <osg/Transform>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+namespace osgSkin {
+namespace {
+
+using Rig = RigCollector::Rig;
+
+std::string nameOf(const Rig& rig) {
+    return "rig \"" + rig.geometry->getName() + "\"";
+}
+
+BindOptions optionsFor(const RestSkeleton& skeleton, const BindOptions& wanted) {
+    BindOptions options = wanted;
+    for (auto joint = options.joints.begin(); joint != options.joints.end();)
+        joint = skeleton.find(joint->first) < 0 ? options.joints.erase(joint) : std::next(joint);
+    return options;
+}
+
+Binding bindBody(const RigBody& body, const RestSkeleton& skeleton, const ConvertOptions& options) {
+    const BindOptions own = optionsFor(skeleton, options.bind);
+    const bool painted =
+        options.ratios == ConvertOptions::Ratios::Painted ||
+        (options.ratios == ConvertOptions::Ratios::Best && isWellPainted(body.weights));
+    BindReport report;
+    Binding binding = painted ? bindWeights(body.mesh, skeleton, body.weights, own, &report)
+                              : bind(body.mesh, skeleton, own, &report);
+    OSG_INFO << "osgSkin: bound by " << (painted ? "painted weights" : "regions") << "\n"
+             << report.text();
+    return binding;
+}
+
+/// Puts the skin where the rig is.
+void replace(const Rig& rig, DeformableSkin& skin) {
+    skin.setName(rig.geometry->getName());
+    skin.setNodeMask(rig.geometry->getNodeMask());
+    skin.setUserDataContainer(rig.geometry->getUserDataContainer());
+    const osg::ref_ptr<osg::Node> keep = rig.geometry;
+    for (const osg::NodePath& path : rig.nodePaths) {
+        osg::Group* parent = path.empty() ? rig.skeleton : path.back()->asGroup();
+        if (osg::computeLocalToWorld(path).isIdentity()) {
+            parent->replaceChild(rig.geometry, &skin);
+            continue;
+        }
+        parent->removeChild(rig.geometry);
+        // Its space is the skeleton's now: what the path sets beside transforms comes along.
+        osg::ref_ptr<osg::StateSet> state;
+        for (const osg::Node* node : path) {
+            if (node->getStateSet() == nullptr) continue;
+            if (!state) state = new osg::StateSet;
+            state->merge(*node->getStateSet());
+        }
+        osg::Group* holder = rig.skeleton;
+        if (state) {
+            const osg::ref_ptr<osg::Group> group = new osg::Group;
+            group->setStateSet(state);
+            rig.skeleton->addChild(group);
+            holder = group;
+        }
+        if (!holder->containsNode(&skin)) holder->addChild(&skin);
+    }
+}
+
+void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const Rig*>& rigs,
+                     const ConvertOptions& options, ConvertReport& report) {
+    const RestSkeleton rest = readSkeleton(skeleton);
+    RigBody body;
+    std::vector<const Rig*> taken;
+    for (const Rig* rig : rigs) {
+        try {
+            body.add(*rig->geometry, osg::computeLocalToWorld(rig->nodePaths.front()), rest);
+            taken.push_back(rig);
+        } catch (const Error& error) {
+            report.notes.push_back(nameOf(*rig) + " is left as it is: " + error.what());
+        }
+    }
+    if (taken.empty()) return;
+    const Binding binding = bindBody(body, rest, options);
+    if (options.showRegions) showRegions(body.parts, binding);
+    RigidSplit whole;
+    whole.faceJoint.assign(body.mesh.faceSizes.size(), RigidSplit::kSkin);
+    const SkinParts made = makeSkins(body.mesh, body.parts, binding, whole);
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+        DeformableSkin& skin = *made.skins[i].drawable;
+        replace(*taken[i], skin);
+        report.skins.push_back(&skin);
+    }
+}
+
+void noteNonUniformScale(osgAnimation::Skeleton& skeleton, const osgAnimation::AnimationList& clips,
+                         ConvertReport& report) {
+    const std::vector<std::string> bones = findNonUniformScale(skeleton, clips);
+    if (bones.empty()) return;
+    std::string note = "skeleton \"" + skeleton.getName() + "\": " + bones.front();
+    if (bones.size() > 1) note += " and " + std::to_string(bones.size() - 1) + " more";
+    report.notes.push_back(note + " scaled non-uniformly or mirrored, which skins do not follow");
+}
+
+} // namespace
+
+ConvertReport convertRigs(osg::Node& scene, const ConvertOptions& options) {
+    RigCollector collector;
+    collector.lookAbove(scene);
+    scene.accept(collector);
+    ConvertReport report;
+    std::vector<osgAnimation::Skeleton*> skeletons; // in the scene's order
+    std::map<osgAnimation::Skeleton*, std::vector<const Rig*>> rigs;
+    for (const Rig& rig : collector.rigs) {
+        if (rig.skeleton == nullptr || rig.severalSkeletons) {
+            report.notes.push_back(nameOf(rig) + " is left as it is: it stands under " +
+                                   (rig.skeleton == nullptr ? "no skeleton" : "several skeletons"));
+            continue;
+        }
+        if (rigs[rig.skeleton].empty()) skeletons.push_back(rig.skeleton);
+        rigs[rig.skeleton].push_back(&rig);
+    }
+    double done = 0.0;
+    const double each = 1.0 / std::max(1.0, double(skeletons.size()));
+    for (osgAnimation::Skeleton* skeleton : skeletons) {
+        ConvertOptions own = options;
+        own.bind.progress = subProgress(options.bind.progress, done, done + each);
+        done += each;
+        try {
+            const std::size_t before = report.skins.size();
+            convertSkeleton(*skeleton, rigs[skeleton], own, report);
+            if (report.skins.size() > before)
+                noteNonUniformScale(*skeleton, collector.clips, report);
+        } catch (const Error& error) {
+            for (const Rig* rig : rigs[skeleton])
+                report.notes.push_back(nameOf(*rig) + " is left as it is: " + error.what());
+        }
+    }
+    for (const std::string& note : report.notes) OSG_NOTICE << "osgSkin: " << note << std::endl;
+    return report;
+}
+
+} // namespace osgSkin

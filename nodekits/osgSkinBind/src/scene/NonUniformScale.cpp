@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinBind/NonUniformScale>
+
+#include <osg/NodeVisitor>
+#include <osgAnimation/Bone>
+#include <osgAnimation/Channel>
+#include <osgAnimation/StackedScaleElement>
+#include <osgAnimation/UpdateBone>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace osgSkin {
+namespace {
+
+constexpr double kTolerance = 1e-3; ///< of the scale along one axis against that along another
+
+osg::Vec3d axis(const osg::Matrixd& m, int row) {
+    return {m(row, 0), m(row, 1), m(row, 2)};
+}
+
+bool isUniform(const osg::Matrixd& m) {
+    const double size = axis(m, 0).length2();
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(axis(m, i).length2() - size) > 2.0 * kTolerance * size) return false;
+        if (std::abs(axis(m, i) * axis(m, (i + 1) % 3)) > 2.0 * kTolerance * size) return false;
+    }
+    return (axis(m, 0) ^ axis(m, 1)) * axis(m, 2) > 0.0;
+}
+
+/// The bones with their matrices in skeleton space, as their update callbacks will set them.
+class BoneMatrices : public osg::NodeVisitor {
+public:
+    BoneMatrices() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    struct Entry {
+        osgAnimation::Bone* bone;
+        osg::Matrixd matrix;
+        osg::Matrixd bindAbove; ///< in skeleton space, of the bone above
+    };
+    std::vector<Entry> bones;
+
+    void apply(osg::Transform& node) override {
+        if (_depth > 0 && dynamic_cast<osgAnimation::Skeleton*>(&node) != nullptr) return;
+        const osg::Matrixd matrix = _matrix, bind = _bind;
+        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) {
+            _matrix.preMult(localOf(*bone));
+            bones.push_back({bone, _matrix, _bind});
+            _bind = osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace());
+        } else if (_depth > 0) {
+            node.computeLocalToWorldMatrix(_matrix, this);
+        }
+        ++_depth;
+        traverse(node);
+        --_depth;
+        _matrix = matrix;
+        _bind = bind;
+    }
+
+private:
+    static osg::Matrixd localOf(osgAnimation::Bone& bone) {
+        auto* update = dynamic_cast<osgAnimation::UpdateBone*>(bone.getUpdateCallback());
+        if (update == nullptr || update->getStackedTransforms().empty()) return bone.getMatrix();
+        osg::Matrixd local;
+        for (const auto& element : update->getStackedTransforms())
+            if (element) element->applyToMatrix(local);
+        return local;
+    }
+
+    int _depth = 0;
+    osg::Matrixd _matrix, _bind;
+};
+
+/// Whether the keys of a channel for scale, or for the whole matrix, scale non-uniformly against
+/// `bind`, the bone's matrix in the bind pose, seen from the bone above.
+bool scalesNonUniformly(osgAnimation::Channel& channel, const osg::Matrixd& bind) {
+    if (auto* matrices = dynamic_cast<osgAnimation::MatrixLinearChannel*>(&channel)) {
+        const auto* keys = matrices->getOrCreateSampler()->getKeyframeContainerTyped();
+        return keys != nullptr && std::any_of(keys->begin(), keys->end(), [&](const auto& key) {
+                   return !isUniform(osg::Matrixd::inverse(bind) * osg::Matrixd(key.getValue()));
+               });
+    }
+    if (channel.getName() != "scale") return false;
+    const auto isNonUniform = [&](const osg::Vec3& scale) {
+        osg::Matrixd own;
+        for (int i = 0; i < 3; ++i) own(i, i) = double(scale[i]) / axis(bind, i).length();
+        return !isUniform(own);
+    };
+    const auto any = [&](auto* typed) {
+        if (typed == nullptr) return false;
+        const auto* keys = typed->getOrCreateSampler()->getKeyframeContainerTyped();
+        return keys != nullptr && std::any_of(keys->begin(), keys->end(), [&](const auto& key) {
+                   return isNonUniform(key.getValue());
+               });
+    };
+    return any(dynamic_cast<osgAnimation::Vec3LinearChannel*>(&channel)) ||
+           any(dynamic_cast<osgAnimation::Vec3StepChannel*>(&channel));
+}
+
+} // namespace
+
+std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
+                                             const osgAnimation::AnimationList& clips) {
+    BoneMatrices found;
+    skeleton.accept(found);
+    std::map<std::string, std::string> guilty; // bone -> clip
+    for (const auto& clip : clips)
+        for (const auto& channel : clip->getChannels())
+            for (const BoneMatrices::Entry& entry : found.bones) {
+                if (channel->getTargetName() != entry.bone->getName()) continue;
+                const osg::Matrixd bind =
+                    osg::Matrixd::inverse(entry.bone->getInvBindMatrixInSkeletonSpace()) *
+                    osg::Matrixd::inverse(entry.bindAbove);
+                if (scalesNonUniformly(*channel, bind))
+                    guilty.emplace(entry.bone->getName(), clip->getName());
+            }
+    std::vector<std::string> result;
+    for (const BoneMatrices::Entry& entry : found.bones) {
+        const std::string& name = entry.bone->getName();
+        const auto clip = guilty.find(name);
+        if (clip != guilty.end())
+            result.push_back("bone \"" + name + "\" in the clip \"" + clip->second + "\"");
+        else if (!isUniform(entry.bone->getInvBindMatrixInSkeletonSpace() * entry.matrix))
+            result.push_back("bone \"" + name + "\" as it stands");
+    }
+    return result;
+}
+
+} // namespace osgSkin

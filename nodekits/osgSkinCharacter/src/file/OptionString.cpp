@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinCharacter/OptionString>
+
+#include <osgSkin/Error>
+#include <osgSkinCharacter/ProgressOption>
+
+#include <sstream>
+
+namespace osgSkin {
+namespace {
+
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+/// key=value and key="value with spaces", in order.
+Words wordsOf(const std::string& text) {
+    Words words;
+    std::size_t at = 0;
+    while ((at = text.find_first_not_of(" \t", at)) != std::string::npos) {
+        const std::size_t stop = text.find_first_of(" \t=", at);
+        const std::string key = text.substr(at, stop - at);
+        std::string value;
+        at = stop;
+        if (stop != std::string::npos && text[stop] == '=') {
+            const bool isQuoted = stop + 1 < text.size() && text[stop + 1] == '"';
+            const std::size_t first = stop + (isQuoted ? 2 : 1);
+            const std::size_t end = text.find_first_of(isQuoted ? "\"" : " \t", first);
+            value = text.substr(first, end - first);
+            at = end == std::string::npos ? end : end + 1;
+        }
+        words.emplace_back(key, value);
+        if (at == std::string::npos) break;
+    }
+    return words;
+}
+
+[[noreturn]] void fail(const std::string& key, const std::string& value, const char* expected) {
+    throw Error("option " + key + "=" + value + ": expected " + expected);
+}
+
+LoadOptions::Method methodOf(const std::string& value) {
+    if (value == "smooth") return LoadOptions::Method::Smooth;
+    if (value == "paper") return LoadOptions::Method::Paper;
+    if (value == "weights") return LoadOptions::Method::Weights;
+    if (value == "default") return LoadOptions::Method::Default;
+    fail("bind", value, "smooth, paper, weights or default");
+}
+
+std::vector<std::string> namesOf(const std::string& value) {
+    std::vector<std::string> names;
+    if (value == "none") return names;
+    std::istringstream list(value);
+    for (std::string name; std::getline(list, name, ',');)
+        if (!name.empty()) names.push_back(name);
+    if (names.empty()) fail("rigid", value, "none, or names of joints with commas between them");
+    return names;
+}
+
+} // namespace
+
+LoadOptions toLoadOptions(const osgDB::Options* options) {
+    LoadOptions result;
+    if (options == nullptr) return result;
+    result.readOptions = options;
+    result.progress = getProgress(options);
+    for (const auto& [key, value] : wordsOf(options->getOptionString())) {
+        if (key == "bind") result.method = methodOf(value);
+        if (key == "rigid") result.rigid = namesOf(value);
+        if (key == "motion") {
+            if (value.empty()) fail(key, value, "a clip's name, a motion file, or none");
+            result.atRest = value == "none";
+            if (!result.atRest) result.motion = value;
+        }
+        if (key == "show") {
+            if (value != "regions" && value != "skin") fail(key, value, "skin or regions");
+            result.showRegions = value == "regions";
+        }
+    }
+    return result;
+}
+
+const std::vector<std::pair<const char*, const char*>>& optionWords() {
+    static const std::vector<std::pair<const char*, const char*>> words{
+        {"bind=<smooth|paper|weights>",
+         "how ratios are found; a rig's own weights by default, where it is painted throughout"},
+        {"motion=<clip|file|none>", "the motion to play by its name, or a motion file to retarget"},
+        {"rigid=<joint,joint|none>",
+         "joints that move as rigid bodies; head, hands, feet by default"},
+        {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
+    };
+    return words;
+}
+
+} // namespace osgSkin

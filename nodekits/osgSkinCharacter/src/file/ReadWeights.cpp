@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinCharacter/ReadWeights>
+
+#include "file/JsonReader.h"
+
+namespace osgSkin {
+namespace {
+
+/// [vertex, weight]
+void readPair(const JsonReader& reader, std::uint32_t joint, VertexWeights& weights) {
+    const std::vector<JsonReader> pair = reader.items();
+    if (pair.size() != 2)
+        reader.failWith("expected a vertex and its weight, found a list of " +
+                        std::to_string(pair.size()));
+    const std::size_t vertex = pair[0].count();
+    if (vertex >= weights.size())
+        pair[0].failWith("expected a vertex of the mesh, below " + std::to_string(weights.size()) +
+                         ", found " + std::to_string(vertex));
+    const double weight = pair[1].number();
+    if (weight < 0.0) pair[1].failWith("expected a weight of 0 or more");
+    weights[vertex].push_back({joint, weight});
+}
+
+} // namespace
+
+VertexWeights readWeights(const std::string& file, const RestSkeleton& skeleton,
+                          std::size_t vertices) {
+    const nlohmann::json json = JsonReader::parseFile(file);
+    const JsonReader root(json, file);
+    VertexWeights weights(vertices);
+    root.require("weights", "each joint's list of vertices and weights")
+        .forEachMember([&](const std::string& name, const JsonReader& pairs) {
+            const int joint = skeleton.find(name);
+            if (joint < 0) pairs.failWith("expected the name of a joint of the skeleton");
+            pairs.forEachItem([&](const JsonReader& pair) {
+                readPair(pair, static_cast<std::uint32_t>(joint), weights);
+            });
+        });
+    return weights;
+}
+
+} // namespace osgSkin

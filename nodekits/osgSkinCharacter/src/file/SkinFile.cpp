@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file/SkinFile.h"
+
+#include "file/FitSettings.h"
+#include "file/JsonReader.h"
+
+#include <osgDB/FileNameUtils>
+
+#include <set>
+
+namespace osgSkin {
+namespace {
+
+/// Paths in the description are relative to its folder.
+std::string path(const JsonReader& reader, const std::string& folder) {
+    const std::string name = reader.string();
+    if (name.empty()) reader.failWith("expected a file name, found an empty string");
+    return folder.empty() || osgDB::isAbsolutePath(name) ? name : osgDB::concatPaths(folder, name);
+}
+
+void checkVersion(const JsonReader& root) {
+    const JsonReader version = root.require("osgskin", "the format's version, 1");
+    const std::size_t number = version.count();
+    if (number == 0 || number > SkinFile::kVersion)
+        version.failWith("version " + std::to_string(number) + " is not supported, expected " +
+                         std::to_string(SkinFile::kVersion));
+}
+
+SkinFile::MotionEntry readMotion(const JsonReader& reader, const std::string& folder) {
+    reader.warnUnknown({"file", "name", "skipFrames", "joints"});
+    SkinFile::MotionEntry motion;
+    motion.file = path(reader.require("file", "a motion file's name"), folder);
+    motion.name = osgDB::getStrippedName(motion.file);
+    if (const auto name = reader.find("name")) motion.name = name->string();
+    if (const auto skip = reader.find("skipFrames")) motion.skipFrames = skip->count();
+    if (const auto joints = reader.find("joints"))
+        joints->forEachMember([&](const std::string& joint, const JsonReader& value) {
+            motion.joints[joint] = value.string();
+        });
+    return motion;
+}
+
+/// A family of names: role -> a joint's name, or a list of them.
+JointNames readNames(const std::string& family, const JsonReader& reader) {
+    std::set<std::string> roles;
+    for (const JointNames& known : knownJointNames())
+        for (const auto& [role, members] : known.roles) roles.insert(role);
+    JointNames names{family, {}};
+    reader.forEachMember([&](const std::string& role, const JsonReader& value) {
+        if (roles.count(role) == 0)
+            value.failWith("no such part of a body, expected Hips, Spine, LeftUpperArm, ...");
+        if (value.isList())
+            value.forEachItem(
+                [&](const JsonReader& name) { names.roles[role].push_back(name.string()); });
+        else
+            names.roles[role].push_back(value.string());
+    });
+    return names;
+}
+
+SkinFile::Prop readProp(const JsonReader& reader, const SkinFile& skin, const std::string& folder) {
+    reader.warnUnknown({"mesh", "motion", "file"});
+    SkinFile::Prop prop;
+    prop.mesh = path(reader.require("mesh", "a mesh file's name"), folder);
+    const JsonReader motion = reader.require("motion", "the name of one of the motions");
+    prop.motion = motion.string();
+    prop.file = path(reader.require("file", "a motion file's name"), folder);
+    for (const SkinFile::MotionEntry& known : skin.motions)
+        if (known.name == prop.motion) return prop;
+    motion.failWith("expected the name of one of the motions, found \"" + prop.motion + "\"");
+}
+
+/// A region's two boundaries (paper, Fig. 3), in bone lengths from the joint.
+void readBoundaries(const JsonReader& reader, std::optional<double>& upper,
+                    std::optional<double>& lower) {
+    if (const auto value = reader.find("upper")) upper = value->number();
+    if (const auto value = reader.find("lower")) lower = value->number();
+    if (upper && lower && *upper >= *lower)
+        reader.failWith("expected \"upper\" to be less than \"lower\"");
+}
+
+JointBindOptions readJoint(const JsonReader& reader) {
+    reader.warnUnknown({"skip", "bend", "twist"});
+    JointBindOptions joint;
+    if (const auto skip = reader.find("skip")) joint.skip = skip->boolean();
+    if (const auto bend = reader.find("bend")) {
+        bend->warnUnknown({"upper", "lower"});
+        readBoundaries(*bend, joint.bendUpper, joint.bendLower);
+    }
+    if (const auto twist = reader.find("twist")) {
+        twist->warnUnknown({"upper", "lower", "along"});
+        readBoundaries(*twist, joint.twistUpper, joint.twistLower);
+        if (const auto along = twist->find("along")) {
+            const std::string pole = along->string();
+            if (pole == "parent")
+                joint.twistPole = JointBindOptions::Pole::Parent;
+            else if (pole == "child")
+                joint.twistPole = JointBindOptions::Pole::Child;
+            else
+                along->failWith("expected \"parent\" or \"child\", found \"" + pole + "\"");
+        }
+    }
+    return joint;
+}
+
+/// "bind", and the file that the method "weights" may name.
+void readMethod(const JsonReader& root, const std::string& folder, SkinFile& skin) {
+    const auto method = root.find("bind");
+    const std::string name = method ? method->string() : "smooth";
+    if (name != "smooth" && name != "paper" && name != "weights")
+        method->failWith("expected \"smooth\", \"paper\" or \"weights\", found \"" + name + "\"");
+    if (name == "paper") skin.bind.method = BindOptions::Method::Paper;
+    const auto weights = root.find("weights");
+    skin.paintedWeights = name == "weights";
+    if (skin.paintedWeights && weights)
+        skin.weights = path(*weights, folder);
+    else if (weights)
+        weights->failWith("expected \"bind\": \"weights\" beside it");
+}
+
+void readBinding(const JsonReader& root, BindOptions& bind) {
+    if (const auto rigid = root.find("rigid")) {
+        bind.rigid.emplace();
+        rigid->forEachItem([&](const JsonReader& name) { bind.rigid->push_back(name.string()); });
+    }
+    if (const auto joints = root.find("joints"))
+        joints->forEachMember([&](const std::string& name, const JsonReader& value) {
+            bind.joints[name] = readJoint(value);
+        });
+}
+
+} // namespace
+
+SkinFile SkinFile::read(const std::string& file) {
+    const nlohmann::json json = JsonReader::parseFile(file);
+    const JsonReader root(json, file);
+    const std::string folder = osgDB::getFilePath(file);
+    checkVersion(root);
+    root.warnUnknown({"osgskin", "mesh", "skeleton", "motions", "props", "rigid", "bind", "weights",
+                      "joints", "up", "names"});
+
+    SkinFile skin;
+    skin.file = file;
+    skin.mesh = path(root.require("mesh", "a mesh file's name"), folder);
+    const auto skeleton = root.find("skeleton");
+    if (skeleton && skeleton->isObject())
+        skin.fit = readFit(*skeleton);
+    else
+        skin.skeleton = skeleton ? path(*skeleton, folder) : skin.mesh;
+    if (const auto motions = root.find("motions")) {
+        std::set<std::string> names;
+        motions->forEachItem([&](const JsonReader& reader) {
+            skin.motions.push_back(readMotion(reader, folder));
+            if (!names.insert(skin.motions.back().name).second)
+                reader.failWith("the name \"" + skin.motions.back().name +
+                                "\" is taken, expected a \"name\" of its own");
+        });
+    }
+    if (const auto names = root.find("names"))
+        names->forEachMember([&](const std::string& family, const JsonReader& value) {
+            skin.bind.names.push_back(readNames(family, value));
+        });
+    if (const auto props = root.find("props"))
+        props->forEachItem([&](const JsonReader& reader) {
+            skin.props.push_back(readProp(reader, skin, folder));
+        });
+    if (const auto up = root.find("up")) {
+        if (up->string() != "y" && up->string() != "z")
+            up->failWith("expected \"y\" or \"z\", found \"" + up->string() + "\"");
+        skin.zUp = up->string() == "z";
+    }
+    if (skin.fit && skin.zUp) skin.fit->up = {0.0, 0.0, 1.0};
+    readMethod(root, folder, skin);
+    readBinding(root, skin.bind);
+    return skin;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "report/LoadStages.h"
+#include "source/CharacterSource.h"
+
+#include <osgSkinCharacter/CharacterMotion>
+
+#include <vector>
+
+namespace osgSkin {
+
+/// Reads the source's motion files and retargets them to its rest skeleton.
+///
+/// \param source gets a note for what is likely not as wanted
+/// \param stages are told of each file
+/// \return one motion for each file, in order
+/// \throw Error with the motion file and the reason
+std::vector<CharacterMotion> retargetMotions(CharacterSource& source, LoadStages& stages);
+
+} // namespace osgSkin

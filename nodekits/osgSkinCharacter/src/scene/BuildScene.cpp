@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene/BuildScene.h"
+
+#include "report/TakeNote.h"
+#include "scene/ClipBounds.h"
+#include "scene/PlayedBounds.h"
+#include "scene/Props.h"
+
+#include <osgSkin/AutoPlayManager>
+#include <osgSkinBind/Bind>
+#include <osgSkinBind/NonUniformScale>
+#include <osgSkinBind/ShowRegions>
+#include <osgSkinRig/MakeSkeleton>
+
+#include <osg/MatrixTransform>
+#include <osgDB/FileNameUtils>
+
+namespace osgSkin {
+namespace {
+
+void attach(const CharacterSource& source, Character& character) {
+    const SkinMesh& mesh = character.body.mesh;
+    const std::vector<std::string> rigid =
+        source.bind.rigid ? *source.bind.rigid
+                          : automaticRigidJoints(character.rest, source.bind.names);
+    character.skeleton = source.skeleton ? source.skeleton : makeSkeleton(character.rest);
+    character.skin = attachSkin(*character.skeleton, mesh, character.body.parts, character.binding,
+                                splitRigid(mesh, character.binding, rigid));
+}
+
+osg::ref_ptr<osg::MatrixTransform> makeUpright(const osg::Matrixd& toWorld) {
+    osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(toWorld);
+    upright->setName("upright");
+    // Bones below are rewritten every frame: nothing here may be flattened into them.
+    upright->setDataVariance(osg::Object::DYNAMIC);
+    return upright;
+}
+
+/// A rigged model's own animations, as the character's motions.
+void takeAnimations(const CharacterSource& source, Character& character) {
+    for (const std::string& bone : findNonUniformScale(*character.skeleton, source.animations))
+        takeNote(character.notes, character.file + ": " + bone +
+                                      " scaled non-uniformly or mirrored, which the skin does not "
+                                      "follow");
+    for (const auto& animation : source.animations)
+        character.motions.emplace_back().animation = animation;
+}
+
+void play(Character& character) {
+    if (character.motions.empty()) return;
+    character.manager = new AutoPlayManager; // one that plays again when saved and read
+    for (const CharacterMotion& motion : character.motions)
+        character.manager->registerAnimation(motion.animation);
+    character.root->setUpdateCallback(character.manager);
+    character.manager->playAnimation(character.motions.front().animation);
+}
+
+} // namespace
+
+void buildScene(const CharacterSource& source, const LoadOptions& options, Character& character) {
+    if (options.showRegions) showRegions(character.body.parts, character.binding);
+    attach(source, character);
+    const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character.toWorld);
+    upright->addChild(character.skeleton);
+    for (const CharacterMotion& motion : character.motions)
+        addProps(source, motion, *upright, options.readOptions.get());
+    character.root = new osg::Group;
+    character.root->setName(osgDB::getStrippedName(character.file));
+    character.root->addChild(upright);
+    if (source.skeleton) {
+        takeAnimations(source, character);
+        character.root->setInitialBound(playedBounds(*character.root, source.animations));
+    } else if (!character.motions.empty()) {
+        // A viewer places its camera before the first frame: tell it where the figure will get to.
+        character.root->setInitialBound(clipBounds(character.motions.front().clip, character.rest,
+                                                   character.binding, character.body.mesh,
+                                                   character.toWorld));
+        character.pose(character.motions.front(), 0);
+    }
+    play(character);
+}
+
+} // namespace osgSkin

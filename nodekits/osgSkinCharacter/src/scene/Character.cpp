@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <osgSkinCharacter/Character>
+
+#include <osgSkin/Error>
+#include <osgSkin/UpdateDeformableSkin>
+#include <osgSkinRig/ApplyFrame>
+
+#include <osg/FrameStamp>
+#include <osgAnimation/Channel>
+#include <osgUtil/UpdateVisitor>
+
+namespace osgSkin {
+namespace {
+
+/// Deforms the skins as the bones stand now.
+void poseSkins(Character& character) {
+    for (const AttachedSkin::Skin& attached : character.skin.skins)
+        if (auto* update =
+                dynamic_cast<UpdateDeformableSkin*>(attached.drawable->getUpdateCallback()))
+            update->pose(*attached.drawable, *character.skeleton);
+}
+
+} // namespace
+
+void Character::pose(const CharacterMotion& motion, std::size_t frame) {
+    if (frame >= motion.clip.frames)
+        throw Error(file + ": motion \"" + motion.name() + "\" has " +
+                    std::to_string(motion.clip.frames) + " samples, found frame " +
+                    std::to_string(frame));
+    applyFrame(motion.clip, rest, frame, *skeleton);
+    poseSkins(*this);
+}
+
+void Character::poseAt(const CharacterMotion& motion, double seconds) {
+    if (manager->needToLink()) manager->link(root);
+    for (const auto& channel : motion.animation->getChannels()) {
+        channel->reset();
+        channel->update(seconds, 1.0f, 0);
+    }
+    osgUtil::UpdateVisitor visitor;
+    visitor.setFrameStamp(new osg::FrameStamp);
+    root->traverse(visitor); // but for the manager, which would go on playing
+    poseSkins(*this);
+}
+
+} // namespace osgSkin

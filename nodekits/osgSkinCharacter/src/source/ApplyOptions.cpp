@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "source/ApplyOptions.h"
+
+#include <osgSkin/Error>
+
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+using Method = LoadOptions::Method;
+
+void applyMethod(CharacterSource& source, Method method) {
+    if (method == Method::Default) return;
+    source.painted =
+        method == Method::Weights ? CharacterSource::Painted::Yes : CharacterSource::Painted::No;
+    source.bind.method =
+        method == Method::Paper ? BindOptions::Method::Paper : BindOptions::Method::Smooth;
+}
+
+/// The names of the motions there are, for an error.
+std::string expectedNames(const CharacterSource& source) {
+    std::string names;
+    const auto add = [&names](const std::string& name) {
+        names += (names.empty() ? ", expected one of \"" : ", \"") + name + "\"";
+    };
+    for (const auto& animation : source.animations) add(animation->getName());
+    for (const SkinFile::MotionEntry& entry : source.motions) add(entry.name);
+    return names;
+}
+
+/// Puts the element called `name` first. False where there is none.
+template <typename List, typename NameOf>
+bool putFirst(List& list, const std::string& name, const NameOf& nameOf) {
+    const auto found = std::find_if(list.begin(), list.end(),
+                                    [&](const auto& item) { return nameOf(item) == name; });
+    if (found == list.end()) return false;
+    std::rotate(list.begin(), found, found + 1);
+    return true;
+}
+
+void applyMotion(CharacterSource& source, const std::string& wanted, const osgDB::Options* read) {
+    if (putFirst(source.animations, wanted, [](const auto& a) { return a->getName(); })) return;
+    if (putFirst(source.motions, wanted, [](const auto& m) { return m.name; })) return;
+    SkinFile::MotionEntry entry;
+    entry.file = osgDB::findDataFile(wanted, read);
+    if (entry.file.empty())
+        throw Error(source.file + ": motion \"" + wanted +
+                    "\" is neither one of its motions nor a file" + expectedNames(source));
+    entry.name = osgDB::getStrippedName(entry.file);
+    for (const SkinFile::MotionEntry& other : source.motions)
+        if (other.name == entry.name) entry.name = entry.file; // names are unique
+    source.motions.insert(source.motions.begin(), entry);
+    // A rigged model's animations move the bones of its own skeleton, retargeted motions those of
+    // makeSkeleton(): there is one skeleton, so it is one kind or the other.
+    source.animations.clear();
+    source.skeleton = nullptr;
+}
+
+} // namespace
+
+void applyOptions(CharacterSource& source, const LoadOptions& options) {
+    applyMethod(source, options.method);
+    if (options.rigid) source.bind.rigid = options.rigid;
+    if (options.atRest) {
+        source.animations.clear();
+        source.motions.clear();
+        source.props.clear();
+    } else if (options.motion) {
+        applyMotion(source, *options.motion, options.readOptions.get());
+    }
+}
+
+} // namespace osgSkin

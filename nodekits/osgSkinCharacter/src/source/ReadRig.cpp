@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "source/ReadRig.h"
+
+#include "source/ApplyOptions.h"
+
+#include <osgSkinImport/ImportRig>
+
+#include <utility>
+
+namespace osgSkin {
+
+CharacterSource readRig(const std::string& file, const LoadOptions& options, LoadStages& stages) {
+    stages.begin("model", LoadStages::kModel);
+    ImportedRig rig = importRig(file, options.readOptions.get());
+    CharacterSource source;
+    source.file = source.meshFile = file;
+    source.body = std::move(rig.body);
+    source.rest = std::move(rig.rest);
+    source.toWorld = rig.toWorld;
+    source.painted = CharacterSource::Painted::WhereGood;
+    source.skeleton = rig.skeleton;
+    source.animations = rig.animations;
+    applyOptions(source, options);
+    stages.plan(LoadStages::kModel + source.laterSize());
+    return source;
+}
+
+} // namespace osgSkin

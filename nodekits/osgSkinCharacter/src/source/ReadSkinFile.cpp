@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "source/ReadSkinFile.h"
+
+#include "report/NamingFile.h"
+#include "report/TakeNote.h"
+#include "source/ApplyOptions.h"
+
+#include <osgSkinImport/ImportSkeleton>
+
+#include <osg/Math>
+
+namespace osgSkin {
+namespace {
+
+/// OSG's world has Z up; most characters' files have Y up and face +Z, so they come to face -Y,
+/// towards osgviewer's camera.
+osg::Matrixd toWorldOf(const SkinFile& file) {
+    return file.zUp ? osg::Matrixd() : osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
+}
+
+void fitRest(CharacterSource& source, FitOptions fit, const Progress& progress) {
+    fit.progress = progress;
+    source.rest = namingFile(source.meshFile,
+                             [&] { return fitSkeleton(source.body.mesh, fit, &source.fitReport); });
+    OSG_INFO << source.file << ":\n" << source.fitReport.text();
+    for (const std::string& note : source.fitReport.notes)
+        takeNote(source.notes, source.file + ": fitted skeleton: " + note);
+}
+
+} // namespace
+
+CharacterSource readSkinFile(const std::string& file, const LoadOptions& options,
+                             LoadStages& stages) {
+    const SkinFile skin = SkinFile::read(file);
+    CharacterSource source;
+    source.file = file;
+    source.meshFile = skin.mesh;
+    source.toWorld = toWorldOf(skin);
+    source.bind = skin.bind;
+    if (skin.paintedWeights) source.painted = CharacterSource::Painted::Yes;
+    source.weightsFile = skin.weights;
+    source.motions = skin.motions;
+    source.props = skin.props;
+    applyOptions(source, options);
+
+    stages.plan(LoadStages::kMesh + (skin.fit ? LoadStages::kFit : LoadStages::kSkeleton) +
+                source.laterSize());
+    stages.begin("mesh", LoadStages::kMesh);
+    source.body = importMesh(skin.mesh, options.readOptions.get());
+    if (skin.fit) {
+        fitRest(source, *skin.fit, stages.begin("skeleton", LoadStages::kFit));
+    } else {
+        stages.begin("skeleton", LoadStages::kSkeleton);
+        source.rest = importSkeleton(skin.skeleton);
+    }
+    return source;
+}
+
+} // namespace osgSkin

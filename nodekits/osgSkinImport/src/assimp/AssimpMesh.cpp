@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "assimp/AssimpMesh.h"
+
+#include "assimp/AssimpMaterials.h"
+#include "assimp/AssimpScene.h"
+#include "assimp/SceneBind.h"
+#include "text/FileText.h"
+
+#include <osgDB/FileNameUtils>
+
+#include <assimp/scene.h>
+
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace osgSkin {
+namespace {
+
+/// Adds one mesh of the scene, in the scene's space.
+void addMesh(const aiMesh& source, const glm::dmat4& toScene, const AssimpMaterials& materials,
+             const std::string& where, CornerMesh& result) {
+    const std::size_t first = result.mesh.positions.size();
+    if (first + source.mNumVertices > std::numeric_limits<std::uint32_t>::max())
+        failFile(where, "more vertices than 32-bit indices reach");
+    for (unsigned v = 0; v < source.mNumVertices; ++v)
+        result.mesh.positions.emplace_back(toScene * glm::dvec4(toGlm(source.mVertices[v]), 1.0));
+
+    const glm::dmat3 linear(toScene);
+    const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
+    const bool mirrored = glm::determinant(linear) < 0.0;
+    const unsigned set = materials.texCoordsOf(source);
+    const bool hasTexCoords = source.HasTextureCoords(set);
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+        const aiFace& face = source.mFaces[f];
+        if (face.mNumIndices < 3) continue; // points and lines
+        result.addFace(materials.indexOf(source));
+        for (unsigned k = 0; k < face.mNumIndices; ++k) {
+            // A mirrored face keeps its outside when its corners run the other way round.
+            const unsigned v = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
+            if (v >= source.mNumVertices)
+                failFile(where, "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
+                                    ", expected less than " + std::to_string(source.mNumVertices));
+            glm::dvec3 normal(0.0);
+            if (source.HasNormals()) normal = normalMatrix * toGlm(source.mNormals[v]);
+            glm::vec2 texCoord(0.0f);
+            if (hasTexCoords)
+                texCoord = {source.mTextureCoords[set][v].x, source.mTextureCoords[set][v].y};
+            result.addCorner(static_cast<std::uint32_t>(first) + v, glm::vec3(normal), texCoord);
+            if (materials.hasColours()) result.colours.push_back(materials.colour(source, v));
+        }
+        result.hasTexCoords = result.hasTexCoords || hasTexCoords;
+    }
+}
+
+/// Adds the weights of a mesh whose vertices begin at `first`.
+void addWeights(const aiMesh& source, const aiNode& node, const SceneBind& bind, std::size_t first,
+                const std::string& where, CornerMesh& result) {
+    const auto start = static_cast<std::uint32_t>(first);
+    for (unsigned b = 0; b < source.mNumBones; ++b) {
+        const aiBone& bone = *source.mBones[b];
+        BoneWeights& weights = result.weightsOf(nameOf(bone));
+        for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+            const aiVertexWeight& entry = bone.mWeights[w];
+            if (entry.mVertexId >= source.mNumVertices || !std::isfinite(entry.mWeight) ||
+                entry.mWeight < 0.0f)
+                failFile(where, "bone " + quoted(nameOf(bone)) + ": weight " + std::to_string(w) +
+                                    ", expected a vertex below " +
+                                    std::to_string(source.mNumVertices) +
+                                    " and a finite number of 0 or more");
+            weights.entries.push_back({start + entry.mVertexId, double(entry.mWeight)});
+        }
+    }
+    if (source.mNumBones > 0) return;
+    const aiNode* above = &node;
+    while (above != nullptr && !bind.isBone(*above)) above = bind.parent(*above);
+    if (above == nullptr) return;
+    BoneWeights& weights = result.weightsOf(nameOf(*above));
+    for (std::uint32_t v = 0; v < source.mNumVertices; ++v)
+        weights.entries.push_back({start + v, 1.0});
+}
+
+} // namespace
+
+CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options) {
+    Assimp::Importer importer;
+    return readSceneMesh(readAssimpScene(importer, path), path, options);
+}
+
+CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,
+                         const osgDB::Options* options) {
+    CornerMesh result;
+    const AssimpMaterials materials(scene, path, options);
+    result.stateSets = materials.stateSets();
+
+    const SceneBind bind(scene);
+    for (const aiNode* node : bind.nodes())
+        for (unsigned m = 0; m < node->mNumMeshes; ++m) {
+            const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
+            const std::string where = path + ": mesh \"" + mesh.mName.C_Str() + "\"";
+            const std::size_t first = result.mesh.positions.size();
+            addMesh(mesh, bind.mesh(*node, node->mMeshes[m]), materials, where, result);
+            addWeights(mesh, *node, bind, first, where, result);
+        }
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "assimp/AssimpScene.h"
+
+#include "assimp/MissingBones.h"
+#include "text/FileText.h"
+#include "text/OffCheck.h"
+#include "text/PlyCheck.h"
+
+#include <osgDB/FileNameUtils>
+
+#include <assimp/config.h>
+
+#include <algorithm>
+#include <exception>
+#include <vector>
+
+namespace osgSkin {
+
+namespace {
+
+/// Refuses what Assimp would hang on.
+void checkBefore(const std::string& path) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    // Read by readBvh(): Assimp believes any number of frames.
+    if (extension == "bvh")
+        failFile(path, "no face in a BVH file: it holds a skeleton and no mesh with bones");
+    if (extension == "ply") checkPly(path, readText(path));
+    if (extension == "off") checkOff(path, readText(path));
+}
+
+/// Makes a scene safe to walk: some readers of Assimp's leave null among a node's children.
+void checkAfter(aiScene& scene, const std::string& path) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        if (scene.mMeshes[m] == nullptr) failFile(path, "Assimp reads a mesh that is not there");
+    std::vector<aiNode*> open{scene.mRootNode};
+    while (!open.empty()) {
+        aiNode& node = *open.back();
+        open.pop_back();
+        for (unsigned m = 0; m < node.mNumMeshes; ++m)
+            if (node.mMeshes[m] >= scene.mNumMeshes)
+                failFile(path, "node " + quoted(node.mName.C_Str()) + " names mesh " +
+                                   std::to_string(node.mMeshes[m]) + ", expected less than " +
+                                   std::to_string(scene.mNumMeshes));
+        if (node.mChildren == nullptr) node.mNumChildren = 0;
+        aiNode** const end = node.mChildren + node.mNumChildren;
+        aiNode** const kept = std::remove(node.mChildren, end, nullptr);
+        node.mNumChildren = static_cast<unsigned>(kept - node.mChildren);
+        open.insert(open.end(), node.mChildren, kept);
+    }
+}
+
+} // namespace
+
+const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path) {
+    // Assimp would add a mesh of its own to a file that holds a skeleton only.
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    checkBefore(path);
+    const aiScene* scene = nullptr;
+    std::string reason;
+    try {
+        scene = importer.ReadFile(path, 0);
+        if (scene == nullptr) reason = importer.GetErrorString();
+    } catch (const std::exception& error) {
+        reason = error.what();
+    }
+    if (scene == nullptr || scene->mRootNode == nullptr)
+        failFile(path, reason.empty() ? "cannot be read" : reason);
+    auto& owned = const_cast<aiScene&>(*scene); // the importer's, which nobody else sees
+    checkAfter(owned, path);
+    addMissingBones(owned, path);
+    return owned;
+}
+
+glm::dvec3 toGlm(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::dquat toGlm(const aiQuaternion& q) {
+    return {q.w, q.x, q.y, q.z};
+}
+
+glm::dmat4 toGlm(const aiMatrix4x4& m) {
+    glm::dmat4 result; // columns
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            result[column][row] = static_cast<double>(m[static_cast<unsigned>(row)][column]);
+    return result;
+}
+
+bool assimpReads(const std::string& path) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    return !extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension);
+}
+
+} // namespace osgSkin

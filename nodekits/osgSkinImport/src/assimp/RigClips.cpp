@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "assimp/RigClips.h"
+
+#include "assimp/AssimpScene.h"
+#include "assimp/RigBones.h"
+#include "text/FileText.h"
+
+#include <osgSkin/GlmMath>
+#include <osgSkin/GlmOsg>
+
+#include <osgAnimation/Channel>
+#include <osgAnimation/Sampler>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace osgSkin {
+namespace {
+
+using Tracks = std::map<std::string, const aiNodeAnim*>;
+
+Tracks tracksOf(const aiAnimation& animation) {
+    Tracks result;
+    for (unsigned c = 0; c < animation.mNumChannels; ++c)
+        result.emplace(animation.mChannels[c]->mNodeName.C_Str(), animation.mChannels[c]);
+    return result;
+}
+
+bool isValid(const glm::dvec3& v) {
+    return isFinite(v);
+}
+
+bool isValid(const glm::dquat& q) {
+    const double length = glm::length(q);
+    return std::isfinite(length) && length > 0.0;
+}
+
+osg::Vec3 stored(const glm::dvec3& v) {
+    return osg::Vec3(toOsg(v));
+}
+
+osg::Quat stored(const glm::dquat& q) {
+    return toOsg(glm::normalize(q));
+}
+
+/// The clip's time, from Assimp's ticks.
+struct Clock {
+    double first = std::numeric_limits<double>::infinity();
+    double ticksPerSecond = 25.0;
+
+    double seconds(double ticks) const { return (ticks - first) / ticksPerSecond; }
+
+    template <typename Key>
+    void include(const Key* keys, unsigned count) {
+        for (unsigned k = 0; k < count; ++k)
+            if (std::isfinite(keys[k].mTime)) first = std::min(first, keys[k].mTime);
+    }
+};
+
+/// One element's channel: the track's keys, or a single one where the track has none.
+template <typename Channel, typename Keyframe, typename Key, typename Value>
+void addChannel(osgAnimation::Animation& animation, const std::string& joint, const char* element,
+                const Key* keys, unsigned count, const Value& otherwise, const Clock& clock,
+                const std::string& path) {
+    const osg::ref_ptr<Channel> channel = new Channel;
+    channel->setName(element);
+    channel->setTargetName(joint);
+    auto* container = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
+    double last = -std::numeric_limits<double>::infinity();
+    for (unsigned k = 0; k < count; ++k) {
+        const Value value = toGlm(keys[k].mValue);
+        if (!isValid(value) || !std::isfinite(keys[k].mTime))
+            failFile(path, "animation " + quoted(animation.getName()) + ": joint " + quoted(joint) +
+                               ": key " + std::to_string(k) + " of its " + element +
+                               " is not finite");
+        const double time = clock.seconds(keys[k].mTime);
+        if (!(time > last)) continue; // interpolation needs keys in order
+        container->push_back(Keyframe(time, stored(value)));
+        last = time;
+    }
+    if (container->empty()) container->push_back(Keyframe(0.0, stored(otherwise)));
+    animation.addChannel(channel);
+}
+
+void addJoint(osgAnimation::Animation& animation, const std::string& joint, const aiNode& node,
+              const aiNodeAnim* track, const Clock& clock, const std::string& path) {
+    using namespace osgAnimation;
+    const NodeTransform rest = decompose(toGlm(node.mTransformation));
+    static const aiNodeAnim none;
+    if (track == nullptr) track = &none;
+    addChannel<Vec3LinearChannel, Vec3Keyframe>(animation, joint, "translate", track->mPositionKeys,
+                                                track->mNumPositionKeys, rest.translation, clock,
+                                                path);
+    addChannel<QuatSphericalLinearChannel, QuatKeyframe>(
+        animation, joint, "quaternion", track->mRotationKeys, track->mNumRotationKeys,
+        rest.rotation, clock, path);
+    addChannel<Vec3LinearChannel, Vec3Keyframe>(animation, joint, "scale", track->mScalingKeys,
+                                                track->mNumScalingKeys, rest.scale, clock, path);
+}
+
+osg::ref_ptr<osgAnimation::Animation> makeClip(const aiAnimation& source, const std::string& name,
+                                               const SceneSkeleton& joints,
+                                               const std::vector<bool>& moves,
+                                               const std::string& path) {
+    const Tracks tracks = tracksOf(source);
+    const auto trackOf = [&](std::size_t joint) -> const aiNodeAnim* {
+        const auto found = tracks.find(joints.rest.joints[joint].name);
+        return found == tracks.end() ? nullptr : found->second;
+    };
+    Clock clock;
+    if (source.mTicksPerSecond > 0.0) clock.ticksPerSecond = source.mTicksPerSecond;
+    for (std::size_t j = 0; j < moves.size(); ++j)
+        if (const aiNodeAnim* track = trackOf(j)) {
+            clock.include(track->mPositionKeys, track->mNumPositionKeys);
+            clock.include(track->mRotationKeys, track->mNumRotationKeys);
+            clock.include(track->mScalingKeys, track->mNumScalingKeys);
+        }
+    if (!std::isfinite(clock.first)) return nullptr;
+    osg::ref_ptr<osgAnimation::Animation> clip = new osgAnimation::Animation;
+    clip->setName(name);
+    clip->setPlayMode(osgAnimation::Animation::LOOP);
+    for (std::size_t j = 0; j < moves.size(); ++j)
+        if (moves[j])
+            addJoint(*clip, joints.rest.joints[j].name, *joints.nodes[j], trackOf(j), clock, path);
+    clip->computeDuration();
+    return clip;
+}
+
+} // namespace
+
+std::vector<bool> movedJoints(const aiScene& scene, const SceneSkeleton& joints) {
+    std::vector<bool> moves(joints.nodes.size(), false);
+    for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
+        const Tracks tracks = tracksOf(*scene.mAnimations[a]);
+        for (std::size_t j = 0; j < moves.size(); ++j)
+            moves[j] = moves[j] || tracks.count(joints.rest.joints[j].name) != 0;
+    }
+    return moves;
+}
+
+osgAnimation::AnimationList makeClips(const aiScene& scene, const SceneSkeleton& joints,
+                                      const std::string& path) {
+    const std::vector<bool> moves = movedJoints(scene, joints);
+    osgAnimation::AnimationList result;
+    std::set<std::string> names;
+    for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
+        std::string name = scene.mAnimations[a]->mName.C_Str();
+        if (name.empty()) name = "clip" + std::to_string(a);
+        for (int copy = 2; !names.insert(name).second; ++copy)
+            name = scene.mAnimations[a]->mName.C_Str() + (" " + std::to_string(copy));
+        if (const auto clip = makeClip(*scene.mAnimations[a], name, joints, moves, path))
+            result.push_back(clip);
+    }
+    return result;
+}
+
+} // namespace osgSkin

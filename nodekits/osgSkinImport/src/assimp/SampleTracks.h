@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_SAMPLETRACKS_H
+#define OSGSKINIMPORT_SAMPLETRACKS_H 1
+
+#include "assimp/SceneSkeleton.h"
+
+#include <osgSkinRig/Motion>
+
+#include <assimp/anim.h>
+
+#include <string>
+
+namespace osgSkin {
+
+/// Samples an animation at equal steps, as many as its longest track has keys. Rotations are
+/// brought into frames that are aligned with the world at rest, as a Motion has them.
+///
+/// Of positions, those of the root are used, or of the joint that rootMotionJoint() finds; moves of
+/// others are left out, with a notice.
+/// \throw osgSkin::Error with `path` where no track has a key, or the keys' times make no sense.
+Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
+                    const std::string& path);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_SCENESKELETON_H
+#define OSGSKINIMPORT_SCENESKELETON_H 1
+
+#include <osgSkinRig/RestSkeleton>
+
+#include <assimp/scene.h>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+
+/// The joints of an Assimp scene: what its first animation or its meshes' bones move, and the nodes
+/// that connect them.
+struct SceneSkeleton {
+    RestSkeleton rest;
+    std::vector<const aiNode*> nodes; ///< [joint]
+    std::vector<glm::dmat4> bind;     ///< from the nodes' own frames to the scene, in the bind pose
+    std::vector<glm::dquat> worldRotations; ///< of `bind`, [joint]
+    glm::dmat4 aboveRoot{1.0};              ///< from the root joint's parent node to the scene
+};
+
+/// Reads the joints, in the bind pose.
+/// \throw osgSkin::Error with `path` where the scene has no joint, or joints of one name.
+SceneSkeleton readSceneSkeleton(const aiScene& scene, const std::string& path);
+
+/// The rotation of a matrix, without its scale; none where it mirrors or is flat.
+glm::dquat rotationOf(const glm::dmat4& matrix);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/BvhMotion.h"
+
+#include "motion/RootMotion.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace osgSkin {
+namespace {
+
+glm::dquat rotationAbout(int axis, double degrees) {
+    glm::dvec3 direction(0.0);
+    direction[axis] = 1.0;
+    return glm::angleAxis(glm::radians(degrees), direction);
+}
+
+glm::dquat localRotation(const BvhJoint& joint, const double* frame) {
+    glm::dquat result(1.0, 0.0, 0.0, 0.0);
+    const double* value = frame + joint.firstChannel;
+    for (const BvhChannel& channel : joint.channels) {
+        if (channel.isRotation) result = result * rotationAbout(channel.axis, *value);
+        ++value;
+    }
+    return result;
+}
+
+glm::dvec3 localPosition(const BvhJoint& joint, const double* frame) {
+    glm::dvec3 result = joint.offset;
+    const double* value = frame + joint.firstChannel;
+    for (const BvhChannel& channel : joint.channels) {
+        if (!channel.isRotation) result[channel.axis] = *value;
+        ++value;
+    }
+    return result;
+}
+
+/// For each joint, whether its position channels move it from its offset.
+std::vector<bool> findMovedJoints(const BvhFile& file) {
+    std::vector<bool> result(file.joints.size(), false);
+    for (std::size_t j = 0; j < result.size(); ++j) {
+        const BvhJoint& joint = file.joints[j];
+        if (!joint.hasPosition()) continue;
+        for (std::size_t f = 0; f < file.frames && !result[j]; ++f)
+            result[j] = isMoved(localPosition(joint, file.frame(f)), joint.offset);
+    }
+    return result;
+}
+
+} // namespace
+
+RestSkeleton makeRestSkeleton(const BvhFile& file) {
+    RestSkeleton result;
+    std::vector<bool> isLeaf(file.joints.size(), true);
+    for (const BvhJoint& joint : file.joints) {
+        glm::dvec3 centre = joint.offset;
+        if (joint.parent >= 0) {
+            const auto parent = static_cast<std::size_t>(joint.parent);
+            isLeaf[parent] = false;
+            centre += result.joints[parent].centre;
+        }
+        result.joints.push_back({joint.name, joint.parent, centre, {}});
+    }
+    for (std::size_t j = 0; j < result.joints.size(); ++j)
+        if (isLeaf[j] && file.joints[j].endSite)
+            result.joints[j].tip = result.joints[j].centre + *file.joints[j].endSite;
+    return result;
+}
+
+Motion makeMotion(const BvhFile& file, const std::string& path) {
+    const RestSkeleton skeleton = makeRestSkeleton(file);
+    const std::vector<bool> moved = findMovedJoints(file);
+    const std::size_t root = rootMotionJoint(skeleton, moved);
+    noticeUnusedMoves(skeleton, moved, root, path);
+
+    Motion motion;
+    motion.skeleton = skeletonFrom(skeleton, root);
+    motion.frameTime = file.frameTime;
+    motion.frames = file.frames;
+    motion.rotations.reserve(file.frames * motion.skeleton.joints.size());
+    motion.rootPositions.reserve(file.frames);
+    for (std::size_t f = 0; f < file.frames; ++f) {
+        const double* frame = file.frame(f);
+        glm::dquat above(1.0, 0.0, 0.0, 0.0); // the world rotation of the joints above the root
+        glm::dvec3 position(0.0);
+        for (std::size_t j = 0; j < file.joints.size(); ++j) {
+            const glm::dquat local = localRotation(file.joints[j], frame);
+            if (j > root) {
+                motion.rotations.push_back(glm::normalize(local));
+                continue;
+            }
+            // The joints down to the root stand in a row.
+            position += above * localPosition(file.joints[j], frame);
+            above = above * local;
+            if (j == root) motion.rotations.push_back(glm::normalize(above));
+        }
+        motion.rootPositions.push_back(position);
+    }
+    return motion;
+}
+
+} // namespace osgSkin

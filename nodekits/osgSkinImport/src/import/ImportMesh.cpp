@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinImport/ImportMesh>
+
+#include "assimp/AssimpMesh.h"
+#include "assimp/AssimpScene.h"
+#include "mesh/FinishMesh.h"
+#include "mesh/ObjMesh.h"
+#include "osg/OsgMesh.h"
+#include "text/FileText.h"
+
+#include <osgDB/FileNameUtils>
+
+namespace osgSkin {
+namespace {
+
+CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
+    // Assimp's and OSG's OBJ readers reorder the vertices.
+    if (osgDB::getLowerCaseFileExtension(path) == "obj") return readObjMesh(path, options);
+    if (!assimpReads(path)) return readOsgMesh(path, options);
+    requireReadable(path);
+    return readAssimpMesh(path, options);
+}
+
+} // namespace
+
+ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) {
+    return finishMesh(readMesh(path, options), path);
+}
+
+} // namespace osgSkin

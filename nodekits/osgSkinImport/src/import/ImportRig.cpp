@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinImport/ImportRig>
+
+#include "assimp/AssimpMesh.h"
+#include "assimp/AssimpScene.h"
+#include "assimp/RigBones.h"
+#include "assimp/RigClips.h"
+#include "assimp/SceneSkeleton.h"
+#include "mesh/FinishMesh.h"
+#include "text/FileText.h"
+
+#include <osg/Math>
+#include <osgDB/FileNameUtils>
+
+namespace osgSkin {
+namespace {
+
+bool isRigged(const aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        if (scene.mMeshes[m]->mNumBones > 0) return true;
+    return false;
+}
+
+/// OSG's world has Z up and a figure faces -Y. Assimp turns most formats to Y up; FBX files say
+/// what they have and are left as they are, and so is SMD, which has Z up.
+osg::Matrixd toWorld(const aiScene& scene, const std::string& path) {
+    const osg::Matrixd fromY = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
+    if (osgDB::getLowerCaseFileExtension(path) == "smd") return {};
+    int up = 1;
+    if (scene.mMetaData != nullptr && scene.mMetaData->Get("UpAxis", up) && up == 2) return {};
+    return fromY;
+}
+
+double metresPerUnit(const aiScene& scene, const std::string& path) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    if (extension == "gltf" || extension == "glb" || extension == "vrm") return 1.0;
+    double centimetres = 0.0;
+    float single = 0.0f;
+    if (scene.mMetaData == nullptr) return 0.0;
+    if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return 0.01 * centimetres;
+    if (scene.mMetaData->Get("UnitScaleFactor", single)) return 0.01 * double(single);
+    return 0.0;
+}
+
+} // namespace
+
+bool isReadByAssimp(const std::string& path) {
+    return assimpReads(path);
+}
+
+ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
+    requireReadable(path);
+    if (!assimpReads(path)) failFile(path, "Assimp reads no files of this kind");
+    Assimp::Importer importer;
+    const aiScene& scene = readAssimpScene(importer, path);
+    if (!isRigged(scene)) failFile(path, "no mesh with bones, expected a rigged character");
+
+    ImportedRig result;
+    result.body = finishMesh(readSceneMesh(scene, path, options), path);
+    const SceneSkeleton joints = readSceneSkeleton(scene, path);
+    result.rest = joints.rest;
+    result.skeleton = makeBones(joints, movedJoints(scene, joints));
+    result.animations = makeClips(scene, joints, path);
+    result.toWorld = toWorld(scene, path);
+    result.metresPerUnit = metresPerUnit(scene, path);
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_CORNERMESH_H
+#define OSGSKINIMPORT_CORNERMESH_H 1
+
+#include <osgSkinImport/BoneWeights>
+#include <osgSkinRig/SkinMesh>
+
+#include <osg/StateSet>
+#include <osg/ref_ptr>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace osgSkin {
+
+/// A mesh on its way from a file to drawable parts, whatever the file's format: attributes stand at
+/// the faces' corners, in the order of mesh.faceVertices.
+struct CornerMesh {
+    SkinMesh mesh;
+    std::vector<glm::vec3> normals;       ///< one a corner
+    std::vector<glm::vec2> texCoords;     ///< one a corner
+    std::vector<glm::vec4> colours;       ///< one a corner, or none; sRGB
+    std::vector<std::uint32_t> materials; ///< one a face: index in stateSets
+    std::vector<osg::ref_ptr<osg::StateSet>> stateSets;
+    std::vector<BoneWeights> weights; ///< one a bone
+    bool hasTexCoords = false;        ///< false where no corner has any
+
+    /// The weights of the bone called `name`, to be added to.
+    BoneWeights& weightsOf(const std::string& name) {
+        for (BoneWeights& known : weights)
+            if (known.bone == name) return known;
+        weights.push_back({name, {}});
+        return weights.back();
+    }
+
+    /// Begins a face of the given material; addCorner() follows for each of its corners.
+    void addFace(std::uint32_t material) {
+        mesh.faceSizes.push_back(0);
+        materials.push_back(material);
+    }
+
+    /// Adds a corner to the last face. A zero normal means that the file has none there.
+    void addCorner(std::uint32_t vertex, const glm::vec3& normal, const glm::vec2& texCoord) {
+        ++mesh.faceSizes.back();
+        mesh.faceVertices.push_back(vertex);
+        normals.push_back(normal);
+        texCoords.push_back(texCoord);
+    }
+};
+
+} // namespace osgSkin
+
+#endif

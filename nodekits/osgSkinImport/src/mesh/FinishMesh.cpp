@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/FinishMesh.h"
+
+#include "mesh/MeshParts.h"
+#include "mesh/SmoothNormals.h"
+#include "text/FileText.h"
+
+#include <osgSkin/Error>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace osgSkin {
+namespace {
+
+/// Makes all normals unit vectors; false where some are missing.
+bool normalise(std::vector<glm::vec3>& normals) {
+    for (glm::vec3& n : normals) {
+        const double length = glm::length(glm::dvec3(n));
+        if (!std::isfinite(length) || !(length > 0.0)) return false;
+        n = glm::vec3(glm::dvec3(n) / length);
+    }
+    return true;
+}
+
+} // namespace
+
+ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
+    if (read.mesh.faceSizes.empty()) failFile(path, "no face, expected at least one");
+    try {
+        read.mesh.validate();
+    } catch (const Error& error) {
+        failFile(path, error.what());
+    }
+    if (!normalise(read.normals)) read.normals = smoothNormals(read.mesh);
+    for (glm::vec2& t : read.texCoords)
+        if (!std::isfinite(t.x) || !std::isfinite(t.y)) t = glm::vec2(0.0f);
+    for (glm::vec4& c : read.colours)
+        for (int k = 0; k < 4; ++k)
+            c[k] = std::isfinite(c[k]) ? std::clamp(c[k], 0.0f, 1.0f) : 1.0f;
+
+    ImportedMesh result;
+    result.parts = makeMeshParts(read);
+    result.weights = std::move(read.weights);
+    result.mesh = std::move(read.mesh);
+    return result;
+}
+
+} // namespace osgSkin

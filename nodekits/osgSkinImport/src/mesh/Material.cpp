@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/Material.h"
+
+#include <osg/AlphaFunc>
+#include <osg/CullFace>
+#include <osg/LightModel>
+#include <osg/Material>
+#include <osg/Notify>
+#include <osg/Texture2D>
+
+#include <osgDB/FileNameUtils>
+#include <osgDB/ReadFile>
+
+#include <algorithm>
+
+namespace osgSkin {
+
+namespace {
+
+void setSides(osg::StateSet& state, bool two) {
+    if (two) {
+        const osg::ref_ptr<osg::LightModel> light = new osg::LightModel;
+        light->setTwoSided(true);
+        state.setAttributeAndModes(light);
+    } else {
+        state.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+    }
+}
+
+void setAlpha(osg::StateSet& state, const Material& material) {
+    if (material.alpha == Material::Alpha::Mask)
+        state.setAttributeAndModes(
+            new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, material.alphaCutOff));
+    const bool transparent =
+        material.alpha == Material::Alpha::ByOpacity && material.diffuse.a() < 1.0f;
+    if (!transparent && material.alpha != Material::Alpha::Blend) return;
+    state.setMode(GL_BLEND, osg::StateAttribute::ON);
+    state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+}
+
+} // namespace
+
+osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material) {
+    osg::ref_ptr<osg::StateSet> result = new osg::StateSet;
+    osg::ref_ptr<osg::Material> attribute = new osg::Material;
+    attribute->setAmbient(osg::Material::FRONT_AND_BACK, material.diffuse);
+    attribute->setDiffuse(osg::Material::FRONT_AND_BACK, material.diffuse);
+    attribute->setSpecular(osg::Material::FRONT_AND_BACK, material.specular);
+    attribute->setEmission(osg::Material::FRONT_AND_BACK, material.emission);
+    attribute->setShininess(osg::Material::FRONT_AND_BACK,
+                            std::clamp(material.shininess, 0.0f, 128.0f));
+    if (material.vertexColours) attribute->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
+    result->setAttributeAndModes(attribute);
+    if (material.image.valid()) {
+        osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(material.image);
+        texture->setWrap(osg::Texture::WRAP_S, material.wrapS);
+        texture->setWrap(osg::Texture::WRAP_T, material.wrapT);
+        result->setTextureAttributeAndModes(0, texture);
+    }
+    setSides(*result, material.twoSided.value_or(true));
+    setAlpha(*result, material);
+    return result;
+}
+
+osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string& meshPath,
+                                     const osgDB::Options* options) {
+    if (name.empty()) return nullptr;
+    osg::ref_ptr<osgDB::Options> local =
+        options != nullptr ? options->cloneOptions() : new osgDB::Options;
+    local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
+    const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
+    osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile(fileName, local);
+    if (!image)
+        OSG_NOTICE << meshPath << ": texture \"" << name << "\" cannot be read; drawn without"
+                   << std::endl;
+    return image;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_MATERIAL_H
+#define OSGSKINIMPORT_MATERIAL_H 1
+
+#include <osg/Image>
+#include <osg/StateSet>
+#include <osg/Texture>
+#include <osg/Vec4>
+#include <osg/ref_ptr>
+
+#include <osgDB/Options>
+
+#include <optional>
+#include <string>
+
+namespace osgSkin {
+
+/// The material of a part, as far as the file formats share one. Colours are in sRGB.
+struct Material {
+    enum class Alpha { ByOpacity, Opaque, Mask, Blend }; ///< ByOpacity: blended below 1
+
+    osg::Vec4 diffuse{0.8f, 0.74f, 0.68f, 1.0f}; ///< a neutral skin for files without materials
+    osg::Vec4 specular{0.1f, 0.1f, 0.1f, 1.0f};
+    osg::Vec4 emission{0.0f, 0.0f, 0.0f, 1.0f};
+    float shininess = 16.0f;        ///< 0..128
+    osg::ref_ptr<osg::Image> image; ///< of the diffuse texture, if any
+    osg::Texture::WrapMode wrapS = osg::Texture::REPEAT, wrapT = osg::Texture::REPEAT;
+    std::optional<bool>
+        twoSided; ///< unset where the format does not say: both sides are drawn and lit
+    Alpha alpha = Alpha::ByOpacity;
+    float alphaCutOff = 0.5f;   ///< with Alpha::Mask
+    bool vertexColours = false; ///< the vertices' colours take the place of `diffuse`
+};
+
+/// A state set with an osg::Material, the texture on unit 0, and blending or an alpha test where it
+/// is transparent. Back faces are culled where the format says that there are none.
+osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material);
+
+/// Reads a texture that the mesh file `meshPath` names. Null, with a notice, where it is missing.
+osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string& meshPath,
+                                     const osgDB::Options* options);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/ObjMesh.h"
+
+#include "mesh/Material.h"
+#include "text/FileText.h"
+#include "text/ObjCheck.h"
+
+#include <osg/Notify>
+
+#include <osgDB/FileNameUtils>
+
+#include <tiny_obj_loader.h>
+
+#include <map>
+#include <sstream>
+
+namespace osgSkin {
+namespace {
+
+osg::Vec4 colour(const tinyobj::real_t (&rgb)[3], double alpha = 1.0) {
+    return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]),
+            static_cast<float>(alpha)};
+}
+
+Material readMaterial(const tinyobj::material_t& source, const std::string& path,
+                      const osgDB::Options* options) {
+    Material material;
+    material.diffuse = colour(source.diffuse, source.dissolve);
+    material.specular = colour(source.specular);
+    material.emission = colour(source.emission);
+    material.shininess = static_cast<float>(source.shininess);
+    material.image = readTexture(source.diffuse_texname, path, options);
+    return material;
+}
+
+/// tinyobjloader's material numbers (-1: none) -> state sets, made when first used.
+class MaterialTable {
+public:
+    MaterialTable(const std::vector<tinyobj::material_t>& materials, const std::string& path,
+                  const osgDB::Options* options, bool vertexColours, CornerMesh& mesh)
+        : _materials(materials), _path(path), _options(options), _vertexColours(vertexColours),
+          _mesh(mesh) {}
+
+    std::uint32_t index(int number) {
+        const auto [entry, isNew] =
+            _indices.emplace(number, static_cast<std::uint32_t>(_mesh.stateSets.size()));
+        if (isNew) {
+            const bool known = number >= 0 && number < static_cast<int>(_materials.size());
+            Material material;
+            if (known)
+                material =
+                    readMaterial(_materials[static_cast<std::size_t>(number)], _path, _options);
+            material.vertexColours = _vertexColours;
+            _mesh.stateSets.push_back(makeStateSet(material));
+        }
+        return entry->second;
+    }
+
+private:
+    const std::vector<tinyobj::material_t>& _materials;
+    const std::string& _path;
+    const osgDB::Options* _options;
+    bool _vertexColours;
+    CornerMesh& _mesh;
+    std::map<int, std::uint32_t> _indices;
+};
+
+glm::vec3 normalAt(const tinyobj::attrib_t& attributes, int index) {
+    if (index < 0) return glm::vec3(0.0f);
+    const tinyobj::real_t* n = &attributes.normals[3 * static_cast<std::size_t>(index)];
+    return {n[0], n[1], n[2]};
+}
+
+glm::vec2 texCoordAt(const tinyobj::attrib_t& attributes, int index) {
+    if (index < 0) return glm::vec2(0.0f);
+    const tinyobj::real_t* t = &attributes.texcoords[2 * static_cast<std::size_t>(index)];
+    return {t[0], t[1]};
+}
+
+void addShape(const tinyobj::mesh_t& shape, const tinyobj::attrib_t& attributes,
+              MaterialTable& materials, CornerMesh& result) {
+    std::size_t corner = 0;
+    for (std::size_t f = 0; f < shape.num_face_vertices.size(); ++f) {
+        result.addFace(materials.index(shape.material_ids[f]));
+        for (unsigned k = 0; k < shape.num_face_vertices[f]; ++k, ++corner) {
+            const tinyobj::index_t& index = shape.indices[corner];
+            result.hasTexCoords = result.hasTexCoords || index.texcoord_index >= 0;
+            result.addCorner(static_cast<std::uint32_t>(index.vertex_index),
+                             normalAt(attributes, index.normal_index),
+                             texCoordAt(attributes, index.texcoord_index));
+            if (attributes.colors.size() != attributes.vertices.size()) continue;
+            const tinyobj::real_t* c =
+                &attributes.colors[3 * static_cast<std::size_t>(index.vertex_index)];
+            result.colours.emplace_back(c[0], c[1], c[2], 1.0f);
+        }
+    }
+}
+
+} // namespace
+
+CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
+    const std::string text = readText(path);
+    checkObj(path, text);
+
+    tinyobj::attrib_t attributes;
+    std::vector<tinyobj::shape_t> shapes;
+    std::vector<tinyobj::material_t> materials;
+    std::string warning;
+    std::string error;
+    std::string folder = osgDB::getFilePath(path);
+    if (!folder.empty()) folder += '/';
+    tinyobj::MaterialFileReader materialReader(folder);
+    std::istringstream stream(text);
+    const bool read = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
+                                       &materialReader, false, false);
+    if (!read) failFile(path, error.empty() ? "cannot be parsed" : error);
+    // A missing .mtl file is no failure: the body is drawn in the default colour.
+    while (!warning.empty() && warning.back() == '\n') warning.pop_back();
+    if (!warning.empty()) OSG_NOTICE << path << ": " << warning << std::endl;
+
+    CornerMesh result;
+    for (std::size_t k = 0; k + 2 < attributes.vertices.size(); k += 3)
+        result.mesh.positions.emplace_back(attributes.vertices[k], attributes.vertices[k + 1],
+                                           attributes.vertices[k + 2]);
+    // Not in the standard, and written by many: three more numbers after a vertex's position.
+    const bool coloured = attributes.colors.size() == attributes.vertices.size();
+    MaterialTable table(materials, path, options, coloured, result);
+    for (const tinyobj::shape_t& shape : shapes) addShape(shape.mesh, attributes, table, result);
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_FILETEXT_H
+#define OSGSKINIMPORT_FILETEXT_H 1
+
+#include <string>
+#include <string_view>
+
+namespace osgSkin {
+
+/// Throws osgSkin::Error "PATH: MESSAGE", on one line whatever the message holds.
+[[noreturn]] void failFile(const std::string& path, const std::string& message);
+
+/// Throws osgSkin::Error "PATH: line N: MESSAGE".
+[[noreturn]] void failLine(const std::string& path, std::size_t line, const std::string& message);
+
+/// The whole content of a file; throws osgSkin::Error with the reason where it cannot be read.
+std::string readText(const std::string& path);
+
+/// Throws osgSkin::Error where the file cannot be opened for reading.
+void requireReadable(const std::string& path);
+
+/// Reads all of `token` as a decimal number, in any locale; false where it is none. May give NaN
+/// or infinity.
+bool parseNumber(std::string_view token, double& value);
+
+/// `token` in quotes, cut short and with control characters replaced, for an error message.
+std::string quoted(std::string_view token);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "text/ObjCheck.h"
+
+#include "text/FileText.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+namespace osgSkin {
+namespace {
+
+constexpr std::size_t mostCorners = 255; // tinyobjloader counts them in a byte
+
+/// Takes the next word off `line`; empty at its end.
+std::string_view takeWord(std::string_view& line) {
+    const std::size_t start = line.find_first_not_of(" \t\r");
+    if (start == std::string_view::npos) return line = {};
+    line.remove_prefix(start);
+    const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+/// What an OBJ face refers to, in the order of a corner's v/vt/vn.
+struct Counts {
+    std::array<std::size_t, 3> of{};
+};
+constexpr std::array<const char*, 3> kinds{"vertex", "texture coordinate", "normal"};
+
+/// Calls `use(keyword, rest of the line, line number)` for each line that has a keyword.
+template <typename Use>
+void forEachLine(std::string_view text, const Use& use) {
+    for (std::size_t number = 1; !text.empty(); ++number) {
+        std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(text.size(), line.size() + 1));
+        const std::string_view keyword = takeWord(line);
+        if (!keyword.empty()) use(keyword, line, number);
+    }
+}
+
+int kindOf(std::string_view keyword) {
+    return keyword == "v" ? 0 : keyword == "vt" ? 1 : keyword == "vn" ? 2 : -1;
+}
+
+class Checker {
+public:
+    Checker(const std::string& path, const Counts& total) : _path(path), _total(total) {}
+
+    void line(std::string_view keyword, std::string_view rest, std::size_t number) {
+        _line = number;
+        const int kind = kindOf(keyword);
+        if (kind >= 0) {
+            ++_soFar.of[static_cast<std::size_t>(kind)];
+            numbers(keyword, rest);
+        } else if (keyword == "f") {
+            face(rest);
+        }
+    }
+
+private:
+    void numbers(std::string_view keyword, std::string_view rest) const {
+        const std::size_t expected = keyword == "vt" ? 1 : 3;
+        for (std::size_t k = 0; k < expected; ++k) {
+            const std::string_view word = takeWord(rest);
+            double value = 0.0;
+            const bool isNumber = parseNumber(word, value);
+            // A body is drawn well enough without a broken normal: all are computed then.
+            if (isNumber && (std::isfinite(value) || keyword == "vn")) continue;
+            failLine(_path, _line,
+                     (word.empty() ? "nothing" : quoted(word)) + std::string(" in a \"") +
+                         std::string(keyword) + "\" line, expected " + std::to_string(expected) +
+                         " finite numbers");
+        }
+    }
+
+    void face(std::string_view rest) const {
+        std::size_t corners = 0;
+        for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
+            corner(word);
+            ++corners;
+        }
+        if (corners < 3 || corners > mostCorners)
+            failLine(_path, _line,
+                     "a face with " + std::to_string(corners) + " corners, expected 3 to " +
+                         std::to_string(mostCorners));
+    }
+
+    void corner(std::string_view word) const {
+        std::string_view rest = word;
+        for (std::size_t kind = 0; kind < 3; ++kind) {
+            const std::size_t slash = rest.find('/');
+            const std::string_view digits = rest.substr(0, slash);
+            const bool mayBeEmpty = kind == 1 && slash != std::string_view::npos;
+            if (!(digits.empty() && mayBeEmpty)) index(digits, kind, word);
+            if (slash == std::string_view::npos) return;
+            rest.remove_prefix(slash + 1);
+        }
+        failLine(_path, _line, quoted(word) + " in a face, expected v, v/vt, v//vn or v/vt/vn");
+    }
+
+    void index(std::string_view digits, std::size_t kind, std::string_view word) const {
+        long long value = 0;
+        const char* const end = digits.data() + digits.size();
+        const auto [stop, status] = std::from_chars(digits.data(), end, value);
+        const auto total = static_cast<long long>(_total.of[kind]);
+        const auto soFar = static_cast<long long>(_soFar.of[kind]);
+        const bool fits = status == std::errc() && stop == end &&
+                          ((value >= 1 && value <= total) || (value <= -1 && value >= -soFar));
+        if (!fits)
+            failLine(_path, _line,
+                     quoted(word) + " in a face, expected a " + kinds[kind] + " from 1 to " +
+                         std::to_string(total) + " or from -" + std::to_string(soFar) + " to -1");
+    }
+
+    const std::string& _path;
+    const Counts& _total;
+    Counts _soFar;
+    std::size_t _line = 0;
+};
+
+} // namespace
+
+void checkObj(const std::string& path, const std::string& text) {
+    Counts total;
+    forEachLine(text, [&](std::string_view keyword, std::string_view, std::size_t) {
+        const int kind = kindOf(keyword);
+        if (kind >= 0) ++total.of[static_cast<std::size_t>(kind)];
+    });
+    if (total.of[0] > 0x7fffffff / 3) failFile(path, "more vertices than 32-bit indices reach");
+    Checker checker(path, total);
+    forEachLine(text, [&](std::string_view keyword, std::string_view rest, std::size_t number) {
+        checker.line(keyword, rest, number);
+    });
+}
+
+} // namespace osgSkin

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "text/OffCheck.h"
+
+#include "text/FileText.h"
+
+#include <sstream>
+
+namespace osgSkin {
+
+void checkOff(const std::string& path, const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    int found = 0;
+    while (found < 2 && std::getline(lines, line)) {
+        std::istringstream words(line.substr(0, line.find('#')));
+        for (std::string word; found < 2 && words >> word;) {
+            double count = 0.0;
+            if (!parseNumber(word, count)) continue; // OFF, STOFF, ...
+            // Each vertex and each face takes a few characters.
+            if (!(count >= 0.0 && count <= double(text.size())))
+                failFile(path, quoted(word) + (found == 0 ? " vertices" : " faces") +
+                                   ", expected no more than the file has room for");
+            ++found;
+        }
+    }
+}
+
+} // namespace osgSkin

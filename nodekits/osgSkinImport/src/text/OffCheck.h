@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_OFFCHECK_H
+#define OSGSKINIMPORT_OFFCHECK_H 1
+
+#include <string>
+
+namespace osgSkin {
+
+/// Checks the counts of an OFF file: Assimp 5.2.5 asks for the memory before it reads on.
+/// \throw osgSkin::Error "PATH: what was expected".
+void checkOff(const std::string& path, const std::string& text);
+
+} // namespace osgSkin
+
+#endif

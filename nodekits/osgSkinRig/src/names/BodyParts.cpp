@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "names/BodyParts.h"
+
+#include "names/NameWords.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace osgSkin {
+namespace {
+
+double bottom(const RestJoint& joint) {
+    return joint.tip ? std::min(joint.centre.y, joint.tip->y) : joint.centre.y;
+}
+
+double top(const RestJoint& joint) {
+    return joint.tip ? std::max(joint.centre.y, joint.tip->y) : joint.centre.y;
+}
+
+/// The head, a joint whose name has a head in it, or the highest one in a skeleton without either.
+int headOf(const SkeletonTree& tree, const JointRoles& roles) {
+    int named = -1, highest = 0;
+    for (int j = 0; j < tree.size(); ++j) {
+        if (roles.is(static_cast<std::size_t>(j), JointPart::Head)) return j;
+        const std::string& name = tree.joint(j).name;
+        if (named < 0 && nameContains(name, "head") && !nameContains(name, "forehead")) named = j;
+        if (top(tree.joint(j)) > top(tree.joint(highest))) highest = j;
+    }
+    return named >= 0 ? named : highest;
+}
+
+/// Whether a child of the trunk only leads to a limb: a collar bone or the inside of a hip.
+bool isGirdle(const SkeletonTree& tree, const JointRoles& roles, int j) {
+    const JointPart part = roles.parts[static_cast<std::size_t>(j)];
+    if (part == JointPart::Collar || part == JointPart::HipJoint) return true;
+    if (part == JointPart::UpperArm || tree.children(j).size() != 1) return false;
+    // A joint where its parent is has no bone of its own to align.
+    return glm::distance(tree.centre(j), tree.centre(tree.joint(j).parent)) < 1e-6 * tree.reach();
+}
+
+std::vector<bool> findLimbs(const SkeletonTree& tree, const JointRoles& roles) {
+    const auto count = static_cast<std::size_t>(tree.size());
+    std::vector<bool> isTrunk(count, false);
+    const int head = headOf(tree, roles);
+    for (int j = head; j >= 0; j = tree.joint(j).parent)
+        isTrunk[static_cast<std::size_t>(j)] = true;
+    std::vector<bool> isLimb(count, false);
+    for (int j = 0; j < tree.size(); ++j) {
+        const auto index = static_cast<std::size_t>(j);
+        if (isTrunk[index]) continue;
+        const auto parent = static_cast<std::size_t>(tree.joint(j).parent);
+        const bool onHead = tree.rest().isInSubtree(j, head);
+        isLimb[index] =
+            !onHead && (isLimb[parent] || !isTrunk[parent] || !isGirdle(tree, roles, j));
+    }
+    return isLimb;
+}
+
+} // namespace
+
+BodyParts findBodyParts(const SkeletonTree& tree, const JointRoles& roles) {
+    BodyParts result;
+    result.isLimb = findLimbs(tree, roles);
+
+    const auto isLimb = [&](int j) { return bool(result.isLimb[static_cast<std::size_t>(j)]); };
+    const bool hasLimbs =
+        std::find(result.isLimb.begin(), result.isLimb.end(), true) != result.isLimb.end();
+    result.lowest = std::numeric_limits<double>::infinity();
+    double highest = -result.lowest;
+    for (int j = 0; j < tree.size(); ++j) {
+        if (isLimb(j) || !hasLimbs) result.lowest = std::min(result.lowest, bottom(tree.joint(j)));
+        highest = std::max(highest, top(tree.joint(j)));
+    }
+    // Hands hang to the thigh at most, ankles lie within a tenth of the body above the floor.
+    const double ankle = result.lowest + 0.1 * (highest - result.lowest);
+    for (int j = 0; j < tree.size(); ++j)
+        if (isLimb(j) && bottom(tree.joint(j)) <= ankle) result.feet.push_back(j);
+    for (const int j : result.feet)
+        if (std::count(result.feet.begin(), result.feet.end(), tree.joint(j).parent) == 0)
+            result.ankles.push_back(j);
+    return result;
+}
+
+} // namespace osgSkin

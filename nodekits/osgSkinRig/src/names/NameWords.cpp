@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "names/NameWords.h"
+
+#include <cctype>
+#include <set>
+#include <vector>
+
+namespace osgSkin {
+namespace {
+
+bool isLetter(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0;
+}
+bool isDigit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+bool isUpper(char c) {
+    return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+char lower(char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+/// What stands before a colon or bar is a file's or a tool's, not the joint's.
+std::string withoutNamespace(const std::string& name) {
+    return name.substr(name.find_last_of(":|") + 1);
+}
+
+std::vector<std::string> wordsOf(const std::string& name) {
+    std::vector<std::string> result;
+    bool inWord = false;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const char c = name[i];
+        if (!isLetter(c)) {
+            if (isDigit(c)) {
+                if (i > 0 && isDigit(name[i - 1]))
+                    result.back() += c;
+                else
+                    result.emplace_back(1, c);
+            }
+            inWord = false;
+            continue;
+        }
+        const bool afterLower = i > 0 && isLetter(name[i - 1]) && !isUpper(name[i - 1]);
+        const bool beforeLower =
+            i + 1 < name.size() && isLetter(name[i + 1]) && !isUpper(name[i + 1]);
+        if (!inWord || (isUpper(c) && (afterLower || beforeLower))) result.emplace_back();
+        result.back() += lower(c);
+        inWord = true;
+    }
+    return result;
+}
+
+} // namespace
+
+std::string plainName(const std::string& name) {
+    std::string result;
+    for (const char c : withoutNamespace(name))
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) result += lower(c);
+    return result;
+}
+
+std::string bareName(const std::string& name) {
+    static const std::set<std::string> kSides = {"l", "r", "left", "right"};
+    static const std::set<std::string> kPrefixes = {"bip", "mixamorig", "def", "org"};
+    std::string bare;
+    bool afterPrefix = false;
+    for (const std::string& word : wordsOf(withoutNamespace(name))) {
+        if (bare.empty() && kPrefixes.count(word)) {
+            afterPrefix = true;
+            continue;
+        }
+        if (afterPrefix && isDigit(word[0]) && bare.empty()) continue; // Bip01
+        if (!kSides.count(word)) bare += word;
+    }
+    for (const std::string side : {"left", "right"}) // all in lower case: "lefthand"
+        if (bare.compare(0, side.size(), side) == 0) bare.erase(0, side.size());
+    return bare;
+}
+
+bool nameContains(const std::string& name, const char* part) {
+    std::string lowered = name;
+    for (char& c : lowered) c = lower(c);
+    return lowered.find(part) != std::string::npos;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinRig/Retarget>
+
+#include "retarget/Alignment.h"
+#include "retarget/DrivenRig.h"
+#include "retarget/FootRoll.h"
+#include "retarget/JointMap.h"
+#include "retarget/MeasureFeet.h"
+#include "retarget/RetargetNotes.h"
+#include "retarget/RootMotion.h"
+#include "retarget/UprightFrames.h"
+#include "skeleton/SkeletonTree.h"
+
+#include <osgSkin/GlmMath>
+#include <osgSkinRig/ForwardKinematics>
+
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+double degrees(const glm::dquat& q) {
+    return glm::degrees(2.0 * std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), std::abs(q.w)));
+}
+
+void fillReport(RetargetReport& report, const Motion& motion, const RestSkeleton& rig,
+                const std::vector<int>& motionJoint, const std::vector<glm::dquat>& alignment) {
+    report.entries.clear();
+    report.unusedMotionJoints.clear();
+    std::vector<bool> used(motion.skeleton.joints.size(), false);
+    for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+        RetargetReport::Entry entry{rig.joints[j].name, {}, 0.0, 0};
+        if (motionJoint[j] >= 0) {
+            const auto m = static_cast<std::size_t>(motionJoint[j]);
+            used[m] = true;
+            entry.motionJoint = motion.skeleton.joints[m].name;
+            entry.alignmentDegrees = degrees(alignment[j]);
+        }
+        report.entries.push_back(entry);
+    }
+    for (std::size_t m = 0; m < used.size(); ++m)
+        if (!used[m]) report.unusedMotionJoints.push_back(motion.skeleton.joints[m].name);
+}
+
+/// World orientations of the rig's joints from the motion's.
+void driveRig(const RestSkeleton& rig, const std::vector<int>& motionJoint,
+              const std::vector<glm::dquat>& alignment, const std::vector<glm::dquat>& motionWorld,
+              std::vector<glm::dquat>& world) {
+    world.resize(rig.joints.size());
+    for (std::size_t j = 0; j < world.size(); ++j) {
+        const int parent = rig.joints[j].parent;
+        if (motionJoint[j] >= 0)
+            world[j] = motionWorld[static_cast<std::size_t>(motionJoint[j])] * alignment[j];
+        else // at rest on its parent
+            world[j] = parent < 0 ? glm::dquat(1.0, 0.0, 0.0, 0.0)
+                                  : world[static_cast<std::size_t>(parent)];
+    }
+}
+
+/// The rotations as they are in the space that `back` leads to.
+void changeSpace(const glm::dquat& back, std::vector<glm::dquat>& rotations) {
+    if (isIdentity(back)) return; // to the last bit
+    for (glm::dquat& q : rotations) q = glm::normalize(back * q * glm::conjugate(back));
+}
+
+void addLocal(const RestSkeleton& rig, const std::vector<glm::dquat>& world, Clip& clip) {
+    for (std::size_t j = 0; j < world.size(); ++j) {
+        const int parent = rig.joints[j].parent;
+        clip.rotations.push_back(glm::normalize(
+            parent < 0 ? world[j]
+                       : glm::conjugate(world[static_cast<std::size_t>(parent)]) * world[j]));
+    }
+}
+
+} // namespace
+
+Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptions& options,
+              RetargetReport* report) {
+    rig.validate();
+    motion.skeleton.validate();
+    const JointMap map = mapJoints(rig, motion.skeleton, options);
+    const std::vector<int>& motionJoint = map.motionJoint;
+    const UprightFrames frames =
+        findUprightFrames(SkeletonTree(rig), SkeletonTree(motion.skeleton), map);
+    const RestSkeleton uprightRig = rotated(rig, frames.rigUpright);
+    const RestSkeleton uprightMotion = rotated(motion.skeleton, frames.motionUpright);
+    const DrivenRig body(uprightRig, uprightMotion, map);
+    const std::vector<glm::dquat> alignment = alignBones(body);
+    const glm::dquat back = glm::conjugate(frames.rigUpright);
+
+    Clip clip;
+    clip.name = motion.name;
+    clip.frameTime = motion.frameTime;
+    clip.frames = motion.frames;
+    clip.joints = rig.joints.size();
+    clip.rotations.reserve(clip.frames * clip.joints);
+
+    FootRoll feetRoll(body, alignment);
+    RootMotion root(body);
+    MeasureFeet feet(body);
+    std::vector<glm::dquat> motionWorld;
+    std::vector<glm::dquat> world;
+    for (std::size_t f = 0; f < motion.frames; ++f) {
+        worldRotations(motion.skeleton, &motion.rotation(f, 0), motionWorld);
+        changeSpace(frames.motionUpright, motionWorld);
+        driveRig(rig, motionJoint, alignment, motionWorld, world);
+        feetRoll.straighten(world);
+        root.add(frames.motionUpright * motion.rootPositions[f], motionWorld, world);
+        feet.add({root.rigPositions(), world}, {root.motionPositions(), motionWorld});
+        changeSpace(back, world);
+        addLocal(rig, world, clip);
+    }
+    clip.rootPositions = root.finish();
+    for (glm::dvec3& position : clip.rootPositions) position = back * position;
+
+    if (report != nullptr) {
+        fillReport(*report, motion, rig, motionJoint, alignment);
+        for (std::size_t j = 0; j < clip.joints; ++j)
+            report->entries[j].rolledOver = feetRoll.rolledOver(j);
+        report->notes = notesOf(map, rig, motion.skeleton, options);
+        report->rigNames = map.rig.family;
+        report->motionNames = map.motion.family;
+        report->scale = root.scale();
+        report->rotation = back * frames.motionUpright;
+        report->offset = back * root.offset();
+        report->feet = feet.finish(motion.frameTime, root.scale());
+    }
+    return clip;
+}
+
+} // namespace osgSkin

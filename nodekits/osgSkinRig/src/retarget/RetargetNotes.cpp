@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "retarget/RetargetNotes.h"
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+const char* const kEssential[] = {"Hips",          "LeftUpperArm",  "LeftLowerArm",
+                                  "RightUpperArm", "RightLowerArm", "LeftUpperLeg",
+                                  "LeftLowerLeg",  "RightUpperLeg", "RightLowerLeg"};
+
+/// The joints of essential roles for all of whose joints `isIdle` holds: the first of each role.
+template <typename Idle>
+std::vector<std::string> idleJoints(const JointRoles& roles, const RestSkeleton& skeleton,
+                                    const Idle& isIdle) {
+    std::vector<std::string> result;
+    for (const char* role : kEssential) {
+        const auto found = roles.joints.find(role);
+        if (found != roles.joints.end() &&
+            std::all_of(found->second.begin(), found->second.end(), isIdle))
+            result.push_back(skeleton.joints[static_cast<std::size_t>(found->second[0])].name);
+    }
+    return result;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    constexpr std::size_t kMost = 4;
+    std::string result;
+    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+        result += (i == 0 ? "\"" : ", \"") + names[i] + "\"";
+    if (names.size() > kMost) result += " and " + std::to_string(names.size() - kMost) + " more";
+    return result;
+}
+
+} // namespace
+
+std::vector<std::string> notesOf(const JointMap& map, const RestSkeleton& rig,
+                                 const RestSkeleton& motion, const RetargetOptions& options) {
+    const std::vector<int>& drivers = map.motionJoint;
+    const std::string expected =
+        "; expected joints of the same names, names of a known family, or a map";
+    std::vector<std::string> notes;
+    if (map.rig.known()) {
+        const auto idle = idleJoints(map.rig, rig, [&](int j) {
+            const auto joint = static_cast<std::size_t>(j);
+            return drivers[joint] < 0 && options.joints.count(rig.joints[joint].name) == 0;
+        });
+        if (!idle.empty())
+            notes.push_back("the motion has nothing for " + listed(idle) +
+                            " of the rig, which stay as they rest" + expected);
+        return notes;
+    }
+    if (map.motion.known()) {
+        const auto idle = idleJoints(map.motion, motion, [&](int j) {
+            return std::find(drivers.begin(), drivers.end(), j) == drivers.end();
+        });
+        if (!idle.empty())
+            notes.push_back("the rig has nothing for " + listed(idle) + " of the motion" +
+                            expected);
+        return notes;
+    }
+    const auto driven = static_cast<std::size_t>(
+        std::count_if(drivers.begin(), drivers.end(), [](int m) { return m >= 0; }));
+    if (2 * driven < std::min(rig.joints.size(), motion.joints.size()))
+        notes.push_back("only " + std::to_string(driven) + " of the rig's " +
+                        std::to_string(rig.joints.size()) + " joints match one of the motion's " +
+                        std::to_string(motion.joints.size()) + expected);
+    return notes;
+}
+
+} // namespace osgSkin

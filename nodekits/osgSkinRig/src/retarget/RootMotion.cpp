@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "retarget/RootMotion.h"
+
+#include <osgSkinRig/ForwardKinematics>
+
+#include <algorithm>
+#include <limits>
+
+namespace osgSkin {
+namespace {
+
+/// Height of the hips above the lowest point of the legs.
+double hipHeight(const SkeletonTree& tree, const BodyParts& parts, int hips) {
+    return tree.centre(hips).y - parts.lowest;
+}
+
+/// How far above its lowest position, in hip heights, a foot still counts as standing: walking feet
+/// roll over heel and toes, and a motion's feet have another shape than the rig's.
+constexpr double kContactBand = 0.06;
+
+/// The middle height of the feet in the samples in which they stand. Samples in the air or on a
+/// ladder have no say, nor has one noisy sample alone.
+double floorHeight(std::vector<double> feet, double band) {
+    std::sort(feet.begin(), feet.end());
+    const double lowest = feet[feet.size() / 20];
+    const auto end = std::upper_bound(feet.begin(), feet.end(), lowest + band);
+    return feet[static_cast<std::size_t>(end - feet.begin()) / 2];
+}
+
+} // namespace
+
+RootMotion::RootMotion(const DrivenRig& body) : _body(body) {
+    while (body.driver(_rigHips) < 0) ++_rigHips;
+    _motionHips = body.driver(_rigHips);
+    _rigHeight = hipHeight(body.rig, body.rigParts, _rigHips);
+    const double motionHeight = hipHeight(body.motion, body.motionParts, _motionHips);
+    // Without legs below the hips there is no height to compare: keep the motion's unit.
+    if (_rigHeight > 1e-6 * body.rig.reach() && motionHeight > 1e-6 * body.motion.reach())
+        _scale = _rigHeight / motionHeight;
+    // In the motion's zero pose the rig stands where it rests.
+    _offset = body.rig.centre(_rigHips) - _scale * body.motion.centre(_motionHips);
+}
+
+void RootMotion::add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
+                     const std::vector<glm::dquat>& rigWorld) {
+    worldPositions(_body.motion.rest(), motionWorld, motionRoot, _motionPositions);
+    const glm::dvec3 hips =
+        _scale * _motionPositions[static_cast<std::size_t>(_motionHips)] + _offset;
+
+    worldPositions(_body.rig.rest(), rigWorld, glm::dvec3(0.0), _rigPositions);
+    const glm::dvec3 root = hips - _rigPositions[static_cast<std::size_t>(_rigHips)];
+    for (glm::dvec3& position : _rigPositions) position += root;
+    _roots.push_back(root);
+    if (!_body.rigParts.feet.empty()) _feet.push_back(lowestFoot(rigWorld));
+}
+
+double RootMotion::lowestFoot(const std::vector<glm::dquat>& rigWorld) const {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const int j : _body.rigParts.feet) {
+        const auto index = static_cast<std::size_t>(j);
+        const RestJoint& joint = _body.rig.joint(j);
+        const glm::dvec3& position = _rigPositions[index];
+        lowest = std::min(lowest, position.y - joint.centre.y);
+        if (joint.tip) {
+            const glm::dvec3 tip = position + rigWorld[index] * (*joint.tip - joint.centre);
+            lowest = std::min(lowest, tip.y - joint.tip->y);
+        }
+    }
+    return lowest;
+}
+
+std::vector<glm::dvec3> RootMotion::finish() {
+    if (_feet.empty()) return std::move(_roots);
+    const double rise = floorHeight(_feet, kContactBand * _rigHeight);
+    _offset.y -= rise;
+    for (glm::dvec3& root : _roots) root.y -= rise;
+    return std::move(_roots);
+}
+
+} // namespace osgSkin

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinRig/RestSkeleton>
+
+#include <osgSkin/Error>
+#include <osgSkin/GlmMath>
+#include <osgSkin/GlmOsg>
+
+#include <set>
+
+namespace osgSkin {
+
+int RestSkeleton::add(const std::string& name, int parent, const glm::dvec3& centre) {
+    joints.push_back({name, parent, centre, {}});
+    return static_cast<int>(joints.size()) - 1;
+}
+
+int RestSkeleton::add(const std::string& name, int parent, const osg::Vec3d& centre) {
+    return add(name, parent, toGlm(centre));
+}
+
+int RestSkeleton::find(const std::string& name) const {
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (joints[j].name == name) return static_cast<int>(j);
+    return -1;
+}
+
+std::vector<int> RestSkeleton::children(int joint) const {
+    std::vector<int> result;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (joints[j].parent == joint) result.push_back(static_cast<int>(j));
+    return result;
+}
+
+bool RestSkeleton::isInSubtree(int joint, int ancestor) const {
+    while (joint >= 0 && joint != ancestor) joint = joints[static_cast<std::size_t>(joint)].parent;
+    return joint == ancestor;
+}
+
+void RestSkeleton::validate() const {
+    if (joints.empty()) throw Error("skeleton: no joint, expected at least one");
+    std::set<std::string> names;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        const RestJoint& joint = joints[j];
+        const std::string label =
+            "skeleton: joint " + std::to_string(j) + " \"" + joint.name + "\"";
+        if (j == 0 && joint.parent != -1)
+            throw Error(label + " comes first but has a parent, expected the root");
+        if (j > 0 && (joint.parent < 0 || joint.parent >= static_cast<int>(j)))
+            throw Error(label + " has parent " + std::to_string(joint.parent) +
+                        ", expected one of the joints before it (one root, no cycle)");
+        if (!names.insert(joint.name).second)
+            throw Error(label + " has the name of another joint, expected unique names");
+        if (!isFinite(joint.centre)) throw Error(label + " has a centre that is not finite");
+    }
+}
+
+} // namespace osgSkin

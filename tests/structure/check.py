@@ -1,0 +1,296 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""check.py [ROOT]: holds the sources to nodekits/rooms.txt and to the rules below.
+
+Prints each breach as PATH: what is wrong, and leaves with 1 where there is one. rooms.txt says how
+it is read; the other rules:
+  - at most 20 sources in a folder of nodekits, at most 500 lines in any source, an SPDX line in all;
+  - \\param, \\return and \\throw begin a line of their comment;
+  - a source of a kit has a header of its name, and every source includes that first;
+  - a function that a header declares is defined in the source of that header's name (by ctags);
+  - links and backquoted paths in Markdown lead somewhere, and where nodekits/README.md names a
+    function() in a line, a file named in that line has it; README.md shows the code that is compiled.
+"""
+import collections
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+MOST_SOURCES = 20
+MOST_LINES = 500
+FOLDERS = ("nodekits", "osgPlugin", "examples", "tests", "data", "cmake", ".ci")
+SCRIPTS = {".cmake", ".sh", ".py", ".txt"}
+
+
+class House:
+    """rooms.txt and the files that it speaks of."""
+
+    def __init__(self, root):
+        self.root = root
+        self.breaches = []
+        self.licence = {}  # kit -> SPDX name
+        self.needs = {}  # kit -> kits
+        self.rooms = collections.defaultdict(list)  # kit -> rooms from the ground up
+        self.headers = {}  # (kit, public header without a source) -> room
+        self.tables = {}  # path -> why it has no header
+        self.read_rooms()
+
+    def breach(self, path, what):
+        self.breaches.append(f"{self.name(path)}: {what}")
+
+    def name(self, path):
+        return path.relative_to(self.root).as_posix()
+
+    def read_rooms(self):
+        path, kit = self.root / "nodekits/rooms.txt", None
+        for line in path.read_text().splitlines():
+            words = line.split()
+            if not words or words[0].startswith("#"):
+                continue
+            if words[0] == "kit":
+                kit, self.licence[words[1]] = words[1], words[2]
+                self.needs[kit] = words[4:]
+                for other in words[4:]:
+                    if other not in self.needs or other == kit:
+                        self.breach(path, f"{kit} needs {other}, which does not stand above it")
+            elif words[0] == "table":
+                file, _, why = line.removeprefix("table ").partition(": ")
+                self.tables[file] = why
+                if not (self.root / file).is_file() or not why:
+                    self.breach(path, f"{file} does not exist, or no reason is given")
+            else:
+                self.rooms[kit].append(words[0])
+                if not (self.root / "nodekits" / kit / "src" / words[0]).is_dir():
+                    self.breach(path, f"{kit} has no room {words[0]}")
+                for header in words[1:]:
+                    self.headers[kit, header] = words[0]
+                    if not (self.root / "nodekits" / kit / "include" / kit / header).is_file():
+                        self.breach(path, f"{kit} has no header {header}")
+
+    def files(self, *folders):
+        """Sources and scripts of ours below these folders."""
+        for folder in folders:
+            for path in sorted((self.root / folder).rglob("*")):
+                if path.is_file() and (is_code(path) or path.suffix in SCRIPTS or path.name == "run"):
+                    yield path
+
+    def place(self, path):
+        """(kit, room) of a file of nodekits; None where it has none."""
+        parts = path.relative_to(self.root / "nodekits").parts
+        kit = parts[0]
+        if parts[1] == "src":
+            room = "/".join(parts[2:-1])
+        else:
+            room = self.public_room(kit, path.name)
+        return (kit, room) if room in self.rooms.get(kit, []) else None
+
+    def public_room(self, kit, header):
+        sources = self.root / "nodekits" / kit / "src"
+        found = [p for p in sources.rglob(header + ".cpp")]
+        if len(found) == 1:
+            return found[0].parent.relative_to(sources).as_posix()
+        return self.headers.get((kit, header))
+
+
+def is_code(path):
+    """C++, public headers without an extension among it."""
+    return path.suffix in (".cpp", ".h") or (not path.suffix and path.parts[-3:-1][:1] == ("include",))
+
+
+def includes(path):
+    return re.findall(r'^\s*#\s*include\s*([<"][^>"]+[>"])', path.read_text(), re.M)
+
+
+def check_sizes(house):
+    for path in house.files(*FOLDERS):
+        if "data" in path.relative_to(house.root).parts and path.suffix == ".txt":
+            continue
+        lines = path.read_text().splitlines()
+        if len(lines) > MOST_LINES:
+            house.breach(path, f"has {len(lines)} lines; at most {MOST_LINES}")
+        licence = re.search(r"SPDX-License-Identifier: (\S+)", "\n".join(lines[:3]))
+        parts = path.relative_to(house.root).parts
+        if path.name == "rooms.txt":
+            continue
+        for number, line in enumerate(lines, 1) if is_code(path) else []:
+            if re.search(r"^\s*///.*\S \\(param|return|throw|pre|post)\b", line):
+                house.breach(path, f"line {number}: a \\param, \\return or \\throw begins a line of its own")
+        if not licence:
+            house.breach(path, "no SPDX-License-Identifier in its first lines")
+        elif parts[0] == "nodekits" and len(parts) > 2:
+            expected = house.licence.get(parts[1])
+            if is_code(path) and licence[1] != expected:
+                house.breach(path, f"{licence[1]}, in a kit that is {expected}")
+    counts = collections.Counter(p.parent for p in house.files("nodekits") if is_code(p))
+    for folder, count in counts.items():
+        if count > MOST_SOURCES:
+            house.breach(folder, f"{count} sources in one folder; at most {MOST_SOURCES}")
+
+
+def check_includes(house):
+    """Includes go one way. Returns the arrows between rooms."""
+    arrows = set()
+    for path in filter(is_code, house.files("nodekits")):
+        here = house.place(path)
+        if not here:
+            house.breach(path, "stands in no room of nodekits/rooms.txt")
+            continue
+        kit, room = here
+        for include in includes(path):
+            target = include[1:-1]
+            first = target.split("/")[0]
+            if include[0] == "<":
+                if first not in house.licence:
+                    continue
+                if first != kit:
+                    if first not in house.needs[kit]:
+                        house.breach(path, f"includes {include}, and {kit} does not need {first}")
+                    continue
+                there = house.place(house.root / "nodekits" / kit / "include" / target)
+            else:
+                file = house.root / "nodekits" / kit / "src" / target
+                if not file.is_file():
+                    house.breach(path, f'includes {include}, which is not ROOM/File.h in {kit}/src')
+                    continue
+                there = house.place(file)
+            if not there:
+                continue  # told where that file itself is looked at
+            order = house.rooms[kit]
+            if order.index(there[1]) > order.index(room):
+                house.breach(path, f"includes {include}: an arrow upward, {room} -> {there[1]}")
+            elif there[1] != room:
+                arrows.add((kit, room, there[1]))
+    return arrows
+
+
+def own_header(house, path):
+    """What a source includes first: its own header; None where it has none."""
+    if (path.with_suffix(".h")).is_file():
+        beside = path.with_suffix(".h")
+        parts = path.relative_to(house.root).parts
+        if parts[0] == "nodekits":
+            return f'"{beside.relative_to(house.root.joinpath(*parts[:3])).as_posix()}"'
+        return f'"{beside.name}"'
+    parts = path.relative_to(house.root).parts
+    if parts[0] == "nodekits":
+        kit = parts[1]
+        if (house.root / "nodekits" / kit / "include" / kit / path.stem).is_file():
+            return f"<{kit}/{path.stem}>"
+    return None
+
+
+def check_own_headers(house):
+    for path in house.files("nodekits", "osgPlugin", "examples", "tests", "data"):
+        if path.suffix != ".cpp":
+            continue
+        own = own_header(house, path)
+        if own is None:
+            in_kit = path.relative_to(house.root).parts[0] == "nodekits"
+            if in_kit and house.name(path) not in house.tables:
+                house.breach(path, "has no header of its name")
+        elif includes(path)[:1] != [own]:
+            house.breach(path, f"does not include {own} first")
+
+
+def check_definitions(house):
+    """By ctags' reading of the sources: good enough, as it is fed no macros."""
+    paths = [p for p in house.files("nodekits") if is_code(p)]
+    if not paths:
+        return
+    exports = [f"{kit.upper()}_EXPORT" for kit in house.licence]
+    command = ["ctags", "--language-force=C++", "--kinds-C++=pf", "--fields=+Zn", "--output-format=json",
+               "-I", ",".join(exports), "-f", "-", *map(str, paths)]
+    tags = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    declared = collections.defaultdict(set)  # scoped name -> stems of the headers that declare it
+    defined = []
+    for line in tags.splitlines():
+        tag = json.loads(line)
+        path, name = pathlib.Path(tag["path"]), f'{tag.get("scope", "")}::{tag["name"]}'
+        if "__anon" in name:
+            continue
+        if tag["kind"] == "prototype" and path.suffix != ".cpp":
+            declared[name].add(path.stem)
+        elif tag["kind"] == "function" and path.suffix == ".cpp":
+            defined.append((path, name))
+    for path, name in defined:
+        homes = declared.get(name)
+        if homes and path.stem not in homes and house.name(path) not in house.tables:
+            house.breach(path, f"defines {name}, which {', '.join(sorted(homes))} declares")
+
+
+def anchors(path):
+    """GitHub's names of a page's headings."""
+    titles = re.findall(r"^#+ +(.*)$", path.read_text(), re.M)
+    return {re.sub(r"[^\w\- ]", "", t.lower()).strip().replace(" ", "-") for t in titles}
+
+
+def check_pages(house):
+    top = [p for p in house.root.glob("*.md")]
+    for page in top + [p for f in FOLDERS for p in sorted((house.root / f).rglob("*.md"))]:
+        text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S)
+        for target in re.findall(r"\]\(([^)\s]+)\)", text):
+            if re.match(r"[a-z]+:", target):
+                continue
+            file, _, anchor = target.partition("#")
+            to = (page.parent / file).resolve() if file else page
+            if not to.exists():
+                house.breach(page, f"links {target}, which does not exist")
+            elif anchor and anchor not in anchors(to):
+                house.breach(page, f"links {target}, which has no such heading")
+        if page == house.root / "nodekits/README.md":
+            check_steps(house, page, text)
+
+
+def check_steps(house, page, text):
+    """The folders, files and functions that the architecture's page names are there."""
+    for kit, rooms in house.rooms.items():
+        row = re.search(rf"^\| \[?{kit}\b.*\| ([^|]*)\|$", text, re.M)
+        if not row or re.findall(r"`([^`]+)`", row[1]) != rooms:
+            house.breach(page, f"its table does not end {kit}'s row with the rooms of rooms.txt")
+    for number, line in enumerate(text.splitlines(), 1):
+        linked = re.findall(r"\]\(([^)#:\s]+)\)", line)
+        files = [f for f in (page.parent / name for name in linked) if f.is_file()]
+        for name in re.findall(r"`([\w:]+)\(\)`", line):
+            short = name.split("::")[-1]
+            if not any(re.search(rf"\b{short}\s*\(", f.read_text()) for f in files):
+                house.breach(page, f"line {number}: no file linked in it has {name}()")
+
+
+def check_example(house):
+    """README.md has the lines of the example that tests/downstream compiles, and its headers."""
+    example = house.root / "examples/osgskinthrow/ThrowScene.cpp"
+    readme = house.root / "README.md"
+    if not example.is_file() or not readme.is_file():
+        return
+    shown = set(map(str.strip, readme.read_text().splitlines()))
+    for line in example.read_text().split("[readme]")[1].splitlines():
+        line = line.strip().removesuffix("//").strip()
+        if line and line not in shown and f"// {line}" not in shown:
+            house.breach(readme, f"lacks a line of {house.name(example)}: {line}")
+    downstream = house.root / "tests/downstream/main.cpp"
+    for include in re.findall(r"^#include <osgSkin.*>$", readme.read_text(), re.M):
+        if include not in downstream.read_text():
+            house.breach(readme, f"shows {include}, which {house.name(downstream)} does not compile")
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2])
+    house = House(root.resolve())
+    check_sizes(house)
+    arrows = check_includes(house)
+    check_own_headers(house)
+    check_definitions(house)
+    check_pages(house)
+    check_example(house)
+    for line in house.breaches:
+        print(line)
+    rooms = sum(map(len, house.rooms.values()))
+    print(f"{len(house.licence)} kits, {rooms} rooms, {len(arrows)} arrows between rooms, "
+          f"{len(house.breaches)} breaches")
+    return 1 if house.breaches else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Shows that check.py can fail: a tiny sound house, and for each rule one change that breaks it."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+MIT = "// SPDX-License-Identifier: MIT\n"
+GPL = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
+
+ROWS = "| low | `ground`, `first` |\n| high | `only` |\n"
+
+SOUND = {
+    "nodekits/rooms.txt": "kit low MIT\n  ground  Export\n  first\n"
+                          "kit high GPL-3.0-or-later needs low\n  only\n"
+                          "table nodekits/low/src/first/Table.cpp: numbers\n",
+    "nodekits/low/include/low/Export": MIT,
+    "nodekits/low/include/low/Up": MIT + "#include <low/Export>\nnamespace n { void up(); }\n",
+    "nodekits/low/src/ground/Base.h": MIT + "namespace n { int base(); struct S { int f(); }; }\n",
+    "nodekits/low/src/ground/Base.cpp": MIT + '#include "ground/Base.h"\nnamespace n {\n'
+                                        "namespace { int up() { return 1; } }\n"
+                                        "int base() { return up(); }\nint S::f() { return 2; }\n}\n",
+    "nodekits/low/src/first/Up.cpp": MIT + '#include <low/Up>\n#include "ground/Base.h"\n'
+                                     "namespace n { void up() { base(); } }\n",
+    "nodekits/low/src/first/Table.cpp": MIT + "int table[] = {1};\n",
+    "nodekits/high/src/only/Top.h": GPL + "#include <low/Up>\n",
+    "nodekits/high/src/only/Top.cpp": GPL + '#include "only/Top.h"\n',
+    "nodekits/README.md": ROWS + "# House\n\nSee [the base](low/src/ground/Base.cpp), `S::f()`, and [above](#house).\n",
+    "README.md": "#include <osgSkin/A>\n// Shown.\nint a = 1;\n",
+    "examples/Plain.cpp": MIT + "int main() {}\n",
+    "examples/osgskinthrow/ThrowScene.cpp": MIT + "// [readme] Shown.\n int a = 1;\n// [readme]\n",
+    "tests/downstream/main.cpp": MIT + "#include <osgSkin/A>\n",
+}
+
+# What is changed, and how the complaint about it must begin.
+BROKEN = [
+    ({"nodekits/low/src/ground/Base.h": MIT + "#include <low/Up>\n"},
+     "nodekits/low/src/ground/Base.h: includes <low/Up>: an arrow upward, ground -> first"),
+    ({"nodekits/low/src/first/Late.h": MIT, "nodekits/low/src/ground/Low.h": MIT + '#include "first/Late.h"\n'},
+     'nodekits/low/src/ground/Low.h: includes "first/Late.h": an arrow upward'),
+    ({"nodekits/low/src/first/Late.h": MIT + "#include <high/Thing>\n"},
+     "nodekits/low/src/first/Late.h: includes <high/Thing>, and low does not need high"),
+    ({"nodekits/low/src/first/Late.h": MIT + '#include "Base.h"\n'},
+     'nodekits/low/src/first/Late.h: includes "Base.h", which is not ROOM/File.h'),
+    ({"nodekits/low/src/attic/Thing.h": MIT}, "nodekits/low/src/attic/Thing.h: stands in no room"),
+    ({"nodekits/low/include/low/Loose": MIT}, "nodekits/low/include/low/Loose: stands in no room"),
+    ({f"nodekits/high/src/only/Thing{i}.h": GPL for i in range(19)},
+     "nodekits/high/src/only: 21 sources in one folder"),
+    ({"nodekits/high/src/only/Lonely.cpp": GPL}, "nodekits/high/src/only/Lonely.cpp: has no header of its name"),
+    ({"nodekits/low/src/first/Up.cpp": MIT + '#include "ground/Base.h"\n#include <low/Up>\n'},
+     "nodekits/low/src/first/Up.cpp: does not include <low/Up> first"),
+    ({"examples/Plain.h": MIT}, 'examples/Plain.cpp: does not include "Plain.h" first'),
+    ({"nodekits/low/src/first/Up.cpp": MIT + '#include <low/Up>\n#include "ground/Base.h"\n'
+                                       "namespace n { int S::f() { return 3; } }\n"},
+     "nodekits/low/src/first/Up.cpp: defines n::S::f, which Base declares"),
+    ({"nodekits/low/src/first/Up.cpp": MIT + "#include <low/Up>\nint n::base() { return 3; }\n"},
+     "nodekits/low/src/first/Up.cpp: defines n::base, which Base declares"),
+    ({"examples/Plain.cpp": MIT + "\n" * 500}, "examples/Plain.cpp: has 501 lines"),
+    ({"examples/run": "#!/bin/sh\n"}, "examples/run: no SPDX-License-Identifier"),
+    ({"nodekits/high/src/only/Top.h": MIT}, "nodekits/high/src/only/Top.h: MIT, in a kit that is GPL"),
+    ({"examples/Plain.cpp": MIT + "/// Adds. \\return the sum\n"},
+     "examples/Plain.cpp: line 2: a \\param, \\return or \\throw begins"),
+    ({"README.md": "#include <osgSkin/A>\n// Shown.\nint a = 2;\n"},
+     "README.md: lacks a line of examples/osgskinthrow/ThrowScene.cpp: int a = 1;"),
+    ({"tests/downstream/main.cpp": MIT}, "README.md: shows #include <osgSkin/A>, which tests/downstream"),
+    ({"nodekits/README.md": ROWS + "[gone](low/Gone.h)\n"}, "nodekits/README.md: links low/Gone.h, which does not exist"),
+    ({"nodekits/README.md": ROWS + "# House\n[there](#hut)\n"}, "nodekits/README.md: links #hut, which has no such heading"),
+    ({"nodekits/README.md": ROWS.replace("`ground`", "`cellar`")},
+     "nodekits/README.md: its table does not end low's row"),
+    ({"nodekits/README.md": ROWS + "[the base](low/src/ground/Base.cpp): `S::g()`\n"},
+     "nodekits/README.md: line 3: no file linked in it has S::g()"),
+]
+
+
+def breaches(changes):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in {**SOUND, **changes}.items():
+            path = pathlib.Path(folder, name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        check = pathlib.Path(__file__).with_name("check.py")
+        done = subprocess.run([sys.executable, check, folder], capture_output=True, text=True)
+        found = done.stdout.splitlines()[:-1]
+        if done.stderr or done.returncode != bool(found):
+            sys.exit(f"check.py left with {done.returncode}\n{done.stdout}{done.stderr}")
+        return found
+
+
+def main():
+    failures = [f"the sound house: {breach}" for breach in breaches({})]
+    for changes, expected in BROKEN:
+        found = breaches(changes)
+        if not any(breach.startswith(expected) for breach in found) or len(found) != 1:
+            failures.append(f"expected only: {expected}\n  got: " + "\n       ".join(found or ["nothing"]))
+    print("\n".join(failures) or f"{len(BROKEN)} breaches noticed")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// The same body, read by the plug-in under names of several families: it must bend, keep its rigid
+// parts and move alike.
+#include "Command.h"
+#include "RenamedBody.h"
+
+#include <osgSkin/DeformableSkin>
+#include <osgSkin/RigidPart>
+#include <osgSkinImport/ImportSkeleton>
+
+#include <osg/FrameStamp>
+#include <osg/NodeVisitor>
+#include <osgDB/ReadFile>
+#include <osgUtil/UpdateVisitor>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iomanip>
+#include <map>
+
+namespace {
+
+using osgSkin::RestSkeleton;
+
+void writeJoint(std::ostream& out, const RestSkeleton& skeleton, int joint) {
+    const osgSkin::RestJoint& rest = skeleton.joints[static_cast<std::size_t>(joint)];
+    const auto offset = [&out](const glm::dvec3& o) {
+        out << "{\nOFFSET " << o.x << " " << o.y << " " << o.z << "\n";
+    };
+    out << (rest.parent < 0 ? "ROOT " : "JOINT ") << rest.name << "\n";
+    offset(rest.parent < 0
+               ? rest.centre
+               : rest.centre - skeleton.joints[static_cast<std::size_t>(rest.parent)].centre);
+    out << "CHANNELS 3 Zrotation Yrotation Xrotation\n";
+    for (const int child : skeleton.children(joint)) writeJoint(out, skeleton, child);
+    if (skeleton.children(joint).empty()) {
+        out << "End Site\n";
+        offset(rest.tip ? *rest.tip - rest.centre : glm::dvec3(0, 0, 1e-3));
+        out << "}\n";
+    }
+    out << "}\n";
+}
+
+/// A BVH file of one sample, the rest pose.
+void writeBvh(const RestSkeleton& skeleton, const std::string& file) {
+    std::ofstream out(file);
+    out << std::setprecision(17) << "HIERARCHY\n";
+    writeJoint(out, skeleton, 0);
+    out << "MOTION\nFrames: 1\nFrame Time: 0.1\n";
+    for (std::size_t i = 0; i < 3 * skeleton.joints.size(); ++i) out << "0 ";
+    out << "\n";
+}
+
+/// What is drawn of a character at a time, in the world.
+struct Drawn : osg::NodeVisitor {
+    Drawn() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    std::vector<osg::Vec3> skin;                ///< vertices of the skins, one after the other
+    std::map<std::string, osg::Matrixd> rigids; ///< by the name of their bone
+
+    void apply(osg::Drawable& drawable) override {
+        const auto* deformable = dynamic_cast<osgSkin::DeformableSkin*>(&drawable);
+        if (deformable == nullptr) return;
+        const auto& vertices = static_cast<const osg::Vec3Array&>(
+            *deformable->getDeformedGeometry()->getVertexArray());
+        skin.insert(skin.end(), vertices.begin(), vertices.end());
+    }
+
+    void apply(osg::Transform& node) override {
+        if (dynamic_cast<osgSkin::RigidPart*>(&node) != nullptr)
+            rigids[node.getParent(0)->getName()] = osg::computeLocalToWorld(getNodePath());
+        traverse(node);
+    }
+};
+
+/// Reads the thrower on `skeleton` with its throw, at a time in which its hands are turned.
+Drawn drawn(const RestSkeleton& skeleton, const std::string& extra) {
+    const std::string folder = test::makeTestFolder();
+    writeBvh(skeleton, folder + "/rig.bvh");
+    std::ofstream(folder + "/body.skin")
+        << R"({ "osgskin": 1, "mesh": ")" << OSGSKIN_DATA << R"(/thrower.obj", )"
+        << R"("skeleton": "rig.bvh", "motions": [ { "file": ")" << OSGSKIN_DATA
+        << R"(/throw.bvh" } ])" << extra << " }";
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(folder + "/body.skin");
+    Drawn result;
+    if (!scene) return result;
+    osgUtil::UpdateVisitor update;
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    for (const double time : {0.0, 1.1}) { // the first frame starts the clock
+        stamp->setSimulationTime(time);
+        update.setFrameStamp(stamp);
+        scene->accept(update);
+    }
+    scene->accept(result);
+    return result;
+}
+
+std::string asJson(const osgSkin::JointNames& names) {
+    std::string result = R"(, "names": { ")" + names.name + R"(": {)", comma;
+    for (const auto& [role, members] : names.roles) {
+        result += comma + " \"" + role + "\": [";
+        for (std::size_t i = 0; i < members.size(); ++i)
+            result += (i > 0 ? ", \"" : " \"") + members[i] + "\"";
+        result += " ]";
+        comma = ",";
+    }
+    return result + " } }";
+}
+
+class BodyNames : public testing::Test {
+protected:
+    void SetUp() override {
+        body = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
+        // What VRM has no names for.
+        for (const char* joint : {"Neck1", "LHipJoint", "RHipJoint", "LeftFingerBase",
+                                  "RightFingerBase", "LeftHandIndex1", "RightHandIndex1"})
+            body = test::without(body, joint);
+    }
+
+    void expectAlike(const osgSkin::JointNames& family, const std::string& extra) {
+        const auto names = test::namesIn(body, family);
+        const Drawn expected = drawn(body, {}), found = drawn(test::renamed(body, names), extra);
+        ASSERT_EQ(expected.rigids.size(), 5u); // head, hands, feet
+        ASSERT_GT(expected.skin.size(), 1000u);
+        EXPECT_EQ(found.skin, expected.skin);
+        EXPECT_EQ(found.rigids.size(), expected.rigids.size());
+        for (const auto& [bone, matrix] : expected.rigids) {
+            ASSERT_EQ(found.rigids.count(names.at(bone)), 1u) << bone << ": no rigid part";
+            EXPECT_EQ(found.rigids.at(names.at(bone)), matrix) << bone;
+        }
+    }
+
+    RestSkeleton body;
+};
+
+} // namespace
+
+TEST_F(BodyNames, OfVrmDrawTheSame) {
+    expectAlike(test::knownNames("VRM"), {});
+}
+
+TEST_F(BodyNames, OfTheFileDrawTheSame) {
+    expectAlike(test::robotNames(), asJson(test::robotNames()));
+}

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// loadCharacter() as an application calls it: what it takes, what it gives, what it refuses.
+#include "DrawnSkin.h"
+
+#include <osgSkin/Error>
+#include <osgSkinCharacter/LoadCharacter>
+
+#include <osg/Notify>
+#include <osgAnimation/Bone>
+#include <osgAnimation/RigGeometry>
+#include <osgDB/WriteFile>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using osgSkin::Character;
+using osgSkin::loadCharacter;
+using osgSkin::LoadOptions;
+
+const std::string kGood = OSGSKIN_TEST_DATA "/character/good.skin";
+const std::string kTube = OSGSKIN_TEST_DATA "/rig/tube.gltf";
+const std::string kMove = OSGSKIN_TEST_DATA "/character/move.bvh";
+
+/// All drawn copies' positions in rest space.
+std::vector<osg::Vec3d> drawn(const Character& character) {
+    std::vector<osg::Vec3d> result;
+    test::forEachCopy(character, [&](std::uint32_t, const osg::Vec3d& p) { result.push_back(p); });
+    return result;
+}
+
+std::string whyRefused(const std::string& file, const LoadOptions& options = {}) {
+    try {
+        loadCharacter(file, options);
+    } catch (const osgSkin::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::vector<std::string> motionsOf(const Character& character) {
+    std::vector<std::string> names;
+    for (const osgSkin::CharacterMotion& motion : character.motions) names.push_back(motion.name());
+    return names;
+}
+
+/// A scene of osgAnimation's own with one rig in it, as a file.
+std::string rigOfOsg() {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("bone");
+    skeleton->addChild(bone);
+    const osg::ref_ptr<osg::Geometry> quad =
+        osg::createTexturedQuadGeometry(osg::Vec3(), osg::Vec3(1, 0, 0), osg::Vec3(0, 0, 2));
+    quad->setColorArray(nullptr);
+    quad->setNormalArray(nullptr);
+    const osg::ref_ptr<osgAnimation::RigGeometry> rig = new osgAnimation::RigGeometry;
+    rig->setSourceGeometry(quad);
+    const osg::ref_ptr<osgAnimation::VertexInfluenceMap> map = new osgAnimation::VertexInfluenceMap;
+    (*map)["bone"].assign({{0, 1.0f}, {1, 1.0f}, {2, 1.0f}, {3, 1.0f}});
+    rig->setInfluenceMap(map);
+    skeleton->addChild(rig);
+    std::string file = testing::TempDir() + "load_character_rig.osgt";
+    EXPECT_TRUE(osgDB::writeNodeFile(*skeleton, file));
+    return file;
+}
+
+} // namespace
+
+TEST(LoadCharacter, MakesASkinFile) {
+    const Character character = loadCharacter(kGood);
+    EXPECT_EQ(character.file, kGood);
+    EXPECT_EQ(character.meshFile, OSGSKIN_TEST_DATA "/character/body.obj");
+    EXPECT_TRUE(character.hasBody());
+    EXPECT_EQ(character.binding.vertexCount(), character.body.mesh.positions.size());
+    EXPECT_EQ(character.bindReport.vertices, character.body.mesh.positions.size());
+    EXPECT_EQ(character.rest.joints.size(), character.binding.joints.size());
+    EXPECT_EQ(motionsOf(character), (std::vector<std::string>{"move", "later"}));
+    for (const osgSkin::CharacterMotion& motion : character.motions) {
+        EXPECT_TRUE(motion.isSampled());
+        EXPECT_NEAR(motion.duration(), motion.clip.frameTime * double(motion.clip.frames), 1e-9);
+        EXPECT_FALSE(motion.report.entries.empty());
+    }
+    EXPECT_FALSE(character.isZUp());
+    EXPECT_LT((osg::Vec3d(0, 1, 0) * character.toWorld - osg::Vec3d(0, 0, 1)).length(), 1e-12);
+    EXPECT_EQ(character.root->getUpdateCallback(), character.manager);
+    EXPECT_TRUE(character.root->getBound().valid());
+}
+
+TEST(LoadCharacter, MakesARiggedModelWithAndWithoutSkinAfterItsName) {
+    for (const std::string& file : {kTube, kTube + ".skin"}) {
+        const Character character = loadCharacter(file);
+        EXPECT_EQ(character.file, kTube);
+        EXPECT_TRUE(character.hasBody());
+        EXPECT_EQ(character.skin.skins.size(), 1u);
+        EXPECT_EQ(motionsOf(character), (std::vector<std::string>{"wave", "move"}));
+        EXPECT_FALSE(character.motions.front().isSampled());
+        EXPECT_NEAR(character.motions.front().duration(), 1.0, 1e-6);
+    }
+}
+
+TEST(LoadCharacter, ConvertsASceneThatOsgReads) {
+    const std::string file = rigOfOsg();
+    const Character character = loadCharacter(file);
+    EXPECT_FALSE(character.hasBody());
+    EXPECT_EQ(character.file, file);
+    ASSERT_EQ(character.skin.skins.size(), 1u);
+    EXPECT_EQ(character.skin.skins.front().drawable->getModel()->vertexCount(), 4u);
+    EXPECT_EQ(character.manager, nullptr);
+}
+
+TEST(LoadCharacter, StandsInTheFirstMotionsFirstPose) {
+    Character character = loadCharacter(kGood);
+    const std::vector<osg::Vec3d> loaded = drawn(character);
+    character.pose(character.motions.front(), 2);
+    EXPECT_NE(drawn(character), loaded);
+    character.pose(character.motions.front(), 0);
+    EXPECT_EQ(drawn(character), loaded);
+}
+
+TEST(LoadCharacter, PoseAtASamplesTimeIsTheSample) {
+    Character character = loadCharacter(kGood);
+    const osgSkin::CharacterMotion& motion = character.motions.front();
+    for (std::size_t frame = 0; frame < motion.clip.frames; ++frame) {
+        character.pose(motion, frame);
+        const std::vector<osg::Vec3d> exact = drawn(character);
+        character.poseAt(motion, motion.clip.frameTime * double(frame));
+        const std::vector<osg::Vec3d> played = drawn(character);
+        ASSERT_EQ(played.size(), exact.size());
+        for (std::size_t i = 0; i < exact.size(); ++i)
+            EXPECT_LT((played[i] - exact[i]).length(), 1e-5) << "frame " << frame;
+    }
+}
+
+TEST(LoadCharacter, PosesARiggedModelsOwnAnimation) {
+    Character character = loadCharacter(kTube);
+    const osgSkin::CharacterMotion& wave = character.motions.front();
+    character.poseAt(wave, 0.0);
+    const std::vector<osg::Vec3d> start = drawn(character);
+    character.poseAt(wave, 0.5);
+    EXPECT_NE(drawn(character), start);
+    character.poseAt(wave, 0.0);
+    EXPECT_EQ(drawn(character), start);
+    EXPECT_THROW(character.pose(wave, 0), osgSkin::Error) << "it has no samples";
+}
+
+TEST(LoadCharacter, RefusesAFrameBeyondTheMotion) {
+    Character character = loadCharacter(kGood);
+    const osgSkin::CharacterMotion& motion = character.motions.front();
+    EXPECT_NO_THROW(character.pose(motion, motion.clip.frames - 1));
+    EXPECT_THROW(character.pose(motion, motion.clip.frames), osgSkin::Error);
+}
+
+TEST(LoadCharacter, AMotionFileGoesFirst) {
+    for (const std::string& file : {kGood, kTube}) {
+        LoadOptions options;
+        options.motion = kMove;
+        const Character character = loadCharacter(file, options);
+        ASSERT_FALSE(character.motions.empty());
+        EXPECT_TRUE(character.motions.front().isSampled()) << file;
+        // A name of its own where the file has a motion of that name already.
+        EXPECT_EQ(character.motions.front().name(), file == kGood ? kMove : "move");
+    }
+}
+
+TEST(LoadCharacter, AtRestNothingPlays) {
+    for (const std::string& file : {kGood, kTube}) {
+        LoadOptions options;
+        options.atRest = true;
+        const Character character = loadCharacter(file, options);
+        EXPECT_TRUE(character.motions.empty());
+        EXPECT_EQ(character.manager, nullptr);
+        EXPECT_EQ(character.root->getUpdateCallback(), nullptr);
+    }
+}
+
+TEST(LoadCharacter, BothSourcesRefuseAlike) {
+    LoadOptions dance, nobody;
+    dance.motion = "dance";
+    nobody.rigid = {"nobody"};
+    for (const std::string& file : {kGood, kTube}) {
+        const std::string motion = whyRefused(file, dance);
+        EXPECT_EQ(motion.rfind(file + ": motion \"dance\" is neither", 0), 0u) << motion;
+        EXPECT_NE(motion.find("expected one of \""), std::string::npos) << motion;
+        const std::string rigid = whyRefused(file, nobody);
+        EXPECT_EQ(rigid.rfind(file + ": ", 0), 0u) << rigid;
+        EXPECT_NE(rigid.find("nobody"), std::string::npos) << rigid;
+    }
+}
+
+TEST(LoadCharacter, RefusesWhatIsNotThere) {
+    osg::setNotifyLevel(osg::FATAL);
+    for (const char* file : {"nowhere.skin", "nowhere.glb", "nowhere.glb.skin", "nowhere.osgt"}) {
+        const std::string why = whyRefused(file);
+        EXPECT_EQ(why.rfind("nowhere.", 0), 0u) << file << ": " << why;
+    }
+    osg::setNotifyLevel(osg::NOTICE);
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A body is bound alike whatever family its joints' names are of.
+#include "KnownBody.h"
+#include "RenamedBody.h"
+
+#include <osgSkinBind/Bind>
+#include <osgSkinBind/BindWeights>
+#include <osgSkinBind/RigidSplit>
+
+#include <gtest/gtest.h>
+
+using namespace osgSkin;
+
+namespace {
+
+/// Equal to the last bit, but for the joints' names.
+void expectSame(const Binding& a, const Binding& b) {
+    ASSERT_EQ(a.joints.size(), b.joints.size());
+    for (std::size_t j = 0; j < a.joints.size(); ++j) {
+        EXPECT_EQ(a.joints[j].twistAxis, b.joints[j].twistAxis) << a.joints[j].name;
+        EXPECT_EQ(a.joints[j].boneAxis, b.joints[j].boneAxis) << a.joints[j].name;
+    }
+    EXPECT_EQ(a.regions, b.regions);
+    EXPECT_EQ(a.firstInfluence, b.firstInfluence);
+    ASSERT_EQ(a.influences.size(), b.influences.size());
+    for (std::size_t i = 0; i < a.influences.size(); ++i) {
+        ASSERT_EQ(a.influences[i].joint, b.influences[i].joint) << i;
+        ASSERT_EQ(a.influences[i].bend, b.influences[i].bend) << i;
+        ASSERT_EQ(a.influences[i].twist, b.influences[i].twist) << i;
+    }
+}
+
+class BodyNames : public testing::Test {
+protected:
+    /// Binds the thrower under the names that `family` gives its joints, and compares with CMU's.
+    void expectAlike(const JointNames& family, const BindOptions& options) {
+        const auto names = test::namesIn(body.truth, family);
+        const RestSkeleton other = test::renamed(body.truth, names);
+
+        std::vector<std::string> expected;
+        for (const std::string& name : automaticRigidJoints(body.truth))
+            expected.push_back(names.at(name));
+        ASSERT_EQ(expected.size(), 5u); // head, hands, feet
+        EXPECT_EQ(automaticRigidJoints(other, options.names), expected);
+
+        const Binding theirs = bind(body.mesh, other, options);
+        expectSame(bind(body.mesh, body.truth), theirs);
+        for (const std::string side : {"Left", "Right"}) {
+            const auto hand = std::size_t(body.truth.find(side + "Hand"));
+            const auto foreArm = std::size_t(body.truth.find(side + "ForeArm"));
+            const glm::dvec3 above =
+                glm::normalize(body.truth.joints[hand].centre - body.truth.joints[foreArm].centre);
+            EXPECT_LT(glm::distance(theirs.joints[hand].twistAxis, above), 1e-9)
+                << "the forearm twists with the hand";
+        }
+    }
+
+    const KnownBody body = KnownBody::thrower();
+};
+
+} // namespace
+
+TEST_F(BodyNames, EveryKnownFamilyIsBoundAlike) {
+    for (const JointNames& family : knownJointNames()) {
+        if (family.roles.count("LeftThumb1") == 0) continue; // or else "extra" here
+        SCOPED_TRACE(family.name);
+        expectAlike(family, {});
+    }
+}
+
+TEST_F(BodyNames, NamesOfTheCallersAreBoundAlike) {
+    BindOptions options;
+    options.names.push_back(test::robotNames());
+    expectAlike(options.names.front(), options);
+}
+
+TEST_F(BodyNames, WithoutThemNothingIsKnown) {
+    const RestSkeleton robot =
+        test::renamed(body.truth, test::namesIn(body.truth, test::robotNames()));
+    EXPECT_TRUE(automaticRigidJoints(robot).empty());
+}
+
+TEST_F(BodyNames, WeightsTakeTheirPolesFromTheCallersNames) {
+    BindOptions options;
+    options.names.push_back(test::robotNames());
+    const RestSkeleton robot =
+        test::renamed(body.truth, test::namesIn(body.truth, options.names.front()));
+    const VertexWeights weights(body.mesh.positions.size(), {{0, 1.0}});
+    const Binding theirs = bindWeights(body.mesh, robot, weights, options);
+    const Binding ours = bindWeights(body.mesh, body.truth, weights);
+    for (std::size_t j = 0; j < ours.joints.size(); ++j)
+        EXPECT_EQ(theirs.joints[j].twistAxis, ours.joints[j].twistAxis) << ours.joints[j].name;
+}

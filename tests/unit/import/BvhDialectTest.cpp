@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+// What exporters write that differs in form from the plain file must be read like it, or refused
+// with a reason.
+#include "ExpectError.h"
+#include "Paths.h"
+
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Motion>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+namespace {
+
+std::string plainText() {
+    std::ifstream file(testData("bvh/two_joints.bvh"), std::ios::binary);
+    std::ostringstream content;
+    content << file.rdbuf();
+    return content.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    for (; at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+/// A BVH file for as long as this lives.
+class TemporaryBvh {
+public:
+    explicit TemporaryBvh(const std::string& text)
+        : path(testing::TempDir() + "osgskin_" + testName() + ".bvh") {
+        std::ofstream(path, std::ios::binary) << text;
+    }
+    ~TemporaryBvh() { std::filesystem::remove(path); }
+    TemporaryBvh(const TemporaryBvh&) = delete;
+    TemporaryBvh& operator=(const TemporaryBvh&) = delete;
+
+    std::string path;
+
+private:
+    static std::string testName() {
+        std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+        std::replace(name.begin(), name.end(), '/', '_');
+        return name;
+    }
+};
+
+struct Dialect {
+    const char* name;
+    std::function<std::string(std::string)> write; ///< from the plain text
+};
+
+void PrintTo(const Dialect& dialect, std::ostream* out) {
+    *out << dialect.name;
+}
+
+const Dialect kSame[] = {
+    {"Tabs", [](const std::string& t) { return replaced(replaced(t, "  ", "\t"), " ", "\t"); }},
+    {"CarriageReturnLineFeed", [](const std::string& t) { return replaced(t, "\n", "\r\n"); }},
+    {"CarriageReturn", [](const std::string& t) { return replaced(t, "\n", "\r"); }},
+    {"LowerCase",
+     [](std::string t) {
+         for (char& c : t) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+         return replaced(replaced(t, "hips", "Hips"), "spine", "Spine");
+     }},
+    {"UpperCaseChannels",
+     [](const std::string& t) {
+         return replaced(replaced(t, "rotation", "ROTATION"), "End", "END");
+     }},
+    {"EndSiteInLowerCase",
+     [](const std::string& t) { return replaced(t, "End Site", "End site"); }},
+    {"ByteOrderMark", [](const std::string& t) { return "\xef\xbb\xbf" + t; }},
+    {"TrailingBlankLines", [](const std::string& t) { return t + " \n\n\t\n"; }},
+    {"NoLastLineEnd",
+     [](std::string t) {
+         t.pop_back();
+         return t;
+     }},
+    {"LeadingBlankLines", [](const std::string& t) { return "\n\n" + t; }},
+    {"BlanksAtLineEnds", [](const std::string& t) { return replaced(t, "\n", "  \n"); }},
+    {"BraceBehindTheName", [](const std::string& t) { return replaced(t, "\n{", " {"); }},
+    {"BraceAgainstTheName", [](const std::string& t) { return replaced(t, "Hips\n{", "Hips{"); }},
+    {"NameOnTheNextLine", [](const std::string& t) { return replaced(t, "ROOT ", "ROOT\n"); }},
+    {"ColonsWithoutABlank",
+     [](const std::string& t) {
+         return replaced(replaced(t, "Frames: ", "Frames:"), "Time: ", "Time:");
+     }},
+    {"BlanksBeforeColons", [](const std::string& t) { return replaced(t, ":", " :"); }},
+    {"Exponents", [](const std::string& t) { return replaced(t, " 40 50 ", " 4e1 5.0E+01 "); }},
+    {"SignsAndPoints",
+     [](const std::string& t) { return replaced(t, " 40 50 60", " +40 50. +60.0"); }},
+};
+
+class SameMotion : public testing::TestWithParam<Dialect> {};
+
+TEST_P(SameMotion, IsRead) {
+    const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
+    const TemporaryBvh file(GetParam().write(plainText()));
+    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    ASSERT_EQ(motion.skeleton.joints.size(), plain.skeleton.joints.size());
+    for (std::size_t j = 0; j < plain.skeleton.joints.size(); ++j) {
+        EXPECT_EQ(motion.skeleton.joints[j].name, plain.skeleton.joints[j].name);
+        EXPECT_EQ(motion.skeleton.joints[j].centre, plain.skeleton.joints[j].centre);
+        EXPECT_EQ(motion.skeleton.joints[j].tip, plain.skeleton.joints[j].tip);
+    }
+    EXPECT_EQ(motion.frameTime, plain.frameTime);
+    EXPECT_EQ(motion.rotations, plain.rotations);
+    EXPECT_EQ(motion.rootPositions, plain.rootPositions);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dialects, SameMotion, testing::ValuesIn(kSame),
+                         [](const auto& dialect) { return std::string(dialect.param.name); });
+
+struct Refused {
+    const char* name;
+    const char* from;
+    const char* to; ///< in the plain text
+    const char* message;
+};
+
+void PrintTo(const Refused& refused, std::ostream* out) {
+    *out << refused.name;
+}
+
+const Refused kRefused[] = {
+    {"NoFrameTimeDigits", "Time: 0.025",
+     "Time:", "line 18: the frame time is missing, expected a positive number of seconds"},
+    {"NoNumberOfFrames", "Frames: 2", "Frames:", "line 18: the number of frames is \"Frame\""},
+    {"NoName", "JOINT Spine", "JOINT", "line 7: found \"{\", expected a joint's name"},
+    {"CommaForAPoint", " 40 50 60", " 40,5 50 60",
+     "line 20: frame 1, joint \"Spine\" has \"40,5\", expected a finite number"},
+    {"TinyFrameTime", "0.025", "1e-9", "line 18: the frame time is 0.000000, expected a positive"},
+    {"HugePosition", "1 11 2", "1 1e39 2",
+     "line 20: frame 1, joint \"Hips\" has \"1e39\", expected a number that single precision"},
+    {"HugeOffset", "OFFSET 0 5 1", "OFFSET 0 5e38 1",
+     "line 8: joint \"Spine\"'s OFFSET y is \"5e38\", expected a number that single precision"},
+    {"Hexadecimal", " 40 50 60", " 0x40 50 60", "line 20: frame 1, joint \"Spine\" has \"0x40\""},
+    {"PositionsWithTwoRotations",
+     "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation",
+     "CHANNELS 5 Xposition Yposition Zposition Zrotation Yrotation",
+     "line 5: joint \"Hips\" has CHANNELS of another kind than supported"},
+    {"PositionTwice", "Xposition Yposition Zposition", "Xposition Xposition Zposition",
+     "line 5: joint \"Hips\" has CHANNELS of another kind than supported"},
+    {"SevenChannels", "CHANNELS 6", "CHANNELS 7", "line 5: joint \"Hips\"'s number of CHANNELS"},
+    {"ChannelsTwice", "    CHANNELS 3 Xrotation Yrotation Zrotation\n",
+     "    CHANNELS 1 Xrotation\n    CHANNELS 2 Yrotation Zrotation\n",
+     "line 10: joint \"Spine\" has CHANNELS twice"},
+    {"EndWithoutSite", "End Site", "End", "line 11: found \"{\", expected \"Site\""},
+    {"JointsAfterAnEndSite", "End Site", "EndSite", "line 10: found \"EndSite\" in joint"},
+};
+
+class OtherMotion : public testing::TestWithParam<Refused> {};
+
+TEST_P(OtherMotion, IsRefusedWithTheLine) {
+    const TemporaryBvh file(replaced(plainText(), GetParam().from, GetParam().to));
+    expectError([&] { osgSkin::importMotion(file.path); }, file.path + ": " + GetParam().message);
+    expectError([&] { osgSkin::importSkeleton(file.path); }, file.path + ": " + GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dialects, OtherMotion, testing::ValuesIn(kRefused),
+                         [](const auto& refused) { return std::string(refused.param.name); });
+
+TEST(BvhDialect, NamesMayHaveBlanks) {
+    const TemporaryBvh file(replaced(replaced(plainText(), "JOINT Spine", "JOINT Bip01  L Thigh "),
+                                     "ROOT Hips\n{", "ROOT Bip01 Pelvis {"));
+    const osgSkin::RestSkeleton skeleton = osgSkin::importSkeleton(file.path);
+    ASSERT_EQ(skeleton.joints.size(), 2u);
+    EXPECT_EQ(skeleton.joints[0].name, "Bip01 Pelvis");
+    EXPECT_EQ(skeleton.joints[1].name, "Bip01  L Thigh");
+}
+
+TEST(BvhDialect, LongNamesAreKept) {
+    const std::string name(5000, 'n');
+    const TemporaryBvh file(replaced(plainText(), "Spine", name));
+    EXPECT_EQ(osgSkin::importSkeleton(file.path).find(name), 1);
+}
+
+TEST(BvhDialect, SmallNumbersHaveExponents) {
+    const TemporaryBvh file(replaced(plainText(), "1 11 2", "1e-05 -2.5E-3 1e-400"));
+    EXPECT_EQ(osgSkin::importMotion(file.path).rootPositions[1], glm::dvec3(1e-5, -2.5e-3, 0.0));
+}
+
+TEST(BvhDialect, PositionsMayComeInAnyOrder) {
+    const TemporaryBvh file(
+        replaced(plainText(), "Xposition Yposition Zposition", "Zposition Xposition Yposition"));
+    EXPECT_EQ(osgSkin::importMotion(file.path).rootPositions[1], glm::dvec3(11, 2, 1));
+}
+
+/// Exporters that write positions for every joint mean its offset, or a stretch that is no skin's.
+TEST(BvhDialect, PositionsOfOtherJointsAreReadAndOnlyTheRootsAreUsed) {
+    const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
+    const std::string more = "CHANNELS 6 Xposition Yposition Zposition Xrotation";
+    std::string text = replaced(plainText(), "CHANNELS 3 Xrotation", more);
+    // A second child, so that the root of the motion stays the root.
+    text =
+        replaced(text, "  JOINT Spine", "  JOINT Leg\n  {\n    OFFSET 0 -5 0\n  }\n  JOINT Spine");
+    text = replaced(text, "0 10 0 0 0 0 0 0 0", "0 10 0 0 0 0 0 5 1 0 0 0");
+    text = replaced(text, "10 20 30 40", "10 20 30 7 7 7 40");
+    const TemporaryBvh file(text);
+    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    ASSERT_EQ(motion.skeleton.joints.size(), 3u);
+    EXPECT_EQ(motion.rootPositions, plain.rootPositions);
+    EXPECT_EQ(motion.rotation(1, 2), plain.rotation(1, 1));
+    EXPECT_EQ(motion.rotation(1, 1), glm::dquat(1, 0, 0, 0));
+}
+
+/// Each angle to the last digit: the product of the channels' rotations in double precision.
+TEST(BvhDialect, RotationsAreExact) {
+    const std::string path = sharedData("cmu/mb/01_03.bvh");
+    OSGSKIN_NEEDS(path);
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
+    std::ifstream file(path);
+    std::string line;
+    while (std::getline(file, line) && line.rfind("Frame Time", 0) != 0) continue;
+    // MotionBuilder's files: the root's position, then Z, Y, X of all joints alike.
+    double worst = 0.0;
+    for (std::size_t f = 0; f < motion.frames && std::getline(file, line); ++f) {
+        std::istringstream values(line);
+        glm::dvec3 position;
+        values >> position.x >> position.y >> position.z;
+        worst = std::max(worst, glm::distance(position, motion.rootPositions[f]));
+        for (std::size_t j = 0; j < motion.skeleton.joints.size(); ++j) {
+            double degrees[3];
+            values >> degrees[0] >> degrees[1] >> degrees[2];
+            const glm::dmat3 expected(
+                glm::mat4_cast(glm::angleAxis(glm::radians(degrees[0]), glm::dvec3(0, 0, 1))) *
+                glm::mat4_cast(glm::angleAxis(glm::radians(degrees[1]), glm::dvec3(0, 1, 0))) *
+                glm::mat4_cast(glm::angleAxis(glm::radians(degrees[2]), glm::dvec3(1, 0, 0))));
+            const glm::dmat3 found = glm::mat3_cast(motion.rotation(f, j));
+            for (int k = 0; k < 3; ++k)
+                worst = std::max(worst, glm::distance(expected[k], found[k]));
+        }
+        ASSERT_TRUE(values) << f;
+    }
+    EXPECT_LT(worst, 1e-12);
+}
+
+} // namespace

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// What a joint is, told by its name; and motions of a body whatever its joints are called.
+#include "Figure.h"
+#include "RenamedBody.h"
+
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/JointRoles>
+#include <osgSkinRig/Retarget>
+
+#include <gtest/gtest.h>
+
+using namespace osgSkin;
+
+namespace {
+
+/// What a single name says, without a family.
+JointPart partOf(const std::string& name, const std::string& child = {}) {
+    RestSkeleton skeleton{{{"root", -1, {}, {}}, {name, 0, {}, {}}}};
+    if (!child.empty()) skeleton.joints.push_back({child, 1, {}, {}});
+    const JointRoles roles = recogniseJoints(skeleton);
+    EXPECT_FALSE(roles.known());
+    EXPECT_EQ(roles.roles[1], "");
+    return roles.parts[1];
+}
+
+TEST(JointRoles, OfNoSkeletonAreNone) {
+    const JointRoles roles = recogniseJoints({});
+    EXPECT_FALSE(roles.known());
+    EXPECT_TRUE(roles.parts.empty());
+}
+
+TEST(JointRoles, WordsTellThePartWhereNoFamilyDoes) {
+    const struct {
+        const char* name;
+        JointPart part;
+    } cases[] = {{"rig|Head", JointPart::Head},      {"Forehead", JointPart::Other},
+                 {"HeadTop_End", JointPart::Other},  {"DEF-hand.L", JointPart::Hand},
+                 {"righthand", JointPart::Hand},     {"Bip01 L Hand", JointPart::Hand},
+                 {"wrist.L", JointPart::Hand},       {"Hand1", JointPart::Other},
+                 {"handle", JointPart::Other},       {"hand_ik_l", JointPart::Other},
+                 {"ankle_r", JointPart::Foot},       {"LeftHandThumb2", JointPart::Thumb},
+                 {"lMid1", JointPart::MiddleFinger}, {"clavicle.R", JointPart::Collar},
+                 {"LHipJoint", JointPart::HipJoint}, {"rButtock", JointPart::HipJoint},
+                 {"shoulder", JointPart::UpperArm},  {"", JointPart::Other}};
+    for (const auto& c : cases) EXPECT_EQ(partOf(c.name), c.part) << c.name;
+    EXPECT_EQ(partOf("shoulder_l", "arm_l"), JointPart::Collar);
+    EXPECT_EQ(partOf("shoulder_l", "forearm_l"), JointPart::UpperArm);
+}
+
+TEST(JointRoles, TheFamilyGoesBeforeTheWords) {
+    JointNames family{"odd", {}};
+    family.roles = {{"Hips", {"base"}},
+                    {"LeftHand", {"foot"}}, // a chimpanzee's author, maybe
+                    {"LeftUpperArm", {"wrist"}},
+                    {"Head", {"servo1"}}};
+    const RestSkeleton skeleton{{{"base", -1, {}, {}},
+                                 {"wrist", 0, {}, {}},
+                                 {"foot", 1, {}, {}},
+                                 {"servo1", 0, {}, {}},
+                                 {"hand", 0, {}, {}}}};
+    const JointRoles roles = recogniseJoints(skeleton, {family});
+    EXPECT_EQ(roles.family, "odd");
+    EXPECT_EQ(roles.roles[2], "LeftHand");
+    EXPECT_EQ(roles.joints.at("Head"), std::vector<int>{3});
+    EXPECT_EQ(roles.parts,
+              (std::vector<JointPart>{JointPart::Other, JointPart::UpperArm, JointPart::Hand,
+                                      JointPart::Head, JointPart::Hand}));
+}
+
+TEST(JointRoles, AFamilyNeedsFourRoles) {
+    JointNames family{"few", {}};
+    family.roles = {{"Hips", {"base"}}, {"LeftHand", {"servo1"}}, {"RightHand", {"servo2"}}};
+    const RestSkeleton skeleton{
+        {{"base", -1, {}, {}}, {"servo1", 0, {}, {}}, {"servo2", 0, {}, {}}}};
+    EXPECT_FALSE(recogniseJoints(skeleton, {family}).known());
+}
+
+/// The thrower without what only CMU's files have: a second joint in the neck, fingers in one.
+RestSkeleton plainThrower() {
+    RestSkeleton body = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
+    for (const char* joint : {"Neck1", "LHipJoint", "RHipJoint", "LeftFingerBase",
+                              "RightFingerBase", "LeftHandIndex1", "RightHandIndex1"})
+        body = test::without(body, joint);
+    return body;
+}
+
+/// The clip is that of the body under CMU's names; `options` tell the names.
+void expectAlike(const JointNames& family, const RetargetOptions& options) {
+    const RestSkeleton body = plainThrower();
+    const Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
+    const RestSkeleton other = test::renamed(body, test::namesIn(body, family));
+    RetargetReport ours, theirs;
+    const Clip expected = osgSkin::retarget(motion, body, {}, &ours);
+    const Clip clip = osgSkin::retarget(motion, other, options, &theirs);
+    EXPECT_EQ(theirs.rigNames, family.name);
+    for (std::size_t j = 0; j < body.joints.size(); ++j)
+        EXPECT_EQ(theirs.entries[j].motionJoint, ours.entries[j].motionJoint)
+            << theirs.entries[j].rigJoint;
+    EXPECT_EQ(clip.rotations, expected.rotations);
+    EXPECT_EQ(clip.rootPositions, expected.rootPositions);
+}
+
+/// MakeHuman's "pelvis.L" leads from the root to the thigh: a hip, however far out it stands.
+TEST(JointRoles, HipsOfEveryFamilyAreNotAligned) {
+    RestSkeleton body = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
+    body = test::renamed(body, test::namesIn(body, test::knownNames("MakeHuman")));
+    for (const char* name : {"pelvis.L", "pelvis.R"}) {
+        osgSkin::RestJoint& hip = body.joints.at(std::size_t(body.find(name)));
+        hip.centre += glm::dvec3(0.0, 0.03, 0.05);
+    }
+    RetargetReport report;
+    osgSkin::retarget(osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh"), body, {}, &report);
+    EXPECT_EQ(report.rigNames, "MakeHuman");
+    std::size_t hips = 0;
+    for (const RetargetReport::Entry& entry : report.entries)
+        if (entry.rigJoint.rfind("pelvis.", 0) == 0) {
+            ++hips;
+            EXPECT_FALSE(entry.motionJoint.empty());
+            EXPECT_EQ(entry.alignmentDegrees, 0.0) << entry.rigJoint;
+        }
+    EXPECT_EQ(hips, 2u);
+}
+
+TEST(JointRoles, AVrmBodyMovesLikeTheSameBody) {
+    expectAlike(test::knownNames("VRM"), {});
+}
+
+TEST(JointRoles, ABodyOfTheCallersNamesMovesLikeTheSameBody) {
+    RetargetOptions options;
+    options.names.push_back(test::robotNames());
+    expectAlike(options.names.front(), options);
+}
+
+} // namespace

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Bodies that face other ways than the actor, in spaces with other axes up.
+#include "Figure.h"
+#include "Paths.h"
+
+#include <osgSkin/GlmOsg>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/Prop>
+#include <osgSkinRig/Retarget>
+
+#include <algorithm>
+
+namespace {
+
+using osgSkin::Clip;
+using osgSkin::Motion;
+using osgSkin::RestSkeleton;
+using osgSkin::RetargetReport;
+
+RestSkeleton turned(RestSkeleton skeleton, const glm::dquat& turn) {
+    for (osgSkin::RestJoint& joint : skeleton.joints) {
+        joint.centre = turn * joint.centre;
+        if (joint.tip) joint.tip = turn * *joint.tip;
+    }
+    return skeleton;
+}
+
+Motion turned(Motion motion, const glm::dquat& turn) {
+    motion.skeleton = turned(motion.skeleton, turn);
+    for (glm::dquat& q : motion.rotations) q = turn * q * glm::conjugate(turn);
+    for (glm::dvec3& place : motion.rootPositions) place = turn * place;
+    return motion;
+}
+
+struct Turn {
+    const char* name;
+    glm::dquat turn;
+};
+
+const glm::dvec3 kUp(0, 1, 0);
+const glm::dquat kZUp = turnDegrees(90, {1, 0, 0}); ///< y up, facing +z -> z up, facing -y
+
+const Turn kTurns[] = {
+    {"by90", turnDegrees(90, kUp)},
+    {"by180", turnDegrees(180, kUp)},
+    {"byMinus90", turnDegrees(-90, kUp)},
+    {"by37", turnDegrees(37, kUp)},
+    {"byMinus152", turnDegrees(-152, kUp)},
+    {"by3", turnDegrees(3, kUp)},
+    {"zUp", kZUp},
+    {"zUpBy90", turnDegrees(90, {0, 0, 1}) * kZUp},
+    {"zUpBy37", turnDegrees(37, {0, 0, 1}) * kZUp},
+    {"xUp", turnDegrees(-90, {0, 0, 1})},
+    {"yDown", turnDegrees(180, {0, 0, 1})},
+    {"zDownBy37", turnDegrees(37, {0, 0, 1}) * turnDegrees(-90, {1, 0, 0})},
+};
+
+class UprightFrames : public testing::TestWithParam<Turn> {
+protected:
+    void SetUp() override {
+        rig = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
+        motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
+        straight = osgSkin::retarget(motion, rig, {}, &straightReport);
+    }
+
+    const glm::dquat& turn() const { return GetParam().turn; }
+
+    /// `clip` is what the unturned body does, turned; to the rounding.
+    void expectTurned(const Clip& clip, const RestSkeleton& turnedRig, const glm::dquat& by) const {
+        for (std::size_t f = 0; f < clip.frames; f += 9) {
+            const Placed ours = place(clip, turnedRig, f), theirs = place(straight, rig, f);
+            for (std::size_t j = 0; j < rig.joints.size(); ++j)
+                ASSERT_LT(glm::length(ours.places[j] - by * theirs.places[j]), 1e-6)
+                    << rig.joints[j].name << ", frame " << f;
+        }
+    }
+
+    RestSkeleton rig;
+    Motion motion;
+    Clip straight;
+    RetargetReport straightReport, report;
+};
+
+TEST_P(UprightFrames, ATurnedBodyDoesTheSameTurned) {
+    const RestSkeleton body = turned(rig, turn());
+    const Clip clip = osgSkin::retarget(motion, body, {}, &report);
+    expectTurned(clip, body, turn());
+    EXPECT_LT(angleBetween(report.rotation, turn()), 1e-5);
+    EXPECT_NEAR(report.scale, straightReport.scale, 1e-9);
+    ASSERT_EQ(report.feet.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(report.feet[i].rigJoint, straightReport.feet[i].rigJoint);
+        EXPECT_EQ(report.feet[i].contacts, straightReport.feet[i].contacts);
+        EXPECT_NEAR(report.feet[i].worst, straightReport.feet[i].worst, 1e-6);
+    }
+}
+
+TEST_P(UprightFrames, ATurnedActorIsTurnedBack) {
+    const Clip clip = osgSkin::retarget(turned(motion, turn()), rig, {}, &report);
+    expectTurned(clip, rig, {1, 0, 0, 0});
+    EXPECT_LT(angleBetween(report.rotation, glm::conjugate(turn())), 1e-5);
+}
+
+/// A ball stays where the hand is.
+TEST_P(UprightFrames, PropsTurnToo) {
+    const RestSkeleton body = turned(rig, turn());
+    osgSkin::retarget(motion, body, {}, &report);
+    Motion way = standStill(RestSkeleton{{{"ball", -1, {0, 0, 0}, {}}}}, 1);
+    way.rootPositions[0] = {0.3, 1.2, 0.4};
+    const osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+    const auto inSpace = [&](const RetargetReport& by) {
+        const auto node = osgSkin::makeProp("prop", {}, way, by, *animation);
+        return osgSkin::toGlm(osg::Vec3d(node->getMatrix().getTrans()));
+    };
+    EXPECT_LT(glm::length(inSpace(report) - turn() * inSpace(straightReport)), 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Turns, UprightFrames, testing::ValuesIn(kTurns),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+struct Bone {
+    const char* from;
+    const char* to;
+};
+
+/// The bar: limbs within a degree of the turned actor's own, left ones left.
+TEST(UprightActors, LimbsAreWhereTheTurnedActorsAre) {
+    const std::string rigPath = sharedData("makehuman/rig/cmu_mb_neutral.bvh");
+    OSGSKIN_NEEDS(rigPath);
+    const RestSkeleton rig = osgSkin::importSkeleton(rigPath);
+    for (const char* file :
+         {"12_01_walk_pybvh.bvh", "01_01.bvh", "124_01_pitch_excerpt_120hz.bvh"}) {
+        const std::string path = sharedData(std::string("cmu/mb/") + file);
+        if (!std::filesystem::exists(path)) continue;
+        const Motion motion = osgSkin::importMotion(path, 1);
+        for (const double degrees : {90.0, 180.0, 37.0}) {
+            const glm::dquat turn = turnDegrees(degrees, kUp);
+            const RestSkeleton body = turned(rig, turn);
+            const Clip clip = osgSkin::retarget(motion, body);
+            double worst = 0.0;
+            for (std::size_t f = 0; f < clip.frames; f += 50) {
+                const Placed ours = place(clip, body, f), theirs = place(motion, f);
+                for (const std::string side : {"Left", "Right"})
+                    for (const Bone& bone : {Bone{"Arm", "ForeArm"}, Bone{"ForeArm", "Hand"},
+                                             Bone{"UpLeg", "Leg"}, Bone{"Leg", "Foot"}}) {
+                        const auto way = [&](const Placed& placed, const RestSkeleton& skeleton) {
+                            const auto at = [&](const char* end) {
+                                return placed.places.at(std::size_t(skeleton.find(side + end)));
+                            };
+                            return at(bone.to) - at(bone.from);
+                        };
+                        worst = std::max(worst, angleBetween(way(ours, body),
+                                                             turn * way(theirs, motion.skeleton)));
+                    }
+            }
+            EXPECT_LT(worst, 1.0) << file << ", turned by " << degrees;
+        }
+    }
+}
+
+/// Nothing tells how bodies lie to each other whose joints' names say nothing.
+TEST(UprightStrangers, IsTakenToBeTheSame) {
+    Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
+    for (std::size_t j = 0; j < motion.skeleton.joints.size(); ++j)
+        motion.skeleton.joints[j].name = "part" + std::to_string(j);
+    RetargetReport report;
+    osgSkin::retarget(motion, turned(motion.skeleton, turnDegrees(90, kUp)), {}, &report);
+    EXPECT_TRUE(report.rigNames.empty());
+    EXPECT_LT(angleBetween(report.rotation, {1, 0, 0, 0}), 1e-9);
+}
+
+/// The names of one skeleton do for both, with the caller's map.
+TEST(UprightStrangers, FollowsTheMapToKnownNames) {
+    const RestSkeleton rig = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
+    const Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
+    RestSkeleton body = turned(rig, turnDegrees(90, kUp));
+    osgSkin::RetargetOptions options;
+    for (std::size_t j = 0; j < body.joints.size(); ++j) {
+        body.joints[j].name = "part" + std::to_string(j);
+        options.joints[body.joints[j].name] = rig.joints[j].name;
+    }
+    RetargetReport report;
+    osgSkin::retarget(motion, body, options, &report);
+    EXPECT_LT(angleBetween(report.rotation, turnDegrees(90, kUp)), 1e-5);
+    EXPECT_NE(report.text().find("rotated by 90 degrees about 0 1 0"), std::string::npos)
+        << report.text();
+}
+
+} // namespace

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/ParallelDeformCallback>
+
+#include "TubeSkin.h"
+
+#include <osg/Group>
+#include <osgUtil/UpdateVisitor>
+
+using osgSkin::DeformableSkin;
+using osgSkin::ParallelDeformCallback;
+
+namespace {
+
+/// Some skins below a group; bones are not needed, poses are set by hand.
+struct Crowd {
+    explicit Crowd(unsigned int count) {
+        for (unsigned int i = 0; i < count; ++i) {
+            skins.push_back(test::makeSkin());
+            const osg::ref_ptr<osg::Group> between = new osg::Group;
+            between->addChild(skins.back());
+            group->addChild(between);
+        }
+        together->getPool()->setMinimumVertices(0);
+        group->setUpdateCallback(together);
+    }
+    void update() {
+        osgUtil::UpdateVisitor visitor;
+        visitor.setTraversalNumber(++frame);
+        group->accept(visitor);
+    }
+    void bendAll(double angle) {
+        for (const auto& skin : skins) test::bend(*skin, angle);
+    }
+
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    osg::ref_ptr<ParallelDeformCallback> together =
+        new ParallelDeformCallback(osg::ref_ptr<osgSkin::DeformPool>(new osgSkin::DeformPool(2)));
+    std::vector<osg::ref_ptr<DeformableSkin>> skins;
+    unsigned int frame = 0;
+};
+
+} // namespace
+
+TEST(ParallelDeformCallback, DeformsInTheUpdateWhatWasSeen) {
+    Crowd crowd(5);
+    crowd.bendAll(0.1);
+    crowd.update();
+    for (const auto& skin : crowd.skins) EXPECT_EQ(skin->getDeformCount(), 0u); // not seen yet
+    test::cull(*crowd.skins[1], true);
+    test::cull(*crowd.skins[3], true);
+    EXPECT_EQ(crowd.skins[1]->getDeformCount(), 1u);
+
+    crowd.bendAll(0.2);
+    crowd.update();
+    for (unsigned int i = 0; i < crowd.skins.size(); ++i) {
+        EXPECT_EQ(crowd.skins[i]->needsDeform(), i != 1 && i != 3) << i;
+        EXPECT_EQ(crowd.skins[i]->getDeformCount(), i == 1 || i == 3 ? 2u : 0u) << i;
+    }
+    // Out of view now: nobody looks at what was deformed, and so the next pose is left alone.
+    crowd.bendAll(0.3);
+    crowd.update();
+    EXPECT_EQ(crowd.skins[1]->getDeformCount(), 2u);
+    test::cull(*crowd.skins[1], true);
+    EXPECT_EQ(crowd.skins[1]->getDeformCount(), 3u);
+}
+
+TEST(ParallelDeformCallback, DeformsAllWhereToldTo) {
+    Crowd crowd(5);
+    crowd.together->setOnlySeen(false);
+    crowd.bendAll(0.1);
+    crowd.update();
+    const osg::ref_ptr<DeformableSkin> alone = test::makeSkin();
+    test::bend(*alone, 0.1);
+    const auto vertices = [](const DeformableSkin& skin) {
+        return static_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray())
+            .asVector();
+    };
+    for (const auto& skin : crowd.skins) {
+        EXPECT_EQ(skin->getDeformCount(), 1u);
+        EXPECT_EQ(vertices(*skin), vertices(*alone));
+    }
+}
+
+TEST(ParallelDeformCallback, FindsWhatComesAndLetsGoWhatLeaves) {
+    Crowd crowd(2);
+    crowd.together->setOnlySeen(false);
+    crowd.update();
+    const osg::ref_ptr<DeformableSkin> late = test::makeSkin(), deep = test::makeSkin();
+    crowd.group->addChild(late);
+    crowd.update();
+    EXPECT_EQ(late->getDeformCount(), 1u);
+
+    crowd.group->getChild(0)->asGroup()->addChild(deep);
+    crowd.together->dirty();
+    crowd.update();
+    EXPECT_EQ(deep->getDeformCount(), 1u);
+
+    crowd.group->getChild(0)->asGroup()->removeChild(deep);
+    crowd.update();
+    crowd.update();
+    EXPECT_EQ(deep->referenceCount(), 1);
+}
+
+TEST(ParallelDeformCallback, TakesASkinThatStandsTwice) {
+    Crowd crowd(1);
+    crowd.together->setOnlySeen(false);
+    crowd.group->addChild(crowd.skins[0]);
+    crowd.update();
+    EXPECT_EQ(crowd.skins[0]->getDeformCount(), 1u);
+}
+
+TEST(DeformableSkin, LetsAPoolDeformIt) {
+    const osg::ref_ptr<DeformableSkin> skin = test::makeSkin(), alone = test::makeSkin();
+    const osg::ref_ptr<osgSkin::DeformPool> pool = new osgSkin::DeformPool(2);
+    pool->setMinimumVertices(0);
+    skin->setPool(pool);
+    test::bend(*skin, 0.7);
+    test::bend(*alone, 0.7);
+    EXPECT_EQ(static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray())
+                  .asVector(),
+              static_cast<const osg::Vec3Array&>(*alone->getDeformedGeometry()->getVertexArray())
+                  .asVector());
+}

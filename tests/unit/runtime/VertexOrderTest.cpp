@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "Tube.h"
+
+#include <osgSkin/Error>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+using namespace osgSkin;
+
+namespace {
+
+/// A tube whose vertices come in the worst order: those of its rings far apart.
+test::Tube shuffled() {
+    test::Tube tube;
+    const std::size_t count = tube.positions.size();
+    const test::Tube straight = tube;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t from = i * 7 % count; // coprime
+        tube.positions[i] = straight.positions[from];
+        tube.normals[i] = straight.normals[from];
+        tube.source[i] = straight.source[from];
+    }
+    return tube;
+}
+
+} // namespace
+
+TEST(VertexOrder, IsThatOfTheModelMadeInIt) {
+    const test::Tube tube = shuffled();
+    const auto made =
+        SkinModel::createInBestOrder(tube.binding, tube.positions, tube.normals, tube.source);
+    ASSERT_EQ(made.order, SkinModel::bestOrder(tube.binding, tube.source));
+    std::vector<std::uint32_t> all = made.order;
+    EXPECT_FALSE(std::is_sorted(all.begin(), all.end()));
+    std::sort(all.begin(), all.end());
+    for (std::uint32_t v = 0; v < all.size(); ++v) ASSERT_EQ(all[v], v) << "not each vertex once";
+
+    const auto given = SkinModel::create(tube.binding, tube.positions, tube.normals, tube.source);
+    ASSERT_EQ(made.model->groups().size(), given->groups().size());
+    EXPECT_GT(made.model->groups().size(), 3u);
+    ASSERT_EQ(made.model->ratios().size(), given->ratios().size());
+    for (std::size_t r = 0; r < given->ratios().size(); ++r) {
+        EXPECT_EQ(made.model->ratios()[r].bend, given->ratios()[r].bend);
+        EXPECT_EQ(made.model->ratios()[r].twist, given->ratios()[r].twist);
+    }
+    for (std::uint32_t v = 0; v < made.order.size(); ++v) {
+        EXPECT_EQ(made.model->order()[v], v) << "a vertex is written astray";
+        EXPECT_EQ(given->order()[v], made.order[v]);
+        EXPECT_EQ(made.model->positions()[v], tube.positions[made.order[v]]);
+        EXPECT_EQ(made.model->normals()[v], tube.normals[made.order[v]]);
+    }
+}
+
+TEST(VertexOrder, RefusesWhatCreateRefuses) {
+    test::Tube tube;
+    tube.normals.pop_back();
+    EXPECT_THROW(
+        SkinModel::createInBestOrder(tube.binding, tube.positions, tube.normals, tube.source),
+        Error);
+    tube = test::Tube();
+    tube.source.back() = static_cast<std::uint32_t>(tube.binding.vertexCount());
+    EXPECT_THROW(
+        SkinModel::createInBestOrder(tube.binding, tube.positions, tube.normals, tube.source),
+        Error);
+}
+
+TEST(Influence, IsFractionalOrPartial) {
+    struct Case {
+        float bend, twist;
+        bool fractional, partial;
+    };
+    for (const Case& c : {Case{0.0f, 0.0f, false, false}, Case{1.0f, 1.0f, false, false},
+                          Case{0.0f, 1.0f, false, true}, Case{1.0f, 0.0f, false, true},
+                          Case{0.5f, 0.5f, true, true}, Case{1.0f, 0.25f, true, true},
+                          Case{1e-30f, 0.0f, true, true}}) {
+        const Influence influence{0, c.bend, c.twist};
+        EXPECT_EQ(influence.isFractional(), c.fractional) << c.bend << " " << c.twist;
+        EXPECT_EQ(influence.isPartial(), c.partial) << c.bend << " " << c.twist;
+    }
+}
