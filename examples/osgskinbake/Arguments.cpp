@@ -106,6 +106,9 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.add_option("--frames", frames, "A, A:B or A:B:STEP; all by default");
     app.add_option("--rate", arguments.rate, "frames a second of a rigged model's clips; 30")
         ->check(CLI::Range(1e-3, 1e6));
+    app.add_option("--shapes", arguments.shapes,
+                   "none or fast: what shapes bent limbs; as the character says by default")
+        ->check(CLI::IsMember({"none", "fast"}));
     app.add_option("--out", arguments.out,
                    "the frames' files, like frame_%04d.obj or .ply; or one for all: .pc2, .glb");
     CLI::Option* rest =

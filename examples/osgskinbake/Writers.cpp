@@ -16,6 +16,55 @@ nlohmann::json array(const glm::dvec3& v) {
     throw osgSkin::Error(file + ": cannot be written, expected a writable file");
 }
 
+const char* nameOf(osgSkin::CorrectiveJoint::Basis basis) {
+    switch (basis) {
+    case osgSkin::CorrectiveJoint::Basis::Hinge:
+        return "hinge";
+    case osgSkin::CorrectiveJoint::Basis::Ball:
+        return "ball";
+    case osgSkin::CorrectiveJoint::Basis::Round:
+        break;
+    }
+    return "round";
+}
+
+/// The scalar functions of each joint that has correctives.
+nlohmann::json functionsJson(const osgSkin::Binding& binding) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const osgSkin::CorrectiveJoint& joint : binding.correctives.joints) {
+        const std::size_t functions = joint.functionCount();
+        nlohmann::json rows = nlohmann::json::array();
+        for (std::size_t k = 0; k < joint.modes; ++k) {
+            const auto row = joint.coefficients.begin() + std::ptrdiff_t(k * functions);
+            rows.push_back(std::vector<double>(row, row + std::ptrdiff_t(functions)));
+        }
+        list.push_back({{"joint", binding.joints[joint.joint].name},
+                        {"basis", nameOf(joint.basis)},
+                        {"axis", array(joint.axis)},
+                        {"low", {joint.low.x, joint.low.y}},
+                        {"high", {joint.high.x, joint.high.y}},
+                        {"knots", joint.knots},
+                        {"coefficients", std::move(rows)}});
+    }
+    return list;
+}
+
+/// A vertex's vectors, one for each mode of each joint that corrects it.
+nlohmann::json vectorsJson(const osgSkin::Binding& binding, std::size_t vertex) {
+    const osgSkin::Correctives& from = binding.correctives;
+    nlohmann::json list = nlohmann::json::array();
+    for (std::uint32_t i = from.firstEntry[vertex]; i < from.firstEntry[vertex + 1]; ++i) {
+        const osgSkin::CorrectiveJoint& joint = from.joints[from.entries[i].joint];
+        const std::int16_t* share = &from.shares[from.entries[i].firstShare];
+        nlohmann::json vectors = nlohmann::json::array();
+        for (std::size_t k = 0; k < joint.modes; ++k, share += 3)
+            vectors.push_back(array(glm::dvec3(share[0], share[1], share[2]) /
+                                    double(osgSkin::Correctives::kUnit)));
+        list.push_back({binding.joints[joint.joint].name, std::move(vectors)});
+    }
+    return list;
+}
+
 } // namespace
 
 nlohmann::json bindingJson(const osgSkin::Binding& binding) {
@@ -42,8 +91,11 @@ nlohmann::json bindingJson(const osgSkin::Binding& binding) {
         }
         vertices.push_back(
             {{"region", binding.joints[binding.regions[v]].name}, {"ratios", std::move(ratios)}});
+        if (!binding.correctives.empty()) vertices.back()["correctives"] = vectorsJson(binding, v);
     }
-    return {{"joints", std::move(joints)}, {"vertices", std::move(vertices)}};
+    nlohmann::json result = {{"joints", std::move(joints)}, {"vertices", std::move(vertices)}};
+    if (!binding.correctives.empty()) result["correctives"] = functionsJson(binding);
+    return result;
 }
 
 nlohmann::json poseJson(std::size_t frame, const osgSkin::Binding& binding,

@@ -87,9 +87,12 @@ void bakeFrames(const Arguments& arguments, Character& character) {
 }
 
 /// Reads a `.skin` file, or a rigged model, with or without `.skin` after its name.
-Character load(const std::string& file, bool quiet) {
-    example::ProgressLine line(file, quiet);
+Character load(const Arguments& arguments) {
+    const std::string& file = arguments.character;
+    example::ProgressLine line(file, arguments.quiet);
     osgSkin::LoadOptions options;
+    if (arguments.shapes == "none") options.shapes = osgSkin::BindOptions::Shapes::None;
+    if (arguments.shapes == "fast") options.shapes = osgSkin::BindOptions::Shapes::Fast;
     options.progress = line.progress();
     Character character = osgSkin::loadCharacter(file, options);
     if (!character.hasBody())
@@ -98,7 +101,7 @@ Character load(const std::string& file, bool quiet) {
 }
 
 int run(const Arguments& arguments) {
-    Character character = load(arguments.character, arguments.quiet);
+    Character character = load(arguments);
     if (!arguments.binding.empty())
         bake::writeJson(arguments.binding, bake::bindingJson(character.binding));
     if (!arguments.rest.empty())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "RegisterWrapper.h"
-#include "model/SkinModelBlock.h"
+#include "words/SkinModelBlock.h"
 
 #include <osgSkin/SkinModel>
 

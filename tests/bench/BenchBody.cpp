@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "BenchBody.h"
 
+#include "BlendCorrectives.h"
 #include "Subdivide.h"
 
 #include <osgSkin/BoneReader>
@@ -77,6 +78,7 @@ osgSkin::Binding blend(const osgSkin::Binding& binding, const std::vector<Blend>
         result.regions.push_back(binding.regions[vertex.corner[0]]);
         result.firstInfluence.push_back(static_cast<std::uint32_t>(result.influences.size()));
     }
+    result.correctives = blend(binding.correctives, vertices);
     return result;
 }
 
@@ -109,14 +111,16 @@ void bringIntoOrder(Body& body) {
     for (std::uint32_t& corner : body.triangles) corner = source[corner];
 }
 
-Body load() {
+Body load(bool shaped) {
     const Files file = files();
     Body body;
     body.name = file.name;
     const osgSkin::SkinMesh mesh = osgSkin::importMesh(file.mesh).mesh;
     body.rig = osgSkin::importSkeleton(file.skeleton);
     body.clip = osgSkin::retarget(osgSkin::importMotion(file.motion, file.skipFrames), body.rig);
-    body.binding = osgSkin::bind(mesh, body.rig);
+    osgSkin::BindOptions options;
+    if (shaped) options.shapes = osgSkin::BindOptions::Shapes::Fast;
+    body.binding = osgSkin::bind(mesh, body.rig, options);
     body.positions.assign(mesh.positions.begin(), mesh.positions.end());
     body.triangles = mesh.triangles();
     body.normals = smoothNormals(body.positions, body.triangles);
@@ -166,11 +170,12 @@ double Body::partialPerVertex() const {
     return static_cast<double>(partial) / static_cast<double>(positions.size());
 }
 
-const Body& body(std::uint32_t parts) {
-    static std::map<std::uint32_t, Body> bodies;
-    const auto found = bodies.find(parts);
+const Body& body(std::uint32_t parts, bool shaped) {
+    static std::map<std::pair<std::uint32_t, bool>, Body> bodies;
+    const auto found = bodies.find({parts, shaped});
     if (found != bodies.end()) return found->second;
-    return bodies.emplace(parts, parts == 1 ? load() : refine(body(1), parts)).first->second;
+    Body made = parts == 1 ? load(shaped) : refine(body(1, shaped), parts);
+    return bodies.emplace(std::pair(parts, shaped), std::move(made)).first->second;
 }
 
 } // namespace bench

@@ -39,7 +39,7 @@ struct Body {
 
 /// body4k_neutral in a walk where the third-party data is there, else our own thrower.
 /// `parts` splits every edge (Subdivide.h); ratios, weights and normals are interpolated.
-/// Made once for each `parts` and kept.
-const Body& body(std::uint32_t parts);
+/// Made once for each kind and kept. `shaped` ones are bound with the shapes "fast".
+const Body& body(std::uint32_t parts, bool shaped = false);
 
 } // namespace bench

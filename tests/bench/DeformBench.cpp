@@ -67,6 +67,28 @@ void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target,
     count(state, positions.size());
 }
 
+/// Ours with shapes beside ours without, and positions alone beside positions and normals.
+void shapes(benchmark::State& state, std::uint32_t parts, bool shaped, bool withNormals) {
+    const bench::Body& body = bench::body(parts, shaped);
+    const auto model = body.model();
+    osgSkin::Pose pose(model->joints());
+    std::vector<glm::vec3> positions(body.positions.size()), normals(body.normals.size());
+    osgSkin::DeformJob job;
+    job.model = model.get();
+    job.pose = &pose;
+    job.positions = positions.data();
+    job.normals = withNormals ? normals.data() : nullptr;
+    job.positionCount = job.normalCount = positions.size();
+    std::size_t frame = 0;
+    for ([[maybe_unused]] auto iteration : state) {
+        const auto& skinning = body.skinning[frame++ % body.skinning.size()];
+        pose.set(skinning.data(), skinning.size());
+        job.run();
+        benchmark::ClobberMemory();
+    }
+    count(state, positions.size());
+}
+
 void osgAnimationRig(benchmark::State& state, std::uint32_t parts) {
     const bench::Body& body = bench::body(parts);
     bench::OsgRig rig(body);
@@ -130,6 +152,12 @@ int main(int argc, char** argv) {
                 add(std::string("ours ") + hwy::TargetName(target), ours, target, alone);
             add("ours reference", ours, std::int64_t{-1}, alone);
             add("osgAnimation", osgAnimationRig)->UseManualTime();
+        }
+        if (size.parts <= 10) {
+            add("positions", shapes, false, false);
+            add("positions, fast shapes", shapes, true, false);
+            add("normals, too", shapes, false, true);
+            add("normals, fast shapes", shapes, true, true);
         }
         add("ours, 1 thread", ours, std::int64_t{0}, one.get())->UseRealTime();
         add("ours, 2 threads", ours, std::int64_t{0}, two.get())->UseRealTime();

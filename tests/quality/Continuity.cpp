@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Continuity.h"
 
-#include <osgSkin/GlmMath>
+#include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

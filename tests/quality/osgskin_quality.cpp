@@ -2,6 +2,7 @@
 // Measures deformed bodies: ours beside linear blending and dual quaternions with painted weights.
 #include "Bars.h"
 #include "CylinderReport.h"
+#include "FoldFigures.h"
 #include "Json.h"
 #include "Table.h"
 
@@ -22,6 +23,7 @@ struct Options {
     std::string json;
     std::string method = "smooth";
     bool noSweeps = false;
+    bool shapes = false;
 };
 
 void define(CLI::App& app, Options& options) {
@@ -38,6 +40,8 @@ void define(CLI::App& app, Options& options) {
         ->check(CLI::IsMember({"smooth", "paper", "weights"}))
         ->capture_default_str();
     app.add_option("--json", options.json, "a file to write the figures to");
+    app.add_flag("--shapes", options.shapes,
+                 "only what shapes do: limbs folded, and the clips, with and without them");
     app.add_flag("--no-sweeps", options.noSweeps, "leave out the sweeps, which take longest");
 }
 
@@ -77,7 +81,16 @@ Report measure(SubjectFiles files, const Options& options) {
     return report;
 }
 
+void reportShapes(const Options& options) {
+    for (const SubjectFiles& files : subjects(options)) {
+        const Subject subject = loadSubject(files);
+        std::cout << subject.name << '\n';
+        printTable(measureShapes(subject, standardPoses(options.motions, subject)), std::cout);
+    }
+}
+
 void run(const Options& options) {
+    if (options.shapes) return reportShapes(options);
     nlohmann::ordered_json json = {{"bind", options.method}, {"bodies", nlohmann::json::array()}};
     if (options.files.body.empty()) {
         const std::vector<CylinderPose> cylinder = measureCylinder();

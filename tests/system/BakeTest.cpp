@@ -34,9 +34,11 @@ protected:
         if (!test::isAvailable(GetParam(), why)) GTEST_SKIP() << why;
         folder = test::makeTestFolder();
         const std::string skin = test::skinFile(GetParam(), folder);
-        const auto rest = runBake("'" + skin + "' --rest rest.obj --binding binding.json", folder);
+        const std::string shapes = std::string(" --shapes ") + GetParam().shapes;
+        const auto rest =
+            runBake("'" + skin + "'" + shapes + " --rest rest.obj --binding binding.json", folder);
         ASSERT_EQ(rest.status, 0) << rest.err;
-        const auto frames = runBake("'" + skin + "' --frames " + GetParam().frames +
+        const auto frames = runBake("'" + skin + "'" + shapes + " --frames " + GetParam().frames +
                                         " --out frame_%04d.obj --pose pose.json",
                                     folder);
         ASSERT_EQ(frames.status, 0) << frames.err;

@@ -27,6 +27,8 @@ const std::vector<CharacterCase>& characterCases() {
         {"neutral_walk", kNeutral, kNeutralRig, kWalk, "0:519:10", 1},
         {"male_pitch", kMale, kMaleRig, kPitch, "0:27", 1},
         {"male_walk", kMale, kMaleRig, kWalk, "0:519:10", 1},
+        {"thrower_shaped", nullptr, nullptr, nullptr, "0:280:7", 0, "fast"},
+        {"male_walk_shaped", kMale, kMaleRig, kWalk, "0:519:10", 1, "fast"},
     };
     return cases;
 }

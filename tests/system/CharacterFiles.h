@@ -16,6 +16,7 @@ struct CharacterCase {
     const char* motion;
     const char* frames; ///< of osgskinbake's --frames
     std::size_t skipFrames;
+    const char* shapes = "none"; ///< of osgskinbake's --shapes
 };
 
 /// Both third-party bodies under both clips, and the project's own thrower.

@@ -37,7 +37,12 @@ protected:
     void SetUp() override {
         std::string why;
         if (!test::isAvailable(GetParam(), why)) GTEST_SKIP() << why;
-        character = osgSkin::loadCharacter(test::skinFile(GetParam(), test::makeTestFolder()));
+        const std::string shapes = GetParam().shapes;
+        osgSkin::LoadOptions options;
+        options.shapes = shapes == "fast" ? osgSkin::BindOptions::Shapes::Fast
+                                          : osgSkin::BindOptions::Shapes::None;
+        character =
+            osgSkin::loadCharacter(test::skinFile(GetParam(), test::makeTestFolder()), options);
     }
 
     void setFrame(std::size_t frame) { character.pose(character.motions.front(), frame); }

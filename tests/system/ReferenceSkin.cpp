@@ -75,11 +75,36 @@ ReferenceSkin::ReferenceSkin(const nlohmann::json& binding, std::vector<glm::dve
         _shares.emplace_back();
         for (const nlohmann::json& ratio : vertex["ratios"])
             _shares.back()[ratio[0]] = {ratio[1], ratio[2]};
+        _vectors.emplace_back();
+        if (vertex.contains("correctives"))
+            for (const nlohmann::json& entry : vertex["correctives"])
+                for (const nlohmann::json& mode : entry[1])
+                    _vectors.back()[entry[0]].push_back(vector(mode));
     }
+    if (binding.contains("correctives"))
+        for (const nlohmann::json& joint : binding["correctives"]) _shapes.emplace_back(joint);
+}
+
+void ReferenceSkin::correct(const nlohmann::json& frame, std::vector<glm::dvec3>& vertices) const {
+    for (const ReferenceShapes& shapes : _shapes)
+        for (const Joint& joint : _joints) {
+            if (joint.name != shapes.joint()) continue;
+            const nlohmann::json& r = frame["joints"][joint.name]["rotation"];
+            const Split split(
+                {r[0].get<double>(), r[1].get<double>(), r[2].get<double>(), r[3].get<double>()},
+                joint.twistAxis);
+            const std::vector<double> weights = shapes.weights(split.v, split.psi, joint.twistAxis);
+            for (std::size_t i = 0; i < vertices.size(); ++i) {
+                const auto own = _vectors[i].find(joint.name);
+                for (std::size_t k = 0; own != _vectors[i].end() && k < weights.size(); ++k)
+                    vertices[i] += weights[k] * own->second.at(k);
+            }
+        }
 }
 
 std::vector<glm::dvec3> ReferenceSkin::pose(const nlohmann::json& frame) const {
     std::vector<glm::dvec3> posed = _rest;
+    correct(frame, posed);
     // x' = D_1(a_1) ... D_n(a_n) x: the last joint is applied first.
     for (auto joint = _joints.rbegin(); joint != _joints.rend(); ++joint) {
         const nlohmann::json& turn = frame["joints"][joint->name];

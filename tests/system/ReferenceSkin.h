@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "ReferenceShapes.h"
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
@@ -40,7 +42,13 @@ private:
         double bend = 0.0;
         double twist = 0.0;
     };
+    /// Adds the correctives of a frame to the rest vertices.
+    void correct(const nlohmann::json& frame, std::vector<glm::dvec3>& vertices) const;
+
     std::vector<Joint> _joints;
+    std::vector<ReferenceShapes> _shapes;
+    /// Per vertex: joint -> a vector for each of its modes.
+    std::vector<std::map<std::string, std::vector<glm::dvec3>>> _vectors;
     std::vector<std::map<std::string, Share>> _shares; ///< per vertex
     std::vector<glm::dvec3> _rest;
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a skin model's block says is not to be believed: refused with a reason, never a crash.
+#include "SomeCorrectives.h"
 #include "Tube.h"
-#include "model/SkinModelBlock.h"
+#include "words/SkinModelBlock.h"
 
 #include <osgSkin/Error>
 
@@ -38,7 +39,9 @@ std::ostream& operator<<(std::ostream& out, const BadBlock& bad) {
 
 const std::vector<BadBlock> kBad = {
     {"Empty", "ends too early", [](Words& w) { w.clear(); }},
-    {"Version", "version 2", [](Words& w) { w[0] = 2; }},
+    {"Version", "version 3", [](Words& w) { w[0] = 3; }},
+    {"VersionNought", "version 0", [](Words& w) { w[0] = 0; }},
+    {"NoCorrectives", "ends too early", [](Words& w) { w[0] = 2; }},
     {"NoJoint", "", [](Words& w) { w[kJoints] = 0; }},
     {"ManyJoints", "joints have no room", [](Words& w) { w[kJoints] = 0xffffffffu; }},
     {"Cycle", "after its parent", [](Words& w) { w[kParent] = 1; }},
@@ -85,11 +88,14 @@ INSTANTIATE_TEST_SUITE_P(Blocks, HostileBlock, testing::ValuesIn(kBad),
                          [](const auto& bad) { return std::string(bad.param.name); });
 
 TEST(HostileBlockAtRandom, NeverCrashes) {
-    const Words good = osgSkin::packSkinModel(*test::Tube(5, 6).model());
     std::mt19937 random(1);
+    test::Tube tube(5, 6);
+    const Words plain = osgSkin::packSkinModel(*tube.model());
+    tube.binding.correctives = test::someCorrectives(tube.binding, 0.1, 1, true);
+    const Words corrected = osgSkin::packSkinModel(*tube.model());
     const std::uint32_t extreme[] = {0, 1, 0x7fffffffu, 0x80000000u, 0xffffffffu, kNan, kTwo};
     for (int round = 0; round < 20000; ++round) {
-        Words words = good;
+        Words words = round % 2 ? plain : corrected;
         for (int change = 0; change < 1 + round % 3; ++change)
             words[random() % words.size()] =
                 random() % 2 ? extreme[random() % 7] : static_cast<std::uint32_t>(random());

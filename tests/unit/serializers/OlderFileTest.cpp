@@ -2,7 +2,7 @@
 // tests/data/saved holds makeScene(Tube(9, 6)) as it was written when files called a model
 // osgSkin::SharedSkinModel. Such files are read as ever, and written with today's names.
 #include "SavedScene.h"
-#include "model/SkinModelBlock.h"
+#include "words/SkinModelBlock.h"
 
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/UpdateDeformableSkin>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "model/SkinModelBlock.h"
+#include "words/SkinModelBlock.h"
+#include "SomeCorrectives.h"
 #include "Tube.h"
+#include "Version1Block.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +59,45 @@ TEST(SkinModelBlock, BindingComesBackExactly) {
 }
 
 TEST(SkinModelBlock, StartsWithItsVersion) {
-    EXPECT_EQ(osgSkin::packSkinModel(*test::Tube().model()).front(),
-              osgSkin::kSkinModelBlockVersion);
+    EXPECT_EQ(osgSkin::packSkinModel(*test::Tube().model()).front(), 1u);
+    test::Tube tube;
+    tube.binding.correctives = test::someCorrectives(tube.binding, 0.1, 1);
+    EXPECT_EQ(osgSkin::packSkinModel(*tube.model()).front(), osgSkin::kSkinModelBlockVersion);
+}
+
+TEST(SkinModelBlock, VersionOneIsRead) {
+    const std::vector<std::uint32_t> words(std::begin(test::kVersion1Block),
+                                           std::end(test::kVersion1Block));
+    const auto model = osgSkin::unpackSkinModel(words);
+    expectEqual(*model, *test::Tube(2, 3).model());
+    EXPECT_TRUE(osgSkin::bindingOf(*model).correctives.empty());
+    EXPECT_EQ(osgSkin::packSkinModel(*model), words);
+}
+
+TEST(SkinModelBlock, CorrectivesComeBackExactly) {
+    for (const bool withNormals : {false, true}) {
+        test::Tube tube;
+        tube.binding.correctives = test::someCorrectives(tube.binding, 0.1, 2, withNormals);
+        const auto model = tube.model();
+        const std::vector<std::uint32_t> words = osgSkin::packSkinModel(*model);
+        const auto back = osgSkin::unpackSkinModel(words);
+        expectEqual(*back, *model);
+        EXPECT_EQ(osgSkin::packSkinModel(*back), words);
+        const osgSkin::Correctives& before = tube.binding.correctives;
+        const osgSkin::Correctives after = osgSkin::bindingOf(*back).correctives;
+        EXPECT_EQ(after.shares, before.shares);
+        EXPECT_EQ(after.normalShares, before.normalShares);
+        EXPECT_EQ(after.firstEntry, before.firstEntry);
+        ASSERT_EQ(after.joints.size(), before.joints.size());
+        for (std::size_t j = 0; j < after.joints.size(); ++j) {
+            EXPECT_EQ(after.joints[j].joint, before.joints[j].joint);
+            EXPECT_EQ(after.joints[j].basis, before.joints[j].basis);
+            EXPECT_EQ(after.joints[j].axis, before.joints[j].axis);
+            EXPECT_EQ(after.joints[j].low, before.joints[j].low);
+            EXPECT_EQ(after.joints[j].high, before.joints[j].high);
+            EXPECT_EQ(after.joints[j].knots, before.joints[j].knots);
+            EXPECT_EQ(after.joints[j].coefficients, before.joints[j].coefficients);
+            EXPECT_EQ(after.joints[j].normalScales, before.joints[j].normalScales);
+        }
+    }
 }

@@ -3,12 +3,15 @@
 
 #include <osgSkin/Error>
 
+#include "correctives/ReferenceCorrections.h"
 #include "deform/Chain.h"
 #include "deform/DeformKernel.h"
 #include "deform/KernelChain.h"
+#include "deform/KernelCorrections.h"
 #include "model/SkinModelAccess.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace osgSkin {
 namespace {
@@ -36,6 +39,9 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
     const std::size_t endVertex = firstVertexOf(model, end);
     KernelChain chain(model, *job.pose);
     KernelCall call;
+    call.correctionCount = 0;
+    std::optional<KernelCorrections> corrections;
+    if (SkinModelAccess::correctives(model)) corrections.emplace(model, *job.pose);
     for (std::size_t g = groupOf(blocks, first); blocks.firstBlock[g] < end; ++g) {
         const SkinModel::Group& group = model.groups()[g];
         const std::size_t from = std::max(first, blocks.firstBlock[g]) - blocks.firstBlock[g];
@@ -43,6 +49,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
         const std::size_t vertex = group.firstVertex + from * kBlock;
         const std::size_t out = blocks.inOrder ? vertex : 0;
         chain.prepare(group, call);
+        if (corrections) corrections->prepare(g, from, call);
         call.rows =
             &blocks.rows[blocks.firstRow[g] + from * SkinBlocks::rowsPerBlock(group.partialCount)];
         call.vertexCount = std::min<std::size_t>(group.vertexCount, to * kBlock) - from * kBlock;
@@ -108,7 +115,10 @@ bool DeformJob::runPart(std::size_t part) const noexcept {
 
 bool DeformJob::runReference() const noexcept {
     if (!isValid()) return false;
-    for (const SkinModel::Group& group : model->groups()) {
+    std::optional<ReferenceCorrections> corrections;
+    if (SkinModelAccess::correctives(*model)) corrections.emplace(*model, *pose);
+    for (std::size_t g = 0; g < model->groups().size(); ++g) {
+        const SkinModel::Group& group = model->groups()[g];
         const Chain chain(*model, group, *pose);
         const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;
         const std::uint32_t* order = model->order().data() + group.firstVertex;
@@ -116,6 +126,7 @@ bool DeformJob::runReference() const noexcept {
             const std::uint32_t v = order[i];
             glm::vec3 position = model->positions()[v];
             glm::vec3 normal = model->normals()[v];
+            if (corrections) corrections->apply(g, i, position);
             const glm::vec4 rest = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
             glm::vec3 tangent(rest);
             chain.apply(ratios, position, normals ? &normal : nullptr,

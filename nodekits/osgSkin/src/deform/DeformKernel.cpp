@@ -12,6 +12,7 @@
 
 #include <hwy/cache_control.h>
 
+#include "deform/KernelCorrect-inl.h"
 #include "deform/KernelPasses-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelTurns-inl.h"
@@ -38,6 +39,7 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
                              const float* HWY_RESTRICT tangentRows) {
     const D d;
     V x = hn::Load(d, rows), y = hn::Load(d, rows + kBlock), z = hn::Load(d, rows + 2 * kBlock);
+    if (HWY_UNLIKELY(call.correctionCount > 0)) correct(call, first, x, y, z);
     V nx = hn::Zero(d), ny = nx, nz = nx, tx = nx, ty = nx, tz = nx;
     if (kNormals) {
         nx = hn::Load(d, rows + 3 * kBlock);

@@ -62,6 +62,18 @@ struct KernelLink {
     KernelMap out; ///< from this frame to that of the next partial joint outwards, or rest space
 };
 
+/// The correctives of one joint on a range of a group's blocks, see Correctives.
+struct KernelCorrection {
+    const std::int16_t* shares; ///< of the range's first block: x, y, z of the block's vertices for
+                                ///< each mode; behind them those of normals, where there are any
+    std::size_t blockShares;    ///< from a block's shares to the next one's
+    std::size_t firstBlock;     ///< of the call's
+    std::size_t blockCount;
+    std::size_t modes;
+    const float* weights;       ///< of each mode, for its shares
+    const float* normalWeights; ///< the same of normals; null where they have none
+};
+
 /// All vertices of one group, with the constants that they have in common.
 struct KernelCall {
     const BlockRow* rows;
@@ -74,9 +86,12 @@ struct KernelCall {
     bool leadScaled;         ///< leadScale is not 1; else it is not set
     Splat azimuthCosine;     ///< of v in that frame; where lead is null
     Splat azimuthSine;
-    float* positions; ///< x, y, z of the group's first vertex
-    float* normals;   ///< may be null
-    float* tangents;  ///< x, y, z, w; may be null; null where normals is
+    const KernelCorrection* corrections; ///< what is added to rest positions before all else
+    std::size_t correctionCount;
+    const KernelMap* correctionFrame; ///< turns it into the blocks' frame; null: rest space
+    float* positions;                 ///< x, y, z of the group's first vertex
+    float* normals;                   ///< may be null
+    float* tangents;                  ///< x, y, z, w; may be null; null where normals is
     std::size_t room; ///< vertices from there on that may be overwritten, >= vertexCount
     const std::uint32_t* scatter; ///< vertex of each row, where output is not in order; else null
 };

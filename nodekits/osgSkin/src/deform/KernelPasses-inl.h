@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include "deform/DeformKernel.h"
+#include "deform/KernelCorrect-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelTurns-inl.h"
 
@@ -149,6 +150,24 @@ HWY_INLINE void pass(const KernelCall& call, const Chunk& chunk, const KernelMap
     stream.stride = 3 * kBlock;
 }
 
+/// The chunk's rest positions with their correctives, from where the first link takes them.
+HWY_NOINLINE void correctChunk(const KernelCall& call, const Chunk& chunk, ChunkStream& stream) {
+    const D d;
+    const float* HWY_RESTRICT from = stream.from;
+    float* HWY_RESTRICT to = stream.state;
+    for (std::size_t b = 0; b < chunk.blocks; ++b, from += stream.stride, to += 3 * kBlock)
+        for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
+            V x = hn::Load(d, from + lane), y = hn::Load(d, from + kBlock + lane),
+              z = hn::Load(d, from + 2 * kBlock + lane);
+            correct(call, chunk.first + b * kBlock + lane, x, y, z);
+            hn::Store(x, d, to + lane);
+            hn::Store(y, d, to + kBlock + lane);
+            hn::Store(z, d, to + 2 * kBlock + lane);
+        }
+    stream.from = stream.state;
+    stream.stride = 3 * kBlock;
+}
+
 /// Deforms a group link by link, a chunk of vertices at a time.
 ///
 /// Where there are 16 registers and no fused multiply-add, this is a quarter faster than taking
@@ -174,6 +193,7 @@ HWY_INLINE void deformByLinks(const KernelCall& call) {
         tangents.from = call.tangents ? tangentLanes(call, chunk.first) : nullptr;
         tangents.stride = SkinBlocks::kTangentRows * kBlock;
         chunk.ratios = rows + 6 * kBlock;
+        if (HWY_UNLIKELY(call.correctionCount > 0)) correctChunk(call, chunk, positions);
 
         bool inJointFrame = !call.lead;
         if (call.lead) streams(*call.lead, nullptr, call.linkCount == 0);

@@ -3,6 +3,7 @@
 
 #include <osgSkin/DeformJob>
 
+#include "correctives/CorrectiveStray.h"
 #include "model/BoundsProxy.h"
 #include "model/SkinModelAccess.h"
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace osgSkin {
@@ -100,6 +102,8 @@ PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept 
                    glm::vec3(-std::numeric_limits<float>::max())};
     const float travel = travelOf(pose);
     Floats stray;
+    std::optional<CorrectiveWeights> corrections;
+    if (SkinModelAccess::correctives(model)) corrections.emplace(model, pose);
     for (std::size_t r = 0; r < skin->runs.size(); ++r) { // one a group
         const BoundsProxy::Run& run = skin->runs[r];
         const float scale = scaleOf(model, model.groups()[r], pose);
@@ -107,6 +111,8 @@ PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept 
             const std::uint32_t count = std::min<std::uint32_t>(run.patchCount - from, kChunk);
             const std::uint32_t first = run.firstPatch + from;
             straysOf(*skin, run, from, count, pose, travel, stray);
+            if (corrections)
+                addCorrectiveStray(*skin, run, from, count, *corrections, stray.data());
             addPatches(*skin, first, count, job.positions + first, job.normals + first, stray,
                        scale, box);
         }

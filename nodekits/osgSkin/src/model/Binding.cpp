@@ -58,6 +58,7 @@ void Binding::validate() const {
                 throw Error(place + " has a ratio outside [0, 1]");
         }
     }
+    correctives.validate(joints, vertices);
 }
 
 } // namespace osgSkin

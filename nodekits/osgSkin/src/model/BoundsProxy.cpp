@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "model/BoundsProxy.h"
+#include "model/CorrectiveBlocks.h"
 
 #include "model/SkinModelAccess.h"
 #include "model/VertexGroups.h"
@@ -26,6 +27,40 @@ struct Fineness {
     float length;
     float stray;
 };
+
+/// Length of the k-th mode's shares in a lane.
+float lengthOf(const CorrectiveRow* block, std::size_t mode, std::size_t lane) {
+    float sum = 0.0f;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float share = block[3 * mode + axis].lane[lane];
+        sum += share * share;
+    }
+    return std::sqrt(sum);
+}
+
+/// Adds to the last run of `skin` how far correctives can take the vertices of its patches.
+/// \param patches rows of the run's group
+void addCorrectiveReach(const CorrectiveBlocks& blocks, const std::vector<Rows>& patches,
+                        BoundsProxy& skin) {
+    const std::size_t group = skin.runs.size() - 1; // a run a group
+    BoundsProxy::Run& run = skin.runs.back();
+    run.firstCorrection = static_cast<std::uint32_t>(skin.corrections.size());
+    for (std::uint32_t i = blocks.firstRange[group]; i < blocks.firstRange[group + 1]; ++i) {
+        const CorrectiveBlocks::Range& range = blocks.ranges[i];
+        const std::size_t modes = blocks.joints[range.joint].modes;
+        const std::size_t first = skin.reach.size();
+        skin.corrections.push_back({range.joint, first});
+        skin.reach.resize(first + modes * patches.size(), 0.0f);
+        for (std::size_t patch = 0; patch < patches.size(); ++patch)
+            for (const std::uint32_t row : patches[patch])
+                if (const CorrectiveRow* block = blocks.blockOf(range, row))
+                    for (std::size_t k = 0; k < modes; ++k) {
+                        float& reach = skin.reach[first + k * patches.size() + patch];
+                        reach = std::max(reach, lengthOf(block, k, row % kBlock));
+                    }
+    }
+    run.correctionCount = static_cast<std::uint32_t>(skin.corrections.size()) - run.firstCorrection;
+}
 
 float extentOf(const std::vector<glm::vec3>& points) {
     glm::vec3 low(std::numeric_limits<float>::max());
@@ -75,9 +110,11 @@ public:
         skin.runs.push_back({static_cast<std::uint32_t>(first),
                              static_cast<std::uint32_t>(patches.size()),
                              static_cast<std::uint32_t>(skin.joints.size()),
-                             static_cast<std::uint32_t>(_joints.size()), skin.slack.size()});
+                             static_cast<std::uint32_t>(_joints.size()), skin.slack.size(), 0, 0});
         skin.joints.insert(skin.joints.end(), _joints.begin(), _joints.end());
         for (std::size_t k = 0; k < _joints.size(); ++k) addSlack(patches, k, skin);
+        if (SkinModelAccess::correctives(_model))
+            addCorrectiveReach(*SkinModelAccess::correctives(_model), patches, skin);
     }
 
 private:

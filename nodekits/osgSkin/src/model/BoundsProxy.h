@@ -24,6 +24,14 @@ struct BoundsProxy {
         std::uint32_t firstJoint; ///< in `joints`
         std::uint32_t jointCount; ///< those followed in part
         std::size_t firstSlack;   ///< in `slack`: for each joint, patchCount floats of each kind
+        std::uint32_t firstCorrection; ///< in `corrections`
+        std::uint32_t correctionCount;
+    };
+
+    /// That vertices of a run follow the correctives of a joint.
+    struct Correction {
+        std::uint32_t joint;    ///< of the correctives'
+        std::size_t firstReach; ///< in `reach`: patchCount floats for each mode
     };
 
     /// What one partial joint adds to a patch's size: the largest deviations from the mean ratios.
@@ -44,7 +52,9 @@ struct BoundsProxy {
     std::vector<Run> runs;
     std::vector<std::uint32_t> joints;
     std::vector<float> slack;
-    float rounding; ///< what single precision may put a vertex off by, near the origin
+    std::vector<Correction> corrections;
+    std::vector<float> reach; ///< length of a patch's largest shares, as they are held
+    float rounding;           ///< what single precision may put a vertex off by, near the origin
 };
 
 /// Cuts a model's groups into patches; null for a model without vertices.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model/SkinBlocks.h"
 
-#include <osgSkin/GlmMath>
+#include <osgSkin/GlmTypes>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,6 +2,7 @@
 #include <osgSkin/SkinModel>
 
 #include "model/BoundsProxy.h"
+#include "model/CorrectiveBlocks.h"
 #include "model/SkinBlocks.h"
 #include "model/VertexGroups.h"
 
@@ -50,7 +51,8 @@ SkinModel::SkinModel() : _blocks(std::make_shared<SkinBlocks>(*this)) {}
 SkinModel::SkinModel(const SkinModel& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), _joints(other._joints), _positions(other._positions),
       _normals(other._normals), _order(other._order), _groups(other._groups), _links(other._links),
-      _ratios(other._ratios), _blocks(other._blocks), _boundsProxy(other._boundsProxy) {}
+      _ratios(other._ratios), _blocks(other._blocks), _boundsProxy(other._boundsProxy),
+      _correctives(other._correctives) {}
 
 SkinModel::~SkinModel() = default;
 
@@ -113,6 +115,9 @@ osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
         addRatios(vertices, grouped, model->_ratios);
     }
     model->_blocks = std::make_shared<SkinBlocks>(*model);
+    if (!vertices.binding().correctives.empty())
+        model->_correctives =
+            std::make_shared<CorrectiveBlocks>(*model, vertices.binding(), vertices.source());
     return model;
 }
 

@@ -20,6 +20,11 @@ struct SkinModelAccess {
         return model._boundsProxy.get();
     }
 
+    /// The correctives as DeformJob reads them; null where there are none.
+    static const CorrectiveBlocks* correctives(const SkinModel& model) {
+        return model._correctives.get();
+    }
+
     /// A group's tangents, SkinBlocks::kTangentRows rows a block.
     static const BlockRow* blocks(const SkinTangents& tangents, std::size_t group) {
         return tangents._rows.data() + tangents._firstRow[group];
@@ -43,6 +48,7 @@ struct SkinModelAccess {
         empty._ratios = model._ratios;
         empty._blocks = model._blocks;
         empty._boundsProxy = model._boundsProxy;
+        empty._correctives = model._correctives;
     }
 };
 

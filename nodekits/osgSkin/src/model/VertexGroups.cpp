@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "model/VertexGroups.h"
 
+#include "model/CorrectiveBlocks.h"
+
 #include <osgSkin/Error>
 #include <osgSkin/SkinModel>
 
@@ -37,6 +39,11 @@ Members groupBySignature(const Binding& binding, const std::vector<std::uint32_t
             throw Error("skin model: vertex " + std::to_string(v) + " comes from no bound vertex");
         members[signatureOf(binding, source[v])].push_back(v);
     }
+    if (binding.correctives.empty()) return members;
+    for (auto& [signature, vertices] : members)
+        std::stable_sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return correctedBy(binding, source[a]) < correctedBy(binding, source[b]);
+        });
     return members;
 }
 

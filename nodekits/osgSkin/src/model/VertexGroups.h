@@ -40,7 +40,8 @@ public:
     /// Sorted by signature, so that groups side by side begin with the same joints.
     const std::vector<Group>& groups() const { return _groups; }
 
-    /// The vertices, group by group, and within a group as they came: the order in which the
+    /// The vertices, group by group, within a group those of the same joints' correctives together,
+    /// and otherwise as they came: the order in which the
     /// deformation writes them. Geometry in any other order costs a scatter a frame.
     const std::vector<std::uint32_t>& order() const { return _order; }
 

@@ -2,8 +2,8 @@
 #include <osgSkin/BendTwist>
 
 #include <osgSkin/Error>
-#include <osgSkin/GlmMath>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/GlmTypes>
 
 #include "pose/SplitUnit.h"
 

@@ -6,7 +6,7 @@
 #include "model/SkinBlocks.h"
 #include "pose/SplitUnit.h"
 
-#include <osgSkin/GlmMath>
+#include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pose/SplitUnit.h"
 
-#include <osgSkin/GlmMath>
+#include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
 

@@ -13,6 +13,7 @@
 #include "ratios/PackInfluences.h"
 #include "ratios/TwistFields.h"
 #include "regions/Regions.h"
+#include "shapes/FastShapes.h"
 
 #include <chrono>
 
@@ -24,6 +25,7 @@ constexpr double kRegionsBegin = 0.2;
 constexpr double kBendsBegin = 0.8;
 constexpr double kTwistsBegin = 0.96;
 constexpr double kRatiosBegin = 0.98;
+constexpr double kShapesBegin = 0.99;
 
 /// Vertices that no face uses do as the nearest vertex of the skin does.
 std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
@@ -142,6 +144,10 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
             if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+    if (options.shapes == BindOptions::Shapes::Fast) {
+        tell("shapes", kShapesBegin);
+        binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
     }
     binding.validate();
 

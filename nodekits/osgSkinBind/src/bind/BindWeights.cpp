@@ -7,6 +7,7 @@
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
 #include "ratios/PackInfluences.h"
+#include "shapes/FastShapes.h"
 
 #include <osgSkin/Error>
 
@@ -140,6 +141,8 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
             if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
+    if (options.shapes == BindOptions::Shapes::Fast)
+        binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
     binding.validate();
 
     found.regions = regionsOf(binding);

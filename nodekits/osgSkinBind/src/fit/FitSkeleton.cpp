@@ -10,7 +10,7 @@
 #include "fit/place/Symmetrise.h"
 
 #include <osgSkin/Error>
-#include <osgSkin/GlmMath>
+#include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
 

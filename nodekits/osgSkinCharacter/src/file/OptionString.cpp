@@ -45,6 +45,12 @@ LoadOptions::Method methodOf(const std::string& value) {
     fail("bind", value, "smooth, paper, weights or default");
 }
 
+BindOptions::Shapes shapesOf(const std::string& value) {
+    if (value == "none") return BindOptions::Shapes::None;
+    if (value == "fast") return BindOptions::Shapes::Fast;
+    fail("shapes", value, "none or fast");
+}
+
 std::vector<std::string> namesOf(const std::string& value) {
     std::vector<std::string> names;
     if (value == "none") return names;
@@ -64,6 +70,7 @@ LoadOptions toLoadOptions(const osgDB::Options* options) {
     result.progress = getProgress(options);
     for (const auto& [key, value] : wordsOf(options->getOptionString())) {
         if (key == "bind") result.method = methodOf(value);
+        if (key == "shapes") result.shapes = shapesOf(value);
         if (key == "rigid") result.rigid = namesOf(value);
         if (key == "motion") {
             if (value.empty()) fail(key, value, "a clip's name, a motion file, or none");
@@ -85,6 +92,8 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
         {"motion=<clip|file|none>", "the motion to play by its name, or a motion file to retarget"},
         {"rigid=<joint,joint|none>",
          "joints that move as rigid bodies; head, hands, feet by default"},
+        {"shapes=<none|fast>",
+         "what keeps bent limbs from swelling and from going through themselves"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };
     return words;

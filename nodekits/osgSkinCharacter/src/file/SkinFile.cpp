@@ -118,7 +118,15 @@ void readMethod(const JsonReader& root, const std::string& folder, SkinFile& ski
         weights->failWith("expected \"bind\": \"weights\" beside it");
 }
 
+BindOptions::Shapes readShapes(const JsonReader& reader) {
+    const std::string name = reader.string();
+    if (name == "none") return BindOptions::Shapes::None;
+    if (name == "fast") return BindOptions::Shapes::Fast;
+    reader.complain("expected \"none\" or \"fast\", found \"" + name + "\"");
+}
+
 void readBinding(const JsonReader& root, BindOptions& bind) {
+    if (const auto shapes = root.find("shapes")) bind.shapes = readShapes(*shapes);
     if (const auto rigid = root.find("rigid")) {
         bind.rigid.emplace();
         rigid->forEachItem([&](const JsonReader& name) { bind.rigid->push_back(name.string()); });
@@ -137,7 +145,7 @@ SkinFile SkinFile::read(const std::string& file) {
     const std::string folder = osgDB::getFilePath(file);
     checkVersion(root);
     root.warnUnknown({"osgskin", "mesh", "skeleton", "motions", "props", "rigid", "bind", "weights",
-                      "joints", "up", "names"});
+                      "joints", "up", "names", "shapes"});
 
     SkinFile skin;
     skin.file = file;

@@ -25,6 +25,7 @@ ConvertOptions convertOptionsOf(const LoadOptions& options) {
                                                          : ConvertOptions::Ratios::Own;
     if (options.method == Method::Paper) convert.bind.method = BindOptions::Method::Paper;
     convert.bind.rigid = options.rigid;
+    if (options.shapes) convert.bind.shapes = *options.shapes;
     convert.showRegions = options.showRegions;
     return convert;
 }

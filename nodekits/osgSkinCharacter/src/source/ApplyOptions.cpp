@@ -65,6 +65,7 @@ void applyMotion(CharacterSource& source, const std::string& wanted, const osgDB
 void applyOptions(CharacterSource& source, const LoadOptions& options) {
     applyMethod(source, options.method);
     if (options.rigid) source.bind.rigid = options.rigid;
+    if (options.shapes) source.bind.shapes = *options.shapes;
     if (options.atRest) {
         source.animations.clear();
         source.motions.clear();

@@ -5,8 +5,8 @@
 #include "assimp/RigBones.h"
 #include "text/FileText.h"
 
-#include <osgSkin/GlmMath>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/GlmTypes>
 
 #include <osgAnimation/Channel>
 #include <osgAnimation/Sampler>

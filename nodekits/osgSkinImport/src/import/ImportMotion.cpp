@@ -8,7 +8,7 @@
 #include "bvh/BvhMotion.h"
 #include "text/FileText.h"
 
-#include <osgSkin/GlmMath>
+#include <osgSkin/GlmTypes>
 
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>

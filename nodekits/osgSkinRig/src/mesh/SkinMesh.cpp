@@ -2,7 +2,7 @@
 #include <osgSkinRig/SkinMesh>
 
 #include <osgSkin/Error>
-#include <osgSkin/GlmMath>
+#include <osgSkin/GlmTypes>
 
 #include <glm/common.hpp>
 

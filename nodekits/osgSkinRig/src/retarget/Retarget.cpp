@@ -11,7 +11,7 @@
 #include "retarget/UprightFrames.h"
 #include "skeleton/SkeletonTree.h"
 
-#include <osgSkin/GlmMath>
+#include <osgSkin/GlmTypes>
 #include <osgSkinRig/ForwardKinematics>
 
 #include <glm/trigonometric.hpp>

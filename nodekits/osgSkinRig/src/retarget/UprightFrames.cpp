@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "retarget/UprightFrames.h"
 
-#include <osgSkin/GlmMath>
+#include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

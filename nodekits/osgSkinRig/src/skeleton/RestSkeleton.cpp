@@ -2,8 +2,8 @@
 #include <osgSkinRig/RestSkeleton>
 
 #include <osgSkin/Error>
-#include <osgSkin/GlmMath>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/GlmTypes>
 
 #include <set>
 

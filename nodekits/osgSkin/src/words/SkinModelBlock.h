@@ -16,11 +16,11 @@ namespace osgSkin {
 /// The binding that a model was made from, for the model's own vertices.
 ///
 /// Ratios come back exactly. Regions are not part of a model: a vertex's region is here the last
-/// joint that it follows by half or more.
+/// joint that it follows by half or more. Correctives that are 0 are left out.
 OSGSKIN_EXPORT Binding bindingOf(const SkinModel& model);
 
-/// The version that packSkinModel() writes.
-constexpr std::uint32_t kSkinModelBlockVersion = 1;
+/// The latest version. packSkinModel() writes it for a model with correctives, and 1 for any other.
+constexpr std::uint32_t kSkinModelBlockVersion = 2;
 
 /// A model as 32-bit words, every number with all its bits: the same in each file format.
 ///
@@ -28,6 +28,12 @@ constexpr std::uint32_t kSkinModelBlockVersion = 1;
 /// the first lowest), centre, bone axis, twist axis (doubles, low word first); number of vertices,
 /// all positions, all normals (floats); of each vertex: number of influences, and of each: joint,
 /// bend, twist.
+///
+/// Version 2 goes on with the correctives: 1 where they have normals, else 0; number of their
+/// joints, and of each: joint, basis, axis, low x and y, high x and y; number of knots, the knots;
+/// modes; number of coefficients, the coefficients; number of normals' scales, those (all doubles);
+/// of each vertex: number of entries, and of each: which of the correctives' joints, its shares
+/// (two a word, the first lower; of an odd number the last alone), the same of normals.
 OSGSKIN_EXPORT std::vector<std::uint32_t> packSkinModel(const SkinModel& model);
 
 /// The model in `words`, which may come from anybody.

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "model/CorrectiveBlocks.h"
+#include "model/SkinModelAccess.h"
+
+#include <osgSkin/Pose>
+
+#include <array>
+
+namespace osgSkin {
+
+/// The correctives' beta in one pose, worked out joint by joint as they are asked for; on the
+/// stack.
+class CorrectiveWeights {
+public:
+    /// What each mode's shares, as they are held, are to be multiplied by.
+    struct Weights {
+        std::array<float, CorrectiveJoint::kMostModes> positions;
+        std::array<float, CorrectiveJoint::kMostModes> normals;
+    };
+
+    /// \pre the model has correctives
+    CorrectiveWeights(const SkinModel& model, const Pose& pose) noexcept
+        : _model(model), _pose(pose), _blocks(*SkinModelAccess::correctives(model)) {}
+
+    /// Null where the correctives of `joint`, an index of theirs, do nothing in this pose.
+    const Weights* of(std::uint32_t joint) noexcept;
+
+    std::size_t modesOf(std::uint32_t joint) const noexcept { return _blocks.joints[joint].modes; }
+
+private:
+    enum class State : unsigned char { Unknown, Nothing, Something };
+
+    const SkinModel& _model;
+    const Pose& _pose;
+    const CorrectiveBlocks& _blocks;
+    std::array<State, Correctives::kMostJoints> _states{};
+    std::array<Weights, Correctives::kMostJoints> _weights;
+};
+
+} // namespace osgSkin

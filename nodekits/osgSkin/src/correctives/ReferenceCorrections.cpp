@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "correctives/ReferenceCorrections.h"
+
+namespace osgSkin {
+
+void ReferenceCorrections::apply(std::size_t group, std::uint32_t row,
+                                 glm::vec3& position) noexcept {
+    for (std::uint32_t i = _blocks.firstRange[group]; i < _blocks.firstRange[group + 1]; ++i) {
+        const CorrectiveBlocks::Range& range = _blocks.ranges[i];
+        const CorrectiveRow* from = _blocks.blockOf(range, row);
+        if (!from) continue;
+        const CorrectiveWeights::Weights* weights = _weights.of(range.joint);
+        if (!weights) continue;
+        for (std::size_t k = 0; k < _blocks.joints[range.joint].modes; ++k)
+            for (int axis = 0; axis < 3; ++axis, ++from)
+                position[axis] += weights->positions[k] * float(from->lane[row % kBlock]);
+    }
+}
+
+} // namespace osgSkin

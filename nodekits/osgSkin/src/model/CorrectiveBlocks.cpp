@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "model/CorrectiveBlocks.h"
+
+#include "model/SkinModelAccess.h"
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+const Correctives::Entry* entryOf(const Correctives& correctives, std::uint32_t vertex,
+                                  std::uint32_t joint) {
+    for (std::uint32_t i = correctives.firstEntry[vertex]; i < correctives.firstEntry[vertex + 1];
+         ++i)
+        if (correctives.entries[i].joint == joint) return &correctives.entries[i];
+    return nullptr;
+}
+
+/// Appends the shares in one lane of `count` rows.
+void readLane(const CorrectiveRow* rows, std::size_t count, std::size_t lane,
+              std::vector<std::int16_t>& shares) {
+    for (std::size_t i = 0; i < count; ++i) shares.push_back(rows[i].lane[lane]);
+}
+
+} // namespace
+
+std::vector<std::uint32_t> correctedBy(const Binding& binding, std::uint32_t vertex) {
+    std::vector<std::uint32_t> joints;
+    const Correctives& correctives = binding.correctives;
+    if (correctives.empty()) return joints;
+    for (std::uint32_t i = correctives.firstEntry[vertex]; i < correctives.firstEntry[vertex + 1];
+         ++i)
+        joints.push_back(correctives.entries[i].joint);
+    return joints;
+}
+
+CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& binding,
+                                   const std::vector<std::uint32_t>& source)
+    : joints(binding.correctives.joints), hasNormals(binding.correctives.hasNormals()) {
+    const Correctives& from = binding.correctives;
+    firstRange.push_back(0);
+    for (const SkinModel::Group& group : model.groups()) {
+        for (std::uint32_t joint = 0; joint < joints.size(); ++joint) {
+            Range range{joint, 0, 0, rows.size()};
+            for (std::uint32_t row = 0; row < group.vertexCount; ++row) {
+                const Correctives::Entry* entry =
+                    entryOf(from, source[model.order()[group.firstVertex + row]], joint);
+                if (!entry) continue;
+                const auto block = static_cast<std::uint32_t>(row / kBlock);
+                if (range.blockCount == 0) range.firstBlock = block;
+                range.blockCount = block - range.firstBlock + 1;
+                rows.resize(range.firstRow + range.blockCount * rowsPerBlock(joint),
+                            CorrectiveRow{});
+                CorrectiveRow* to = &rows[rows.size() - rowsPerBlock(joint)];
+                const std::size_t count = from.sharesOf(joint);
+                for (std::size_t i = 0; i < count; ++i) {
+                    to[i].lane[row % kBlock] = from.shares[entry->firstShare + i];
+                    if (hasNormals)
+                        to[count + i].lane[row % kBlock] = from.normalShares[entry->firstShare + i];
+                }
+            }
+            if (range.blockCount > 0) ranges.push_back(range);
+        }
+        firstRange.push_back(static_cast<std::uint32_t>(ranges.size()));
+    }
+}
+
+Correctives correctivesOf(const SkinModel& model) {
+    Correctives result;
+    const CorrectiveBlocks* blocks = SkinModelAccess::correctives(model);
+    if (!blocks) return result;
+    result.joints = blocks->joints;
+    struct Place { // of a vertex: its group and row there
+        std::size_t group;
+        std::uint32_t row;
+    };
+    std::vector<Place> places(model.vertexCount());
+    for (std::size_t g = 0; g < model.groups().size(); ++g)
+        for (std::uint32_t row = 0; row < model.groups()[g].vertexCount; ++row)
+            places[model.order()[model.groups()[g].firstVertex + row]] = {g, row};
+    result.firstEntry.push_back(0);
+    for (const Place& place : places) {
+        for (std::uint32_t i = blocks->firstRange[place.group];
+             i < blocks->firstRange[place.group + 1]; ++i) {
+            const CorrectiveBlocks::Range& range = blocks->ranges[i];
+            const CorrectiveRow* block = blocks->blockOf(range, place.row);
+            if (!block) continue;
+            const std::size_t rows = blocks->rowsPerBlock(range.joint);
+            const std::size_t lane = place.row % kBlock;
+            if (std::all_of(block, block + rows,
+                            [lane](const CorrectiveRow& row) { return row.lane[lane] == 0; }))
+                continue;
+            result.entries.push_back(
+                {range.joint, static_cast<std::uint32_t>(result.shares.size())});
+            const std::size_t count = result.sharesOf(range.joint);
+            readLane(block, count, lane, result.shares);
+            if (blocks->hasNormals) readLane(block + count, count, lane, result.normalShares);
+        }
+        result.firstEntry.push_back(static_cast<std::uint32_t>(result.entries.size()));
+    }
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "model/SkinBlocks.h"
+
+#include <osgSkin/Binding>
+#include <osgSkin/SkinModel>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace osgSkin {
+
+/// One share of each vertex of a block.
+struct alignas(32) CorrectiveRow {
+    std::int16_t lane[kBlock];
+};
+
+/// A SkinModel's correctives as the kernel reads them, and the only place that a model has them in.
+///
+/// Vertices of a group stand sorted by the joints whose correctives they follow, so that those of
+/// one joint are a range of the group's blocks; of a block's lanes that do not, the shares are 0. A
+/// block has three rows (x, y, z; rest space) for each mode, and behind them, where there are
+/// normal correctives, three for each mode's.
+struct CorrectiveBlocks {
+    struct Range {
+        std::uint32_t joint;      ///< in `joints`
+        std::uint32_t firstBlock; ///< of the group's
+        std::uint32_t blockCount;
+        std::size_t firstRow; ///< in `rows`
+    };
+
+    /// \param source as SkinModel::create() takes it; the binding is valid and the model's
+    CorrectiveBlocks(const SkinModel& model, const Binding& binding,
+                     const std::vector<std::uint32_t>& source);
+
+    std::vector<CorrectiveJoint> joints;
+    bool hasNormals = false;
+    std::vector<Range> ranges;
+    std::vector<std::uint32_t> firstRange; ///< groups + 1, into `ranges`
+    std::vector<CorrectiveRow> rows;
+
+    std::size_t rowsPerBlock(std::uint32_t joint) const {
+        return (hasNormals ? 6 : 3) * joints[joint].modes;
+    }
+
+    /// The first row of the block in a range that a vertex stands in, null where it stands in none.
+    /// \param row of the group's vertices
+    const CorrectiveRow* blockOf(const Range& range, std::uint32_t row) const noexcept {
+        const std::size_t block = row / kBlock;
+        if (block < range.firstBlock || block - range.firstBlock >= range.blockCount)
+            return nullptr;
+        return &rows[range.firstRow + (block - range.firstBlock) * rowsPerBlock(range.joint)];
+    }
+};
+
+/// The joints whose correctives a bound vertex follows: what vertices of a group are sorted by.
+std::vector<std::uint32_t> correctedBy(const Binding& binding, std::uint32_t vertex);
+
+/// What the blocks hold, for the model's vertices in their own order. Entries whose shares are all
+/// 0 are left out.
+Correctives correctivesOf(const SkinModel& model);
+
+} // namespace osgSkin

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/Correctives>
+
+#include "model/QuadraticSplines.h"
+
+#include <osgSkin/Binding>
+#include <osgSkin/Error>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+using Basis = CorrectiveJoint::Basis;
+
+/// Where the soft clamp leaves the straight line.
+constexpr double kStraight = 0.9;
+constexpr double kSoft = 1.0 - kStraight;
+
+/// t for t <= kStraight, then towards 1 and never beyond: two continuous derivatives.
+double softClamp(double t) noexcept {
+    return t <= kStraight ? t : kStraight + kSoft * std::tanh((t - kStraight) / kSoft);
+}
+
+/// A coordinate as a share of what was sampled on its side; not negative.
+double shareOf(double x, double low, double high) noexcept {
+    return x > 0.0 ? x / high : x / low;
+}
+
+double clampedAlone(double x, double low, double high) noexcept {
+    return softClamp(shareOf(x, low, high)) * (x > 0.0 ? high : low);
+}
+
+bool areFinite(const std::vector<double>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+void checkKnots(const CorrectiveJoint& joint, const std::string& place) {
+    if (joint.basis == Basis::Ball) {
+        if (!joint.knots.empty()) throw Error(place + " have knots, expected none for a ball");
+        return;
+    }
+    if (joint.knots.size() < 2 || joint.knots.size() > CorrectiveJoint::kMostKnots)
+        throw Error(place + " have " + std::to_string(joint.knots.size()) +
+                    " knots, expected 2 to " + std::to_string(CorrectiveJoint::kMostKnots));
+    for (std::size_t i = 0; i < joint.knots.size(); ++i)
+        if (!std::isfinite(joint.knots[i]) ||
+            (i > 0 && !(joint.knots[i] - joint.knots[i - 1] >= 1e-6)))
+            throw Error(place + " have knots that do not ascend");
+}
+
+/// Written so that NaN is refused.
+void checkRange(const CorrectiveJoint& joint, const std::string& place) {
+    for (int axis = 0; axis < 2; ++axis)
+        if (!(joint.low[axis] < -1e-6 && joint.low[axis] > -2.0 && joint.high[axis] > 1e-6 &&
+              joint.high[axis] < 2.0))
+            throw Error(place + " have a range that does not reach from below 0 to above it");
+}
+
+void checkJoint(const CorrectiveJoint& joint, const std::vector<BoundJoint>& bound,
+                bool hasNormals) {
+    if (joint.joint >= bound.size())
+        throw Error("correctives: joint " + std::to_string(joint.joint) + " is not there");
+    const BoundJoint& of = bound[joint.joint];
+    const std::string place = "correctives: those of joint \"" + of.name + "\"";
+    if (joint.basis > Basis::Round) throw Error(place + " have functions of no known kind");
+    if (!(std::abs(glm::dot(joint.axis, joint.axis) - 1.0) < 1e-6) ||
+        !(std::abs(glm::dot(joint.axis, of.twistAxis)) < 1e-6))
+        throw Error(place + " have an axis that is no unit vector perpendicular to the twist axis");
+    checkRange(joint, place);
+    checkKnots(joint, place);
+    if (joint.modes < 1 || joint.modes > CorrectiveJoint::kMostModes)
+        throw Error(place + " have " + std::to_string(joint.modes) + " modes, expected 1 to " +
+                    std::to_string(CorrectiveJoint::kMostModes));
+    if (joint.coefficients.size() != joint.modes * joint.functionCount())
+        throw Error(place + " need a coefficient for each mode and function");
+    if (joint.normalScales.size() != (hasNormals ? joint.modes : 0))
+        throw Error(place + " need a scale of normals for each mode, or none of them");
+    if (!areFinite(joint.coefficients) || !areFinite(joint.normalScales))
+        throw Error(place + " have a coefficient that is not finite");
+}
+
+} // namespace
+
+std::size_t CorrectiveJoint::functionCount() const noexcept {
+    switch (basis) {
+    case Basis::Hinge:
+        return splineCount(knots) + 3;
+    case Basis::Ball:
+        return 9;
+    case Basis::Round:
+        return 7 * splineCount(knots);
+    }
+    return 0;
+}
+
+glm::dvec2 CorrectiveJoint::coordinates(const glm::dvec3& v, double psi,
+                                        const glm::dvec3& w) const noexcept {
+    const double sine = std::sin(0.5 * psi);
+    return {sine * glm::dot(v, axis), sine * glm::dot(v, glm::cross(w, axis))};
+}
+
+glm::dvec2 CorrectiveJoint::clamped(glm::dvec2 xy) const noexcept {
+    if (basis == Basis::Hinge)
+        return {clampedAlone(xy.x, low.x, high.x), clampedAlone(xy.y, low.y, high.y)};
+    const double r =
+        glm::length(glm::dvec2(shareOf(xy.x, low.x, high.x), shareOf(xy.y, low.y, high.y)));
+    return r <= kStraight ? xy : xy * (softClamp(r) / r);
+}
+
+void CorrectiveJoint::evaluate(glm::dvec2 clampedXy, Functions& phi) const noexcept {
+    const double x = clampedXy.x, y = clampedXy.y;
+    const std::size_t splines = splineCount(knots);
+    switch (basis) {
+    case Basis::Hinge: {
+        double atRest[kMostKnots + 1];
+        evaluateSplines(knots, x, phi.data());
+        evaluateSplines(knots, 0.0, atRest);
+        for (std::size_t i = 0; i < splines; ++i) phi[i] -= atRest[i];
+        phi[splines] = y;
+        phi[splines + 1] = x * y;
+        phi[splines + 2] = y * y;
+        return;
+    }
+    case Basis::Ball: {
+        const double all[] = {x,         y,         x * x,     x * y,    y * y,
+                              x * x * x, x * x * y, x * y * y, y * y * y};
+        for (std::size_t i = 0; i < 9; ++i) phi[i] = all[i];
+        return;
+    }
+    case Basis::Round: {
+        double now[kMostKnots + 1], atRest[kMostKnots + 1];
+        evaluateSplines(knots, x * x + y * y, now);
+        evaluateSplines(knots, 0.0, atRest);
+        for (std::size_t i = 0; i < splines; ++i) {
+            double* of = &phi[7 * i];
+            of[0] = now[i] - atRest[i];
+            of[1] = now[i] * x;
+            of[2] = now[i] * y;
+            of[3] = now[i] * (x * x - y * y);
+            of[4] = now[i] * 2.0 * x * y;
+            of[5] = now[i] * x * (x * x - 3.0 * y * y);
+            of[6] = now[i] * y * (3.0 * x * x - y * y);
+        }
+        return;
+    }
+    }
+}
+
+void CorrectiveJoint::weights(glm::dvec2 xy, double* beta) const noexcept {
+    Functions phi;
+    evaluate(clamped(xy), phi);
+    const std::size_t functions = functionCount();
+    const double* row = coefficients.data();
+    for (std::size_t k = 0; k < modes; ++k, row += functions) {
+        beta[k] = 0.0;
+        for (std::size_t i = 0; i < functions; ++i) beta[k] += row[i] * phi[i];
+    }
+}
+
+void Correctives::validate(const std::vector<BoundJoint>& bound, std::size_t vertexCount) const {
+    if (firstEntry.empty() && entries.empty() && joints.empty() && shares.empty() &&
+        normalShares.empty())
+        return;
+    if (joints.size() > kMostJoints)
+        throw Error("correctives: " + std::to_string(joints.size()) + " joints, expected at most " +
+                    std::to_string(kMostJoints));
+    for (const CorrectiveJoint& joint : joints) checkJoint(joint, bound, hasNormals());
+    if (hasNormals() && normalShares.size() != shares.size())
+        throw Error("correctives: expected as many shares of normals as of positions, or none");
+    if (firstEntry.size() != vertexCount + 1 || firstEntry.front() != 0 ||
+        firstEntry.back() != entries.size())
+        throw Error("correctives: the entries' offsets do not fit the vertices");
+    for (const std::vector<std::int16_t>* list : {&shares, &normalShares})
+        if (std::find(list->begin(), list->end(), std::int16_t(-kUnit - 1)) != list->end())
+            throw Error("correctives: a share is less than " + std::to_string(-kUnit));
+    for (std::size_t v = 0; v < vertexCount; ++v) {
+        const std::string place = "correctives: vertex " + std::to_string(v);
+        if (firstEntry[v] > firstEntry[v + 1] || firstEntry[v + 1] > entries.size())
+            throw Error(place + " has entries that are not there");
+        for (std::uint32_t i = firstEntry[v]; i < firstEntry[v + 1]; ++i) {
+            if (entries[i].joint >= joints.size()) throw Error(place + " names no joint's modes");
+            if (i > firstEntry[v] && entries[i].joint <= entries[i - 1].joint)
+                throw Error(place + " lists its joints out of order");
+            if (entries[i].firstShare > shares.size() ||
+                shares.size() - entries[i].firstShare < sharesOf(entries[i].joint))
+                throw Error(place + " has shares that are not there");
+        }
+    }
+}
+
+} // namespace osgSkin

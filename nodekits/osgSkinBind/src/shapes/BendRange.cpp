@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shapes/BendRange.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+/// Angles in degrees. How far a limb folds, counted from straight, and how far a hinge goes beyond
+/// straight and to the sides.
+constexpr double kMostFlexion = 155.0;
+constexpr double kBeyondStraight = 12.0;
+constexpr double kSideways = 30.0;
+/// Between knots and between samples.
+constexpr double kKnotStep = 30.0;
+constexpr double kRoundKnotStep = 20.0;
+constexpr double kSampleStep = 15.0;
+constexpr double kRoundSampleStep = 10.0;
+constexpr int kDirections = 12;
+
+double sineOfHalf(double degrees) {
+    return std::sin(glm::radians(0.5 * degrees));
+}
+
+double degreesOf(double sineOfHalfAngle) {
+    return glm::degrees(2.0 * std::asin(sineOfHalfAngle));
+}
+
+/// Evenly from `from` to `to`, at most `step` apart.
+std::vector<double> steps(double from, double to, double step) {
+    const int count = std::max(1, static_cast<int>(std::ceil((to - from) / step - 1e-9)));
+    std::vector<double> result;
+    for (int i = 0; i <= count; ++i) result.push_back(from + (to - from) * i / count);
+    return result;
+}
+
+/// Any unit vector perpendicular to w, always the same one.
+glm::dvec3 anyPerpendicular(const glm::dvec3& w) {
+    const glm::dvec3 helper = std::abs(w.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    return glm::normalize(glm::cross(helper, w));
+}
+
+void setHinge(const glm::dvec3& axis, ShapedJoint& joint) {
+    const double atRest = glm::degrees(std::atan2(
+        glm::dot(glm::cross(joint.above, joint.bone), axis), glm::dot(joint.above, joint.bone)));
+    const double most = std::clamp(kMostFlexion - atRest, 30.0, 170.0);
+    const double least = -std::clamp(kBeyondStraight + atRest, 15.0, 90.0);
+    CorrectiveJoint& functions = joint.functions;
+    functions.basis = CorrectiveJoint::Basis::Hinge;
+    functions.axis = axis;
+    functions.low = {sineOfHalf(least), -sineOfHalf(kSideways)};
+    functions.high = {sineOfHalf(most), sineOfHalf(kSideways)};
+    for (const double angle : steps(least, most, kKnotStep))
+        functions.knots.push_back(sineOfHalf(angle));
+}
+
+void setRound(ShapedJoint& joint) {
+    CorrectiveJoint& functions = joint.functions;
+    const double most = sineOfHalf(kMostFlexion);
+    functions.basis = CorrectiveJoint::Basis::Round;
+    functions.axis = anyPerpendicular(joint.twistAxis);
+    functions.low = glm::dvec2(-most);
+    functions.high = glm::dvec2(most);
+    for (const double angle : steps(0.0, kMostFlexion, kRoundKnotStep))
+        functions.knots.push_back(sineOfHalf(angle) * sineOfHalf(angle));
+}
+
+} // namespace
+
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint) {
+    if (mainAxis)
+        setHinge(*mainAxis, joint);
+    else
+        setRound(joint);
+}
+
+std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint) {
+    const CorrectiveJoint& functions = joint.functions;
+    std::vector<glm::dvec2> samples;
+    if (functions.basis == CorrectiveJoint::Basis::Hinge) {
+        const double least = degreesOf(functions.low.x), most = degreesOf(functions.high.x);
+        for (const double angle : steps(least, most, kSampleStep))
+            if (std::abs(angle) > 1.0) samples.emplace_back(sineOfHalf(angle), 0.0);
+        for (const double angle : steps(least, most, kKnotStep))
+            for (const double side : {functions.low.y, functions.high.y}) {
+                const glm::dvec2 xy(sineOfHalf(angle), 0.75 * side);
+                samples.push_back(xy * std::min(1.0, 0.99 / glm::length(xy)));
+            }
+        return samples;
+    }
+    for (const double angle : steps(0.0, degreesOf(functions.high.x), kRoundSampleStep))
+        for (int i = 0; angle > 0.0 && i < kDirections; ++i) {
+            const double direction = 2.0 * glm::pi<double>() * i / kDirections;
+            samples.push_back(sineOfHalf(angle) *
+                              glm::dvec2(std::cos(direction), std::sin(direction)));
+        }
+    return samples;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_BENDRANGE_H
+#define OSGSKINBIND_BENDRANGE_H
+
+#include "shapes/ShapedJoint.h"
+
+#include <optional>
+#include <vector>
+
+namespace osgSkin {
+
+/// Sets basis, axis, range and knots of a joint's functions.
+/// \param mainAxis of findMainAxis(); nothing: it may bend in any direction
+/// \pre above, bone and twistAxis are set
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint);
+
+/// The bends, as coordinates (x, y) of the joint's functions, whose shapes those are fitted to: all
+/// over the range and to its end, the rest pose left out.
+std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint);
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_JOINTRATIOS_H
+#define OSGSKINBIND_JOINTRATIOS_H
+
+#include "joints/JointPlan.h"
+#include "mesh/WeldedMesh.h"
+
+#include <osgSkin/Binding>
+
+#include <algorithm>
+#include <vector>
+
+namespace osgSkin {
+
+/// A binding's ratios, seen from welded vertices: copies of a vertex have the same.
+class JointRatios {
+public:
+    JointRatios(const WeldedMesh& mesh, const Binding& binding)
+        : _binding(binding), _copyOf(mesh.vertexCount(), 0) {
+        for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v) _copyOf[mesh.weldedOf[v]] = v;
+    }
+
+    /// Zeros where the vertex does not follow the joint.
+    Influence of(std::uint32_t welded, std::uint32_t joint) const {
+        const std::uint32_t v = _copyOf[welded];
+        for (std::uint32_t i = _binding.firstInfluence[v]; i < _binding.firstInfluence[v + 1]; ++i)
+            if (_binding.influences[i].joint == joint) return _binding.influences[i];
+        return {joint, 0.0f, 0.0f};
+    }
+
+    /// The largest bend ratio of a joint that moves a rigid part.
+    double rigid(std::uint32_t welded, const std::vector<PlannedJoint>& joints) const {
+        const std::uint32_t v = _copyOf[welded];
+        double most = 0.0;
+        for (std::uint32_t i = _binding.firstInfluence[v]; i < _binding.firstInfluence[v + 1]; ++i)
+            if (joints[_binding.influences[i].joint].rigid >= 0)
+                most = std::max(most, static_cast<double>(_binding.influences[i].bend));
+        return most;
+    }
+
+    double bend(std::uint32_t welded, std::uint32_t joint) const {
+        return static_cast<double>(of(welded, joint).bend);
+    }
+
+private:
+    const Binding& _binding;
+    std::vector<std::uint32_t> _copyOf; ///< a vertex of the mesh as given, of each welded one
+};
+
+} // namespace osgSkin
+
+#endif

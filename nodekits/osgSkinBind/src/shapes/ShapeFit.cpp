@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shapes/ShapeFit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+constexpr double kRidge = 1e-3;
+
+/// phi_i at each sample: samples x functions.
+Eigen::MatrixXd functionsAt(const JointShapes& shapes) {
+    const std::size_t functions = shapes.functions.functionCount();
+    Eigen::MatrixXd phi(Eigen::Index(shapes.samples.size()), Eigen::Index(functions));
+    CorrectiveJoint::Functions values;
+    for (std::size_t s = 0; s < shapes.samples.size(); ++s) {
+        shapes.functions.evaluate(shapes.functions.clamped(shapes.samples[s]), values);
+        for (std::size_t i = 0; i < functions; ++i)
+            phi(Eigen::Index(s), Eigen::Index(i)) = values[i];
+    }
+    return phi;
+}
+
+/// Samples x coordinates of all vertices.
+Eigen::MatrixXd offsetsOf(const JointShapes& shapes) {
+    Eigen::MatrixXd offsets(Eigen::Index(shapes.samples.size()),
+                            Eigen::Index(3 * shapes.vertices.size()));
+    for (std::size_t s = 0; s < shapes.samples.size(); ++s)
+        for (std::size_t v = 0; v < shapes.vertices.size(); ++v)
+            for (int axis = 0; axis < 3; ++axis)
+                offsets(Eigen::Index(s), Eigen::Index(3 * v) + axis) = shapes.offsets[s][v][axis];
+    return offsets;
+}
+
+double longestIn(const Eigen::VectorXd& mode) {
+    double longest = 0.0;
+    for (Eigen::Index v = 0; v + 2 < mode.size(); v += 3)
+        longest = std::max(longest, mode.segment<3>(v).norm());
+    return longest;
+}
+
+} // namespace
+
+FittedShapes fitShapes(const JointShapes& shapes, std::size_t modes, double tolerance) {
+    FittedShapes result;
+    result.functions = shapes.functions;
+    result.vertices = shapes.vertices;
+    result.tolerance = tolerance;
+    const Eigen::MatrixXd phi = functionsAt(shapes);
+    const Eigen::MatrixXd offsets = offsetsOf(shapes);
+    Eigen::MatrixXd normal = phi.transpose() * phi;
+    normal.diagonal().array() += kRidge;
+    const Eigen::MatrixXd fit = normal.ldlt().solve(phi.transpose() * offsets);
+
+    // The fitted shapes are a matrix of low rank; its right singular vectors are the modes.
+    const Eigen::MatrixXd fitted = phi * fit;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(fitted * fitted.transpose());
+    Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(fitted.rows(), fitted.cols());
+    std::vector<Eigen::VectorXd> vectors;
+    modes = std::min({modes, CorrectiveJoint::kMostModes, static_cast<std::size_t>(fitted.rows())});
+    for (std::size_t k = 0; k < modes; ++k) {
+        const Eigen::Index column = fitted.rows() - 1 - Eigen::Index(k); // largest last
+        const double singular = std::sqrt(std::max(0.0, left.eigenvalues()[column]));
+        if (!(singular > 0.0)) break;
+        const Eigen::VectorXd mode =
+            fitted.transpose() * left.eigenvectors().col(column) / singular;
+        const Eigen::VectorXd share = fitted * mode; // of each sample
+        const double longest = longestIn(mode);
+        if (share.cwiseAbs().maxCoeff() * longest <= tolerance) break;
+        kept += share * mode.transpose();
+        const Eigen::VectorXd coefficients = fit * mode * longest;
+        result.functions.coefficients.insert(result.functions.coefficients.end(),
+                                             coefficients.data(),
+                                             coefficients.data() + coefficients.size());
+        vectors.emplace_back(mode / longest);
+    }
+    result.functions.modes = vectors.size();
+    result.vectors.resize(vectors.size() * shapes.vertices.size());
+    for (std::size_t v = 0; v < shapes.vertices.size(); ++v)
+        for (std::size_t k = 0; k < vectors.size(); ++k)
+            for (int axis = 0; axis < 3; ++axis)
+                result.vectors[v * vectors.size() + k][axis] =
+                    vectors[k][Eigen::Index(3 * v) + axis];
+    if (offsets.size() > 0)
+        result.residual = (offsets - kept).norm() / std::sqrt(double(offsets.size()) / 3.0);
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shapes/ShapedJoint.h"
+
+#include "limbs/HermiteRatio.h"
+#include "shapes/BendRange.h"
+#include "shapes/JointRatios.h"
+#include "shapes/MainAxis.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+/// A limb's bones are at least this many radii long.
+constexpr double kLimbLength = 2.2;
+
+/// How far skin is shaped, in radii from the joint, and where it begins to be shaped less.
+constexpr double kReach = 6.0;
+constexpr double kFadeFrom = 0.75 * kReach;
+
+/// Of fewer vertices no shape can be made.
+constexpr std::size_t kLeastVertices = 16;
+
+/// The limb's radius where it bends: the median distance to the bone's line of the edges that the
+/// bend ratio 1/2 crosses; 0 where there is none.
+double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
+                const std::vector<double>& bend) {
+    std::vector<double> radii;
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        if (bend[v] < 0.5) continue;
+        for (std::uint32_t i = mesh.firstNeighbour[v]; i < mesh.firstNeighbour[v + 1]; ++i) {
+            const std::uint32_t next = mesh.neighbours[i];
+            if (bend[next] >= 0.5) continue;
+            const glm::dvec3 d = 0.5 * (mesh.positions[v] + mesh.positions[next]) - planned.centre;
+            radii.push_back(glm::length(d - planned.boneAxis * glm::dot(d, planned.boneAxis)));
+        }
+    }
+    if (radii.size() < 4) return 0.0;
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return *middle;
+}
+
+/// Adds the vertices and triangles within reach; `above` is the joint that moves the limb above.
+void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+             const JointRatios& ratios, std::uint32_t above, ShapedJoint& shaped) {
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
+    const auto add = [&](std::uint32_t v, bool withinReach) {
+        const glm::dvec3 from = mesh.positions[v] - shaped.centre;
+        const double r = glm::length(from) / shaped.radius;
+        const double limb = above == 0 ? 1.0 : ratios.bend(v, above);
+        // Where skin meets a rigid part, nothing may move them apart.
+        const double fade = (1.0 - hermiteRatio((r - kFadeFrom) / (kReach - kFadeFrom))) *
+                            (1.0 - ratios.rigid(v, joints));
+        if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
+        const Influence own = ratios.of(v, shaped.functions.joint);
+        placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
+        shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
+                                   static_cast<double>(own.twist), limb, withinReach ? fade : 0.0});
+    };
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) add(v, true);
+    const auto within = static_cast<std::uint32_t>(shaped.vertices.size());
+    for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
+        if (std::none_of(triangle.begin(), triangle.end(),
+                         [&](std::uint32_t v) { return placeOf[v] < within; }))
+            continue;
+        for (const std::uint32_t v : triangle)
+            if (placeOf[v] == kNone) add(v, false);
+        shaped.triangles.push_back(
+            {placeOf[triangle[0]], placeOf[triangle[1]], placeOf[triangle[2]]});
+    }
+}
+
+} // namespace
+
+BendTwist ShapedJoint::bendAt(glm::dvec2 xy) const {
+    const double sine = glm::length(xy);
+    const glm::dvec3 other = glm::cross(twistAxis, functions.axis);
+    BendTwist bend;
+    bend.bendAxis = sine > 0.0 ? (xy.x * functions.axis + xy.y * other) / sine : functions.axis;
+    bend.bendAngle = 2.0 * std::asin(std::min(sine, 1.0));
+    return bend;
+}
+
+std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
+                                          const std::vector<PlannedJoint>& joints,
+                                          const WeldedMesh& mesh, const Binding& binding) {
+    const JointRatios ratios(mesh, binding);
+    std::vector<ShapedJoint> result;
+    std::vector<double> bend(mesh.vertexCount());
+    for (std::uint32_t j = 1; j < joints.size(); ++j) {
+        const PlannedJoint& planned = joints[j];
+        if (planned.trunk || planned.extremity || planned.rigid >= 0 || !planned.holdsRegion)
+            continue;
+        const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
+        if (joints[above].trunk) continue;
+        for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
+        ShapedJoint shaped;
+        shaped.radius = radiusAt(planned, mesh, bend);
+        if (!(shaped.radius > 0.0) || planned.boneLength < kLimbLength * shaped.radius ||
+            planned.lengthAbove < kLimbLength * shaped.radius)
+            continue;
+        shaped.centre = planned.centre;
+        shaped.twistAxis = binding.joints[j].twistAxis;
+        shaped.above = planned.comingFrom;
+        shaped.bone = planned.boneAxis;
+        shaped.functions.joint = j;
+        setBendRange(findMainAxis(skeleton, joints, j), shaped);
+        addSkin(mesh, joints, ratios, above, shaped);
+        if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
+    }
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_SHAPEDJOINT_H
+#define OSGSKINBIND_SHAPEDJOINT_H
+
+#include "joints/JointPlan.h"
+#include "mesh/WeldedMesh.h"
+
+#include <osgSkin/BendTwist>
+#include <osgSkin/Binding>
+
+#include <array>
+#include <vector>
+
+namespace osgSkin {
+
+/// A joint between two limbs, or of a limb at the trunk, whose skin correctives can shape, with the
+/// skin around it. Rest space; vertices are welded ones.
+struct ShapedJoint {
+    /// Joint, basis, main axis, range and knots; not yet modes and coefficients.
+    CorrectiveJoint functions;
+    glm::dvec3 centre{0.0};
+    glm::dvec3 twistAxis{0.0}; ///< w
+    glm::dvec3 above{0.0};     ///< unit; direction in which the bone above arrives
+    glm::dvec3 bone{0.0};      ///< unit; from the centre to the child
+    double radius = 0.0;       ///< of the limb at the joint
+
+    /// A vertex within the joint's reach.
+    struct Vertex {
+        std::uint32_t index;
+        glm::dvec3 from; ///< the centre, at rest
+        double bend;     ///< ratios of this joint
+        double twist;
+        double limb; ///< how much the skin is of the limb above: bend ratio of the joint above; 1
+                     ///< where that is the root
+        double fade; ///< what of its target it takes: 1, and 0 towards the reach's end
+    };
+    std::vector<Vertex> vertices;
+
+    /// Those with a corner within reach; three indices in `vertices` each, which for that has
+    /// vertices beyond the reach, too, with `fade` 0.
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+
+    /// The bend at coordinates (x, y) of CorrectiveJoint.
+    BendTwist bendAt(glm::dvec2 xy) const;
+
+    /// What a bend does to a vertex at its own ratios, from the joint's centre to there.
+    glm::dquat turnOf(const Vertex& vertex, const BendTwist& bend) const {
+        return partialRotation(bend, twistAxis, vertex.bend, vertex.twist);
+    }
+};
+
+/// Finds the joints to shape: by the shape of their limbs, and where the way they bend is not
+/// plain from that, by names and the way feet point.
+/// \param binding of the mesh as given, whose vertices `mesh` has welded
+std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
+                                          const std::vector<PlannedJoint>& joints,
+                                          const WeldedMesh& mesh, const Binding& binding);
+
+} // namespace osgSkin
+
+#endif

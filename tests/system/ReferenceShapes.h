@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace test {
+
+/// The scalar functions of one joint's correctives, from what osgskinbake writes about them and
+/// from the formula: it shares no code with the product.
+class ReferenceShapes {
+public:
+    /// \param json one of the binding's "correctives"
+    explicit ReferenceShapes(const nlohmann::json& json);
+
+    const std::string& joint() const { return _joint; }
+
+    /// What each mode's vectors are to be scaled by, in a bend by `psi` about `v`; w is the twist
+    /// axis.
+    std::vector<double> weights(const glm::dvec3& v, double psi, const glm::dvec3& w) const;
+
+private:
+    std::vector<double> functions(double x, double y) const;
+
+    std::string _joint, _basis;
+    glm::dvec3 _axis;
+    glm::dvec2 _low, _high;
+    std::vector<double> _knots;
+    std::vector<std::vector<double>> _coefficients;
+};
+
+} // namespace test

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Limbs that bend without a balloon and without going through themselves.
+#include "KnownBody.h"
+#include "Shapes.h"
+
+#include <osgSkin/DeformJob>
+#include <osgSkinBind/Bind>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <string>
+
+using namespace osgSkin;
+
+namespace {
+
+Binding bound(const SkinMesh& mesh, const RestSkeleton& skeleton, BindOptions::Shapes shapes) {
+    BindOptions options;
+    options.shapes = shapes;
+    return bind(mesh, skeleton, options);
+}
+
+/// The skin with one joint, and all below it, turned about its centre.
+std::vector<glm::dvec3> turned(const SkinMesh& mesh, const RestSkeleton& skeleton,
+                               const Binding& binding, std::size_t joint, const glm::dvec3& axis,
+                               double degrees) {
+    std::vector<std::uint32_t> source(mesh.positions.size());
+    std::iota(source.begin(), source.end(), 0u);
+    const auto model = SkinModel::create(binding, {mesh.positions.begin(), mesh.positions.end()},
+                                         std::vector<glm::vec3>(source.size(), {0, 1, 0}), source);
+    const glm::dvec3& centre = binding.joints[joint].centre;
+    const glm::dmat4 unit(1.0);
+    const glm::dmat4 turn = glm::translate(unit, centre) *
+                            glm::rotate(unit, glm::radians(degrees), axis) *
+                            glm::translate(unit, -centre);
+    std::vector<glm::dmat4> skinning(binding.joints.size(), unit);
+    for (std::size_t j = 0; j < skinning.size(); ++j)
+        if (skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(joint))) skinning[j] = turn;
+    Pose pose(binding.joints);
+    EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
+    std::vector<glm::vec3> posed(mesh.positions.size());
+    DeformJob job;
+    job.model = model.get();
+    job.pose = &pose;
+    job.positions = posed.data();
+    job.positionCount = posed.size();
+    EXPECT_TRUE(job.run()) << job.validate();
+    return {posed.begin(), posed.end()};
+}
+
+/// What a cylinder along y of radius 1 that is bent at y = 4 does.
+struct Fold {
+    double outerLeast = 10.0, outerMost = 0.0; ///< distance to the bone, outer half
+    double past = 0.0;                         ///< how far skin lies past the bisector plane
+};
+
+Fold foldOf(const SkinMesh& mesh, const std::vector<glm::dvec3>& posed, const glm::dvec3& axis,
+            double degrees) {
+    const glm::dvec3 centre(0, 4, 0), a(0, 1, 0);
+    const glm::dvec3 b =
+        glm::dvec3(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), axis) * glm::dvec4(a, 0.0));
+    const glm::dvec3 n = glm::normalize(a + b), inwards = glm::normalize(b - a);
+    const glm::dvec3 inwardsAtRest = glm::cross(axis, a);
+    Fold fold;
+    for (std::size_t v = 0; v < posed.size(); ++v) {
+        const glm::dvec3 x = posed[v] - centre, rest = mesh.positions[v] - centre;
+        if (glm::length(glm::dvec2(rest.x, rest.z)) < 0.99 || std::abs(rest.y) > 3.0) continue;
+        const glm::dvec3 m = glm::dot(x, n) < 0.0 ? -a : b;
+        const double z = std::max(glm::dot(x, m), 0.0);
+        const double d = std::sqrt(std::max(glm::dot(x, x) - z * z, 0.0));
+        if (glm::dot(rest, inwardsAtRest) < -0.5) {
+            fold.outerLeast = std::min(fold.outerLeast, d);
+            fold.outerMost = std::max(fold.outerMost, d);
+        }
+        if (std::abs(rest.y) > 1e-9 && glm::dot(x, inwards) > 0.0)
+            fold.past = std::max(fold.past, rest.y > 0.0 ? -glm::dot(x, n) : glm::dot(x, n));
+    }
+    return fold;
+}
+
+std::set<std::string> correctedJoints(const Binding& binding) {
+    std::set<std::string> names;
+    for (const CorrectiveJoint& joint : binding.correctives.joints)
+        names.insert(binding.joints[joint.joint].name);
+    return names;
+}
+
+double bendOf(const Binding& binding, std::size_t vertex, std::size_t joint) {
+    for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
+         ++i)
+        if (binding.influences[i].joint == joint)
+            return static_cast<double>(binding.influences[i].bend);
+    return 0.0;
+}
+
+} // namespace
+
+TEST(FastShapes, AreMadeOnlyWhereTheyAreAskedFor) {
+    const SkinMesh mesh = shapes::cylinder(8.0, 16);
+    const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
+    EXPECT_TRUE(bind(mesh, skeleton).correctives.empty());
+    EXPECT_FALSE(bound(mesh, skeleton, BindOptions::Shapes::Fast).correctives.empty());
+}
+
+TEST(FastShapes, CylinderKeepsItsOuterSideAndDoesNotFoldThroughItself) {
+    const SkinMesh mesh = shapes::cylinder(8.0, 48);
+    const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
+    const Binding plain = bound(mesh, skeleton, BindOptions::Shapes::None);
+    const Binding shaped = bound(mesh, skeleton, BindOptions::Shapes::Fast);
+    for (const double azimuth : {0.0, 40.0, 100.0}) {
+        const glm::dvec3 axis(std::cos(glm::radians(azimuth)), 0.0,
+                              std::sin(glm::radians(azimuth)));
+        for (double degrees = 30.0; degrees <= 150.0; degrees += 30.0) {
+            SCOPED_TRACE(degrees);
+            const Fold fold =
+                foldOf(mesh, turned(mesh, skeleton, shaped, 1, axis, degrees), axis, degrees);
+            EXPECT_GE(fold.outerLeast, 0.97);
+            EXPECT_LE(fold.outerMost, 1.04);
+            EXPECT_LE(fold.past, 0.05);
+        }
+        const Fold without =
+            foldOf(mesh, turned(mesh, skeleton, plain, 1, axis, 150.0), axis, 150.0);
+        EXPECT_GE(without.outerMost, 1.2);
+        EXPECT_GE(without.past, 0.3);
+    }
+}
+
+TEST(FastShapes, FindElbowsAndKneesByName) {
+    const KnownBody body = KnownBody::thrower();
+    const Binding binding = bound(body.mesh, body.truth, BindOptions::Shapes::Fast);
+    const std::set<std::string> expected = {"LeftForeArm", "LeftLeg", "RightForeArm", "RightLeg"};
+    EXPECT_EQ(correctedJoints(binding), expected);
+    for (const CorrectiveJoint& joint : binding.correctives.joints)
+        EXPECT_EQ(joint.basis, CorrectiveJoint::Basis::Hinge);
+}
+
+TEST(FastShapes, FindLimbsOfARigThatNobodyKnows) {
+    KnownBody body = KnownBody::thrower();
+    const std::vector<int> limbs = {body.truth.find("LeftForeArm"), body.truth.find("RightLeg")};
+    for (std::size_t j = 0; j < body.truth.joints.size(); ++j)
+        body.truth.joints[j].name = "n" + std::to_string(j);
+    const std::set<std::string> found =
+        correctedJoints(bound(body.mesh, body.truth, BindOptions::Shapes::Fast));
+    for (const int limb : limbs) EXPECT_EQ(found.count("n" + std::to_string(limb)), 1u) << limb;
+}
+
+TEST(FastShapes, LeaveTheSeamsOfRigidPartsAlone) {
+    const KnownBody body = KnownBody::thrower();
+    const Binding binding = bound(body.mesh, body.truth, BindOptions::Shapes::Fast);
+    std::size_t rigid = 0;
+    for (const char* name : {"LeftHand", "RightHand", "LeftFoot", "RightFoot"}) {
+        const auto joint = static_cast<std::size_t>(body.truth.find(name));
+        for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+            if (bendOf(binding, v, joint) < 1.0) continue;
+            ++rigid;
+            EXPECT_EQ(binding.correctives.firstEntry[v], binding.correctives.firstEntry[v + 1]);
+        }
+    }
+    EXPECT_GE(rigid, 100u);
+}
+
+TEST(FastShapes, MoveCopiesOfAVertexAlike) {
+    const SkinMesh mesh = shapes::exploded(shapes::cylinder(8.0, 12));
+    const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
+    const Binding binding = bound(mesh, skeleton, BindOptions::Shapes::Fast);
+    const auto posed = turned(mesh, skeleton, binding, 1, {1, 0, 0}, 100.0);
+    for (std::size_t a = 0; a < posed.size(); ++a)
+        for (std::size_t b = a + 1; b < std::min(posed.size(), a + 60); ++b)
+            if (mesh.positions[a] == mesh.positions[b]) {
+                EXPECT_LE(glm::distance(posed[a], posed[b]), 1e-5);
+            }
+}

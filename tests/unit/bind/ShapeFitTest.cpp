@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shapes/ShapeFit.h"
+#include "shapes/PackShapes.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace osgSkin;
+
+namespace {
+
+constexpr double kTolerance = 1e-4;
+
+/// Ten vertices that bulge with the bend; what they do is no polynomial.
+glm::dvec3 offsetAt(std::size_t vertex, const glm::dvec2& xy) {
+    const double v = static_cast<double>(vertex);
+    return {0.3 * xy.x * xy.x * std::sin(v), 0.2 * std::sin(2.0 * xy.x) * std::cos(v),
+            0.1 * xy.y * (1.0 + xy.x)};
+}
+
+JointShapes shapesOfHinge() {
+    JointShapes shapes;
+    shapes.functions.joint = 1;
+    shapes.functions.basis = CorrectiveJoint::Basis::Hinge;
+    shapes.functions.axis = {1, 0, 0};
+    shapes.functions.low = {-0.2, -0.3};
+    shapes.functions.high = {0.9, 0.3};
+    shapes.functions.knots = {-0.2, 0.0, 0.2, 0.45, 0.7, 0.9};
+    for (std::uint32_t v = 0; v < 10; ++v) shapes.vertices.push_back(v);
+    for (double x = -0.2; x <= 0.91; x += 0.05)
+        for (const double y : {-0.2, 0.0, 0.2}) {
+            shapes.samples.emplace_back(x, y);
+            shapes.offsets.emplace_back();
+            for (std::size_t v = 0; v < 10; ++v)
+                shapes.offsets.back().push_back(offsetAt(v, {x, y}));
+        }
+    return shapes;
+}
+
+glm::dvec3 fittedAt(const FittedShapes& fit, std::size_t vertex, const glm::dvec2& xy) {
+    double beta[CorrectiveJoint::kMostModes];
+    fit.functions.weights(xy, beta);
+    glm::dvec3 sum(0.0);
+    for (std::size_t k = 0; k < fit.functions.modes; ++k)
+        sum += beta[k] * fit.vectors[vertex * fit.functions.modes + k];
+    return sum;
+}
+
+} // namespace
+
+TEST(ShapeFit, MeetsItsSamplesAndWhatLiesBetween) {
+    const FittedShapes fit = fitShapes(shapesOfHinge(), 6, kTolerance);
+    EXPECT_LE(fit.functions.modes, 6u);
+    EXPECT_LE(fit.residual, 0.004);
+    for (std::size_t v = 0; v < 10; ++v) {
+        EXPECT_EQ(glm::length(fittedAt(fit, v, {0.0, 0.0})), 0.0); // at rest nothing moves
+        for (const glm::dvec2& xy : {glm::dvec2(0.12, 0.1), {0.33, -0.1}, {0.58, 0.05}, {0.77, 0}})
+            EXPECT_LE(glm::distance(fittedAt(fit, v, xy), offsetAt(v, xy)), 0.01) << v;
+        for (std::size_t k = 0; k < fit.functions.modes; ++k)
+            EXPECT_LE(glm::length(fit.vectors[v * fit.functions.modes + k]), 1.0 + 1e-12);
+    }
+}
+
+TEST(ShapeFit, FewerModesAreWorseAndNoneAreNeededForNothing) {
+    JointShapes shapes = shapesOfHinge();
+    EXPECT_GT(fitShapes(shapes, 1, kTolerance).residual,
+              2.0 * fitShapes(shapes, 6, kTolerance).residual);
+    for (auto& sample : shapes.offsets)
+        for (glm::dvec3& offset : sample) offset = glm::dvec3(0.0);
+    EXPECT_EQ(fitShapes(shapes, 6, kTolerance).functions.modes, 0u);
+}
+
+TEST(ShapeFit, IsPackedForEveryCopyAndLeavesOutWhatHardlyMoves) {
+    JointShapes shapes = shapesOfHinge();
+    for (auto& sample : shapes.offsets) sample[4] = glm::dvec3(1e-6);
+    const FittedShapes fit = fitShapes(shapes, 6, kTolerance);
+    const std::vector<std::uint32_t> weldedOf = {0, 4, 7, 7, 12}; // 12 is not the joint's
+    const Correctives packed = packShapes({fit}, weldedOf);
+    const std::vector<std::uint32_t> firstEntry = {0, 1, 1, 2, 3, 3};
+    EXPECT_EQ(packed.firstEntry, firstEntry);
+    const std::size_t count = packed.sharesOf(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_EQ(packed.shares[count + i], packed.shares[2 * count + i]); // copies of 7
+        EXPECT_NEAR(packed.shares[count + i] / 32767.0,
+                    fit.vectors[7 * packed.joints[0].modes + i / 3][static_cast<int>(i % 3)], 2e-5);
+    }
+}
