@@ -65,7 +65,7 @@ glm::dvec3 expected(const osgSkin::Binding& binding, const osgSkin::Pose& pose,
         const osgSkin::BoundJoint& joint = binding.joints[influence.joint];
         const glm::dquat q =
             osgSkin::partialRotation(pose.transform(influence.joint).split, joint.twistAxis,
-                                 double(influence.bend), double(influence.twist));
+                                     double(influence.bend), double(influence.twist));
         x = joint.centre + q * (x - joint.centre);
     }
     return x;

@@ -122,7 +122,7 @@ BindOptions::Shapes readShapes(const JsonReader& reader) {
     const std::string name = reader.string();
     if (name == "none") return BindOptions::Shapes::None;
     if (name == "fast") return BindOptions::Shapes::Fast;
-    reader.complain("expected \"none\" or \"fast\", found \"" + name + "\"");
+    reader.failWith("expected \"none\" or \"fast\", found \"" + name + "\"");
 }
 
 void readBinding(const JsonReader& root, BindOptions& bind) {
