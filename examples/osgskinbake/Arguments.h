@@ -20,7 +20,7 @@ struct Arguments {
     std::string motion; ///< empty: the first one
     std::optional<FrameRange> frames;
     std::optional<double> rate; ///< samples a second of a rigged model's clips
-    std::string shapes;         ///< "none" or "fast"; empty: as the character has them
+    std::string shapes;         ///< "none", "fast" or "elastic"; empty: as the character has them
     std::string out;            ///< pattern of the frames' files; empty: no frames wanted
     std::string rest;           ///< file for the bind pose; empty: not wanted
     std::string binding;        ///< JSON files; empty: not wanted

@@ -4,6 +4,7 @@
 #include <elastic/ElasticSamples.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -13,10 +14,11 @@
 namespace quality {
 namespace {
 
-bool endsWith(const std::string& text, const std::string& end) {
-    return text.size() >= end.size() &&
-           text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
+using osgSkin::CorrectiveJoint;
+
+/// Angles at which a ball joint is looked at between the directions that are sampled, degrees.
+constexpr double kBetweenAngles[] = {45.0, 75.0};
+constexpr int kDirections = 8;
 
 /// Median distance from the bone's line to the edges across which the ratio passes one half.
 double radiusAt(const Subject& subject, const glm::dvec3& centre, const glm::dvec3& axis,
@@ -33,54 +35,90 @@ double radiusAt(const Subject& subject, const glm::dvec3& centre, const glm::dve
     return radii[radii.size() / 2];
 }
 
-} // namespace
+const CorrectiveJoint& correctivesOf(const Subject& shaped, std::size_t joint) {
+    for (const CorrectiveJoint& each : shaped.binding.correctives.joints)
+        if (each.joint == joint) return each;
+    throw std::runtime_error("joint " + shaped.rig.joints[joint].name + " has no shapes");
+}
 
-osgSkin::ElasticJoint elasticJointOf(const Subject& subject, const std::string& name) {
-    const int found = subject.joint(name);
-    if (found < 0) throw std::runtime_error("there is no joint " + name);
-    const auto index = static_cast<std::size_t>(found);
+double angleOf(double sineOfHalf) {
+    return 2.0 * std::asin(sineOfHalf);
+}
+
+/// Midway between a hinge's samples of the main direction.
+std::vector<glm::dquat> betweenHinges(const std::vector<glm::dquat>& samples,
+                                      const glm::dvec3& axis) {
+    std::vector<double> angles{0.0};
+    for (const glm::dquat& q : samples)
+        if (glm::length(glm::cross(glm::dvec3(q.x, q.y, q.z), axis)) < 1e-9)
+            angles.push_back(angleOf(glm::dot(glm::dvec3(q.x, q.y, q.z), axis)));
+    std::sort(angles.begin(), angles.end());
+    std::vector<glm::dquat> between;
+    for (std::size_t i = 1; i < angles.size(); ++i)
+        between.push_back(glm::angleAxis(0.5 * (angles[i - 1] + angles[i]), axis));
+    return between;
+}
+
+/// In directions between those of the samples.
+std::vector<glm::dquat> betweenBalls(const glm::dvec3& axis, const glm::dvec3& pole) {
+    std::vector<glm::dquat> between;
+    for (int i = 0; i < kDirections; ++i)
+        for (const double angle : kBetweenAngles)
+            between.push_back(glm::angleAxis(
+                glm::radians(angle),
+                glm::angleAxis(2.0 * glm::pi<double>() * (i + 0.5) / kDirections, pole) * axis));
+    return between;
+}
+
+void addBones(const Subject& subject, int joint, std::vector<osgSkin::ElasticBone>& bones) {
     const auto& joints = subject.rig.joints;
-    osgSkin::ElasticJoint joint;
-    joint.name = name;
-    joint.centre = joints[index].centre;
-    joint.ratios.assign(subject.rest.size(), 0.0);
-    for (std::size_t v = 0; v < subject.rest.size(); ++v)
-        for (std::size_t i = subject.binding.firstInfluence[v];
-             i < subject.binding.firstInfluence[v + 1]; ++i)
-            if (subject.binding.influences[i].joint == index)
-                joint.ratios[v] = double(subject.binding.influences[i].bend);
     for (std::size_t j = 0; j < joints.size(); ++j) {
         if (joints[j].tip)
-            joint.bones.push_back({joints[j].centre, *joints[j].tip,
-                                   subject.rig.isInSubtree(static_cast<int>(j), found)});
+            bones.push_back({joints[j].centre, *joints[j].tip,
+                             subject.rig.isInSubtree(static_cast<int>(j), joint)});
         if (joints[j].parent < 0) continue;
-        joint.bones.push_back({joints[static_cast<std::size_t>(joints[j].parent)].centre,
-                               joints[j].centre, subject.rig.isInSubtree(joints[j].parent, found)});
+        bones.push_back({joints[static_cast<std::size_t>(joints[j].parent)].centre,
+                         joints[j].centre, subject.rig.isInSubtree(joints[j].parent, joint)});
     }
-    const glm::dvec3 pole = subject.binding.joints[index].boneAxis;
-    joint.radius = radiusAt(subject, joint.centre, pole, joint.ratios);
+}
 
-    const bool elbow = endsWith(name, "ForeArm"),
-               knee = !elbow && endsWith(name, "Leg") && !endsWith(name, "UpLeg");
-    joint.hinge = elbow || knee;
+} // namespace
+
+ReferenceJoint referenceJointOf(const Subject& shaped, const std::string& name) {
+    const int found = shaped.joint(name);
+    if (found < 0) throw std::runtime_error("there is no joint " + name);
+    const auto index = static_cast<std::size_t>(found);
+    const CorrectiveJoint& functions = correctivesOf(shaped, index);
+    ReferenceJoint reference;
+    osgSkin::ElasticJoint& joint = reference.joint;
+    joint.name = name;
+    joint.centre = shaped.rig.joints[index].centre;
+    joint.ratios.assign(shaped.rest.size(), 0.0);
+    for (std::size_t v = 0; v < shaped.rest.size(); ++v)
+        for (std::size_t i = shaped.binding.firstInfluence[v];
+             i < shaped.binding.firstInfluence[v + 1]; ++i)
+            if (shaped.binding.influences[i].joint == index)
+                joint.ratios[v] = double(shaped.binding.influences[i].bend);
+    addBones(shaped, found, joint.bones);
+    const osgSkin::BoundJoint& bound = shaped.binding.joints[index];
+    joint.radius = radiusAt(shaped, joint.centre, bound.boneAxis, joint.ratios);
+    joint.hinge = functions.basis == CorrectiveJoint::Basis::Hinge;
+
+    std::vector<glm::dquat> between;
     if (joint.hinge) {
-        const glm::dvec3 above = glm::normalize(
-            joint.centre - joints[static_cast<std::size_t>(joints[index].parent)].centre);
         osgSkin::HingeRange range;
-        range.restFlexion = std::acos(std::clamp(glm::dot(above, pole), -1.0, 1.0));
-        // A straight knee does not say which way it bends: shins go backwards.
-        range.axis = glm::cross(above, pole);
-        if (knee && range.restFlexion < glm::radians(15.0)) {
-            range.axis = glm::cross(above, glm::dvec3(0, 0, -1));
-            range.restFlexion = 0.0;
-        }
-        range.axis = glm::normalize(range.axis);
-        range.mostFlexion = glm::radians(139.0);
-        joint.samples = osgSkin::hingeSamples(range, pole);
+        range.axis = functions.axis;
+        range.leastFlexion = angleOf(functions.low.x);
+        range.mostFlexion = angleOf(functions.high.x);
+        joint.samples = osgSkin::hingeSamples(range, bound.twistAxis);
+        between = betweenHinges(joint.samples, functions.axis);
     } else {
-        joint.samples = osgSkin::ballSamples(pole, glm::radians(90.0));
+        joint.samples = osgSkin::ballSamples(bound.twistAxis, angleOf(functions.high.x));
+        between = betweenBalls(glm::normalize(glm::axis(joint.samples.front())), bound.twistAxis);
     }
-    return joint;
+    reference.fitted = joint.samples.size();
+    joint.samples.insert(joint.samples.end(), between.begin(), between.end());
+    return reference;
 }
 
 } // namespace quality

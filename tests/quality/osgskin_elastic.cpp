@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solves real bodies' joints as elastic solids and says how other methods compare with them.
+// Solves real bodies' joints as elastic solids and says how near to them skins come.
 #include "ElasticFigures.h"
 
 #include <CLI/CLI.hpp>
@@ -20,13 +20,12 @@ SubjectFiles filesOf(const std::string& shape) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Elastic shapes of elbow, knee, shoulder and hip, and how far LBS, DQS and the "
-                 "plain skin are from them");
+    CLI::App app("Elastic shapes of elbow, knee, shoulder and hip, and how far LBS, DQS, the "
+                 "plain skin and the one with shapes are from them");
     std::vector<std::string> bodies{"neutral", "male"};
     ElasticRun run;
     app.add_option("--body", bodies, "of MakeHuman's: neutral, male");
     app.add_option("--joint", run.joints, "joints by their names in the CMU rig");
-    app.add_option("--samples", run.mostSamples, "how many samples of each joint, at most");
     app.add_option("--obj", run.folder, "a folder to write the posed skins to");
     CLI11_PARSE(app, argc, argv);
     try {

@@ -10,7 +10,7 @@
 namespace osgSkin {
 namespace {
 
-const double kLargestStep = glm::radians(22.5);
+const double kLargestStep = glm::radians(15.0);
 const double kSideways = glm::radians(20.0);
 
 /// At these shares of the flexion from the rest pose a hinge is also bent sideways.
@@ -36,6 +36,8 @@ std::vector<glm::dquat> hingeSamples(const HingeRange& range, const glm::dvec3& 
     for (const double share : kSidewaysAt)
         for (const double turn : {-kSideways, kSideways})
             samples.push_back(glm::angleAxis(share * flex, glm::angleAxis(turn, pole) * axis));
+    for (const double turn : {-kSideways, kSideways})
+        samples.push_back(glm::angleAxis(turn, glm::cross(pole, axis)));
     return samples;
 }
 

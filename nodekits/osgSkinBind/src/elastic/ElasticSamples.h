@@ -17,7 +17,7 @@ struct HingeRange {
     double mostFlexion = 0.0;
 };
 
-/// The rotations that a hinge is to be solved at: every 15 to 22.5 degrees from the rest pose to
+/// The rotations that a hinge is to be solved at: every 15 degrees or less from the rest pose to
 /// both ends of its range, the ends always (without the last angle the fold comes back), and a few
 /// beside the main direction, for what an elbow or knee is turned sideways.
 /// \param pole unit; the bone from the joint to its child: axes beside the main one are

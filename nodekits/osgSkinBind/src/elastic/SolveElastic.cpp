@@ -8,24 +8,22 @@
 namespace osgSkin {
 
 ElasticShapes solveElasticJoint(const ElasticSkin& skin, const ElasticJoint& joint,
-                                const ElasticProgress& progress) {
+                                const Progress& progress) {
     return solveElasticJoints(skin, {joint}, progress).front();
 }
 
 std::vector<ElasticShapes> solveElasticJoints(const ElasticSkin& skin,
                                               const std::vector<ElasticJoint>& joints,
-                                              const ElasticProgress& progress) {
+                                              const Progress& progress) {
     std::size_t whole = 0;
     for (const ElasticJoint& joint : joints) whole += joint.samples.size();
-    elastic::SharedProgress shared(progress, whole);
+    elastic::SharedProgress shared(whole);
     std::vector<ElasticShapes> shapes(joints.size());
-    try {
+    shared.tellWhile(progress, [&] {
         elastic::eachAtOnce(joints.size(), [&](std::size_t i) {
             shapes[i] = elastic::JointSolving(skin, joints[i], shared).run();
         });
-    } catch (const elastic::GivenUp&) {
-        shared.rethrow();
-    }
+    });
     return shapes;
 }
 

@@ -11,11 +11,11 @@
 namespace osgSkin {
 namespace {
 
-/// Angles in degrees. How far a limb folds, counted from straight, and how far a hinge goes beyond
-/// straight and to the sides.
-constexpr double kMostFlexion = 155.0;
+/// Angles in degrees. How far a hinge goes beyond straight and to the sides.
 constexpr double kBeyondStraight = 12.0;
 constexpr double kSideways = 30.0;
+/// How far a limb turns from its rest pose at the trunk.
+constexpr double kMostAtTrunk = 90.0;
 /// Between knots and between samples.
 constexpr double kKnotStep = 30.0;
 constexpr double kRoundKnotStep = 20.0;
@@ -39,16 +39,10 @@ std::vector<double> steps(double from, double to, double step) {
     return result;
 }
 
-/// Any unit vector perpendicular to w, always the same one.
-glm::dvec3 anyPerpendicular(const glm::dvec3& w) {
-    const glm::dvec3 helper = std::abs(w.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    return glm::normalize(glm::cross(helper, w));
-}
-
-void setHinge(const glm::dvec3& axis, ShapedJoint& joint) {
+void setHinge(const glm::dvec3& axis, double mostFlexion, ShapedJoint& joint) {
     const double atRest = glm::degrees(std::atan2(
         glm::dot(glm::cross(joint.above, joint.bone), axis), glm::dot(joint.above, joint.bone)));
-    const double most = std::clamp(kMostFlexion - atRest, 30.0, 170.0);
+    const double most = std::clamp(mostFlexion - atRest, 30.0, 170.0);
     const double least = -std::clamp(kBeyondStraight + atRest, 15.0, 90.0);
     CorrectiveJoint& functions = joint.functions;
     functions.basis = CorrectiveJoint::Basis::Hinge;
@@ -59,24 +53,33 @@ void setHinge(const glm::dvec3& axis, ShapedJoint& joint) {
         functions.knots.push_back(sineOfHalf(angle));
 }
 
-void setRound(ShapedJoint& joint) {
+void setRound(double mostFlexion, ShapedJoint& joint) {
     CorrectiveJoint& functions = joint.functions;
-    const double most = sineOfHalf(kMostFlexion);
+    const double most = sineOfHalf(mostFlexion);
     functions.basis = CorrectiveJoint::Basis::Round;
     functions.axis = anyPerpendicular(joint.twistAxis);
     functions.low = glm::dvec2(-most);
     functions.high = glm::dvec2(most);
-    for (const double angle : steps(0.0, kMostFlexion, kRoundKnotStep))
+    for (const double angle : steps(0.0, mostFlexion, kRoundKnotStep))
         functions.knots.push_back(sineOfHalf(angle) * sineOfHalf(angle));
 }
 
 } // namespace
 
-void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint) {
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, double mostFlexion,
+                  ShapedJoint& joint) {
     if (mainAxis)
-        setHinge(*mainAxis, joint);
+        setHinge(*mainAxis, mostFlexion, joint);
     else
-        setRound(joint);
+        setRound(mostFlexion, joint);
+}
+
+void setBallRange(ShapedJoint& joint) {
+    const double most = sineOfHalf(kMostAtTrunk);
+    joint.functions.basis = CorrectiveJoint::Basis::Ball;
+    joint.functions.axis = anyPerpendicular(joint.twistAxis);
+    joint.functions.low = glm::dvec2(-most);
+    joint.functions.high = glm::dvec2(most);
 }
 
 std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint) {

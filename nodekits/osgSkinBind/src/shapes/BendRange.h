@@ -9,10 +9,14 @@
 
 namespace osgSkin {
 
-/// Sets basis, axis, range and knots of a joint's functions.
+/// Sets basis, axis, range and knots of the functions of a joint between two limbs.
 /// \param mainAxis of findMainAxis(); nothing: it may bend in any direction
-/// \pre above, bone and twistAxis are set
-void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint);
+/// \param mostFlexion degrees from the straight limb \param joint above, bone and twistAxis are set
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, double mostFlexion,
+                  ShapedJoint& joint);
+
+/// The same of a limb's joint at the trunk, which bends in all directions.
+void setBallRange(ShapedJoint& joint);
 
 /// The bends, as coordinates (x, y) of the joint's functions, whose shapes those are fitted to: all
 /// over the range and to its end, the rest pose left out.

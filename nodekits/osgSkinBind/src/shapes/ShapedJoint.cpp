@@ -17,9 +17,8 @@ namespace {
 /// A limb's bones are at least this many radii long.
 constexpr double kLimbLength = 2.2;
 
-/// How far skin is shaped, in radii from the joint, and where it begins to be shaped less.
-constexpr double kReach = 6.0;
-constexpr double kFadeFrom = 0.75 * kReach;
+/// Where skin begins to be shaped less, of the reach.
+constexpr double kFadeFrom = 0.75;
 
 /// Of fewer vertices no shape can be made.
 constexpr std::size_t kLeastVertices = 16;
@@ -46,15 +45,15 @@ double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
 
 /// Adds the vertices and triangles within reach; `above` is the joint that moves the limb above.
 void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
-             const JointRatios& ratios, std::uint32_t above, ShapedJoint& shaped) {
+             const JointRatios& ratios, std::uint32_t above, double reach, ShapedJoint& shaped) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
     const auto add = [&](std::uint32_t v, bool withinReach) {
         const glm::dvec3 from = mesh.positions[v] - shaped.centre;
         const double r = glm::length(from) / shaped.radius;
-        const double limb = above == 0 ? 1.0 : ratios.bend(v, above);
+        const double limb = joints[above].trunk || above == 0 ? 1.0 : ratios.bend(v, above);
         // Where skin meets a rigid part, nothing may move them apart.
-        const double fade = (1.0 - hermiteRatio((r - kFadeFrom) / (kReach - kFadeFrom))) *
+        const double fade = (1.0 - hermiteRatio((r / reach - kFadeFrom) / (1.0 - kFadeFrom))) *
                             (1.0 - ratios.rigid(v, joints));
         if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
         const Influence own = ratios.of(v, shaped.functions.joint);
@@ -88,7 +87,8 @@ BendTwist ShapedJoint::bendAt(glm::dvec2 xy) const {
 
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
-                                          const WeldedMesh& mesh, const Binding& binding) {
+                                          const WeldedMesh& mesh, const Binding& binding,
+                                          const ShapeScope& scope) {
     const JointRatios ratios(mesh, binding);
     std::vector<ShapedJoint> result;
     std::vector<double> bend(mesh.vertexCount());
@@ -97,20 +97,24 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         if (planned.trunk || planned.extremity || planned.rigid >= 0 || !planned.holdsRegion)
             continue;
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
-        if (joints[above].trunk) continue;
+        const bool atTrunk = joints[above].trunk;
+        if (atTrunk && !(scope.reachAtTrunk > 0.0)) continue;
         for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
         ShapedJoint shaped;
         shaped.radius = radiusAt(planned, mesh, bend);
         if (!(shaped.radius > 0.0) || planned.boneLength < kLimbLength * shaped.radius ||
-            planned.lengthAbove < kLimbLength * shaped.radius)
+            (!atTrunk && planned.lengthAbove < kLimbLength * shaped.radius))
             continue;
         shaped.centre = planned.centre;
         shaped.twistAxis = binding.joints[j].twistAxis;
         shaped.above = planned.comingFrom;
         shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
-        setBendRange(findMainAxis(skeleton, joints, j), shaped);
-        addSkin(mesh, joints, ratios, above, shaped);
+        if (atTrunk)
+            setBallRange(shaped);
+        else
+            setBendRange(findMainAxis(skeleton, joints, j), scope.mostFlexion, shaped);
+        addSkin(mesh, joints, ratios, above, atTrunk ? scope.reachAtTrunk : scope.reach, shaped);
         if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
     }
     return result;

@@ -49,12 +49,22 @@ struct ShapedJoint {
     }
 };
 
+/// How far joints are shaped. In radii of the limb.
+struct ShapeScope {
+    double reach = 6.0; ///< from the joint
+    /// The same of limbs' joints at the trunk: shoulders and hips. 0: they are left out.
+    double reachAtTrunk = 0.0;
+    double mostFlexion = 155.0; ///< degrees from the straight limb
+};
+
 /// Finds the joints to shape: by the shape of their limbs, and where the way they bend is not
 /// plain from that, by names and the way feet point.
 /// \param binding of the mesh as given, whose vertices `mesh` has welded
+/// \param scope which and how far
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
-                                          const WeldedMesh& mesh, const Binding& binding);
+                                          const WeldedMesh& mesh, const Binding& binding,
+                                          const ShapeScope& scope = {});
 
 } // namespace osgSkin
 

@@ -2,7 +2,6 @@
 #include "elastic/energy/BoneCores.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace osgSkin::elastic {
@@ -25,8 +24,8 @@ BoneCores::BoneCores(const VoxelLattice& lattice, const RestSkin& skin,
         const VoxelLattice::Cell& cell = lattice.cells()[i];
         for (std::uint32_t g = 0; g < CellShape::kPoints; ++g) {
             const Point at = lattice.gaussPoint(cell, g);
-            if (hinge && (at - hinge->centre).norm() < hinge->radius) {
-                _held.push_back({i, g, at, stiffness, 0.5});
+            if (hinge && hinge->contains(at)) {
+                _held.push_back({i, g, at, stiffness, hinge->shareAt(at)});
                 continue;
             }
             if (at.norm() < sizes.endsBefore) continue;
@@ -44,16 +43,21 @@ BoneCores::BoneCores(const VoxelLattice& lattice, const RestSkin& skin,
     }
 }
 
-double BoneCores::value(const Points& nodes, const Eigen::Quaterniond& turn,
-                        Points& gradient) const {
+Points BoneCores::goals(const Eigen::Quaterniond& turn) const {
     const Eigen::Quaterniond unit = Eigen::Quaterniond::Identity();
-    const std::array<Eigen::Matrix3d, 3> turns{
-        unit.toRotationMatrix(), unit.slerp(0.5, turn).toRotationMatrix(), turn.toRotationMatrix()};
+    Points goals(3, static_cast<Eigen::Index>(_held.size()));
+    for (std::size_t i = 0; i < _held.size(); ++i)
+        goals.col(static_cast<Eigen::Index>(i)) = unit.slerp(_held[i].share, turn) * _held[i].rest;
+    return goals;
+}
+
+double BoneCores::value(const Points& nodes, const Points& goals, Points& gradient) const {
     double energy = 0.0;
-    for (const Held& held : _held) {
+    for (std::size_t i = 0; i < _held.size(); ++i) {
+        const Held& held = _held[i];
         const VoxelLattice::Cell& cell = _lattice.cells()[held.cell];
         const auto& shares = _lattice.shape().value;
-        Point off = -(turns[static_cast<std::size_t>(2.0 * held.share)] * held.rest);
+        Point off = -goals.col(static_cast<Eigen::Index>(i));
         for (std::size_t c = 0; c < 8; ++c) off += shares[c][held.point] * nodes.col(cell.nodes[c]);
         energy += 0.5 * held.stiffness * off.squaredNorm();
         for (std::size_t c = 0; c < 8; ++c)

@@ -29,7 +29,7 @@ public:
         std::uint32_t cell = 0, point = 0;
         Point rest;
         double stiffness = 0.0; ///< times volume
-        double share = 0.0;     ///< of the joint's turn: 0, 1/2 or 1
+        double share = 0.0;     ///< of the joint's turn, 0 to 1
     };
 
     /// \param hinge null for other joints
@@ -38,8 +38,11 @@ public:
 
     const std::vector<Held>& held() const { return _held; }
 
-    /// Energy of the nodes' positions where the joint has turned by `turn`; its gradient is added.
-    double value(const Points& nodes, const Eigen::Quaterniond& turn, Points& gradient) const;
+    /// Where the bones take what they hold, once the joint has turned by `turn`.
+    Points goals(const Eigen::Quaterniond& turn) const;
+
+    /// Energy of the nodes' positions; its gradient is added.
+    double value(const Points& nodes, const Points& goals, Points& gradient) const;
 
 private:
     const VoxelLattice& _lattice;

@@ -6,20 +6,31 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <vector>
 
 namespace osgSkin::elastic {
 
-/// The ball within a hinge: condyles with the knee cap, or the elbow's point. It turns by half the
-/// angle, and lies close to the skin of the outer side, which would cave in without it.
+/// The ball within a hinge: condyles with the knee cap, or the elbow's point. It lies close to the
+/// skin of the outer side, which would cave in without it, and fans out from one bone to the other.
 struct HingeCore {
     Point centre = Point::Zero();
     double radius = 0.0;
+    Point along = Point::Zero(); ///< the limb, unit; zero where that is not known
+    double halfWidth = 0.0;      ///< of what turns with neither bone alone, along the limb
+
+    bool contains(const Point& point) const { return (point - centre).norm() < radius; }
+
+    /// How much of the joint's turn a point of the ball takes.
+    double shareAt(const Point& point) const {
+        return std::clamp(0.5 + 0.5 * point.dot(along) / halfWidth, 0.0, 1.0);
+    }
 };
 
 struct HingeSizes {
-    double radius = 0.5; ///< of the ball
-    double below = 0.15; ///< the skin of the outer side
+    double radius = 0.65;   ///< of the ball
+    double below = 0.1;     ///< the skin of the outer side
+    double halfWidth = 0.8; ///< see HingeCore: less caves in beside the ball, more swells there
 };
 
 /// \param rotations of the joint, unit: what they have in common says which side is the outer one

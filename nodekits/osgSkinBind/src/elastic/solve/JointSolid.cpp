@@ -59,12 +59,13 @@ JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& 
             state.tangled = true;
             return state;
         }
+        const Points goals = _cores.goals(next);
         Energy energy;
         energy.value = [&](const Points& at, Points& gradient) {
             gradient.setZero();
             double value = _body.value(at, gradient);
             if (!std::isfinite(value)) return value;
-            value += _cores.value(at, next, gradient) + contact.value(at, gradient);
+            value += _cores.value(at, goals, gradient) + contact.value(at, gradient);
             gradient.rightCols(at.cols() - _lattice.freeNodes()).setZero();
             return value;
         };

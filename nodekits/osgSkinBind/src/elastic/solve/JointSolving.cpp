@@ -15,9 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// In units of the limb's radius. Where a hinge is bent most, flesh meets flesh beyond four.
-constexpr double kHingeReach = 5.0, kBallReach = 4.0;
-
 /// A shape penetrates where more pairs of triangles cut each other than this, and more than this
 /// share of what the plain skin has. The end of a joint's range is worth having with a few pairs:
 /// without it a fit brings back more.
@@ -80,7 +77,7 @@ void JointSolving::prepare(ElasticShapes& shapes) {
     for (const ElasticBone& bone : _joint.bones)
         bones.push_back({toJoint(bone.from), toJoint(bone.to), bone.moves});
     SolidOptions options;
-    options.reach = _joint.hinge ? kHingeReach : kBallReach;
+    options.reach = _joint.hinge ? ElasticJoint::kHingeReach : ElasticJoint::kBallReach;
     std::optional<HingeCore> hinge;
     if (_joint.hinge) hinge = hingeCore(skin, bones, _rotations, options.hinge);
     _solid = std::make_unique<const JointSolid>(std::move(skin), _skin.triangles, _joint.ratios,

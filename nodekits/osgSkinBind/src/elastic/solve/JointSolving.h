@@ -2,7 +2,9 @@
 #ifndef OSGSKINBIND_ELASTIC_JOINTSOLVING_H
 #define OSGSKINBIND_ELASTIC_JOINTSOLVING_H
 
-#include "elastic/SolveElastic.h"
+#include "elastic/joint/ElasticJoint.h"
+#include "elastic/joint/ElasticShapes.h"
+#include "elastic/joint/ElasticSkin.h"
 #include "elastic/solve/JointSolid.h"
 #include "elastic/solve/SampleTree.h"
 #include "elastic/solve/SharedProgress.h"

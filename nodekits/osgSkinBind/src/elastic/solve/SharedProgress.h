@@ -2,41 +2,47 @@
 #ifndef OSGSKINBIND_ELASTIC_SHAREDPROGRESS_H
 #define OSGSKINBIND_ELASTIC_SHAREDPROGRESS_H
 
-#include "elastic/SolveElastic.h"
+#include <osgSkinBind/Progress>
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
-#include <exception>
+#include <functional>
 #include <mutex>
+#include <string>
 
 namespace osgSkin::elastic {
 
-/// Thrown on the threads that go on working after another one was told to give up.
+/// Thrown on the threads that work after the one that waits for them was told to give up.
 struct GivenUp {};
 
-/// Counts what several threads do and tells one callback of it.
+/// Counts what several threads do, and lets the thread that waits for them tell of it: a Progress
+/// is called from no other.
 class SharedProgress {
 public:
-    SharedProgress(const ElasticProgress& tell, std::size_t whole) : _tell(tell), _whole(whole) {}
+    explicit SharedProgress(std::size_t whole) : _whole(whole) {}
 
-    /// One more of the whole is done. \throw what the callback throws, or GivenUp where it threw on
-    /// another thread
+    /// Runs `work`, which may use any number of threads, and tells how far it has come.
+    /// \throw what `tell` throws, once the work has given up, and what `work` throws
+    void tellWhile(const Progress& tell, const std::function<void()>& work);
+
+    /// By those who work: one more of the whole is done. \throw GivenUp
     void done(const std::string& what);
 
-    /// As done(), but nothing is finished: only asks whether to go on.
+    /// By those who work, now and then. \throw GivenUp
     void check() const {
         if (_givenUp) throw GivenUp();
     }
 
-    /// Throws again what the callback threw: GivenUp may come home before it. \pre it did throw
-    [[noreturn]] void rethrow() const { std::rethrow_exception(_thrown); }
-
 private:
-    const ElasticProgress& _tell;
+    void tellUntilOver(const Progress& tell);
+
     const std::size_t _whole;
     std::size_t _done = 0;
+    std::string _what; ///< that was done last
+    bool _over = false;
     std::mutex _mutex;
-    std::exception_ptr _thrown;
+    std::condition_variable _news;
     std::atomic<bool> _givenUp{false};
 };
 

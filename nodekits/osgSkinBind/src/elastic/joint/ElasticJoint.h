@@ -18,6 +18,10 @@ struct ElasticBone {
 
 /// A joint whose surroundings are to be solved as an elastic solid.
 struct ElasticJoint {
+    /// How far the solid reaches, in radii. Where a hinge is bent most, flesh meets flesh beyond
+    /// four.
+    static constexpr double kHingeReach = 5.0, kBallReach = 4.0;
+
     std::string name;
     glm::dvec3 centre{0.0}; ///< rest space
     double radius = 0.0;    ///< r, of the limb at the joint; above 0
