@@ -5,6 +5,10 @@
 function(osgskin_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+  if(OSGSKIN_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # GCC takes an unnamed namespace below the unity source for one in a header.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
   if(OSGSKIN_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -20,7 +24,14 @@ function(osgskin_settings target)
     CXX_EXTENSIONS OFF
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
-    POSITION_INDEPENDENT_CODE ON)
+    POSITION_INDEPENDENT_CODE ON
+    UNITY_BUILD ${OSGSKIN_UNITY} UNITY_BUILD_BATCH_SIZE 10)
+endfunction()
+
+# osgskin_alone(SOURCE...): these are never compiled together with others (OSGSKIN_UNITY): they
+# share a name of their own with one of them, or define macros that others must not see.
+function(osgskin_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # osgskin_nodekit(NAME HEADERS... ): a shared library nodekits/NAME with include/NAME headers.

@@ -25,6 +25,16 @@ FLAGS = ["-Wno-unknown-warning-option", "-Wno-unused-parameter", "-Wdocumentatio
 TESTS = {"TEST", "TEST_F", "TEST_P", "INSTANTIATE_TEST_SUITE_P", "REGISTER_OBJECT_WRAPPER"}
 
 
+def one_by_one(entries):
+    """The build's commands with those that compile several sources (OSGSKIN_UNITY) taken apart."""
+    for entry in entries:
+        path = pathlib.Path(entry["file"])
+        together = path.parent.name == "Unity"
+        files = re.findall(r'#include "(.+)"', path.read_text()) if together else [entry["file"]]
+        for file in files:
+            yield {"file": file, "command": entry["command"].replace(entry["file"], file)}
+
+
 def flags_of(entry):
     """What a source is compiled with, without its own name and the optimisation."""
     words, flags = shlex.split(entry["command"]), []
@@ -110,7 +120,7 @@ def main():
     if sys.argv[2:]:
         wanted &= {str(pathlib.Path(f).resolve()) for f in sys.argv[2:]}
     commands = json.loads((build / "compile_commands.json").read_text())
-    entries = {e["file"]: e for e in reversed(commands) if e["file"] in wanted}
+    entries = {e["file"]: e for e in reversed(list(one_by_one(commands))) if e["file"] in wanted}
     missing = wanted - set(entries)
     if missing:
         print("not in the build, so not looked at: " + " ".join(sorted(missing)), file=sys.stderr)

@@ -43,7 +43,7 @@ osgskin_build() {
   local preset=$1
   shift
   echo "Building (preset $preset)"
-  cmake --preset "$preset" "$@" >"$osgskin_root/build-$preset.log" 2>&1 &&
+  cmake --preset "$preset" -DOSGSKIN_UNITY=ON "$@" >"$osgskin_root/build-$preset.log" 2>&1 &&
     cmake --build --preset "$preset" >>"$osgskin_root/build-$preset.log" 2>&1 || {
     tail -n 60 "$osgskin_root/build-$preset.log" >&2
     echo "The build failed; all of it is in $osgskin_root/build-$preset.log" >&2

@@ -50,7 +50,7 @@ std::vector<glm::dvec3> turned(const SkinMesh& mesh, const RestSkeleton& skeleto
     job.pose = &pose;
     job.positions = posed.data();
     job.positionCount = posed.size();
-    EXPECT_TRUE(job.run()) << job.validate();
+    EXPECT_TRUE(job.run());
     return {posed.begin(), posed.end()};
 }
 
@@ -121,7 +121,7 @@ TEST(FastShapes, CylinderKeepsItsOuterSideAndDoesNotFoldThroughItself) {
             const Fold fold =
                 foldOf(mesh, turned(mesh, skeleton, shaped, 1, axis, degrees), axis, degrees);
             EXPECT_GE(fold.outerLeast, 0.97);
-            EXPECT_LE(fold.outerMost, 1.04);
+            EXPECT_LE(fold.outerMost, 1.02);
             EXPECT_LE(fold.past, 0.05);
         }
         const Fold without =

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace osgSkin;
@@ -61,6 +62,24 @@ TEST(ShapeFit, MeetsItsSamplesAndWhatLiesBetween) {
         for (std::size_t k = 0; k < fit.functions.modes; ++k)
             EXPECT_LE(glm::length(fit.vectors[v * fit.functions.modes + k]), 1.0 + 1e-12);
     }
+}
+
+TEST(ShapeFit, MeetsWhatCountsMoreBetter) {
+    JointShapes shapes = shapesOfHinge();
+    for (std::size_t s = 0; s < shapes.samples.size(); ++s) // a jump, which no smooth sum meets
+        for (glm::dvec3& offset : shapes.offsets[s])
+            if (shapes.samples[s].x > 0.62) offset.z += 1.0;
+    const auto worst = [](const FittedShapes& fit) {
+        double most = 0.0;
+        for (double x = 0.0; x < 0.6; x += 0.05)
+            most = std::max(most, glm::distance(fittedAt(fit, 3, {x, 0.0}), offsetAt(3, {x, 0.0})));
+        return most;
+    };
+    const double alike = worst(fitShapes(shapes, 6, kTolerance));
+    for (const glm::dvec2& sample : shapes.samples)
+        shapes.weights.emplace_back(10, sample.x > 0.62 ? 1e-3 : 1.0);
+    EXPECT_GT(alike, 0.1);
+    EXPECT_LT(worst(fitShapes(shapes, 6, kTolerance)), 0.3 * alike);
 }
 
 TEST(ShapeFit, FewerModesAreWorseAndNoneAreNeededForNothing) {

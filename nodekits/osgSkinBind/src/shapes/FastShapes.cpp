@@ -7,6 +7,7 @@
 #include "shapes/PackShapes.h"
 #include "shapes/ShapedJoint.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
@@ -30,8 +31,12 @@ constexpr double kMostSwelling = 0.03;
 
 /// How far from the joint it does so, in radii: fully, and at all. Further up a thigh there is
 /// another one beside it.
-constexpr double kSwellFull = 2.0;
-constexpr double kSwellEnd = 4.0;
+constexpr double kSwellsFully = 2.0;
+constexpr double kSwellsNoMore = 4.0;
+
+/// What the skin inside a fold counts against the outer one, which everybody sees, where there are
+/// too many shapes to meet all.
+constexpr double kHidden = 0.1;
 
 using Points = std::vector<glm::dvec3>;
 
@@ -73,13 +78,21 @@ public:
             const ShapedJoint::Vertex& vertex = _joint.vertices[i];
             glm::dvec3 target = clampBulge(_fold, vertex.from, _posed[i]);
             const double r = glm::length(vertex.from) / _joint.radius;
-            target =
-                swell(_fold, target,
-                      swelling * (1.0 - hermiteRatio((r - kSwellFull) / (kSwellEnd - kSwellFull))));
+            target = swell(_fold, target,
+                           swelling * (1.0 - hermiteRatio((r - kSwellsFully) /
+                                                          (kSwellsNoMore - kSwellsFully))));
             target = pressFold(_fold, vertex.from, target);
             targets.push_back(_posed[i] + vertex.limb * vertex.fade * (target - _posed[i]));
         }
         return targets;
+    }
+
+    /// See kHidden.
+    std::vector<double> weights() const {
+        std::vector<double> weights;
+        for (const glm::dvec3& x : _posed)
+            weights.push_back(glm::mix(1.0, kHidden, hermiteRatio(0.5 + depthIn(_fold, x))));
+        return weights;
     }
 
 private:
@@ -114,7 +127,10 @@ JointShapes shapesOf(const ShapedJoint& joint) {
     shapes.samples = bendSamples(joint);
     for (const glm::dvec2& sample : shapes.samples) {
         const BendTwist bend = joint.bendAt(sample);
-        const Points targets = targetsOf(joint, BentSkin(joint, bend), volumeAtRest);
+        const BentSkin skin(joint, bend);
+        if (joint.functions.basis == CorrectiveJoint::Basis::Round)
+            shapes.weights.push_back(skin.weights());
+        const Points targets = targetsOf(joint, skin, volumeAtRest);
         Points& offsets = shapes.offsets.emplace_back();
         for (std::size_t i = 0; i < targets.size(); ++i) {
             const ShapedJoint::Vertex& vertex = joint.vertices[i];

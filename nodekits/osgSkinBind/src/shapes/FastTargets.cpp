@@ -13,11 +13,11 @@ namespace osgSkin {
 namespace {
 
 /// What is left of a bulge, in radii.
-constexpr double kBulgeLeft = 0.01;
+constexpr double kBulgeLeft = 0.005;
 
-/// How deep inside the fold skin swells, in radii from the joint: outside it does not.
-constexpr double kSwellFrom = -0.6;
-constexpr double kSwellFull = 0.2;
+/// How deep inside the fold skin swells, in radii from the bone: outside it does not.
+constexpr double kSwellFrom = -0.5;
+constexpr double kSwellFull = 0.3;
 
 /// Gap between the skins on both sides of a fold, far from the joint, and how softly they meet; in
 /// radii.
@@ -44,6 +44,12 @@ double since(const FoldShape& fold, double from, double full) {
     return hermiteRatio((fold.angle - std::max(from, fold.angleAtRest)) / (full - from));
 }
 
+/// Away from the joint along the bone that a vertex lies beside: the two meet in the bisector
+/// plane.
+glm::dvec3 boneOf(const FoldShape& fold, const glm::dvec3& posed) {
+    return glm::dot(fold.above + fold.bone, posed) < 0.0 ? -fold.above : fold.bone;
+}
+
 } // namespace
 
 glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
@@ -60,13 +66,19 @@ glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::
     return (1.0 - k) * posed + k * z * m;
 }
 
-glm::dvec3 swell(const FoldShape& fold, const glm::dvec3& posed, double share) {
+double depthIn(const FoldShape& fold, const glm::dvec3& posed) {
     const glm::dvec3 inwards = fold.bone - fold.above;
-    const double length = glm::length(inwards);
-    if (length < 1e-6) return posed;
-    const glm::dvec3 m = glm::dot(fold.above + fold.bone, posed) < 0.0 ? -fold.above : fold.bone;
+    const glm::dvec3 m = boneOf(fold, posed);
+    // Across the bone: along it, its outer side, too, comes to lie inwards of the joint.
+    const glm::dvec3 across = inwards - glm::dot(m, inwards) * m;
+    const double length = glm::length(across);
+    return length < 1e-6 ? 0.0 : glm::dot(across, posed) / (length * fold.radius);
+}
+
+glm::dvec3 swell(const FoldShape& fold, const glm::dvec3& posed, double share) {
+    const glm::dvec3 m = boneOf(fold, posed);
     const glm::dvec3 radial = posed - std::max(glm::dot(m, posed), 0.0) * m;
-    const double depth = glm::dot(inwards / length, posed) / fold.radius;
+    const double depth = depthIn(fold, posed);
     return posed + share * hermiteRatio((depth - kSwellFrom) / (kSwellFull - kSwellFrom)) * radial;
 }
 

@@ -21,6 +21,9 @@ struct FoldShape {
 /// leaves one that has come nearer.
 glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed);
 
+/// How far a vertex lies on the inner side of its bone, in radii.
+double depthIn(const FoldShape& fold, const glm::dvec3& posed);
+
 /// Swells the flanks and the inner side by a share of their distance from the bone; the outer side
 /// keeps its own.
 glm::dvec3 swell(const FoldShape& fold, const glm::dvec3& posed, double share);

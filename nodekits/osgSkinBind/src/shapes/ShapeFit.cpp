@@ -36,6 +36,30 @@ Eigen::MatrixXd offsetsOf(const JointShapes& shapes) {
     return offsets;
 }
 
+/// The functions' coefficients, a column for each vertex and axis: least squares with a little
+/// damping.
+Eigen::MatrixXd solve(const JointShapes& shapes, const Eigen::MatrixXd& phi,
+                      const Eigen::MatrixXd& offsets) {
+    const auto damped = [](Eigen::MatrixXd normal) {
+        normal.diagonal().array() += kRidge;
+        return normal.ldlt();
+    };
+    if (shapes.weights.empty())
+        return damped(phi.transpose() * phi).solve(phi.transpose() * offsets);
+    Eigen::MatrixXd fit(phi.cols(), offsets.cols());
+    Eigen::VectorXd weights(phi.rows());
+    for (std::size_t v = 0; v < shapes.vertices.size(); ++v) {
+        for (std::size_t s = 0; s < shapes.samples.size(); ++s)
+            weights[Eigen::Index(s)] = shapes.weights[s][v];
+        const Eigen::MatrixXd weighted = weights.asDiagonal() * phi;
+        const auto column = Eigen::Index(3 * v);
+        fit.middleCols<3>(column) =
+            damped(phi.transpose() * weighted)
+                .solve(weighted.transpose() * offsets.middleCols<3>(column));
+    }
+    return fit;
+}
+
 double longestIn(const Eigen::VectorXd& mode) {
     double longest = 0.0;
     for (Eigen::Index v = 0; v + 2 < mode.size(); v += 3)
@@ -52,9 +76,7 @@ FittedShapes fitShapes(const JointShapes& shapes, std::size_t modes, double tole
     result.tolerance = tolerance;
     const Eigen::MatrixXd phi = functionsAt(shapes);
     const Eigen::MatrixXd offsets = offsetsOf(shapes);
-    Eigen::MatrixXd normal = phi.transpose() * phi;
-    normal.diagonal().array() += kRidge;
-    const Eigen::MatrixXd fit = normal.ldlt().solve(phi.transpose() * offsets);
+    const Eigen::MatrixXd fit = solve(shapes, phi, offsets);
 
     // The fitted shapes are a matrix of low rank; its right singular vectors are the modes.
     const Eigen::MatrixXd fitted = phi * fit;

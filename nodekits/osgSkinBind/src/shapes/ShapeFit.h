@@ -20,6 +20,9 @@ struct JointShapes {
     /// sample. For a target y and a vertex x that the bend turns by q about c:
     /// conjugate(q) (y - c) + c - x.
     std::vector<std::vector<glm::dvec3>> offsets;
+    /// What it counts that a vertex meets a sample, above 0, laid out as `offsets`; or nothing: all
+    /// count alike.
+    std::vector<std::vector<double>> weights;
 };
 
 /// The same as a sum of modes: offset(vertex) = sum over k of beta_k(pose) vectors[vertex][k].
