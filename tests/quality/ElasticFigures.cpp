@@ -122,11 +122,12 @@ public:
         for (const bool between : {false, true}) {
             const Summary& sum = _summary[between];
             if (sum.lines == 0) continue;
-            std::printf("  %s: %zu bends; fitted RMS/r mean %.3f, most %.3f; farther than a peer at "
-                        "%zu; pairs %zu of plain %zu; outer side %.2f to %.2f\n",
-                        between ? "between" : "at samples", sum.lines,
-                        sum.rms / static_cast<double>(sum.lines), sum.most, sum.farther, sum.pairs,
-                        sum.plainPairs, sum.outer.low, sum.outer.high);
+            std::printf(
+                "  %s: %zu bends; fitted RMS/r mean %.3f, most %.3f; farther than a peer at "
+                "%zu; pairs %zu of plain %zu; outer side %.2f to %.2f\n",
+                between ? "between" : "at samples", sum.lines,
+                sum.rms / static_cast<double>(sum.lines), sum.most, sum.farther, sum.pairs,
+                sum.plainPairs, sum.outer.low, sum.outer.high);
         }
     }
 
@@ -156,7 +157,8 @@ private:
         for (std::size_t i = 0; i < sample.positions.size(); ++i)
             elastic[_shapes.vertices[i]] = sample.positions[i];
         std::vector<std::size_t> pairs;
-        for (const compare::Points& points : posed) pairs.push_back(_intersections.beyondRest(points));
+        for (const compare::Points& points : posed)
+            pairs.push_back(_intersections.beyondRest(points));
         for (const std::size_t count : pairs) std::printf(" %4zu", count);
         std::printf(" %4zu |", _intersections.beyondRest(elastic));
         std::vector<double> rms;

@@ -189,7 +189,7 @@ TEST(ElasticSamples, OfAHingeReachBothEndsInSmallSteps) {
     EXPECT_NEAR(least, glm::radians(-40.0), 1e-9);
     along.insert(0.0);
     for (auto next = std::next(along.begin()); next != along.end(); ++next)
-        EXPECT_LT(*next - *std::prev(next), glm::radians(22.6));
+        EXPECT_LT(*next - *std::prev(next), glm::radians(15.1));
     EXPECT_GT(samples.size(), along.size());
 }
 

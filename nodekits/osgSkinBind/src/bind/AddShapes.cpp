@@ -49,9 +49,12 @@ void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& jo
 
 double shareWithoutShapes(const BindOptions& options) {
     switch (options.shapes) {
-    case Shapes::None: return 1.0;
-    case Shapes::Fast: return 0.99;
-    case Shapes::Elastic: return 0.01;
+    case Shapes::None:
+        return 1.0;
+    case Shapes::Fast:
+        return 0.99;
+    case Shapes::Elastic:
+        return 0.01;
     }
     return 1.0;
 }

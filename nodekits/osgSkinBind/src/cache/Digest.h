@@ -12,7 +12,8 @@
 
 namespace osgSkin {
 
-/// Of any bytes: 36 letters, digits and hyphens, another for others (SHA-1, as a UUID of version 5).
+/// Of any bytes: 36 letters, digits and hyphens, another for others (SHA-1, as a UUID of version
+/// 5).
 std::string digestOf(const std::string& bytes);
 
 /// Of all that elastic shapes are made of: mesh, skeleton, roles of the joints, ratios, and the

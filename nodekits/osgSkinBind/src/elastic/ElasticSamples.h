@@ -25,7 +25,8 @@ struct HingeRange {
 std::vector<glm::dquat> hingeSamples(const HingeRange& range, const glm::dvec3& pole);
 
 /// The rotations that a ball joint is to be solved at: three angles in each of eight directions.
-/// \param pole unit; the bone from the joint to its child \param most radians, the largest angle
+/// \param pole unit; the bone from the joint to its child
+/// \param most radians, the largest angle
 std::vector<glm::dquat> ballSamples(const glm::dvec3& pole, double most);
 
 } // namespace osgSkin

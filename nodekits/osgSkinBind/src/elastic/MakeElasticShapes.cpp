@@ -148,9 +148,9 @@ Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<Pl
             continue;
         }
         noteBadSamples(solved[i], notes);
-        fitted[joint] = fitShapes(ElasticOffsets(plans[i], solved[i]).shapes(),
-                                  plans[i].joint.hinge ? kHingeModes : kBallModes,
-                                  kTolerance * shaped.radius);
+        fitted[joint] =
+            fitShapes(ElasticOffsets(plans[i], solved[i]).shapes(),
+                      plans[i].joint.hinge ? kHingeModes : kBallModes, kTolerance * shaped.radius);
     }
     for (const ShapedJoint& shaped : findShapedJoints(skeleton, joints, mesh, binding)) {
         const std::uint32_t joint = shaped.functions.joint;
@@ -160,8 +160,8 @@ Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<Pl
     }
     for (const auto& [joint, reason] : unsolved)
         notes.push_back("joint \"" + skeleton.joints[joint].name + "\" has " +
-                        (fitted.count(joint) != 0 ? "fast" : "no") + " shapes, not elastic ones: " +
-                        reason);
+                        (fitted.count(joint) != 0 ? "fast" : "no") +
+                        " shapes, not elastic ones: " + reason);
     std::vector<FittedShapes> all;
     for (auto& [joint, shapes] : fitted) all.push_back(std::move(shapes));
     return packShapes(all, mesh.weldedOf);

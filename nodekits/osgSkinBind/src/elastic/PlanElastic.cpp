@@ -41,9 +41,8 @@ std::vector<glm::dquat> samplesOf(const ShapedJoint& shaped) {
         return ballSamples(shaped.twistAxis, angleOf(functions.high.x));
     HingeRange range;
     range.axis = functions.axis;
-    range.restFlexion =
-        std::atan2(glm::dot(glm::cross(shaped.above, shaped.bone), functions.axis),
-                   glm::dot(shaped.above, shaped.bone));
+    range.restFlexion = std::atan2(glm::dot(glm::cross(shaped.above, shaped.bone), functions.axis),
+                                   glm::dot(shaped.above, shaped.bone));
     range.leastFlexion = range.restFlexion + angleOf(functions.low.x);
     range.mostFlexion = range.restFlexion + angleOf(functions.high.x);
     return hingeSamples(range, shaped.twistAxis);

@@ -11,7 +11,8 @@ namespace osgSkin {
 
 /// Sets basis, axis, range and knots of the functions of a joint between two limbs.
 /// \param mainAxis of findMainAxis(); nothing: it may bend in any direction
-/// \param mostFlexion degrees from the straight limb \param joint above, bone and twistAxis are set
+/// \param mostFlexion degrees from the straight limb
+/// \param joint above, bone and twistAxis are set
 void setBendRange(const std::optional<glm::dvec3>& mainAxis, double mostFlexion,
                   ShapedJoint& joint);
 

@@ -4,8 +4,8 @@
 
 #include "joints/JointPlan.h"
 #include "mesh/WeldedMesh.h"
-#include "shapes/ShapedJoint.h"
 #include "shapes/ShapeFit.h"
+#include "shapes/ShapedJoint.h"
 
 #include <osgSkin/Binding>
 

@@ -44,7 +44,9 @@ osg::ref_ptr<osg::Group> asGroup(osg::Node* node) {
 } // namespace
 
 Character convertScene(const std::string& file, const LoadOptions& options, LoadStages& stages) {
-    const double binding = LoadStages::kBinding + LoadStages::shapesSize(options.shapes.value_or(BindOptions::Shapes::None));
+    const double binding =
+        LoadStages::kBinding +
+        LoadStages::shapesSize(options.shapes.value_or(BindOptions::Shapes::None));
     stages.plan(LoadStages::kModel + binding);
     stages.begin("model", LoadStages::kModel);
     const osg::ref_ptr<osg::Node> scene = readScene(file, options.readOptions.get());

@@ -23,9 +23,12 @@ struct CellState {
 
 /// Elastic energy of a cell and its gradient: as-rigid-as-possible |F - R|^2 at the Gauss points,
 /// one volume term kappa / 2 (mean J - 1)^2 for the cell, so that trilinear cells do not lock, and
-/// a barrier -(J - J0)^2 ln(J / J0) below J0 (Li et al. 2020), infinite at 0. \param[out]
-/// leastJacobian the smallest J of the Gauss points \return infinity, and no gradient, where some J
-/// is not above 0
+/// a barrier -(J - J0)^2 ln(J / J0) below J0 (Li et al. 2020), infinite at 0.
+/// \param shape of all cells
+/// \param flesh what it is made of
+/// \param cell its positions and volume; gets the gradient
+/// \param leastJacobian gets the smallest J of the Gauss points
+/// \return infinity, and no gradient, where some J is not above 0
 double cellEnergy(const CellShape& shape, const Flesh& flesh, CellState& cell,
                   double& leastJacobian);
 

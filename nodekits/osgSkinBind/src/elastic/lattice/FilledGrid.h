@@ -24,7 +24,8 @@ public:
         Eigen::Vector3i place; ///< of the cell; its lowest corner lies at edge * place
     };
 
-    /// \param edge of the cells \param reach radius of the ball; cells count by their centres
+    /// \param edge of the cells
+    /// \param reach radius of the ball; cells count by their centres
     FilledGrid(const RestSkin& skin, double edge, double reach);
 
     double edge() const { return _edge; }

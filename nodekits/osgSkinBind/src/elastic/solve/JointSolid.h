@@ -31,8 +31,10 @@ struct SolidOptions {
 /// number of threads may bend it at once.
 class JointSolid {
 public:
-    /// \param skin in joint space \param ratios the joint's bend ratio at each of its vertices
-    /// \param hinge null for other joints \throw Unsolvable with a reason
+    /// \param skin in joint space
+    /// \param ratios the joint's bend ratio at each of its vertices
+    /// \param hinge null for other joints
+    /// \throw Unsolvable with a reason
     JointSolid(Points skin, RestSkin::Triangles triangles, const std::vector<double>& ratios,
                const std::vector<Bone>& bones, const HingeCore* hinge, const SolidOptions& options);
 
@@ -47,7 +49,8 @@ public:
 
     State rest() const;
 
-    /// Bends on to another rotation, in small steps. \param tick called after each step; may throw
+    /// Bends on to another rotation, in small steps.
+    /// \param tick called after each step; may throw
     State bend(const State& from, const Eigen::Quaterniond& to,
                const std::function<void()>& tick) const;
 

@@ -31,7 +31,8 @@ struct MinimiseResult {
 };
 
 /// L-BFGS (Nocedal & Wright 2006, algorithm 7.4) with the given start of the inverse Hessian and
-/// backtracking. \pre the energy is finite at the points
+/// backtracking.
+/// \pre the energy is finite at the points
 MinimiseResult minimise(const Energy& energy, Points& points, const MinimiseLimits& limits);
 
 } // namespace osgSkin::elastic

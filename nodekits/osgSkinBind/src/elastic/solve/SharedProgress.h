@@ -26,10 +26,12 @@ public:
     /// \throw what `tell` throws, once the work has given up, and what `work` throws
     void tellWhile(const Progress& tell, const std::function<void()>& work);
 
-    /// By those who work: one more of the whole is done. \throw GivenUp
+    /// By those who work: one more of the whole is done.
+    /// \throw GivenUp
     void done(const std::string& what);
 
-    /// By those who work, now and then. \throw GivenUp
+    /// By those who work, now and then.
+    /// \throw GivenUp
     void check() const {
         if (_givenUp) throw GivenUp();
     }
