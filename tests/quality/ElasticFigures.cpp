@@ -157,11 +157,13 @@ private:
         for (std::size_t i = 0; i < sample.positions.size(); ++i)
             elastic[_shapes.vertices[i]] = sample.positions[i];
         std::vector<std::size_t> pairs;
+        pairs.reserve(posed.size());
         for (const compare::Points& points : posed)
             pairs.push_back(_intersections.beyondRest(points));
         for (const std::size_t count : pairs) std::printf(" %4zu", count);
         std::printf(" %4zu |", _intersections.beyondRest(elastic));
         std::vector<double> rms;
+        rms.reserve(posed.size());
         for (const compare::Points& points : posed)
             rms.push_back(rmsDistance(_shapes, _joint, points, elastic));
         for (const double distance : rms) std::printf(" %.3f", distance);
@@ -234,6 +236,7 @@ void measureElastic(const Subject& subject, const ElasticRun& run) {
     const Subject shaped = shapedOf(subject);
     std::vector<ReferenceJoint> references;
     std::vector<ElasticJoint> joints;
+    joints.reserve(run.joints.size());
     for (const std::string& name : run.joints) {
         references.push_back(referenceJointOf(shaped, name));
         joints.push_back(references.back().joint);

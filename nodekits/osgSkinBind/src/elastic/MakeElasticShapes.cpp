@@ -85,6 +85,7 @@ private:
     std::vector<glm::dvec3> offsetsAt(std::size_t sample) const {
         const BendTwist bend = _plan.shaped.bendAt(_plan.samples[sample]);
         std::vector<glm::dvec3> offsets;
+        offsets.reserve(_moved.size());
         for (const Moved& moved : _moved) {
             const ShapedJoint::Vertex& vertex = *moved.vertex;
             const glm::dvec3 target =
@@ -134,6 +135,7 @@ Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<Pl
                               const Progress& progress, std::vector<std::string>& notes) {
     const std::vector<ElasticPlan> plans = planElastic(skeleton, joints, mesh, binding);
     std::vector<ElasticJoint> toSolve;
+    toSolve.reserve(plans.size());
     for (const ElasticPlan& plan : plans) toSolve.push_back(plan.joint);
     const std::vector<ElasticShapes> solved =
         solveElasticJoints({mesh.positions, mesh.triangles}, toSolve, progress);
@@ -163,6 +165,7 @@ Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<Pl
                         (fitted.count(joint) != 0 ? "fast" : "no") +
                         " shapes, not elastic ones: " + reason);
     std::vector<FittedShapes> all;
+    all.reserve(fitted.size());
     for (auto& [joint, shapes] : fitted) all.push_back(std::move(shapes));
     return packShapes(all, mesh.weldedOf);
 }

@@ -28,9 +28,10 @@ struct HingeCore {
 };
 
 struct HingeSizes {
-    double radius = 0.65;   ///< of the ball
-    double below = 0.1;     ///< the skin of the outer side
-    double halfWidth = 0.8; ///< see HingeCore: less caves in beside the ball, more swells there
+    double radius = 0.5; ///< of the ball
+    double below = 0.15; ///< the skin of the outer side
+    /// See HingeCore: of less, the outer side caves in; of more, it swells beside the ball.
+    double halfWidth = 2.5;
 };
 
 /// \param rotations of the joint, unit: what they have in common says which side is the outer one
