@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A body is bound alike whatever family its joints' names are of.
+#include "JointSpellings.h"
 #include "KnownBody.h"
 #include "RenamedBody.h"
 
@@ -68,16 +69,65 @@ TEST_F(BodyNames, EveryKnownFamilyIsBoundAlike) {
     }
 }
 
+/// The joints' names as other tools spell them; a body's head, hands and feet are the same.
+TEST_F(BodyNames, EverySpellingHasTheSameRigidParts) {
+    const std::map<std::string, std::string> roles = [] {
+        std::map<std::string, std::string> result;
+        for (const auto& [role, members] : test::knownNames("CMU (MotionBuilder)").roles)
+            for (const std::string& member : members) result.emplace(member, role);
+        return result;
+    }();
+    const std::vector<std::string> ours = automaticRigidJoints(body.truth);
+    for (const test::Dialect& dialect : test::dialects())
+        for (const test::SideStyle& side : test::sideStyles())
+            for (const std::string prefix : {"mixamorig_", "Neo_", "DEF-"}) {
+                std::map<std::string, std::string> names;
+                std::map<std::string, int> used;
+                for (const RestJoint& joint : body.truth.joints) {
+                    const std::string& role = roles.at(joint.name);
+                    const bool left = role[0] == 'L', right = role[0] == 'R';
+                    const bool has = dialect.names.count(role.substr(left ? 4 : right ? 5 : 0));
+                    names[joint.name] =
+                        has && used[role]++ == 0
+                            ? test::spelled(dialect, role, side, prefix, "_#", names.size())
+                            : prefix + "extra_" + std::to_string(names.size());
+                }
+                std::vector<std::string> expected;
+                for (const std::string& name : ours) expected.push_back(names.at(name));
+                EXPECT_EQ(automaticRigidJoints(test::renamed(body.truth, names)), expected)
+                    << dialect.name << ", side " << side.text() << ", " << prefix;
+            }
+}
+
+TEST_F(BodyNames, ASpelledBodyIsBoundAlike) {
+    RestSkeleton other = body.truth;
+    for (std::size_t j = 0; j < other.joints.size(); ++j) {
+        // Neo_LeftArm_04Bone; one word says less than CMU's families know: fingers and hips
+        other.joints[j].name = "Neo_" + other.joints[j].name + "_" + std::to_string(j) + "Bone";
+    }
+    expectSame(bind(body.mesh, body.truth), bind(body.mesh, other));
+}
+
 TEST_F(BodyNames, NamesOfTheCallersAreBoundAlike) {
     BindOptions options;
     options.names.push_back(test::robotNames());
     expectAlike(options.names.front(), options);
 }
 
-TEST_F(BodyNames, WithoutThemNothingIsKnown) {
-    const RestSkeleton robot =
-        test::renamed(body.truth, test::namesIn(body.truth, test::robotNames()));
-    EXPECT_TRUE(automaticRigidJoints(robot).empty());
+TEST_F(BodyNames, WithoutThemTheShapeTells) {
+    const auto names = test::namesIn(body.truth, test::robotNames());
+    const RestSkeleton robot = test::renamed(body.truth, names);
+    std::vector<std::string> expected;
+    for (const std::string& name : automaticRigidJoints(body.truth))
+        expected.push_back(names.at(name));
+    EXPECT_EQ(automaticRigidJoints(robot), expected);
+
+    RestSkeleton folded = robot; // no shape of a body
+    for (RestJoint& joint : folded.joints) {
+        joint.centre = glm::dvec3(0.0);
+        joint.tip.reset();
+    }
+    EXPECT_TRUE(automaticRigidJoints(folded).empty());
 }
 
 TEST_F(BodyNames, WeightsTakeTheirPolesFromTheCallersNames) {

@@ -198,7 +198,8 @@ TEST(RetargetNotes, TellOfLimbsThatStayAtRest) {
     osgSkin::retarget(standStill(other, 1), figure, {{{"LeftArm", ""}}}, &report);
     EXPECT_TRUE(report.notes.empty()) << "wanted so";
 
-    for (osgSkin::RestJoint& joint : other.joints) joint.name = "part " + joint.name;
+    for (std::size_t j = 0; j < other.joints.size(); ++j)
+        other.joints[j].name = "part" + std::to_string(j);
     other.joints[2].name = "Head";
     osgSkin::retarget(standStill(figure, 1), other, {}, &report);
     ASSERT_EQ(report.notes.size(), 1u);

@@ -6,6 +6,7 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/JointRoles>
 #include <osgSkinRig/Prop>
 #include <osgSkinRig/Retarget>
 
@@ -159,13 +160,24 @@ TEST(UprightActors, LimbsAreWhereTheTurnedActorsAre) {
     }
 }
 
-/// Nothing tells how bodies lie to each other whose joints' names say nothing.
-TEST(UprightStrangers, IsTakenToBeTheSame) {
+/// Joints' names that say nothing, of a body whose shape does.
+TEST(UprightStrangers, IsToldByTheShape) {
     Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
     for (std::size_t j = 0; j < motion.skeleton.joints.size(); ++j)
         motion.skeleton.joints[j].name = "part" + std::to_string(j);
     RetargetReport report;
     osgSkin::retarget(motion, turned(motion.skeleton, turnDegrees(90, kUp)), {}, &report);
+    EXPECT_EQ(report.rigNames, osgSkin::kToldByShape);
+    EXPECT_LT(angleBetween(report.rotation, turnDegrees(90, kUp)), 1e-5);
+}
+
+/// Nothing tells how bodies lie to each other whose joints' names say nothing, nor their shape.
+TEST(UprightStrangers, IsTakenToBeTheSame) {
+    RestSkeleton figure = makeFigure(0.0); // of one side only
+    for (std::size_t j = 0; j < figure.joints.size(); ++j)
+        figure.joints[j].name = "part" + std::to_string(j);
+    RetargetReport report;
+    osgSkin::retarget(standStill(figure, 2), turned(figure, turnDegrees(90, kUp)), {}, &report);
     EXPECT_TRUE(report.rigNames.empty());
     EXPECT_LT(angleBetween(report.rotation, {1, 0, 0, 0}), 1e-9);
 }

@@ -114,6 +114,8 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     std::vector<PlannedJoint> joints(skeleton.joints.size());
     const double tolerance = kCentreTolerance * mesh.size;
     const JointRoles roles = recogniseJoints(skeleton, options.names);
+    if (roles.family == kToldByShape)
+        notes.emplace_back("the joints' names say nothing: head, hands and feet by their shape");
     const std::vector<int> rigid = rigidJoints(skeleton, options);
     for (std::size_t j = 0; j < joints.size(); ++j) {
         joints[j].part = roles.parts[j];

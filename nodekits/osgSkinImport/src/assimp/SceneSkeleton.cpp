@@ -106,7 +106,7 @@ private:
 
     int add(const aiNode& node, int parent) {
         const glm::dmat4& world = _bind.node(node);
-        RestJoint joint{nameOf(node), parent, glm::dvec3(world[3]), {}};
+        RestJoint joint{nameOf(node), parent, glm::dvec3(world[3]), {}, rotationOf(world)};
         bool isLeaf = true;
         for (unsigned c = 0; c < node.mNumChildren; ++c)
             isLeaf = isLeaf && _needed.count(node.mChildren[c]) == 0;

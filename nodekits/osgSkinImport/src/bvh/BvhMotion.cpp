@@ -36,14 +36,27 @@ glm::dvec3 localPosition(const BvhJoint& joint, const double* frame) {
     return result;
 }
 
+/// A joint's offset from its parent. Some exporters leave OFFSET zero and repeat the offset in the
+/// position channels of every frame.
+glm::dvec3 offsetOf(const BvhFile& file, const BvhJoint& joint) {
+    if (joint.parent < 0 || !joint.hasPosition() || file.frames == 0 ||
+        joint.offset != glm::dvec3(0.0))
+        return joint.offset;
+    const glm::dvec3 first = localPosition(joint, file.frame(0));
+    for (std::size_t f = 1; f < file.frames; ++f)
+        if (isMoved(localPosition(joint, file.frame(f)), first)) return joint.offset;
+    return first;
+}
+
 /// For each joint, whether its position channels move it from its offset.
 std::vector<bool> findMovedJoints(const BvhFile& file) {
     std::vector<bool> result(file.joints.size(), false);
     for (std::size_t j = 0; j < result.size(); ++j) {
         const BvhJoint& joint = file.joints[j];
         if (!joint.hasPosition()) continue;
+        const glm::dvec3 offset = offsetOf(file, joint);
         for (std::size_t f = 0; f < file.frames && !result[j]; ++f)
-            result[j] = isMoved(localPosition(joint, file.frame(f)), joint.offset);
+            result[j] = isMoved(localPosition(joint, file.frame(f)), offset);
     }
     return result;
 }
@@ -54,7 +67,7 @@ RestSkeleton makeRestSkeleton(const BvhFile& file) {
     RestSkeleton result;
     std::vector<bool> isLeaf(file.joints.size(), true);
     for (const BvhJoint& joint : file.joints) {
-        glm::dvec3 centre = joint.offset;
+        glm::dvec3 centre = offsetOf(file, joint);
         if (joint.parent >= 0) {
             const auto parent = static_cast<std::size_t>(joint.parent);
             isLeaf[parent] = false;

@@ -7,7 +7,8 @@ namespace osgSkin {
 namespace {
 
 /// A role and its names, with a blank between them. In roles and names, "%Side" stands for Left or
-/// Right, "%S" for L or R, "%s" for l or r, and "%f" for a finger's joint 1, 2 and 3.
+/// Right, "%S" for L or R, "%s" for l or r, "%J" for the same in Japanese, and "%f" for a finger's
+/// joint 1, 2 and 3.
 using Row = std::pair<const char*, const char*>;
 
 struct Family {
@@ -183,6 +184,19 @@ const std::vector<Family>& families() {
           {"%SideUpperArm", "Bip01%SUpperArm Bip001%SUpperArm"},
           {"%SideLowerArm", "Bip01%SForearm Bip001%SForearm"},
           {"%SideHand", "Bip01%SHand Bip001%SHand"}}},
+        {"MikuMikuDance",
+         {{"Hips", "センター"},
+          {"Spine", "上半身 上半身2"},
+          {"Neck", "首"},
+          {"Head", "頭"},
+          {"%SideUpperLeg", "%J足"},
+          {"%SideLowerLeg", "%Jひざ"},
+          {"%SideFoot", "%J足首"},
+          {"%SideToe", "%Jつま先"},
+          {"%SideCollar", "%J肩"},
+          {"%SideUpperArm", "%J腕"},
+          {"%SideLowerArm", "%Jひじ"},
+          {"%SideHand", "%J手首"}}},
     };
     return all;
 }
@@ -209,6 +223,7 @@ void addRow(const std::string& role, const std::string& names, JointNames& resul
             const auto sided = [&side](std::string text) {
                 text = replaced(text, "%Side", side);
                 text = replaced(text, "%S", side.substr(0, 1));
+                text = replaced(text, "%J", side == "Left" ? "左" : "右");
                 return replaced(text, "%s", side == "Left" ? "l" : "r");
             };
             addRow(sided(role), sided(names), result);

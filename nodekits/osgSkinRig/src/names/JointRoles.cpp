@@ -2,7 +2,10 @@
 #include <osgSkinRig/JointRoles>
 
 #include "names/NameWords.h"
+#include "names/ShapeRoles.h"
+#include "names/WordRoles.h"
 
+#include <set>
 #include <utility>
 
 namespace osgSkin {
@@ -10,31 +13,95 @@ namespace {
 
 constexpr std::size_t kFewestRoles = 4;
 
-JointRoles rolesBy(const JointNames& names, const RestSkeleton& skeleton) {
+/// Names that tell fewer of the 14 joints that every body has are worth less than a shape that
+/// tells them all.
+constexpr std::size_t kFewestMain = 8;
+
+/// A family's names in the form in which they are compared.
+struct Dictionary {
+    explicit Dictionary(const JointNames& names) : family(names.name) {
+        for (const auto& [role, members] : names.roles)
+            for (const std::string& member : members) roleOf.emplace(plainName(member), role);
+    }
+    std::string family;
     std::map<std::string, std::string> roleOf;
-    for (const auto& [role, members] : names.roles)
-        for (const std::string& member : members) roleOf.emplace(plainName(member), role);
+};
+
+const std::vector<Dictionary>& knownDictionaries() {
+    static const std::vector<Dictionary> known(knownJointNames().begin(), knownJointNames().end());
+    return known;
+}
+
+JointRoles rolesBy(const Dictionary& names, const std::vector<std::string>& plainNames) {
     JointRoles result;
-    result.family = names.name;
-    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-        const auto found = roleOf.find(plainName(skeleton.joints[j].name));
-        result.roles.push_back(found == roleOf.end() ? std::string() : found->second);
-        if (found != roleOf.end()) result.joints[found->second].push_back(static_cast<int>(j));
+    result.family = names.family;
+    for (std::size_t j = 0; j < plainNames.size(); ++j) {
+        const auto found = names.roleOf.find(plainNames[j]);
+        result.roles.push_back(found == names.roleOf.end() ? std::string() : found->second);
+        if (found != names.roleOf.end())
+            result.joints[found->second].push_back(static_cast<int>(j));
     }
     return result;
 }
 
-JointRoles rolesByFamily(const RestSkeleton& skeleton, const std::vector<JointNames>& extra) {
+/// The family that fills most roles; of `extra`, where `byCaller` is set.
+JointRoles rolesByFamily(const RestSkeleton& skeleton, const std::vector<JointNames>& extra,
+                         bool& byCaller) {
     JointRoles best;
     best.roles.resize(skeleton.joints.size());
-    const auto consider = [&](const JointNames& names) {
-        JointRoles roles = rolesBy(names, skeleton);
+    byCaller = false;
+    std::vector<std::string> plainNames;
+    for (const RestJoint& joint : skeleton.joints) plainNames.push_back(plainName(joint.name));
+    const auto consider = [&](const Dictionary& names, bool callers) {
+        JointRoles roles = rolesBy(names, plainNames);
         if (roles.joints.size() < kFewestRoles) return;
-        if (!best.known() || roles.joints.size() > best.joints.size()) best = std::move(roles);
+        if (best.known() && roles.joints.size() <= best.joints.size()) return;
+        best = std::move(roles);
+        byCaller = callers;
     };
-    for (auto names = extra.rbegin(); names != extra.rend(); ++names) consider(*names);
-    for (const JointNames& names : knownJointNames()) consider(names);
+    for (auto names = extra.rbegin(); names != extra.rend(); ++names)
+        consider(Dictionary(*names), true);
+    for (const Dictionary& names : knownDictionaries()) consider(names, false);
     return best;
+}
+
+/// How many of the joints that every body has are told.
+std::size_t mainRoles(const std::vector<std::string>& roles) {
+    static const std::set<std::string> kMain = [] {
+        std::set<std::string> main{"Hips", "Head"};
+        for (const std::string side : {"Left", "Right"})
+            for (const char* part :
+                 {"UpperLeg", "LowerLeg", "Foot", "UpperArm", "LowerArm", "Hand"})
+                main.insert(side + part);
+        return main;
+    }();
+    std::set<std::string> found;
+    for (const std::string& role : roles)
+        if (kMain.count(role) != 0) found.insert(role);
+    return found.size();
+}
+
+JointRoles madeOf(const std::vector<std::string>& roles, const char* family) {
+    JointRoles result;
+    result.family = family;
+    result.roles = roles;
+    for (std::size_t j = 0; j < roles.size(); ++j)
+        if (!roles[j].empty()) result.joints[roles[j]].push_back(static_cast<int>(j));
+    return result;
+}
+
+/// Adds what the family has no name for: a body of Unity's names may have Mixamo's toes.
+void complete(JointRoles& roles, const std::vector<std::string>& words) {
+    const JointRoles other = madeOf(words, "");
+    for (const auto& [role, joints] : other.joints) {
+        if (roles.joints.count(role) != 0) continue;
+        for (const int j : joints) {
+            std::string& own = roles.roles[static_cast<std::size_t>(j)];
+            if (!own.empty()) continue;
+            own = role;
+            roles.joints[role].push_back(j);
+        }
+    }
 }
 
 JointPart partOfRole(const std::string& role) {
@@ -62,37 +129,64 @@ JointPart partOfRole(const std::string& role) {
 JointPart shoulder(const RestSkeleton& skeleton, int joint) {
     const std::vector<int> children = skeleton.children(joint);
     if (children.size() != 1) return JointPart::UpperArm;
-    const std::string& child = skeleton.joints[static_cast<std::size_t>(children[0])].name;
-    const bool isUpperArm = (nameContains(child, "arm") && !nameContains(child, "fore") &&
-                             !nameContains(child, "lower")) ||
-                            nameContains(child, "shldr");
+    const auto child = readName(nameWords(skeleton.joints[std::size_t(children[0])].name));
+    const bool isUpperArm =
+        child && (child->word == BodyWord::Arm || child->word == BodyWord::UpperArm);
     return isUpperArm ? JointPart::Collar : JointPart::UpperArm;
 }
 
-JointPart partByWords(const RestSkeleton& skeleton, int joint) {
+/// What a joint without a role is: a second hand or collar bone of a limb, or a joint of a skeleton
+/// that has too few names to be known.
+JointPart partByWords(const RestSkeleton& skeleton, int joint,
+                      const std::optional<NameReading>& reading) {
     const std::string& name = skeleton.joints[static_cast<std::size_t>(joint)].name;
     const std::string bare = bareName(name);
     if (bare == "head") return JointPart::Head;
     if (bare == "hand" || bare == "wrist") return JointPart::Hand;
     if (bare == "foot" || bare == "ankle") return JointPart::Foot;
-    if (bare.find("thumb") != std::string::npos) return JointPart::Thumb;
-    for (const char* word : {"collar", "clavicle"})
-        if (nameContains(name, word)) return JointPart::Collar;
-    for (const char* word : {"hipjoint", "buttock"})
-        if (nameContains(name, word)) return JointPart::HipJoint;
-    if (nameContains(name, "shoulder")) return shoulder(skeleton, joint);
-    if (nameContains(name, "mid")) return JointPart::MiddleFinger;
-    return JointPart::Other;
+    if (bare == "shoulder") return shoulder(skeleton, joint);
+    static const std::set<std::string> kPrefixes{"", "bip", "mixamorig", "def", "org"};
+    if (!reading || kPrefixes.count(reading->prefix) == 0) return JointPart::Other;
+    switch (reading->word) {
+    case BodyWord::Thumb:
+        return JointPart::Thumb;
+    case BodyWord::Middle:
+        return JointPart::MiddleFinger;
+    case BodyWord::Collar:
+        return JointPart::Collar;
+    case BodyWord::HipJoint:
+        return JointPart::HipJoint;
+    case BodyWord::Shoulder:
+        return shoulder(skeleton, joint);
+    default:
+        return JointPart::Other;
+    }
 }
 
 } // namespace
 
 JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<JointNames>& extra) {
-    JointRoles result = rolesByFamily(skeleton, extra);
+    bool byCaller = false;
+    JointRoles result = rolesByFamily(skeleton, extra, byCaller);
+    const WordRoles words = wordRoles(skeleton);
+    std::size_t told = mainRoles(result.roles);
+    if (!byCaller) {
+        // Of a family's skeleton that has one name changed, the others keep what they mean there.
+        if (mainRoles(words.roles) > told + (result.known() ? 1 : 0))
+            result = madeOf(words.roles, kToldByWords);
+        else if (result.known())
+            complete(result, words.roles);
+        told = mainRoles(result.roles);
+        if (told < kFewestMain) {
+            const std::vector<std::string> shape = shapeRoles(skeleton);
+            if (mainRoles(shape) > told) result = madeOf(shape, kToldByShape);
+        }
+    }
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
         const std::string& role = result.roles[j];
-        result.parts.push_back(role.empty() ? partByWords(skeleton, static_cast<int>(j))
-                                            : partOfRole(role));
+        result.parts.push_back(role.empty()
+                                   ? partByWords(skeleton, static_cast<int>(j), words.readings[j])
+                                   : partOfRole(role));
     }
     return result;
 }

@@ -3,7 +3,6 @@
 
 #include <cctype>
 #include <set>
-#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -17,13 +16,36 @@ bool isDigit(char c) {
 bool isUpper(char c) {
     return std::isupper(static_cast<unsigned char>(c)) != 0;
 }
+bool isBeyondAscii(char c) {
+    return static_cast<unsigned char>(c) >= 0x80;
+}
 char lower(char c) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
 /// What stands before a colon or bar is a file's or a tool's, not the joint's.
-std::string withoutNamespace(const std::string& name) {
-    return name.substr(name.find_last_of(":|") + 1);
+std::string withoutNamespace(const std::string& name, const char* marks) {
+    return name.substr(name.find_last_of(marks) + 1);
+}
+
+/// FBX exporters write "FBXASC" and three digits for signs that Maya does not allow.
+std::string withoutCodes(std::string name) {
+    const std::string code = "FBXASC";
+    for (std::size_t at = name.find(code); at != std::string::npos; at = name.find(code, at + 1)) {
+        const std::string digits = name.substr(at + code.size(), 3);
+        if (digits.size() < 3 || !isNumber(digits) || std::stoi(digits) > 126) continue;
+        name.replace(at, code.size() + 3, 1, static_cast<char>(std::stoi(digits)));
+    }
+    return name;
+}
+
+/// "NPC Head [Head]" is "NPC Head", but "Arm (L)" stays: a side says something.
+std::string withoutNote(const std::string& name) {
+    const std::size_t open = name.find_first_of("[(");
+    const std::size_t close = name.find_last_of(")]");
+    if (open == 0 || open == std::string::npos || close == std::string::npos || close < open + 3)
+        return name;
+    return name.substr(0, open) + name.substr(close + 1);
 }
 
 std::vector<std::string> wordsOf(const std::string& name) {
@@ -53,11 +75,21 @@ std::vector<std::string> wordsOf(const std::string& name) {
 
 } // namespace
 
+bool isNumber(const std::string& word) {
+    for (const char c : word)
+        if (!isDigit(c)) return false;
+    return !word.empty();
+}
+
 std::string plainName(const std::string& name) {
     std::string result;
-    for (const char c : withoutNamespace(name))
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0) result += lower(c);
+    for (const char c : withoutNamespace(name, ":|"))
+        if (isLetter(c) || isDigit(c) || isBeyondAscii(c)) result += lower(c);
     return result;
+}
+
+std::vector<std::string> nameWords(const std::string& name) {
+    return wordsOf(withoutNote(withoutNamespace(withoutCodes(name), ":|/")));
 }
 
 std::string bareName(const std::string& name) {
@@ -65,7 +97,7 @@ std::string bareName(const std::string& name) {
     static const std::set<std::string> kPrefixes = {"bip", "mixamorig", "def", "org"};
     std::string bare;
     bool afterPrefix = false;
-    for (const std::string& word : wordsOf(withoutNamespace(name))) {
+    for (const std::string& word : wordsOf(withoutNamespace(name, ":|"))) {
         if (bare.empty() && kPrefixes.count(word)) {
             afterPrefix = true;
             continue;

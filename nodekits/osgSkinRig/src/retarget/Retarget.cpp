@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/Retarget>
 
+#include "reference/CopyRotations.h"
+#include "reference/StandingCheck.h"
+#include "reference/StandingPose.h"
 #include "retarget/Alignment.h"
 #include "retarget/DrivenRig.h"
 #include "retarget/FootRoll.h"
@@ -18,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -75,13 +79,26 @@ void addLocal(const RestSkeleton& rig, const std::vector<glm::dquat>& world, Cli
     }
 }
 
-} // namespace
+/// The rotations go over as they are: nothing is aligned, nor set on a floor.
+Clip copied(const Motion& motion, const RestSkeleton& rig, const JointMap& map,
+            const SameSkeleton& same, RetargetReport* report) {
+    glm::dvec3 offset;
+    Clip clip = copyRotations(motion, rig, map.motionJoint, same, offset);
+    if (report != nullptr) {
+        fillReport(*report, motion, rig, map.motionJoint,
+                   std::vector<glm::dquat>(clip.joints, {1.0, 0.0, 0.0, 0.0}));
+        report->scale = same.scale;
+        report->rotation = {1.0, 0.0, 0.0, 0.0};
+        report->offset = offset;
+        report->feet.clear();
+        report->notes.clear();
+    }
+    return clip;
+}
 
-Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptions& options,
-              RetargetReport* report) {
-    rig.validate();
-    motion.skeleton.validate();
-    const JointMap map = mapJoints(rig, motion.skeleton, options);
+/// \param motion counted from a pose in which the actor stands
+Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointMap& map,
+             RetargetReport* report) {
     const std::vector<int>& motionJoint = map.motionJoint;
     const UprightFrames frames =
         findUprightFrames(SkeletonTree(rig), SkeletonTree(motion.skeleton), map);
@@ -101,6 +118,7 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     FootRoll feetRoll(body, alignment);
     RootMotion root(body);
     MeasureFeet feet(body);
+    StandingCheck standing(map.rig, map.motion);
     std::vector<glm::dquat> motionWorld;
     std::vector<glm::dquat> world;
     for (std::size_t f = 0; f < motion.frames; ++f) {
@@ -110,9 +128,11 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
         feetRoll.straighten(world);
         root.add(frames.motionUpright * motion.rootPositions[f], motionWorld, world);
         feet.add({root.rigPositions(), world}, {root.motionPositions(), motionWorld});
+        standing.add(root.rigPositions(), root.motionPositions());
         changeSpace(back, world);
         addLocal(rig, world, clip);
     }
+    standing.finish();
     clip.rootPositions = root.finish();
     for (glm::dvec3& position : clip.rootPositions) position = back * position;
 
@@ -120,13 +140,34 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
         fillReport(*report, motion, rig, motionJoint, alignment);
         for (std::size_t j = 0; j < clip.joints; ++j)
             report->entries[j].rolledOver = feetRoll.rolledOver(j);
-        report->notes = notesOf(map, rig, motion.skeleton, options);
-        report->rigNames = map.rig.family;
-        report->motionNames = map.motion.family;
+        report->notes.clear();
+        if (root.movedToOrigin())
+            report->notes.emplace_back("the motion begins far from the origin: it starts at the "
+                                       "origin here");
         report->scale = root.scale();
         report->rotation = back * frames.motionUpright;
         report->offset = back * root.offset();
         report->feet = feet.finish(motion.frameTime, root.scale());
+    }
+    return clip;
+}
+
+} // namespace
+
+Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptions& options,
+              RetargetReport* report) {
+    rig.validate();
+    motion.skeleton.validate();
+    const JointMap map = mapJoints(rig, motion.skeleton, options);
+    const StandingPose pose = findStandingPose(motion, rig, map.motionJoint, map.rig, map.motion);
+    Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, report)
+                            : aligned(pose.counted ? *pose.counted : motion, rig, map, report);
+    if (report != nullptr) {
+        report->notes.insert(report->notes.begin(), pose.notes.begin(), pose.notes.end());
+        for (std::string& note : notesOf(map, rig, motion.skeleton, options))
+            report->notes.push_back(std::move(note));
+        report->rigNames = map.rig.family;
+        report->motionNames = map.motion.family;
     }
     return clip;
 }

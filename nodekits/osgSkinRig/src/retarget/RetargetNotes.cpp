@@ -33,6 +33,20 @@ std::string listed(const std::vector<std::string>& names) {
     return result;
 }
 
+/// What a skeleton's shape told, where its names say nothing: a person had better look.
+void noteShape(const JointRoles& roles, const RestSkeleton& skeleton, const std::string& whose,
+               std::vector<std::string>& notes) {
+    if (roles.family != kToldByShape) return;
+    std::string told;
+    for (const auto& [role, joints] : roles.joints)
+        for (const char* shown : {"Hips", "Head", "LeftUpperArm", "LeftUpperLeg"})
+            if (role == shown)
+                told += (told.empty() ? "" : ", ") + role + " is \"" +
+                        skeleton.joints[static_cast<std::size_t>(joints[0])].name + "\"";
+    notes.push_back("the " + whose +
+                    "'s joint names say nothing, its parts are told by its shape: " + told);
+}
+
 } // namespace
 
 std::vector<std::string> notesOf(const JointMap& map, const RestSkeleton& rig,
@@ -41,6 +55,8 @@ std::vector<std::string> notesOf(const JointMap& map, const RestSkeleton& rig,
     const std::string expected =
         "; expected joints of the same names, names of a known family, or a map";
     std::vector<std::string> notes;
+    noteShape(map.rig, rig, "rig", notes);
+    noteShape(map.motion, motion, "motion", notes);
     if (map.rig.known()) {
         const auto idle = idleJoints(map.rig, rig, [&](int j) {
             const auto joint = static_cast<std::size_t>(j);

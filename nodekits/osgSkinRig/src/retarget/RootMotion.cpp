@@ -3,6 +3,8 @@
 
 #include <osgSkinRig/ForwardKinematics>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <limits>
 
@@ -17,6 +19,9 @@ double hipHeight(const SkeletonTree& tree, const BodyParts& parts, int hips) {
 /// How far above its lowest position, in hip heights, a foot still counts as standing: walking feet
 /// roll over heel and toes, and a motion's feet have another shape than the rig's.
 constexpr double kContactBand = 0.06;
+
+/// So many hip heights from the origin a motion may begin: further than any stage is wide.
+constexpr double kFar = 5.0;
 
 /// The middle height of the feet in the samples in which they stand. Samples in the air or on a
 /// ladder have no say, nor has one noisy sample alone.
@@ -47,6 +52,8 @@ void RootMotion::add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>
     const glm::dvec3 hips =
         _scale * _motionPositions[static_cast<std::size_t>(_motionHips)] + _offset;
 
+    if (_roots.empty()) _start = hips - _body.rig.centre(_rigHips);
+
     worldPositions(_body.rig.rest(), rigWorld, glm::dvec3(0.0), _rigPositions);
     const glm::dvec3 root = hips - _rigPositions[static_cast<std::size_t>(_rigHips)];
     for (glm::dvec3& position : _rigPositions) position += root;
@@ -69,7 +76,16 @@ double RootMotion::lowestFoot(const std::vector<glm::dquat>& rigWorld) const {
     return lowest;
 }
 
+void RootMotion::startAtOrigin() {
+    const glm::dvec3 along(_start.x, 0.0, _start.z);
+    if (!(_rigHeight > 1e-6 * _body.rig.reach()) || glm::length(along) < kFar * _rigHeight) return;
+    _movedToOrigin = true;
+    _offset -= along;
+    for (glm::dvec3& root : _roots) root -= along;
+}
+
 std::vector<glm::dvec3> RootMotion::finish() {
+    startAtOrigin();
     if (_feet.empty()) return std::move(_roots);
     const double rise = floorHeight(_feet, kContactBand * _rigHeight);
     _offset.y -= rise;

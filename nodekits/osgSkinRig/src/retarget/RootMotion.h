@@ -16,7 +16,7 @@ namespace osgSkin {
 /// where it is in the motion's zero pose and scaled by the ratio of hip heights. Heights are then
 /// shifted by one number for the whole clip, so that the feet's lowest position is the floor that
 /// the rig stands on at rest. A jump stays a jump: the shift is taken from the frames in which the
-/// feet are lowest.
+/// feet are lowest. A motion that begins far from the origin begins where the rig rests.
 class RootMotion {
 public:
     /// \param body the rig and its motion; it must outlive this
@@ -40,7 +40,11 @@ public:
     /// The position of the rig's root in each sample.
     std::vector<glm::dvec3> finish();
 
+    /// Whether finish() moved the motion to the origin.
+    bool movedToOrigin() const { return _movedToOrigin; }
+
 private:
+    void startAtOrigin();
     double lowestFoot(const std::vector<glm::dquat>& rigWorld) const;
 
     const DrivenRig& _body;
@@ -49,6 +53,8 @@ private:
     double _rigHeight = 0.0; ///< of the hips
     double _scale = 1.0;
     glm::dvec3 _offset{0.0};
+    glm::dvec3 _start{0.0}; ///< of the hips in the first sample, from where they are at rest
+    bool _movedToOrigin = false;
     std::vector<glm::dvec3> _roots;
     std::vector<double> _feet; ///< height of the lowest foot above its rest height, [sample]
     std::vector<glm::dvec3> _motionPositions, _rigPositions;

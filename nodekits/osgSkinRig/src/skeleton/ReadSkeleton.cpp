@@ -46,12 +46,19 @@ private:
     osg::Matrixd toSkeleton;
 };
 
-glm::dvec3 boundCentre(const osgAnimation::Bone& bone) {
+osg::Matrixd boundMatrix(const osgAnimation::Bone& bone) {
     osg::Matrixd bind;
     const osg::Matrixd& inverse = bone.getInvBindMatrixInSkeletonSpace();
     if (!inverse.valid() || !bind.invert(inverse))
         throw Error("bone \"" + bone.getName() + "\": its inverse bind matrix cannot be inverted");
-    return toGlm(bind.getTrans());
+    return bind;
+}
+
+glm::dquat rotationOf(const osg::Matrixd& matrix) {
+    osg::Vec3d translation, scale;
+    osg::Quat rotation, scaleAxes;
+    matrix.decompose(translation, rotation, scale, scaleAxes);
+    return toGlm(rotation);
 }
 
 } // namespace
@@ -72,10 +79,13 @@ RestSkeleton readSkeleton(const osgAnimation::Skeleton& skeleton) {
     if (roots > 1) result.joints.push_back({skeleton.getName(), -1, glm::dvec3(0.0), {}});
     const int shift = static_cast<int>(result.joints.size());
     for (const BoneLister::Entry& entry : lister.bones) {
-        const glm::dvec3 centre =
-            bound ? boundCentre(*entry.bone) : toGlm(osg::Vec3d(entry.toSkeleton.getTrans()));
+        const osg::Matrixd matrix = bound ? boundMatrix(*entry.bone) : entry.toSkeleton;
         const int parent = entry.parent < 0 ? shift - 1 : entry.parent + shift;
-        result.joints.push_back({entry.bone->getName(), parent, centre, {}});
+        result.joints.push_back({entry.bone->getName(),
+                                 parent,
+                                 toGlm(osg::Vec3d(matrix.getTrans())),
+                                 {},
+                                 rotationOf(matrix)});
     }
     try {
         result.validate();

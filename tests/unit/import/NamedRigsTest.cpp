@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// Skeletons as tools name them, whole: what is particular to each beyond spelling.
+#include <osgSkinRig/JointRoles>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+#include <string>
+
+using namespace osgSkin;
+
+namespace {
+
+std::string withBlanks(std::string name) {
+    for (char& c : name)
+        if (c == '+') c = ' ';
+    return name;
+}
+
+/// A skeleton by its names, each after its parent's: "Hips LeftLeg<Hips ...". A name with a blank
+/// has "+" for it.
+RestSkeleton makeNamed(const std::string& joints) {
+    RestSkeleton skeleton;
+    std::istringstream words(joints);
+    for (std::string word; words >> word;) {
+        const std::size_t at = word.find('<');
+        const int parent =
+            at == std::string::npos ? -1 : skeleton.find(withBlanks(word.substr(at + 1)));
+        skeleton.add(withBlanks(word.substr(0, at)), parent, glm::dvec3(0.0));
+    }
+    return skeleton;
+}
+
+/// A list of joints with "@" for the side, on both sides.
+std::string bothSides(const std::string& joints, const std::string& left,
+                      const std::string& right) {
+    std::string result;
+    std::istringstream words(joints);
+    for (std::string word; words >> word;)
+        for (const std::string& side : {left, right}) {
+            std::string name = word;
+            for (std::size_t at = name.find('@'); at != std::string::npos; at = name.find('@'))
+                name.replace(at, 1, side);
+            result += name + " ";
+            if (name == word) break;
+        }
+    return result;
+}
+
+void expectRoles(const std::string& tool, const std::string& joints, const std::string& left,
+                 const std::string& right, const std::map<std::string, std::string>& expected) {
+    SCOPED_TRACE(tool);
+    const std::string all = bothSides(joints, left, right);
+    const RestSkeleton skeleton = makeNamed(all);
+    skeleton.validate();
+    const JointRoles roles = recogniseJoints(skeleton);
+    for (const auto& [role, name] : expected)
+        for (const bool isLeft : {true, false}) {
+            const bool sided = name.find('@') != std::string::npos;
+            std::string joint = withBlanks(name);
+            if (sided) joint.replace(joint.find('@'), 1, isLeft ? left : right);
+            const std::string key = (!sided ? "" : isLeft ? "Left" : "Right") + role;
+            const auto found = roles.joints.find(key);
+            ASSERT_NE(found, roles.joints.end()) << key;
+            EXPECT_EQ(skeleton.joints[std::size_t(found->second[0])].name, joint) << key;
+        }
+}
+
+} // namespace
+
+TEST(NamedRigs, RigifyCountsItsSpineUpToTheHead) {
+    expectRoles("Rigify",
+                "rig DEF-spine_01<rig DEF-spine.001_02<DEF-spine_01 "
+                "DEF-spine.002_03<DEF-spine.001_02 DEF-spine.003_04<DEF-spine.002_03 "
+                "DEF-spine.004_05<DEF-spine.003_04 DEF-spine.005_06<DEF-spine.004_05 "
+                "DEF-spine.006_07<DEF-spine.005_06 DEF-shoulder.@_08<DEF-spine.003_04 "
+                "DEF-upper_arm.@_09<DEF-shoulder.@_08 DEF-upper_arm.@.001_10<DEF-upper_arm.@_09 "
+                "DEF-forearm.@_11<DEF-upper_arm.@.001_10 DEF-forearm.@.001_12<DEF-forearm.@_11 "
+                "DEF-hand.@_13<DEF-forearm.@.001_12 DEF-f_index.01.@_14<DEF-hand.@_13 "
+                "DEF-f_index.02.@_15<DEF-f_index.01.@_14 DEF-pelvis.@_16<DEF-spine_01 "
+                "DEF-thigh.@_17<DEF-spine_01 DEF-thigh.@.001_18<DEF-thigh.@_17 "
+                "DEF-shin.@_19<DEF-thigh.@.001_18 DEF-shin.@.001_20<DEF-shin.@_19 "
+                "DEF-foot.@_21<DEF-shin.@.001_20 DEF-toe.@_22<DEF-foot.@_21 "
+                "ORG-thigh.@_23<DEF-spine_01 ORG-shin.@_24<ORG-thigh.@_23 "
+                "MCH-thigh_ik.@_25<DEF-spine_01 thigh_fk.@_26<rig hand_ik.@_27<rig head_28<rig",
+                "L", "R",
+                {{"Hips", "DEF-spine_01"},
+                 {"Spine", "DEF-spine.001_02"},
+                 {"Neck", "DEF-spine.004_05"},
+                 {"Head", "DEF-spine.006_07"},
+                 {"Collar", "DEF-shoulder.@_08"},
+                 {"UpperArm", "DEF-upper_arm.@_09"},
+                 {"LowerArm", "DEF-forearm.@_11"},
+                 {"Hand", "DEF-hand.@_13"},
+                 {"Index1", "DEF-f_index.01.@_14"},
+                 {"Index2", "DEF-f_index.02.@_15"},
+                 {"HipJoint", "DEF-pelvis.@_16"},
+                 {"UpperLeg", "DEF-thigh.@_17"},
+                 {"LowerLeg", "DEF-shin.@_19"},
+                 {"Foot", "DEF-foot.@_21"},
+                 {"Toe", "DEF-toe.@_22"}});
+}
+
+TEST(NamedRigs, WhoseLegsHangOnAJointOfAnotherName) {
+    expectRoles("Roblox",
+                "HumanoidRootPart LowerTorso<HumanoidRootPart UpperTorso<LowerTorso "
+                "Head<UpperTorso @UpperArm<UpperTorso @LowerArm<@UpperArm @Hand<@LowerArm "
+                "@UpperLeg<LowerTorso @LowerLeg<@UpperLeg @Foot<@LowerLeg",
+                "Left", "Right",
+                {{"Hips", "LowerTorso"}, {"UpperLeg", "@UpperLeg"}, {"Hand", "@Hand"}});
+    expectRoles("Kinect",
+                "SpineBase SpineMid<SpineBase SpineShoulder<SpineMid Neck<SpineShoulder Head<Neck "
+                "Shoulder@<SpineShoulder Elbow@<Shoulder@ Wrist@<Elbow@ Hand@<Wrist@ "
+                "Hip@<SpineBase Knee@<Hip@ Ankle@<Knee@ Foot@<Ankle@",
+                "Left", "Right",
+                {{"Hips", "SpineBase"},
+                 {"UpperArm", "Shoulder@"},
+                 {"Hand", "Wrist@"},
+                 {"UpperLeg", "Hip@"},
+                 {"Foot", "Ankle@"}});
+    expectRoles("Rig of numbered limbs",
+                "torso_1 torso_2<torso_1 neck_1<torso_2 arm_joint_@_1<torso_2 "
+                "arm_joint_@_2<arm_joint_@_1 arm_joint_@_3<arm_joint_@_2 leg_joint_@_1<torso_1 "
+                "leg_joint_@_2<leg_joint_@_1 leg_joint_@_3<leg_joint_@_2 "
+                "leg_joint_@_5<leg_joint_@_3",
+                "L", "R",
+                {{"Hips", "torso_1"},
+                 {"UpperArm", "arm_joint_@_1"},
+                 {"Hand", "arm_joint_@_3"},
+                 {"UpperLeg", "leg_joint_@_1"},
+                 {"Foot", "leg_joint_@_3"},
+                 {"Toe", "leg_joint_@_5"}});
+}
+
+TEST(NamedRigs, WhoseWordsSayWhereTheyAre) {
+    expectRoles("Fallout",
+                "Root COM<Root Pelvis<COM SPINE1<COM SPINE2<SPINE1 Chest<SPINE2 Neck<Chest "
+                "Head<Neck @Arm_Collarbone<Chest @Arm_UpperArm<@Arm_Collarbone "
+                "@Arm_ForeArm1<@Arm_UpperArm @Arm_ForeArm2<@Arm_ForeArm1 @Arm_Hand<@Arm_ForeArm2 "
+                "@Leg_Thigh<Pelvis @Leg_Calf<@Leg_Thigh @Leg_Foot<@Leg_Calf @Leg_Toe1<@Leg_Foot",
+                "L", "R",
+                {{"Hips", "Pelvis"},
+                 {"Collar", "@Arm_Collarbone"},
+                 {"LowerArm", "@Arm_ForeArm1"},
+                 {"Hand", "@Arm_Hand"},
+                 {"UpperLeg", "@Leg_Thigh"}});
+    expectRoles("Limbs first",
+                "Hips Spine<Hips Head<Spine Arm_@_Upper<Spine Arm_@_Lower<Arm_@_Upper "
+                "Hand_@<Arm_@_Lower Leg_@_Upper<Hips Leg_@_Lower<Leg_@_Upper Foot_@<Leg_@_Lower",
+                "L", "R",
+                {{"UpperArm", "Arm_@_Upper"}, {"LowerLeg", "Leg_@_Lower"}, {"Hand", "Hand_@"}});
+    expectRoles(
+        "Skyrim",
+        "NPC+Root+[Root] NPC+COM+[COM+]<NPC+Root+[Root] NPC+Pelvis+[Pelv]<NPC+COM+[COM+] "
+        "NPC+Spine+[Spn0]<NPC+COM+[COM+] NPC+Spine1+[Spn1]<NPC+Spine+[Spn0] "
+        "NPC+Neck+[Neck]<NPC+Spine1+[Spn1] NPC+Head+[Head]<NPC+Neck+[Neck] "
+        "NPC+@+Clavicle+[@Clv]<NPC+Spine1+[Spn1] NPC+@+UpperArm+[@Uar]<NPC+@+Clavicle+[@Clv] "
+        "NPC+@+UpperarmTwist1+[@Ut1]<NPC+@+UpperArm+[@Uar] "
+        "NPC+@+Forearm+[@Lar]<NPC+@+UpperArm+[@Uar] NPC+@+Hand+[@Hnd]<NPC+@+Forearm+[@Lar] "
+        "NPC+@+Thigh+[@Thg]<NPC+Pelvis+[Pelv] NPC+@+Calf+[@Clf]<NPC+@+Thigh+[@Thg] "
+        "NPC+@+Foot+[@ft+]<NPC+@+Calf+[@Clf]",
+        "L", "R", {{"Hips", "NPC+Pelvis+[Pelv]"}, {"Head", "NPC+Head+[Head]"}});
+    expectRoles("Reallusion",
+                "CC_Base_BoneRoot CC_Base_Hip<CC_Base_BoneRoot CC_Base_Pelvis<CC_Base_Hip "
+                "CC_Base_@_Thigh<CC_Base_Pelvis CC_Base_@_ThighTwist01<CC_Base_@_Thigh "
+                "CC_Base_@_Calf<CC_Base_@_Thigh CC_Base_@_KneeShareBone<CC_Base_@_Calf "
+                "CC_Base_@_Foot<CC_Base_@_Calf CC_Base_@_ToeBase<CC_Base_@_Foot "
+                "CC_Base_@_BigToe1<CC_Base_@_ToeBase CC_Base_Waist<CC_Base_Hip "
+                "CC_Base_Spine01<CC_Base_Waist CC_Base_NeckTwist01<CC_Base_Spine01 "
+                "CC_Base_NeckTwist02<CC_Base_NeckTwist01 CC_Base_Head<CC_Base_NeckTwist02 "
+                "CC_Base_@_Clavicle<CC_Base_Spine01 CC_Base_@_Upperarm<CC_Base_@_Clavicle "
+                "CC_Base_@_UpperarmTwist01<CC_Base_@_Upperarm "
+                "CC_Base_@_Forearm<CC_Base_@_Upperarm CC_Base_@_Hand<CC_Base_@_Forearm "
+                "CC_Base_@_Mid1<CC_Base_@_Hand",
+                "L", "R",
+                {{"Hips", "CC_Base_Hip"},
+                 {"Neck", "CC_Base_NeckTwist01"},
+                 {"UpperArm", "CC_Base_@_Upperarm"},
+                 {"Toe", "CC_Base_@_ToeBase"},
+                 {"Middle1", "CC_Base_@_Mid1"}});
+}
+
+TEST(NamedRigs, InJapanese) {
+    const RestSkeleton skeleton = makeNamed(
+        "全ての親 センター<全ての親 下半身<センター 上半身<センター 上半身2<上半身 首<上半身2 "
+        "頭<首 "
+        "左肩<上半身2 左腕<左肩 左腕捩<左腕 左ひじ<左腕捩 左手首<左ひじ 右肩<上半身2 右腕<右肩 "
+        "右ひじ<右腕 右手首<右ひじ 左足<下半身 左ひざ<左足 左足首<左ひざ 左つま先<左足首 "
+        "左足ＩＫ<全ての親 右足<下半身 右ひざ<右足 右足首<右ひざ");
+    const JointRoles roles = recogniseJoints(skeleton);
+    EXPECT_EQ(roles.family, "MikuMikuDance");
+    EXPECT_EQ(roles.roles[std::size_t(skeleton.find("左手首"))], "LeftHand");
+    EXPECT_EQ(roles.roles[std::size_t(skeleton.find("右ひざ"))], "RightLowerLeg");
+    EXPECT_EQ(roles.roles[std::size_t(skeleton.find("左足ＩＫ"))], "");
+}

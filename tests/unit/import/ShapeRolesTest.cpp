@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Joints whose names say nothing, told by the skeleton's shape.
+#include "Figure.h"
+#include "Paths.h"
+
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/JointRoles>
+#include <osgSkinRig/Retarget>
+
+#include <map>
+#include <string>
+
+using namespace osgSkin;
+
+namespace {
+
+RestSkeleton nameless(RestSkeleton skeleton) {
+    for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
+        skeleton.joints[j].name = "Bone." + std::to_string(100 + j);
+    return skeleton;
+}
+
+/// The joints that the shape takes for others than their names say, of those that every body has.
+std::string wrongByShape(const RestSkeleton& body, const JointRoles& told) {
+    const JointRoles named = recogniseJoints(body);
+    std::string result;
+    for (const char* role :
+         {"Hips", "Head", "LeftUpperLeg", "LeftLowerLeg", "LeftFoot", "RightUpperLeg",
+          "RightLowerLeg", "RightFoot", "LeftUpperArm", "LeftLowerArm", "LeftHand", "RightUpperArm",
+          "RightLowerArm", "RightHand"}) {
+        const auto found = told.joints.find(role);
+        const int theirs = found == told.joints.end() ? -1 : found->second[0];
+        if (theirs != named.joints.at(role)[0])
+            result += std::string(role) + " is " +
+                      (theirs < 0 ? "none" : body.joints[std::size_t(theirs)].name) + "; ";
+    }
+    return result;
+}
+
+class ShapeRoles : public testing::TestWithParam<const char*> {
+protected:
+    RestSkeleton body() const {
+        const std::string path = GetParam();
+        return importSkeleton(path[0] == '/' ? path : sharedData(path));
+    }
+    bool missing() const {
+        const std::string path = GetParam();
+        return !std::filesystem::exists(path[0] == '/' ? path : sharedData(path));
+    }
+};
+
+} // namespace
+
+TEST_P(ShapeRoles, TellsTheMainJoints) {
+    if (missing()) GTEST_SKIP() << "needs " << GetParam();
+    const RestSkeleton standing = body();
+    const JointRoles told = recogniseJoints(nameless(standing));
+    EXPECT_EQ(told.family, kToldByShape);
+    EXPECT_EQ(wrongByShape(standing, told), "");
+}
+
+TEST_P(ShapeRoles, WhicheverWayTheBodyFaces) {
+    if (missing()) GTEST_SKIP() << "needs " << GetParam();
+    RestSkeleton turned = body();
+    const glm::dquat turn = turnDegrees(90.0, {1, 0, 0}) * turnDegrees(140.0, {0, 1, 0});
+    for (RestJoint& joint : turned.joints) {
+        joint.centre = 0.01 * (turn * joint.centre) + glm::dvec3(3, 4, 5);
+        if (joint.tip) joint.tip = 0.01 * (turn * *joint.tip) + glm::dvec3(3, 4, 5);
+    }
+    EXPECT_EQ(wrongByShape(turned, recogniseJoints(nameless(turned))), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, ShapeRoles,
+                         testing::Values(OSGSKIN_DATA "/thrower.bvh",
+                                         "makehuman/rig/cmu_mb_neutral.bvh",
+                                         "makehuman/rig/game_engine_male.bvh", "cmu/daz/02_05.bvh",
+                                         "cmu/max/131_01.bvh",
+                                         "/usr/share/assimp/models/BVH/Boxing_Toes.bvh"),
+                         [](const auto& tested) {
+                             std::string name = std::filesystem::path(tested.param).stem();
+                             for (char& c : name)
+                                 if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+                             return name;
+                         });
+
+TEST(ShapeRolesOf, ThingsThatAreNoPersonAreNone) {
+    RestSkeleton snake;
+    for (int j = 0; j < 20; ++j) snake.add("b" + std::to_string(j), j - 1, glm::dvec3(0, 0, j));
+    EXPECT_FALSE(recogniseJoints(snake).known());
+
+    // A dog: its trunk lies across its legs.
+    RestSkeleton dog;
+    const int rump = dog.add("a", -1, glm::dvec3(0, 1, 0));
+    const int chest = dog.add("b", rump, glm::dvec3(0, 1, 1));
+    const int neck = dog.add("c", chest, glm::dvec3(0, 1.2, 1.2));
+    dog.add("d", neck, glm::dvec3(0, 1.4, 1.4));
+    for (const int base : {rump, chest})
+        for (const double x : {0.2, -0.2}) {
+            const double z = base == rump ? 0.0 : 1.0;
+            const std::string name = std::to_string(base) + (x > 0.0 ? "l" : "r");
+            const int upper = dog.add(name + "1", base, glm::dvec3(x, 0.9, z));
+            const int lower = dog.add(name + "2", upper, glm::dvec3(x, 0.5, z));
+            dog.add(name + "3", lower, glm::dvec3(x, 0.1, z));
+        }
+    EXPECT_FALSE(recogniseJoints(dog).known());
+}
+
+TEST(ShapeRolesOf, TheReportSaysWhatTheShapeTold) {
+    const RestSkeleton body = nameless(importSkeleton(OSGSKIN_DATA "/thrower.bvh"));
+    RetargetReport report;
+    retarget(importMotion(OSGSKIN_DATA "/throw.bvh"), body, {}, &report);
+    EXPECT_EQ(report.rigNames, kToldByShape);
+    ASSERT_FALSE(report.notes.empty());
+    EXPECT_NE(report.notes[0].find("told by its shape"), std::string::npos) << report.notes[0];
+    EXPECT_NE(report.text().find("names: rig none (told by shape), motion CMU"), std::string::npos);
+}

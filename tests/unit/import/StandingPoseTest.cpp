@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+// Motions whose zero pose is none that a body could stand in.
+#include "BvhWriter.h"
+#include "ExpectError.h"
+#include "Figure.h"
+#include "GltfWriter.h"
+#include "Paths.h"
+
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/JointRoles>
+#include <osgSkinRig/Retarget>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+
+using namespace osgSkin;
+
+namespace {
+
+const glm::dquat kIdentity(1, 0, 0, 0);
+
+/// The same movements, counted from another zero pose: `world` has the rotations of the joints to
+/// it. The joints' frames turn along where `withFrames`, as a file with axes of its own has them.
+Motion countedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
+                   bool withFrames = false) {
+    Motion result = motion;
+    for (std::size_t j = 0; j < world.size(); ++j) {
+        RestJoint& joint = result.skeleton.joints[j];
+        const RestJoint& before = motion.skeleton.joints[j];
+        if (joint.parent >= 0) {
+            const auto p = std::size_t(joint.parent);
+            joint.centre = result.skeleton.joints[p].centre +
+                           world[p] * (before.centre - motion.skeleton.joints[p].centre);
+        }
+        if (joint.tip) joint.tip = joint.centre + world[j] * (*before.tip - before.centre);
+        if (withFrames) joint.frame = world[j] * before.frame;
+    }
+    for (std::size_t f = 0; f < motion.frames; ++f) {
+        const Placed placed = place(motion, f);
+        for (std::size_t j = 0; j < world.size(); ++j) {
+            const int parent = motion.skeleton.joints[j].parent;
+            const glm::dquat own = placed.turns[j] * glm::conjugate(world[j]);
+            const glm::dquat above = parent < 0 ? kIdentity
+                                                : placed.turns[std::size_t(parent)] *
+                                                      glm::conjugate(world[std::size_t(parent)]);
+            result.rotations[f * world.size() + j] = glm::normalize(glm::conjugate(above) * own);
+        }
+    }
+    return result;
+}
+
+/// Every joint turned in a way of its own: arms and legs point anywhere.
+std::vector<glm::dquat> folded(std::size_t joints, unsigned seed = 7) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<glm::dquat> result;
+    for (std::size_t j = 0; j < joints; ++j)
+        result.push_back(glm::normalize(
+            glm::dquat(normal(random), normal(random), normal(random), normal(random))));
+    return result;
+}
+
+/// Every bone along +y, as capture suits' software writes zero poses.
+std::vector<glm::dquat> alongOneAxis(const RestSkeleton& skeleton) {
+    std::vector<glm::dquat> result;
+    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+        glm::dvec3 bone(0.0, 1.0, 0.0);
+        for (const int child : skeleton.children(int(j)))
+            bone = skeleton.joints[std::size_t(child)].centre - skeleton.joints[j].centre;
+        if (!(glm::length(bone) > 1e-9)) bone = {0.0, 1.0, 0.0};
+        bone = glm::normalize(bone);
+        const glm::dvec3 axis = glm::cross(bone, glm::dvec3(0.0, 1.0, 0.0));
+        result.push_back(
+            glm::length(axis) < 1e-9
+                ? kIdentity
+                : glm::angleAxis(std::acos(std::clamp(bone.y, -1.0, 1.0)), glm::normalize(axis)));
+    }
+    return result;
+}
+
+struct Difference {
+    double limbs = 0.0;  ///< degrees between a limb of the rig and the actor's, the worst
+    double heads = 0.0;  ///< the same from the hips to the head
+    double lowest = 1e9; ///< of the rig's ankles, above where they are at rest
+};
+
+/// How the rig moves beside the actor, who faces another way from the start.
+Difference compare(const Clip& clip, const RestSkeleton& rig, const Motion& actor) {
+    static const char* const kBones[][2] = {
+        {"LeftArm", "LeftForeArm"},    {"LeftForeArm", "LeftHand"}, {"RightArm", "RightForeArm"},
+        {"RightForeArm", "RightHand"}, {"LeftUpLeg", "LeftLeg"},    {"LeftLeg", "LeftFoot"},
+        {"RightUpLeg", "RightLeg"},    {"RightLeg", "RightFoot"},   {"Hips", "Head"}};
+    const auto bone = [](const Placed& placed, const RestSkeleton& skeleton, const char* from,
+                         const char* to) {
+        return placed.places[std::size_t(skeleton.find(to))] -
+               placed.places[std::size_t(skeleton.find(from))];
+    };
+    const auto heading = [&](const Placed& placed, const RestSkeleton& skeleton) {
+        const glm::dvec3 left = bone(placed, skeleton, "RightUpLeg", "LeftUpLeg");
+        return std::atan2(-left.z, left.x);
+    };
+    Difference result;
+    glm::dquat turn = kIdentity;
+    for (std::size_t f = 0; f < clip.frames; f += 3) {
+        const Placed ours = place(clip, rig, f), theirs = place(actor, f);
+        if (f == 0)
+            turn = glm::angleAxis(heading(ours, rig) - heading(theirs, actor.skeleton),
+                                  glm::dvec3(0, 1, 0));
+        for (const auto& ends : kBones) {
+            const double angle =
+                angleBetween(bone(ours, rig, ends[0], ends[1]),
+                             turn * bone(theirs, actor.skeleton, ends[0], ends[1]));
+            double& worst = std::string(ends[1]) == "Head" ? result.heads : result.limbs;
+            worst = std::max(worst, angle);
+        }
+        for (const char* ankle : {"LeftFoot", "RightFoot"}) {
+            const auto j = std::size_t(rig.find(ankle));
+            result.lowest = std::min(result.lowest, ours.places[j].y - rig.joints[j].centre.y);
+        }
+    }
+    return result;
+}
+
+bool saysOf(const RetargetReport& report, const std::string& what) {
+    return std::any_of(report.notes.begin(), report.notes.end(), [&](const std::string& note) {
+        return note.find(what) != std::string::npos;
+    });
+}
+
+class StandingPose : public testing::Test {
+protected:
+    void expectLikeTheActor(const Motion& motion, const char* note) {
+        RetargetReport report;
+        const Clip clip = retarget(motion, rig, {}, &report);
+        EXPECT_TRUE(saysOf(report, note)) << report.text().substr(0, 600);
+        const Difference difference = compare(clip, rig, actor);
+        EXPECT_LT(difference.limbs, 1.0);
+        EXPECT_LT(difference.heads, 12.0); // the sample that counts may lean
+        EXPECT_GT(difference.lowest, -0.1 * rig.joints[0].centre.y);
+        EXPECT_NEAR(report.scale, 1.0, 0.1) << "the same body";
+    }
+
+    /// Through a file, as a user has it.
+    Motion throughBvh(const Motion& motion, bool offsetsInChannels = false) {
+        const std::string path = testing::TempDir() + "osgskin_" +
+                                 testing::UnitTest::GetInstance()->current_test_info()->name() +
+                                 ".bvh";
+        writeBvh(motion, path, offsetsInChannels);
+        return importMotion(path);
+    }
+
+    const Motion actor = importMotion(OSGSKIN_DATA "/throw.bvh");
+    const RestSkeleton rig = importSkeleton(OSGSKIN_DATA "/thrower.bvh");
+    const std::size_t joints = actor.skeleton.joints.size();
+};
+
+} // namespace
+
+TEST_F(StandingPose, AFoldedZeroPoseIsReplacedByASample) {
+    expectLikeTheActor(throughBvh(countedFrom(actor, folded(joints))), "counted from sample");
+}
+
+TEST_F(StandingPose, BonesAlongOneAxisAreReplacedByASample) {
+    expectLikeTheActor(throughBvh(countedFrom(actor, alongOneAxis(actor.skeleton))),
+                       "counted from sample");
+}
+
+TEST_F(StandingPose, ACalibrationPoseGoesFirst) {
+    Motion calibrated = actor;
+    calibrated.frames += 1;
+    calibrated.rotations.insert(calibrated.rotations.begin() + std::ptrdiff_t(40 * joints), joints,
+                                kIdentity);
+    calibrated.rootPositions.insert(calibrated.rootPositions.begin() + 40, actor.rootPositions[0]);
+    const Motion motion = throughBvh(countedFrom(calibrated, folded(joints, 3)));
+    RetargetReport report;
+    retarget(motion, rig, {}, &report);
+    EXPECT_TRUE(saysOf(report, "counted from sample 40,")) << report.text().substr(0, 600);
+    for (const RetargetReport::Entry& entry : report.entries)
+        EXPECT_LT(entry.alignmentDegrees, 0.01) << entry.rigJoint << ": the rig's own rest pose";
+}
+
+/// Every frame has the offsets of all joints, and OFFSET is zero.
+TEST_F(StandingPose, OffsetsInTheFramesAreTheSkeletons) {
+    const Motion motion = throughBvh(actor, true);
+    for (std::size_t j = 1; j < joints; ++j)
+        EXPECT_LT(glm::distance(motion.skeleton.joints[j].centre - motion.skeleton.joints[0].centre,
+                                actor.skeleton.joints[j].centre - actor.skeleton.joints[0].centre),
+                  1e-9);
+    const Difference difference = compare(retarget(motion, rig), rig, actor);
+    EXPECT_LT(difference.limbs, 1.0);
+    EXPECT_GT(difference.lowest, -0.1 * rig.joints[0].centre.y);
+}
+
+TEST_F(StandingPose, AStandingZeroPoseStaysWhatItIs) {
+    RetargetReport report;
+    retarget(actor, rig, {}, &report);
+    EXPECT_TRUE(report.notes.empty()) << report.notes[0];
+}
+
+/// Who stands nowhere cannot be carried over, and is not made up.
+TEST_F(StandingPose, WhoNeverStandsIsRefusedWithAReason) {
+    Motion sitting = actor;
+    for (std::size_t f = 0; f < sitting.frames; ++f)
+        for (const std::string side : {"Left", "Right"}) {
+            const auto at = [&](const std::string& name) -> glm::dquat& {
+                return sitting
+                    .rotations[f * joints + std::size_t(sitting.skeleton.find(side + name))];
+            };
+            at("UpLeg") = turnDegrees(-100, {1, 0, 0});
+            at("Leg") = turnDegrees(120, {1, 0, 0});
+        }
+    const Motion motion = throughBvh(countedFrom(sitting, folded(joints)));
+    expectError([&] { retarget(motion, rig); }, "does not stand");
+    expectError([&] { retarget(motion, rig); }, "such as a T-pose");
+    EXPECT_NO_THROW(retarget(sitting, rig)) << "its zero pose stands";
+}
+
+TEST_F(StandingPose, TheSameFoldedSkeletonGetsItsRotationsCopied) {
+    const Motion motion = throughBvh(countedFrom(actor, folded(joints)));
+    RestSkeleton same = motion.skeleton;
+    RetargetReport report;
+    const Clip clip = retarget(motion, same, {}, &report);
+    EXPECT_TRUE(saysOf(report, "local rotations are copied"));
+    ASSERT_EQ(clip.rotations.size(), motion.rotations.size());
+    for (std::size_t i = 0; i < clip.rotations.size(); ++i)
+        ASSERT_LT(angleBetween(clip.rotations[i], motion.rotations[i]), 1e-5);
+    for (std::size_t f = 0; f < clip.frames; ++f)
+        ASSERT_LT(glm::distance(clip.rootPositions[f], motion.rootPositions[f]), 1e-6);
+}
+
+/// A file with the animation only rests in any pose; its joints' axes are the character's.
+TEST_F(StandingPose, TheSameJointsInAnotherPoseMoveLikeTheirOwn) {
+    const Motion motion = countedFrom(actor, folded(joints), true);
+    RetargetReport ours, theirs;
+    const Clip expected = retarget(actor, rig, {}, &ours);
+    const Clip clip = retarget(motion, rig, {}, &theirs);
+    EXPECT_TRUE(saysOf(theirs, "local rotations are copied"));
+    for (std::size_t i = 0; i < clip.rotations.size(); ++i)
+        ASSERT_LT(angleBetween(clip.rotations[i], expected.rotations[i]), 1e-4);
+    for (std::size_t f = 0; f < clip.frames; ++f)
+        ASSERT_LT(glm::distance(clip.rootPositions[f], expected.rootPositions[f]), 1e-6);
+}
+
+/// The same through files, the animation's without a mesh and posed as its first sample.
+TEST_F(StandingPose, AGltfWithAnimationOnlyMovesItsCharacter) {
+    const std::string stem = testing::TempDir() + "osgskin_animation_only_";
+    Motion still = actor;
+    const std::vector<glm::dquat> axes = folded(joints, 11); // as exporters have them
+    writeGltf(still, axes, std::vector<glm::dquat>(joints, kIdentity), stem + "character.gltf");
+    std::vector<glm::dquat> crouching(joints, kIdentity);
+    for (std::size_t j = 0; j < joints; ++j)
+        crouching[j] = folded(joints, 5)[j]; // whatever pose the file was left in
+    writeGltf(still, axes, crouching, stem + "only.gltf");
+
+    const RestSkeleton character = importSkeleton(stem + "character.gltf");
+    const Motion standing = importMotion(stem + "character.gltf");
+    const Motion only = importMotion(stem + "only.gltf");
+    RetargetReport report;
+    const Clip expected = retarget(standing, character);
+    const Clip clip = retarget(only, character, {}, &report);
+    EXPECT_TRUE(saysOf(report, "local rotations are copied")) << report.text().substr(0, 300);
+    ASSERT_EQ(clip.rotations.size(), expected.rotations.size());
+    for (std::size_t i = 0; i < clip.rotations.size(); ++i)
+        ASSERT_LT(angleBetween(clip.rotations[i], expected.rotations[i]), 0.01);
+    // On another's body, a sample in which the actor stands tells.
+    RetargetReport other;
+    const Clip onOther = retarget(only, rig, {}, &other);
+    EXPECT_TRUE(saysOf(other, "counted from sample")) << other.text().substr(0, 300);
+    EXPECT_LT(compare(onOther, rig, actor).limbs, 1.0);
+}
+
+/// Names that say nothing, on a skeleton that is folded: the rig's shape tells for both.
+TEST_F(StandingPose, TheRigsShapeTellsWhatTheMotionsJointsAre) {
+    Motion motion = countedFrom(actor, folded(joints));
+    RestSkeleton nameless = rig;
+    for (std::size_t j = 0; j < joints; ++j)
+        motion.skeleton.joints[j].name = nameless.joints[j].name = "b" + std::to_string(j);
+    RetargetReport report;
+    const Clip clip = retarget(motion, nameless, {}, &report);
+    EXPECT_TRUE(saysOf(report, "counted from sample"));
+    EXPECT_LT(compare(clip, rig, actor).limbs, 1.0);
+}
+
+/// Max's Biped writes a zero pose that stands along z, and frames along y.
+TEST_F(StandingPose, AZeroPoseThatLiesIsReplacedByASample) {
+    const std::vector<glm::dquat> lying(joints, turnDegrees(90, {1, 0, 0}));
+    expectLikeTheActor(throughBvh(countedFrom(actor, lying)), "zero pose lies");
+}
+
+/// Who sleeps has a zero pose that stands.
+TEST_F(StandingPose, AnActorWhoLiesStaysLying) {
+    Motion asleep = actor;
+    for (std::size_t f = 0; f < asleep.frames; ++f) {
+        for (std::size_t j = 0; j < joints; ++j) asleep.rotations[f * joints + j] = kIdentity;
+        asleep.rotations[f * joints] = turnDegrees(-90, {1, 0, 0});
+        asleep.rootPositions[f] = {0.0, 0.1 * rig.joints[0].centre.y, 0.0};
+    }
+    RestSkeleton broad = rig; // another body
+    for (RestJoint& joint : broad.joints) joint.centre.x *= 1.3;
+    RetargetReport report;
+    const Clip clip = retarget(asleep, broad, {}, &report);
+    EXPECT_LT(compare(clip, broad, asleep).limbs, 1.0);
+    EXPECT_TRUE(saysOf(report, "he lies, or the zero pose does"));
+}
+
+TEST_F(StandingPose, ARootFarFromTheOriginStartsAtIt) {
+    Motion far = actor;
+    const glm::dvec3 there(1e3, 0.0, -2e3);
+    for (glm::dvec3& position : far.rootPositions) position += there;
+    RetargetReport report;
+    const Clip clip = retarget(far, rig, {}, &report);
+    EXPECT_TRUE(saysOf(report, "starts at the origin"));
+    const Placed placed = place(clip, rig, 0);
+    EXPECT_NEAR(placed.places[0].x, rig.joints[0].centre.x, 1e-6);
+    EXPECT_NEAR(placed.places[0].z, rig.joints[0].centre.z, 1e-6);
+    EXPECT_LT(compare(clip, rig, actor).limbs, 1.0);
+    const std::size_t last = clip.frames - 1; // a prop goes where the actor does
+    EXPECT_LT(
+        glm::distance(clip.rootPositions[last],
+                      report.scale * (report.rotation * far.rootPositions[last]) + report.offset),
+        1e-6);
+
+    RetargetReport near;
+    far = actor;
+    for (glm::dvec3& position : far.rootPositions) position.x += 2.0 * rig.joints[0].centre.y;
+    const Clip moved = retarget(far, rig, {}, &near);
+    EXPECT_FALSE(saysOf(near, "starts at the origin"));
+    EXPECT_GT(moved.rootPositions[0].x, 1.9 * rig.joints[0].centre.y);
+}
+
+/// A rig that lies while the actor stands is no dance.
+TEST_F(StandingPose, HipsOnTheFloorOfAnActorWhoStandsAreAnError) {
+    RetargetOptions options;
+    for (const std::string side : {"Left", "Right"}) {
+        options.joints[side + "UpLeg"] = side + "Arm";
+        options.joints[side + "Leg"] = side + "ForeArm";
+        options.joints[side + "Foot"] = side + "Hand";
+    }
+    Motion cross = actor; // arms out to the sides
+    for (std::size_t f = 0; f < cross.frames; ++f)
+        for (std::size_t j = 1; j < joints; ++j) cross.rotations[f * joints + j] = kIdentity;
+    for (const std::string side : {"Left", "Right"}) {
+        const RestSkeleton& body = actor.skeleton;
+        const auto at = [&](const char* joint) { return std::size_t(body.find(side + joint)); };
+        const glm::dvec3 bone =
+            glm::normalize(body.joints[at("Hand")].centre - body.joints[at("Arm")].centre);
+        const glm::dquat up(bone, glm::dvec3(side == "Left" ? 1 : -1, 0, 0));
+        for (std::size_t f = 0; f < cross.frames; ++f) {
+            cross.rotations[f * joints] = kIdentity;
+            cross.rotations[f * joints + at("Arm")] = up;
+        }
+    }
+    expectError([&] { retarget(cross, rig, options); }, "hips are as low as its feet");
+}
