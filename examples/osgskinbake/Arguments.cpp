@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 
 #include <charconv>
+#include <cmath>
 #include <iostream>
 #include <regex>
+#include <sstream>
 
 namespace bake {
 namespace {
@@ -64,6 +66,16 @@ void checkPattern(const std::string& out) {
         throw UsageError{"--out: expected one %d (or %04d) at most, found \"" + out + "\""};
 }
 
+std::pair<std::string, float> parseActivation(const std::string& word) {
+    const std::size_t sign = word.rfind('=');
+    const std::string number = sign == std::string::npos ? "" : word.substr(sign + 1);
+    std::istringstream in(number);
+    float value = 0.0f;
+    if (sign == 0 || !(in >> value) || !in.eof() || !std::isfinite(value))
+        throw UsageError{"--tense: expected NAME=A with a number, found \"" + word + "\""};
+    return {word.substr(0, sign), value};
+}
+
 /// `--rest` may stand alone, and then takes the place of the frames in --out; and a file name that
 /// follows it may turn out to be the character.
 void settleRest(const CLI::Option& rest, Arguments& arguments) {
@@ -101,6 +113,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.footer(kFooter);
     Arguments arguments;
     std::string frames;
+    std::vector<std::string> tensed;
     app.add_option("CHARACTER", arguments.character, "a .skin file, or a rigged model");
     app.add_option("--motion", arguments.motion, "a motion's name; the first one by default");
     app.add_option("--frames", frames, "A, A:B or A:B:STEP; all by default");
@@ -110,6 +123,10 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
                    "none, fast or elastic: what shapes bent limbs; as the character says by "
                    "default")
         ->check(CLI::IsMember({"none", "fast", "elastic"}));
+    app.add_option("--muscles", arguments.muscles,
+                   "on or off: muscles that swell; as the character says by default")
+        ->check(CLI::IsMember({"on", "off"}));
+    app.add_option("--tense", tensed, "NAME=A: tenses a muscle by A, 0 to 1, in all frames");
     app.add_option("--out", arguments.out,
                    "the frames' files, like frame_%04d.obj or .ply; or one for all: .pc2, .glb");
     CLI::Option* rest =
@@ -126,6 +143,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
         throw UsageError{error.what()};
     }
     if (!frames.empty()) arguments.frames = parseRange(frames);
+    for (const std::string& word : tensed) arguments.activations.push_back(parseActivation(word));
     checkPattern(arguments.out);
     settleRest(*rest, arguments);
     if (arguments.character.empty())

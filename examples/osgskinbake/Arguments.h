@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace bake {
 
@@ -21,9 +23,11 @@ struct Arguments {
     std::optional<FrameRange> frames;
     std::optional<double> rate; ///< samples a second of a rigged model's clips
     std::string shapes;         ///< "none", "fast" or "elastic"; empty: as the character has them
-    std::string out;            ///< pattern of the frames' files; empty: no frames wanted
-    std::string rest;           ///< file for the bind pose; empty: not wanted
-    std::string binding;        ///< JSON files; empty: not wanted
+    std::string muscles;        ///< "on" or "off"; empty: as the character has them
+    std::vector<std::pair<std::string, float>> activations; ///< of inputs, by name
+    std::string out;     ///< pattern of the frames' files; empty: no frames wanted
+    std::string rest;    ///< file for the bind pose; empty: not wanted
+    std::string binding; ///< JSON files; empty: not wanted
     std::string pose;
     bool quiet = false;
 };

@@ -85,7 +85,11 @@ private:
 osgSkin::Pose currentPose(const osgSkin::Character& character) {
     osgSkin::BoneReader reader(character.binding.joints, *character.skeleton);
     const std::vector<glm::dmat4>& skinning = reader.read();
-    osgSkin::Pose pose(character.binding.joints);
+    const std::vector<std::string>& inputs = character.binding.correctives.inputs;
+    osgSkin::Pose pose(character.binding.joints, inputs.size());
+    if (!character.skin.skins.empty())
+        for (std::size_t i = 0; i < inputs.size(); ++i)
+            pose.setInput(i, character.skin.skins.front().drawable->getActivation(inputs[i]));
     pose.set(skinning.data(), skinning.size());
     return pose;
 }

@@ -23,28 +23,35 @@ const char* nameOf(osgSkin::CorrectiveJoint::Basis basis) {
     case osgSkin::CorrectiveJoint::Basis::Ball:
         return "ball";
     case osgSkin::CorrectiveJoint::Basis::Round:
+        return "round";
+    case osgSkin::CorrectiveJoint::Basis::Input:
         break;
     }
-    return "round";
+    return "input";
 }
 
 /// The scalar functions of each joint that has correctives.
 nlohmann::json functionsJson(const osgSkin::Binding& binding) {
     nlohmann::json list = nlohmann::json::array();
     for (const osgSkin::CorrectiveJoint& joint : binding.correctives.joints) {
-        const std::size_t functions = joint.functionCount();
+        const std::size_t count = joint.functionCount();
         nlohmann::json rows = nlohmann::json::array();
         for (std::size_t k = 0; k < joint.modes; ++k) {
-            const auto row = joint.coefficients.begin() + std::ptrdiff_t(k * functions);
-            rows.push_back(std::vector<double>(row, row + std::ptrdiff_t(functions)));
+            const auto row = joint.coefficients.begin() + std::ptrdiff_t(k * count);
+            rows.push_back(std::vector<double>(row, row + std::ptrdiff_t(count)));
         }
-        list.push_back({{"joint", binding.joints[joint.joint].name},
-                        {"basis", nameOf(joint.basis)},
-                        {"axis", array(joint.axis)},
-                        {"low", {joint.low.x, joint.low.y}},
-                        {"high", {joint.high.x, joint.high.y}},
-                        {"knots", joint.knots},
-                        {"coefficients", std::move(rows)}});
+        nlohmann::json functions{{"basis", nameOf(joint.basis)},
+                                 {"low", {joint.low.x, joint.low.y}},
+                                 {"high", {joint.high.x, joint.high.y}},
+                                 {"coefficients", std::move(rows)}};
+        if (joint.basis == osgSkin::CorrectiveJoint::Basis::Input) {
+            functions["input"] = binding.correctives.inputs[joint.joint];
+        } else {
+            functions["joint"] = binding.joints[joint.joint].name;
+            functions["axis"] = array(joint.axis);
+            functions["knots"] = joint.knots;
+        }
+        list.push_back(std::move(functions));
     }
     return list;
 }
@@ -60,7 +67,7 @@ nlohmann::json vectorsJson(const osgSkin::Binding& binding, std::size_t vertex) 
         for (std::size_t k = 0; k < joint.modes; ++k, share += 3)
             vectors.push_back(array(glm::dvec3(share[0], share[1], share[2]) /
                                     double(osgSkin::Correctives::kUnit)));
-        list.push_back({binding.joints[joint.joint].name, std::move(vectors)});
+        list.push_back({from.entries[i].joint, std::move(vectors)});
     }
     return list;
 }
@@ -107,7 +114,11 @@ nlohmann::json poseJson(std::size_t frame, const osgSkin::Binding& binding,
         joints[binding.joints[j].name] = {{"rotation", {q.w, q.x, q.y, q.z}},
                                           {"translation", array(transform.translation)}};
     }
-    return {{"frame", frame}, {"joints", std::move(joints)}};
+    nlohmann::json result{{"frame", frame}, {"joints", std::move(joints)}};
+    const std::vector<std::string>& inputs = binding.correctives.inputs;
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        result["inputs"][inputs[i]] = double(pose.input(i));
+    return result;
 }
 
 void writeJson(const std::string& file, const nlohmann::json& json) {

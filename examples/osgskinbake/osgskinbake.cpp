@@ -94,6 +94,7 @@ Character load(const Arguments& arguments) {
     if (arguments.shapes == "none") options.shapes = osgSkin::BindOptions::Shapes::None;
     if (arguments.shapes == "fast") options.shapes = osgSkin::BindOptions::Shapes::Fast;
     if (arguments.shapes == "elastic") options.shapes = osgSkin::BindOptions::Shapes::Elastic;
+    if (!arguments.muscles.empty()) options.muscles = arguments.muscles == "on";
     options.progress = line.progress();
     Character character = osgSkin::loadCharacter(file, options);
     if (!character.hasBody())
@@ -101,8 +102,19 @@ Character load(const Arguments& arguments) {
     return character;
 }
 
+void tense(Character& character, const Arguments& arguments) {
+    for (const auto& [name, activation] : arguments.activations) {
+        bool known = false;
+        for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins)
+            known = skin.drawable->setActivation(name, activation) || known;
+        if (!known)
+            throw UsageError{"--tense: " + arguments.character + " has no muscle \"" + name + "\""};
+    }
+}
+
 int run(const Arguments& arguments) {
     Character character = load(arguments);
+    tense(character, arguments);
     if (!arguments.binding.empty())
         bake::writeJson(arguments.binding, bake::bindingJson(character.binding));
     if (!arguments.rest.empty())

@@ -33,7 +33,8 @@ inline osgSkin::CorrectiveJoint someFunctions(const osgSkin::Binding& binding, s
     return result;
 }
 
-/// Correctives of the joints from 1 on, for about two vertices in three that follow them in part.
+/// Correctives of the joints from 1 on, for about two vertices in three that follow them in part,
+/// and of one input, for about one in three.
 inline osgSkin::Correctives someCorrectives(const osgSkin::Binding& binding, double size,
                                             std::uint64_t seed, bool withNormals = false) {
     using Basis = osgSkin::CorrectiveJoint::Basis;
@@ -46,18 +47,32 @@ inline osgSkin::Correctives someCorrectives(const osgSkin::Binding& binding, dou
             someFunctions(binding, joint, static_cast<Basis>(joint % 3), size, random));
         if (withNormals) result.joints.back().normalScales.assign(result.joints.back().modes, 2.0);
     }
+    const auto input = static_cast<std::uint32_t>(result.joints.size());
+    result.inputs = {"breath"};
+    osgSkin::CorrectiveJoint breath;
+    breath.basis = Basis::Input;
+    breath.low.x = -0.25;
+    breath.high.x = 1.0;
+    breath.modes = 2;
+    breath.coefficients = {size, -0.5 * size};
+    if (withNormals) breath.normalScales = {2.0, 1.0};
+    result.joints.push_back(breath);
+    const auto addEntry = [&](std::uint32_t joint) {
+        result.entries.push_back({joint, static_cast<std::uint32_t>(result.shares.size())});
+        for (std::size_t k = 0; k < result.sharesOf(joint); ++k) {
+            result.shares.push_back(static_cast<std::int16_t>(share(random)));
+            if (withNormals)
+                result.normalShares.push_back(static_cast<std::int16_t>(share(random)));
+        }
+    };
     result.firstEntry.push_back(0);
     for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
         for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i) {
             const std::uint32_t joint = binding.influences[i].joint;
-            if (joint < 1 || joint > result.joints.size() || random() % 3 == 0) continue;
-            result.entries.push_back({joint - 1, static_cast<std::uint32_t>(result.shares.size())});
-            for (std::size_t k = 0; k < result.sharesOf(joint - 1); ++k) {
-                result.shares.push_back(static_cast<std::int16_t>(share(random)));
-                if (withNormals)
-                    result.normalShares.push_back(static_cast<std::int16_t>(share(random)));
-            }
+            if (joint < 1 || joint > input || random() % 3 == 0) continue;
+            addEntry(joint - 1);
         }
+        if (random() % 3 == 0) addEntry(input);
         result.firstEntry.push_back(static_cast<std::uint32_t>(result.entries.size()));
     }
     return result;
@@ -71,10 +86,16 @@ inline glm::dvec3 correctionOf(const osgSkin::Binding& binding, const osgSkin::P
     for (std::uint32_t i = from.firstEntry[vertex]; i < from.firstEntry[vertex + 1]; ++i) {
         const osgSkin::CorrectiveJoint& joint = from.joints[from.entries[i].joint];
         double beta[osgSkin::CorrectiveJoint::kMostModes];
-        const osgSkin::BendTwist bend = pose.transform(joint.joint).split;
-        joint.weights(
-            joint.coordinates(bend.bendAxis, bend.bendAngle, binding.joints[joint.joint].twistAxis),
-            beta);
+        if (joint.basis == osgSkin::CorrectiveJoint::Basis::Input) {
+            const double x = double(pose.input(joint.joint));
+            for (std::size_t k = 0; k < joint.modes; ++k)
+                beta[k] = joint.coefficients[k] * std::min(joint.high.x, std::max(joint.low.x, x));
+        } else {
+            const osgSkin::BendTwist bend = pose.transform(joint.joint).split;
+            joint.weights(joint.coordinates(bend.bendAxis, bend.bendAngle,
+                                            binding.joints[joint.joint].twistAxis),
+                          beta);
+        }
         const std::int16_t* u = &from.shares[from.entries[i].firstShare];
         for (std::size_t k = 0; k < joint.modes; ++k, u += 3)
             sum += beta[k] / 32767.0 * glm::dvec3(u[0], u[1], u[2]);

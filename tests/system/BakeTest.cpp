@@ -34,7 +34,8 @@ protected:
         if (!test::isAvailable(GetParam(), why)) GTEST_SKIP() << why;
         folder = test::makeTestFolder();
         const std::string skin = test::skinFile(GetParam(), folder);
-        const std::string shapes = std::string(" --shapes ") + GetParam().shapes;
+        const std::string shapes =
+            std::string(" --shapes ") + GetParam().shapes + " --muscles " + GetParam().muscles;
         const auto rest =
             runBake("'" + skin + "'" + shapes + " --rest rest.obj --binding binding.json", folder);
         ASSERT_EQ(rest.status, 0) << rest.err;

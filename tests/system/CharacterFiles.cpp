@@ -28,6 +28,8 @@ const std::vector<CharacterCase>& characterCases() {
         {"male_pitch", kMale, kMaleRig, kPitch, "0:27", 1},
         {"male_walk", kMale, kMaleRig, kWalk, "0:519:10", 1},
         {"thrower_shaped", nullptr, nullptr, nullptr, "0:280:7", 0, "fast"},
+        {"thrower_muscles", nullptr, nullptr, nullptr, "0:280:7", 0, "fast",
+         "on --tense LeftBiceps=0.7 --tense RightCalf=1"},
         {"male_walk_shaped", kMale, kMaleRig, kWalk, "0:519:10", 1, "fast"},
     };
     return cases;

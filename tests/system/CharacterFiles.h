@@ -17,6 +17,7 @@ struct CharacterCase {
     const char* frames; ///< of osgskinbake's --frames
     std::size_t skipFrames;
     const char* shapes = "none"; ///< of osgskinbake's --shapes
+    const char* muscles = "off"; ///< of its --muscles, and whatever goes with it
 };
 
 /// Both third-party bodies under both clips, and the project's own thrower.

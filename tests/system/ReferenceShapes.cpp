@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -37,11 +38,14 @@ std::vector<double> splines(const std::vector<double>& knots, double x) {
 } // namespace
 
 ReferenceShapes::ReferenceShapes(const nlohmann::json& json)
-    : _joint(json["joint"].get<std::string>()), _basis(json["basis"].get<std::string>()),
-      _axis(json["axis"][0], json["axis"][1], json["axis"][2]),
+    : _basis(json["basis"].get<std::string>()),
+      _joint(json[isInput() ? "input" : "joint"].get<std::string>()),
       _low(json["low"][0], json["low"][1]), _high(json["high"][0], json["high"][1]),
-      _knots(json["knots"].get<std::vector<double>>()),
-      _coefficients(json["coefficients"].get<std::vector<std::vector<double>>>()) {}
+      _coefficients(json["coefficients"].get<std::vector<std::vector<double>>>()) {
+    if (isInput()) return;
+    _axis = {json["axis"][0], json["axis"][1], json["axis"][2]};
+    _knots = json["knots"].get<std::vector<double>>();
+}
 
 std::vector<double> ReferenceShapes::functions(double x, double y) const {
     if (_basis == "ball")
@@ -78,7 +82,14 @@ std::vector<double> ReferenceShapes::weights(const glm::dvec3& v, double psi,
         x *= softly(r) / r;
         y *= softly(r) / r;
     }
-    const std::vector<double> phi = functions(x, y);
+    return sums(functions(x, y));
+}
+
+std::vector<double> ReferenceShapes::weights(double input) const {
+    return sums({std::min(_high.x, std::max(_low.x, input))});
+}
+
+std::vector<double> ReferenceShapes::sums(const std::vector<double>& phi) const {
     std::vector<double> result;
     for (const std::vector<double>& row : _coefficients) {
         result.push_back(0.0);

@@ -17,17 +17,21 @@ public:
     /// \param json one of the binding's "correctives"
     explicit ReferenceShapes(const nlohmann::json& json);
 
+    /// Whether they follow an input of that name instead of the joint's bend.
+    bool isInput() const { return _basis == "input"; }
     const std::string& joint() const { return _joint; }
 
     /// What each mode's vectors are to be scaled by, in a bend by `psi` about `v`; w is the twist
     /// axis.
     std::vector<double> weights(const glm::dvec3& v, double psi, const glm::dvec3& w) const;
+    std::vector<double> weights(double input) const;
 
 private:
     std::vector<double> functions(double x, double y) const;
+    std::vector<double> sums(const std::vector<double>& phi) const;
 
-    std::string _joint, _basis;
-    glm::dvec3 _axis;
+    std::string _basis, _joint;
+    glm::dvec3 _axis{0.0};
     glm::dvec2 _low, _high;
     std::vector<double> _knots;
     std::vector<std::vector<double>> _coefficients;

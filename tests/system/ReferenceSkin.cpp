@@ -79,27 +79,35 @@ ReferenceSkin::ReferenceSkin(const nlohmann::json& binding, std::vector<glm::dve
         if (vertex.contains("correctives"))
             for (const nlohmann::json& entry : vertex["correctives"])
                 for (const nlohmann::json& mode : entry[1])
-                    _vectors.back()[entry[0]].push_back(vector(mode));
+                    _vectors.back()[entry[0].get<std::size_t>()].push_back(vector(mode));
     }
     if (binding.contains("correctives"))
         for (const nlohmann::json& joint : binding["correctives"]) _shapes.emplace_back(joint);
 }
 
 void ReferenceSkin::correct(const nlohmann::json& frame, std::vector<glm::dvec3>& vertices) const {
-    for (const ReferenceShapes& shapes : _shapes)
+    const auto add = [&](std::size_t shapes, const std::vector<double>& weights) {
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const auto own = _vectors[i].find(shapes);
+            for (std::size_t k = 0; own != _vectors[i].end() && k < weights.size(); ++k)
+                vertices[i] += weights[k] * own->second.at(k);
+        }
+    };
+    for (std::size_t s = 0; s < _shapes.size(); ++s) {
+        const ReferenceShapes& shapes = _shapes[s];
+        if (shapes.isInput()) {
+            add(s, shapes.weights(frame["inputs"][shapes.joint()].get<double>()));
+            continue;
+        }
         for (const Joint& joint : _joints) {
             if (joint.name != shapes.joint()) continue;
             const nlohmann::json& r = frame["joints"][joint.name]["rotation"];
             const Split split(
                 {r[0].get<double>(), r[1].get<double>(), r[2].get<double>(), r[3].get<double>()},
                 joint.twistAxis);
-            const std::vector<double> weights = shapes.weights(split.v, split.psi, joint.twistAxis);
-            for (std::size_t i = 0; i < vertices.size(); ++i) {
-                const auto own = _vectors[i].find(joint.name);
-                for (std::size_t k = 0; own != _vectors[i].end() && k < weights.size(); ++k)
-                    vertices[i] += weights[k] * own->second.at(k);
-            }
+            add(s, shapes.weights(split.v, split.psi, joint.twistAxis));
         }
+    }
 }
 
 std::vector<glm::dvec3> ReferenceSkin::pose(const nlohmann::json& frame) const {

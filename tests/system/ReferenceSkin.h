@@ -48,7 +48,7 @@ private:
     std::vector<Joint> _joints;
     std::vector<ReferenceShapes> _shapes;
     /// Per vertex: joint -> a vector for each of its modes.
-    std::vector<std::map<std::string, std::vector<glm::dvec3>>> _vectors;
+    std::vector<std::map<std::size_t, std::vector<glm::dvec3>>> _vectors;
     std::vector<std::map<std::string, Share>> _shares; ///< per vertex
     std::vector<glm::dvec3> _rest;
 };

@@ -106,6 +106,14 @@ TEST(Correctives, AreRefusedWithAReason) {
         {"knots", [](auto& c) { c.joints[0].knots = {0.5}; }},
         {"ascend", [](auto& c) { std::swap(c.joints[1].knots[0], c.joints[1].knots[1]); }},
         {"modes", [](auto& c) { c.joints[0].modes = 0; }},
+        {"input 5 is not there", [](auto& c) { c.joints.back().joint = 5; }},
+        {"does not hold 0", [](auto& c) { c.joints.back().low.x = 0.5; }},
+        {"does not hold 0", [](auto& c) { c.joints.back().high.x = std::nan(""); }},
+        {"none for an input",
+         [](auto& c) {
+             c.joints.back().knots = {0.0, 1.0};
+         }},
+        {"two inputs", [](auto& c) { c.inputs.push_back(c.inputs.front()); }},
         {"each mode and function", [](auto& c) { c.joints[0].coefficients.pop_back(); }},
         {"not finite", [](auto& c) { c.joints[0].coefficients[0] = std::nan(""); }},
         {"scale of normals", [](auto& c) { c.joints[0].normalScales = {1.0}; }},

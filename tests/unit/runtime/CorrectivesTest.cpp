@@ -51,8 +51,11 @@ osgSkin::Pose poseOf(const osgSkin::Binding& binding, std::mt19937_64& random) {
     for (std::size_t j = 0; j < binding.joints.size(); ++j)
         turns.push_back(test::randomRotation(random));
     const auto skinning = test::skinningFrom(binding.joints, turns);
-    osgSkin::Pose pose(binding.joints);
+    osgSkin::Pose pose(binding.joints, binding.correctives.inputs.size());
     EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
+    std::uniform_real_distribution<float> input(-0.5f, 1.5f); // beyond its range, too
+    for (std::size_t i = 0; i < binding.correctives.inputs.size(); ++i)
+        EXPECT_TRUE(pose.setInput(i, input(random)));
     return pose;
 }
 

@@ -4,6 +4,7 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkin/UpdateDeformableSkin>
 
+#include "SomeCorrectives.h"
 #include "TubeSkin.h"
 
 #include <osg/TriangleFunctor>
@@ -12,6 +13,8 @@
 #include <osgUtil/UpdateVisitor>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 using test::bend;
 using test::cull;
@@ -158,4 +161,34 @@ TEST(UpdateDeformableSkin, AJointWithoutABoneMovesWithItsParent) {
                                     osg::Matrix::translate(0, 2, 0));
     ASSERT_TRUE(update->pose(*skin, *skeleton));
     EXPECT_NEAR(std::abs(skin->getPose().transform(2).rotation.w), 1.0, 1e-12);
+}
+
+TEST(DeformableSkin, FollowsAnActivation) {
+    test::Tube tube;
+    tube.binding.correctives = test::someCorrectives(tube.binding, 0.3, 5);
+    const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    EXPECT_FALSE(skin->setActivation("breath", 1.0f)); // no skin yet
+    skin->setSkin(makeGeometry(tube), tube.model());
+    const auto vertices = [](const osgSkin::DeformableSkin& of) {
+        return static_cast<const osg::Vec3Array*>(of.getDeformedGeometry()->getVertexArray())
+            ->asVector();
+    };
+    const auto atRest = vertices(*skin);
+    EXPECT_EQ(skin->getActivation("breath"), 0.0f);
+    EXPECT_FALSE(skin->setActivation("Breath", 1.0f));
+    EXPECT_FALSE(skin->setActivation("breath", std::nanf("")));
+    EXPECT_FALSE(skin->needsDeform());
+    EXPECT_TRUE(skin->setActivation("breath", 0.5f));
+    EXPECT_EQ(skin->getActivation("breath"), 0.5f);
+    EXPECT_TRUE(skin->needsDeform());
+    EXPECT_NE(vertices(*skin), atRest);
+    EXPECT_TRUE(skin->setActivation("breath", 0.5f)); // the same again is no work
+    EXPECT_FALSE(skin->needsDeform());
+    // The pose comes and goes beside it, and copies take it along.
+    bend(*skin, 0.3);
+    EXPECT_EQ(skin->getActivation("breath"), 0.5f);
+    const osg::ref_ptr<osgSkin::DeformableSkin> copy = new osgSkin::DeformableSkin(*skin);
+    EXPECT_EQ(vertices(*copy), vertices(*skin));
+    EXPECT_TRUE(copy->setActivation("breath", 0.0f));
+    EXPECT_EQ(skin->getActivation("breath"), 0.5f);
 }

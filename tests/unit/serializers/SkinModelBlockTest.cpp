@@ -85,6 +85,7 @@ TEST(SkinModelBlock, CorrectivesComeBackExactly) {
         EXPECT_EQ(osgSkin::packSkinModel(*back), words);
         const osgSkin::Correctives& before = tube.binding.correctives;
         const osgSkin::Correctives after = osgSkin::bindingOf(*back).correctives;
+        EXPECT_EQ(after.inputs, before.inputs);
         EXPECT_EQ(after.shares, before.shares);
         EXPECT_EQ(after.normalShares, before.normalShares);
         EXPECT_EQ(after.firstEntry, before.firstEntry);

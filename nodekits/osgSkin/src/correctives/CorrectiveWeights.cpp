@@ -7,16 +7,20 @@
 
 namespace osgSkin {
 
+glm::dvec2 CorrectiveWeights::coordinatesOf(const CorrectiveJoint& joint) const noexcept {
+    if (joint.basis == CorrectiveJoint::Basis::Input)
+        return {double(_pose.input(joint.joint)), 0.0};
+    const BendTwist bend = _pose.transform(joint.joint).split;
+    return joint.coordinates(bend.bendAxis, bend.bendAngle, _model.joints()[joint.joint].twistAxis);
+}
+
 const CorrectiveWeights::Weights* CorrectiveWeights::of(std::uint32_t joint) noexcept {
     State& state = _states[joint];
     Weights& weights = _weights[joint];
     if (state == State::Unknown) {
         const CorrectiveJoint& from = _blocks.joints[joint];
         double beta[CorrectiveJoint::kMostModes];
-        const BendTwist bend = _pose.transform(from.joint).split;
-        from.weights(
-            from.coordinates(bend.bendAxis, bend.bendAngle, _model.joints()[from.joint].twistAxis),
-            beta);
+        from.weights(coordinatesOf(from), beta);
         state = State::Nothing;
         for (std::size_t k = 0; k < from.modes; ++k) {
             // A rest pose read from matrices is one up to rounding errors.

@@ -32,6 +32,8 @@ public:
 private:
     enum class State : unsigned char { Unknown, Nothing, Something };
 
+    glm::dvec2 coordinatesOf(const CorrectiveJoint& joint) const noexcept;
+
     const SkinModel& _model;
     const Pose& _pose;
     const CorrectiveBlocks& _blocks;

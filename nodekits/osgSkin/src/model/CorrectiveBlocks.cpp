@@ -36,7 +36,8 @@ std::vector<std::uint32_t> correctedBy(const Binding& binding, std::uint32_t ver
 
 CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& binding,
                                    const std::vector<std::uint32_t>& source)
-    : joints(binding.correctives.joints), hasNormals(binding.correctives.hasNormals()) {
+    : joints(binding.correctives.joints), inputs(binding.correctives.inputs),
+      hasNormals(binding.correctives.hasNormals()) {
     const Correctives& from = binding.correctives;
     firstRange.push_back(0);
     for (const SkinModel::Group& group : model.groups()) {
@@ -70,6 +71,7 @@ Correctives correctivesOf(const SkinModel& model) {
     const CorrectiveBlocks* blocks = SkinModelAccess::correctives(model);
     if (!blocks) return result;
     result.joints = blocks->joints;
+    result.inputs = blocks->inputs;
     struct Place { // of a vertex: its group and row there
         std::size_t group;
         std::uint32_t row;

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace osgSkin {
@@ -36,6 +37,7 @@ struct CorrectiveBlocks {
                      const std::vector<std::uint32_t>& source);
 
     std::vector<CorrectiveJoint> joints;
+    std::vector<std::string> inputs;
     bool hasNormals = false;
     std::vector<Range> ranges;
     std::vector<std::uint32_t> firstRange; ///< groups + 1, into `ranges`

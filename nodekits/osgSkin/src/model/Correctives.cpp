@@ -6,10 +6,12 @@
 #include <osgSkin/Binding>
 #include <osgSkin/Error>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace osgSkin {
 namespace {
@@ -60,18 +62,37 @@ void checkRange(const CorrectiveJoint& joint, const std::string& place) {
             throw Error(place + " have a range that does not reach from below 0 to above it");
 }
 
-void checkJoint(const CorrectiveJoint& joint, const std::vector<BoundJoint>& bound,
-                bool hasNormals) {
-    if (joint.joint >= bound.size())
-        throw Error("correctives: joint " + std::to_string(joint.joint) + " is not there");
-    const BoundJoint& of = bound[joint.joint];
-    const std::string place = "correctives: those of joint \"" + of.name + "\"";
-    if (joint.basis > Basis::Round) throw Error(place + " have functions of no known kind");
+void checkBend(const CorrectiveJoint& joint, const BoundJoint& of, const std::string& place) {
     if (!(std::abs(glm::dot(joint.axis, joint.axis) - 1.0) < 1e-6) ||
         !(std::abs(glm::dot(joint.axis, of.twistAxis)) < 1e-6))
         throw Error(place + " have an axis that is no unit vector perpendicular to the twist axis");
     checkRange(joint, place);
     checkKnots(joint, place);
+}
+
+/// Written so that NaN is refused.
+void checkInput(const CorrectiveJoint& joint, const std::string& place) {
+    if (!(joint.low.x >= -2.0 && joint.low.x <= 0.0 && joint.high.x > 0.0 && joint.high.x <= 2.0))
+        throw Error(place + " have a range that does not hold 0, or is beyond -2 to 2");
+    if (!joint.knots.empty()) throw Error(place + " have knots, expected none for an input");
+}
+
+void checkJoint(const CorrectiveJoint& joint, const Correctives& correctives,
+                const std::vector<BoundJoint>& bound) {
+    const bool hasNormals = correctives.hasNormals();
+    const bool input = joint.basis == Basis::Input;
+    if (joint.joint >= (input ? correctives.inputs.size() : bound.size()))
+        throw Error(std::string("correctives: ") + (input ? "input " : "joint ") +
+                    std::to_string(joint.joint) + " is not there");
+    const std::string place = "correctives: those of " +
+                              (input ? "input \"" + correctives.inputs[joint.joint]
+                                     : "joint \"" + bound[joint.joint].name) +
+                              "\"";
+    if (joint.basis > Basis::Input) throw Error(place + " have functions of no known kind");
+    if (input)
+        checkInput(joint, place);
+    else
+        checkBend(joint, bound[joint.joint], place);
     if (joint.modes < 1 || joint.modes > CorrectiveJoint::kMostModes)
         throw Error(place + " have " + std::to_string(joint.modes) + " modes, expected 1 to " +
                     std::to_string(CorrectiveJoint::kMostModes));
@@ -93,6 +114,8 @@ std::size_t CorrectiveJoint::functionCount() const noexcept {
         return 9;
     case Basis::Round:
         return 7 * splineCount(knots);
+    case Basis::Input:
+        return 1;
     }
     return 0;
 }
@@ -104,6 +127,7 @@ glm::dvec2 CorrectiveJoint::coordinates(const glm::dvec3& v, double psi,
 }
 
 glm::dvec2 CorrectiveJoint::clamped(glm::dvec2 xy) const noexcept {
+    if (basis == Basis::Input) return {glm::clamp(xy.x, low.x, high.x), 0.0};
     if (basis == Basis::Hinge)
         return {clampedAlone(xy.x, low.x, high.x), clampedAlone(xy.y, low.y, high.y)};
     const double r =
@@ -147,6 +171,9 @@ void CorrectiveJoint::evaluate(glm::dvec2 clampedXy, Functions& phi) const noexc
         }
         return;
     }
+    case Basis::Input:
+        phi[0] = x;
+        return;
     }
 }
 
@@ -163,12 +190,17 @@ void CorrectiveJoint::weights(glm::dvec2 xy, double* beta) const noexcept {
 
 void Correctives::validate(const std::vector<BoundJoint>& bound, std::size_t vertexCount) const {
     if (firstEntry.empty() && entries.empty() && joints.empty() && shares.empty() &&
-        normalShares.empty())
+        normalShares.empty() && inputs.empty())
         return;
     if (joints.size() > kMostJoints)
         throw Error("correctives: " + std::to_string(joints.size()) + " joints, expected at most " +
                     std::to_string(kMostJoints));
-    for (const CorrectiveJoint& joint : joints) checkJoint(joint, bound, hasNormals());
+    if (inputs.size() > kMostJoints)
+        throw Error("correctives: " + std::to_string(inputs.size()) + " inputs, expected at most " +
+                    std::to_string(kMostJoints));
+    if (std::set<std::string>(inputs.begin(), inputs.end()).size() != inputs.size())
+        throw Error("correctives: two inputs have one name");
+    for (const CorrectiveJoint& joint : joints) checkJoint(joint, *this, bound);
     if (hasNormals() && normalShares.size() != shares.size())
         throw Error("correctives: expected as many shares of normals as of positions, or none");
     if (firstEntry.size() != vertexCount + 1 || firstEntry.front() != 0 ||

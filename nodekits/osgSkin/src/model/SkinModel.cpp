@@ -56,6 +56,11 @@ SkinModel::SkinModel(const SkinModel& other, const osg::CopyOp& copyop)
 
 SkinModel::~SkinModel() = default;
 
+const std::vector<std::string>& SkinModel::inputs() const {
+    static const std::vector<std::string> none;
+    return _correctives ? _correctives->inputs : none;
+}
+
 osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
                                                 std::vector<glm::vec3> positions,
                                                 std::vector<glm::vec3> normals,

@@ -12,6 +12,14 @@
 #include <utility>
 
 namespace osgSkin {
+namespace {
+
+/// The size of `names` where it is not among them.
+std::size_t indexOf(const std::string& name, const std::vector<std::string>& names) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+} // namespace
 
 DeformableSkin::DeformableSkin() {
     setUseDisplayList(false);
@@ -43,7 +51,7 @@ void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinM
     _tangents = tangentsOf(*rest, _tangentAttribute, *model);
     _rest = rest;
     _model = model;
-    _pose = Pose(_model->joints());
+    _pose = Pose(_model->joints(), _model->inputs().size());
     setStateSet(rest->getStateSet());
     makeBuffers();
     poseChanged();
@@ -135,6 +143,19 @@ bool DeformableSkin::setPose(const glm::dmat4* skinning, std::size_t count, Pose
 
 bool DeformableSkin::setPose(const osg::Matrixd* skinning, std::size_t count, Pose::Twist twist) {
     return setPose(asGlm(skinning), count, twist);
+}
+
+bool DeformableSkin::setActivation(const std::string& input, float activation) {
+    if (!_model) return false;
+    const std::size_t index = indexOf(input, _model->inputs());
+    const float before = _pose.input(index);
+    if (!_pose.setInput(index, activation)) return false;
+    if (activation != before) poseChanged();
+    return true;
+}
+
+float DeformableSkin::getActivation(const std::string& input) const {
+    return _model ? _pose.input(indexOf(input, _model->inputs())) : 0.0f;
 }
 
 /// Makes the buffers draw as the outer drawable is set to.

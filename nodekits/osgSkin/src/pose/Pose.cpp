@@ -54,7 +54,8 @@ double continued(double before, double twist) noexcept {
 
 } // namespace
 
-Pose::Pose(const std::vector<BoundJoint>& joints) : _splits(joints.size()) {
+Pose::Pose(const std::vector<BoundJoint>& joints, std::size_t inputs)
+    : _splits(joints.size()), _inputs(inputs, 0.0f) {
     const auto rest = std::make_shared<std::vector<Rest>>();
     rest->reserve(joints.size());
     for (const BoundJoint& joint : joints) {
@@ -115,6 +116,12 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool*
         before = now;
     }
     if (changed) *changed = other;
+    return true;
+}
+
+bool Pose::setInput(std::size_t input, float value) noexcept {
+    if (input >= _inputs.size() || !std::isfinite(value)) return false;
+    _inputs[input] = value;
     return true;
 }
 

@@ -4,6 +4,9 @@
 namespace osgSkin {
 namespace {
 
+// Flags of a block.
+constexpr std::uint32_t kNormals = 1, kInputs = 2;
+
 void putList(const std::vector<double>& numbers, WordWriter& out) {
     out.put(numbers.size());
     for (const double number : numbers) out.put(number);
@@ -54,7 +57,10 @@ CorrectiveJoint takeJoint(WordReader& in) {
 } // namespace
 
 void putCorrectives(const Correctives& correctives, WordWriter& out) {
-    out.put(std::uint32_t{correctives.hasNormals() ? 1u : 0u});
+    out.put(std::uint32_t{(correctives.hasNormals() ? kNormals : 0u) |
+                          (correctives.inputs.empty() ? 0u : kInputs)});
+    if (!correctives.inputs.empty()) out.put(correctives.inputs.size());
+    for (const std::string& input : correctives.inputs) out.put(input);
     out.put(correctives.joints.size());
     for (const CorrectiveJoint& joint : correctives.joints) {
         out.put(joint.joint);
@@ -86,7 +92,10 @@ void putCorrectives(const Correctives& correctives, WordWriter& out) {
 Correctives takeCorrectives(WordReader& in, std::uint32_t vertexCount) {
     Correctives result;
     const std::uint32_t flags = in.word();
-    if (flags > 1) WordReader::fail("its correctives have a flag that is not known");
+    if (flags & ~(kNormals | kInputs))
+        WordReader::fail("its correctives have a flag that is not known");
+    const std::uint32_t inputs = flags & kInputs ? in.count("inputs", 1) : 0;
+    for (std::uint32_t i = 0; i < inputs; ++i) result.inputs.push_back(in.text());
     const std::uint32_t joints = in.count("correctives' joints", 20);
     for (std::uint32_t j = 0; j < joints; ++j) result.joints.push_back(takeJoint(in));
     result.firstEntry.push_back(0);
@@ -97,7 +106,7 @@ Correctives takeCorrectives(WordReader& in, std::uint32_t vertexCount) {
             if (joint >= joints) WordReader::fail("correctives name no joint's modes");
             result.entries.push_back({joint, static_cast<std::uint32_t>(result.shares.size())});
             takeShares(in, result.sharesOf(joint), result.shares);
-            if (flags == 1) takeShares(in, result.sharesOf(joint), result.normalShares);
+            if (flags & kNormals) takeShares(in, result.sharesOf(joint), result.normalShares);
         }
         result.firstEntry.push_back(static_cast<std::uint32_t>(result.entries.size()));
     }

@@ -49,7 +49,7 @@ public:
     }
     std::string text() {
         const std::uint32_t size = word();
-        if (size > 4 * (_words.size() - _next)) fail("a joint's name has no room in it");
+        if (size > 4 * (_words.size() - _next)) fail("a name has no room in it");
         std::string result;
         std::uint32_t bytes = 0;
         for (std::uint32_t i = 0; i < size; ++i, bytes >>= 8) {

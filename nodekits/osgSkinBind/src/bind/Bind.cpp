@@ -8,12 +8,14 @@
 #include "limbs/LimbRadius.h"
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
+#include "muscles/MakeMuscles.h"
 #include "paper/PaperBoundaries.h"
 #include "paper/PaperFields.h"
 #include "ratios/BendFields.h"
 #include "ratios/PackInfluences.h"
 #include "ratios/TwistFields.h"
 #include "regions/Regions.h"
+#include "shapes/MergeCorrectives.h"
 
 #include <chrono>
 
@@ -148,6 +150,10 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     }
     addShapes(skeleton, joints, skin, options, subProgress(options.progress, shapesBegin, 1.0),
               binding, found.notes);
+    if (options.muscles || !options.ownMuscles.empty())
+        binding.correctives =
+            mergeCorrectives(binding.correctives,
+                             makeMuscles(skeleton, joints, skin, binding, options, found.notes));
     binding.validate();
 
     found.vertices = mesh.positions.size();

@@ -7,7 +7,9 @@
 #include "joints/JointPlan.h"
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
+#include "muscles/MakeMuscles.h"
 #include "ratios/PackInfluences.h"
+#include "shapes/MergeCorrectives.h"
 
 #include <osgSkin/Error>
 
@@ -142,6 +144,10 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
     addShapes(skeleton, joints, skin, options, options.progress, binding, found.notes);
+    if (options.muscles || !options.ownMuscles.empty())
+        binding.correctives =
+            mergeCorrectives(binding.correctives,
+                             makeMuscles(skeleton, joints, skin, binding, options, found.notes));
     binding.validate();
 
     found.regions = regionsOf(binding);

@@ -2,9 +2,14 @@
 #include "bind/CheckOptions.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmTypes>
 #include <osgSkin/SkinModel>
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
+#include <set>
+#include <string>
 
 namespace osgSkin {
 namespace {
@@ -17,6 +22,24 @@ void checkBoundaries(const std::string& joint, const char* what, const std::opti
         throw Error(where + " are not finite, expected numbers in units of the bone's length");
     if (upper && lower && !(*upper < *lower))
         throw Error(where + " are out of order, expected upper < lower (towards the child)");
+}
+
+/// Written so that NaN is refused.
+void checkMuscle(const RestSkeleton& skeleton, const BindOptions::Muscle& muscle) {
+    const std::string where = "bind: muscle \"" + muscle.name + "\"";
+    if (muscle.name.empty()) throw Error("bind: a muscle has no name");
+    if (skeleton.find(muscle.joint) < 0)
+        throw Error(where + ": joint \"" + muscle.joint +
+                    "\" is not in the skeleton, expected one of its joints");
+    if (!(muscle.from >= -0.5 && muscle.from + 0.1 <= muscle.to && muscle.to <= 1.5))
+        throw Error(where + " lies from " + std::to_string(muscle.from) + " to " +
+                    std::to_string(muscle.to) +
+                    ", expected fractions of the bone from -0.5 to 1.5 that are 0.1 apart");
+    if (muscle.towards && !(isFinite(*muscle.towards) && glm::length(*muscle.towards) > 0.0))
+        throw Error(where + ": its direction is not one, expected finite numbers, not all 0");
+    for (const double growth : {muscle.growth, muscle.tension})
+        if (!(growth >= 0.0 && growth <= 0.5))
+            throw Error(where + " grows by " + std::to_string(growth) + ", expected 0 to 0.5");
 }
 
 } // namespace
@@ -33,6 +56,12 @@ void checkOptions(const RestSkeleton& skeleton, const BindOptions& options) {
         throw Error("bind: maxPartialInfluences is " +
                     std::to_string(options.maxPartialInfluences) + ", expected 1 to " +
                     std::to_string(SkinModel::kMaxPartialInfluences));
+    std::set<std::string> muscles;
+    for (const BindOptions::Muscle& muscle : options.ownMuscles) {
+        checkMuscle(skeleton, muscle);
+        if (!muscles.insert(muscle.name).second)
+            throw Error("bind: two muscles are called \"" + muscle.name + "\"");
+    }
     for (const auto& [name, joint] : options.joints) {
         if (skeleton.find(name) < 0)
             throw Error("bind: joint \"" + name +

@@ -4,15 +4,6 @@
 #include <algorithm>
 
 namespace osgSkin {
-namespace {
-
-glm::dvec3 readVector(const JsonReader& reader) {
-    const std::vector<JsonReader> items = reader.items();
-    if (items.size() != 3) reader.failExpected("a list of three numbers");
-    return {items[0].number(), items[1].number(), items[2].number()};
-}
-
-} // namespace
 
 FitOptions readFit(const JsonReader& reader) {
     const JsonReader fit = reader.require("fit", "true");
@@ -20,7 +11,7 @@ FitOptions readFit(const JsonReader& reader) {
     reader.warnUnknown({"fit", "facing", "landmarks"});
     FitOptions options;
     if (const auto facing = reader.find("facing")) {
-        options.facing = readVector(*facing);
+        options.facing = facing->vector();
         if (*options.facing == glm::dvec3(0.0)) facing->failWith("expected a direction");
     }
     const std::vector<std::string>& names = fittedJointNames();
@@ -28,7 +19,7 @@ FitOptions readFit(const JsonReader& reader) {
         landmarks->forEachMember([&](const std::string& name, const JsonReader& value) {
             if (std::find(names.begin(), names.end(), name) == names.end())
                 value.failWith("expected the name of a CMU joint, such as LeftHand or Head");
-            options.landmarks[name] = readVector(value);
+            options.landmarks[name] = value.vector();
         });
     return options;
 }

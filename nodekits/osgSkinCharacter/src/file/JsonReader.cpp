@@ -86,6 +86,12 @@ std::size_t JsonReader::count() const {
     return _value.get<std::size_t>();
 }
 
+glm::dvec3 JsonReader::vector() const {
+    if (!_value.is_array() || _value.size() != 3) failExpected("a list of three numbers");
+    const std::vector<JsonReader> numbers = items();
+    return {numbers[0].number(), numbers[1].number(), numbers[2].number()};
+}
+
 std::vector<JsonReader> JsonReader::items() const {
     std::vector<JsonReader> result;
     forEachItem([&](const JsonReader& item) { result.push_back(item); });

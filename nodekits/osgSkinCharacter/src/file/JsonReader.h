@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <osgSkin/GlmTypes>
+
 #include <nlohmann/json.hpp>
 
 #include <functional>
@@ -35,6 +37,7 @@ public:
     std::string string() const;
     double number() const;
     bool boolean() const;
+    glm::dvec3 vector() const; ///< of a list of three numbers
     std::size_t count() const; ///< a whole number, not negative
 
     bool isList() const { return _value.is_array(); }

@@ -52,6 +52,12 @@ BindOptions::Shapes shapesOf(const std::string& value) {
     fail("shapes", value, "none, fast or elastic");
 }
 
+bool musclesOf(const std::string& value) {
+    if (value == "on") return true;
+    if (value == "off") return false;
+    fail("muscles", value, "on or off");
+}
+
 std::vector<std::string> namesOf(const std::string& value) {
     std::vector<std::string> names;
     if (value == "none") return names;
@@ -72,6 +78,7 @@ LoadOptions toLoadOptions(const osgDB::Options* options) {
     for (const auto& [key, value] : wordsOf(options->getOptionString())) {
         if (key == "bind") result.method = methodOf(value);
         if (key == "shapes") result.shapes = shapesOf(value);
+        if (key == "muscles") result.muscles = musclesOf(value);
         if (key == "rigid") result.rigid = namesOf(value);
         if (key == "motion") {
             if (value.empty()) fail(key, value, "a clip's name, a motion file, or none");
@@ -96,6 +103,8 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
         {"shapes=<none|fast|elastic>",
          "what keeps bent limbs from swelling and from going through themselves; elastic takes "
          "a minute or more, and is kept in the cache folder"},
+        {"muscles=<on|off>",
+         "biceps, triceps, quadriceps, hamstrings and calves that swell; off by default"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };
     return words;

@@ -3,6 +3,7 @@
 
 #include "file/FitSettings.h"
 #include "file/JsonReader.h"
+#include "file/MuscleSettings.h"
 
 #include <osgDB/FileNameUtils>
 
@@ -128,6 +129,7 @@ BindOptions::Shapes readShapes(const JsonReader& reader) {
 
 void readBinding(const JsonReader& root, BindOptions& bind) {
     if (const auto shapes = root.find("shapes")) bind.shapes = readShapes(*shapes);
+    if (const auto muscles = root.find("muscles")) readMuscles(*muscles, bind);
     if (const auto rigid = root.find("rigid")) {
         bind.rigid.emplace();
         rigid->forEachItem([&](const JsonReader& name) { bind.rigid->push_back(name.string()); });
@@ -146,7 +148,7 @@ SkinFile SkinFile::read(const std::string& file) {
     const std::string folder = osgDB::getFilePath(file);
     checkVersion(root);
     root.warnUnknown({"osgskin", "mesh", "skeleton", "motions", "props", "rigid", "bind", "weights",
-                      "joints", "up", "names", "shapes"});
+                      "joints", "up", "names", "shapes", "muscles"});
 
     SkinFile skin;
     skin.file = file;

@@ -29,6 +29,7 @@ ConvertOptions convertOptionsOf(const LoadOptions& options) {
     convert.bind.rigid = options.rigid;
     if (options.shapes) convert.bind.shapes = *options.shapes;
     convert.bind.cacheFolder = cacheFolder();
+    convert.bind.muscles = options.muscles.value_or(false);
     convert.showRegions = options.showRegions;
     return convert;
 }

@@ -69,6 +69,10 @@ void applyOptions(CharacterSource& source, const LoadOptions& options) {
     if (options.rigid) source.bind.rigid = options.rigid;
     if (options.shapes) source.bind.shapes = *options.shapes;
     source.bind.cacheFolder = cacheFolder();
+    if (options.muscles) {
+        source.bind.muscles = *options.muscles;
+        if (!*options.muscles) source.bind.ownMuscles.clear();
+    }
     if (options.atRest) {
         source.animations.clear();
         source.motions.clear();
