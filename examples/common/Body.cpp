@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace figures {
 namespace {
@@ -65,9 +66,8 @@ compare::SkinWeights painted(const std::string& file, const osgSkin::Character& 
     return weights;
 }
 
-osgSkin::Character load(const std::string& file) {
+osgSkin::Character load(const std::string& file, osgSkin::LoadOptions options) {
     example::ProgressLine line(file);
-    osgSkin::LoadOptions options;
     options.progress = line.progress();
     osgSkin::Character character = osgSkin::loadCharacter(file, options);
     if (!character.hasBody())
@@ -77,13 +77,19 @@ osgSkin::Character load(const std::string& file) {
 
 } // namespace
 
-Body::Body(const std::string& file, const std::string& weights)
-    : character(load(file)), triangles(character.body.mesh.triangles()) {
+Body::Body(const std::string& file, const std::string& weights, osgSkin::LoadOptions options)
+    : character(load(file, std::move(options))), triangles(character.body.mesh.triangles()) {
     std::vector<std::uint32_t> source(rest().size());
     std::iota(source.begin(), source.end(), 0u);
-    _model = osgSkin::SkinModel::create(
-        character.binding, std::vector<glm::vec3>(rest().begin(), rest().end()),
-        std::vector<glm::vec3>(rest().size(), glm::vec3(0.0f, 1.0f, 0.0f)), source);
+    const auto modelOf = [&](const osgSkin::Binding& binding) {
+        return osgSkin::SkinModel::create(
+            binding, std::vector<glm::vec3>(rest().begin(), rest().end()),
+            std::vector<glm::vec3>(rest().size(), glm::vec3(0.0f, 1.0f, 0.0f)), source);
+    };
+    _model = modelOf(character.binding);
+    osgSkin::Binding plain = character.binding;
+    plain.correctives = {};
+    _plain = modelOf(plain);
     _weights = weights.empty() ? weightsOf(character.binding) : painted(weights, character);
 }
 
@@ -112,10 +118,12 @@ std::vector<glm::dvec3> Body::deform(Method method, const std::vector<glm::dmat4
     if (method == Method::Linear) return compare::linearBlend(rest(), _weights, skinning);
     if (method == Method::DualQuaternion)
         return compare::dualQuaternionBlend(rest(), _weights, skinning);
-    osgSkin::Pose pose(character.binding.joints);
+    osgSkin::Pose pose(character.binding.joints, character.binding.correctives.inputs.size());
+    for (std::size_t i = 0; i < character.binding.correctives.inputs.size(); ++i)
+        pose.setInput(i, tension);
     std::vector<glm::vec3> posed(rest().size());
     osgSkin::DeformJob job;
-    job.model = _model.get();
+    job.model = method == Method::Plain ? _plain.get() : _model.get();
     job.pose = &pose;
     job.positions = posed.data();
     job.positionCount = posed.size();

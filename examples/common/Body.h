@@ -5,6 +5,7 @@
 
 #include <osgSkin/SkinModel>
 #include <osgSkinCharacter/Character>
+#include <osgSkinCharacter/LoadOptions>
 
 #include <glm/mat4x4.hpp>
 
@@ -14,16 +15,23 @@
 
 namespace figures {
 
-enum class Method { Linear, DualQuaternion, Ours };
+enum class Method {
+    Linear,
+    DualQuaternion,
+    Plain, ///< ours without correctives: the paper's model alone
+    Ours
+};
 
 /// A character with all that the figures ask of it. Points are in rest space.
 class Body {
 public:
     /// \param weights painted weights (JSON); empty: taken from the ratios, see weightsOf()
-    Body(const std::string& file, const std::string& weights);
+    /// \param options of the load; its progress is shown on stderr
+    Body(const std::string& file, const std::string& weights, osgSkin::LoadOptions options = {});
 
     osgSkin::Character character;
     std::vector<std::uint32_t> triangles;
+    float tension = 0.0f; ///< of all muscles, where there are any: 0 to 1
 
     const std::vector<glm::dvec3>& rest() const { return character.body.mesh.positions; }
     const osgSkin::BoundJoint& joint(std::size_t index) const {
@@ -41,7 +49,7 @@ public:
     glm::dvec3 fromWorld(const glm::dvec3& v) const;
 
 private:
-    osg::ref_ptr<const osgSkin::SkinModel> _model;
+    osg::ref_ptr<const osgSkin::SkinModel> _model, _plain;
     compare::SkinWeights _weights;
 };
 

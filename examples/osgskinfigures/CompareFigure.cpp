@@ -70,6 +70,9 @@ std::vector<Comparison> comparisons(const Body& body, bool painted) {
         row.tiles.push_back(tile(body, shot, Method::Linear, what + "linear blending, " + note));
         row.tiles.push_back(
             tile(body, shot, Method::DualQuaternion, what + "dual quaternions, " + note));
+        if (!body.character.binding.correctives.empty())
+            row.tiles.push_back(
+                tile(body, shot, Method::Plain, what + "osgSkin, the paper's model"));
         row.tiles.push_back(tile(body, shot, Method::Ours, what + "osgSkin"));
         result.push_back(row);
     }

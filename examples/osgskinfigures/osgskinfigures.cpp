@@ -22,11 +22,13 @@ void writeFigures(figures::Body& body, const std::string& out, bool painted) {
     writePicture(*figures::splitFigure(), out + "/fig2_split.png");
     writePicture(*figures::ratioFigure(body), out + "/fig3_ratios.png");
     std::vector<figures::Tile> all;
+    std::size_t columns = 1;
     for (const figures::Comparison& row : figures::comparisons(body, painted)) {
-        writePicture(*figures::tiled(row.tiles, 3), out + "/compare_" + row.name + ".png");
+        columns = row.tiles.size();
+        writePicture(*figures::tiled(row.tiles, columns), out + "/compare_" + row.name + ".png");
         all.insert(all.end(), row.tiles.begin(), row.tiles.end());
     }
-    writePicture(*figures::tiled(all, 3), out + "/compare.png");
+    writePicture(*figures::tiled(all, columns), out + "/compare.png");
     if (body.character.motions.empty())
         std::cerr << "no motion, so no fig4_throw.png" << std::endl;
     else
@@ -53,7 +55,9 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        figures::Body body(file, weights);
+        osgSkin::LoadOptions options;
+        options.shapes = osgSkin::BindOptions::Shapes::Fast;
+        figures::Body body(file, weights, options);
         writeFigures(body, out, !weights.empty());
         return 0;
     } catch (const std::exception& error) {

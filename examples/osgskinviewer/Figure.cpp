@@ -60,9 +60,10 @@ osg::ref_ptr<osg::Group> readScene(const std::string& file) {
 
 } // namespace
 
-Figure::Figure(const std::string& file, const std::string& weights) {
+Figure::Figure(const std::string& file, const std::string& weights,
+               const osgSkin::LoadOptions& options) {
     if (hasBody(file)) {
-        body = std::make_unique<figures::Body>(file, weights);
+        body = std::make_unique<figures::Body>(file, weights, options);
         root = body->character.root;
     } else {
         root = readScene(file);

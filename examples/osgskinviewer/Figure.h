@@ -20,8 +20,10 @@ struct Figure {
     /// \param file a `.skin` file, a rigged model (with or without `.skin` after its name), or a
     ///        scene with skins in it (`.osgb`)
     /// \param weights painted weights (JSON), empty for none
+    /// \param options of the load; a scene's skins are bound already, for it they do not count
     /// \throw std::exception with the file and the reason
-    Figure(const std::string& file, const std::string& weights);
+    Figure(const std::string& file, const std::string& weights,
+           const osgSkin::LoadOptions& options);
 
     /// Empty where the file is a scene: its skins are bound and its mesh is gone.
     std::unique_ptr<figures::Body> body;

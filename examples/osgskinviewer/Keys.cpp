@@ -31,7 +31,7 @@ void changeSpeed(Clock& clock, double factor) {
 
 /// Whether a key shows what only a character with its mesh and binding has.
 bool needsBody(int key) {
-    return key > 0 && key < 128 && std::strchr("123gbtjJ", key) != nullptr;
+    return key > 0 && key < 128 && std::strchr("1234gbtjJ", key) != nullptr;
 }
 
 } // namespace
@@ -42,6 +42,8 @@ const char* keysHelp() {
            "< >    half a second        r    reverse\n"
            "- +    slower, faster\n"
            "1 2 3  osgSkin, linear blending, dual quaternions\n"
+           "4      osgSkin without shapes\n"
+           "u      tense all muscles\n"
            "g      regions              b t  bend, twist ratios\n"
            "j J    next joint, last one\n"
            "k      skeleton             w    wireframe\n"
@@ -93,6 +95,12 @@ bool press(Stage& stage, int key) {
         return true;
     case '3':
         settings.method = Method::DualQuaternion;
+        return true;
+    case '4':
+        settings.method = Method::Plain;
+        return true;
+    case 'u':
+        stage.tense(!settings.tensed);
         return true;
     case 'g':
         show(settings, Colours::Regions);

@@ -14,6 +14,7 @@ struct Settings {
     figures::Method method = figures::Method::Ours;
     Colours colours = Colours::Own;
     std::size_t joint = 0; ///< whose ratios are shown
+    bool tensed = false;   ///< all muscles
     bool skeleton = false;
     bool wireframe = false;
     bool bounds = false;

@@ -27,6 +27,7 @@ namespace {
 
 const char* nameOf(Method method) {
     return method == Method::Ours     ? "osgSkin"
+           : method == Method::Plain  ? "osgSkin without shapes"
            : method == Method::Linear ? "linear blending"
                                       : "dual quaternions";
 }
@@ -119,9 +120,11 @@ private:
     Stage& _stage;
 };
 
-Stage::Stage(const std::string& character, const std::string& weights, int width, int height)
-    : _file(character), _figure(character, weights), _root(new osg::Group), _study(new osg::Group),
-      _lines(new osg::Group), _boxes(new osg::Group), _floor(new osg::MatrixTransform) {
+Stage::Stage(const std::string& character, const std::string& weights,
+             const osgSkin::LoadOptions& options, int width, int height)
+    : _file(character), _figure(character, weights, options), _root(new osg::Group),
+      _study(new osg::Group), _lines(new osg::Group), _boxes(new osg::Group),
+      _floor(new osg::MatrixTransform) {
     if (hasBody()) {
         const osgSkin::Character& loaded = _figure.body->character;
         _bones.emplace(loaded.binding.joints, *loaded.skeleton);
@@ -210,6 +213,14 @@ void Stage::changeJoint(int step) {
     }
 }
 
+void Stage::tense(bool on) {
+    settings.tensed = false;
+    for (const auto& skin : _figure.skins)
+        for (const std::string& muscle : skin->getModel()->inputs())
+            settings.tensed = skin->setActivation(muscle, on ? 1.0f : 0.0f) && on;
+    if (_figure.body) _figure.body->tension = settings.tensed ? 1.0f : 0.0f;
+}
+
 example::View Stage::view() const {
     const osg::BoundingSphere& all = _figure.root->getBound();
     return {all.center() + osg::Vec3d(0.35, -0.95, 0.2) * (2.9 * all.radius()), all.center()};
@@ -295,6 +306,7 @@ std::string Stage::summary() const {
     if (settings.colours == Colours::Bend || settings.colours == Colours::Twist)
         text += std::string(settings.colours == Colours::Bend ? "; bend" : "; twist") +
                 " ratios of " + _figure.body->character.binding.joints[settings.joint].name;
+    if (settings.tensed) text += "; muscles tensed";
     if (settings.skeleton) text += "; skeleton";
     if (settings.wireframe) text += "; wireframe";
     if (settings.bounds) text += "; bounds";

@@ -24,7 +24,8 @@ namespace viewer {
 class Stage {
 public:
     /// \throw std::exception where a file cannot be used
-    Stage(const std::string& character, const std::string& weights, int width, int height);
+    Stage(const std::string& character, const std::string& weights,
+          const osgSkin::LoadOptions& options, int width, int height);
 
     Settings settings;
     Clock clock;
@@ -42,6 +43,8 @@ public:
     /// Whether regions, ratios and the peers can be shown: not of a scene whose skins were bound
     /// before.
     bool hasBody() const { return _figure.body != nullptr; }
+    /// Tenses all muscles, or lets them go.
+    void tense(bool on);
     /// Goes on to the next joint that skin follows in part, or to the one before.
     void changeJoint(int step);
 

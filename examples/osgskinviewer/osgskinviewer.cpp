@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     app.footer(std::string("Keys:\n") + viewer::keysHelp() +
                "\n\nExit status: 0 done, 1 failed, 2 bad usage.");
     std::string character = OSGSKIN_DATA "/thrower.skin";
-    std::string weights, motion, joint, keys, pictures;
+    std::string weights, motion, joint, keys, pictures, shapes, muscles;
     Size size;
     double at = 0.0;
     bool paused = false, times = false;
@@ -70,6 +70,10 @@ int main(int argc, char** argv) {
                    "a .skin file, a rigged model (.glb, .fbx, ...), or a scene (.osgb)");
     app.add_option("--weights", weights,
                    "painted weights (JSON) for the peers; without: from our ratios");
+    app.add_option("--shapes", shapes, "none or fast; as the character says by default")
+        ->check(CLI::IsMember({"none", "fast"}));
+    app.add_option("--muscles", muscles, "on or off; as the character says by default")
+        ->check(CLI::IsMember({"on", "off"}));
     app.add_option("--motion", motion, "name of the motion to start with");
     app.add_option("--joint", joint, "name of the joint whose ratios b and t show");
     app.add_option("--at", at, "seconds into the motion to start at");
@@ -87,7 +91,11 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        viewer::Stage stage(character, weights, size.width, size.height);
+        osgSkin::LoadOptions options;
+        if (shapes == "none") options.shapes = osgSkin::BindOptions::Shapes::None;
+        if (shapes == "fast") options.shapes = osgSkin::BindOptions::Shapes::Fast;
+        if (!muscles.empty()) options.muscles = muscles == "on";
+        viewer::Stage stage(character, weights, options, size.width, size.height);
         if (!motion.empty()) stage.setMotion(motion);
         if (!joint.empty()) stage.setJoint(joint);
         stage.clock.seek(at);

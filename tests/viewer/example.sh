@@ -19,10 +19,10 @@ cat >"$folder/two.skin" <<END
 END
 
 # First the line of text goes: whatever differs from then on is in the scene.
-seen='i23gbtjJk1wxxwkth.,><0m'
+seen='i234gbtjJk1uwxxwkth.,><0m'
 said='r-+ '
 "$program" "$folder/two.skin" --motion throw --joint LeftHand --at 1.1 --paused \
-  --width 320 --height 280 --keys "$seen$said" \
+  --shapes fast --muscles on --width 320 --height 280 --keys "$seen$said" \
   --pictures "$folder" >"$folder/says.txt"
 keys="$seen$said"
 [ "$(wc -l <"$folder/says.txt")" -eq $((${#keys} + 1)) ] || fail "a picture is missing"
@@ -37,6 +37,8 @@ for ((i = ${#seen} + 1; i <= ${#keys}; ++i)); do
   [ "$(line $((i - 1)))" != "$(line "$i")" ] || fail "key '${keys:i-1:1}' changes nothing"
 done
 grep -q "'m' late throw 0.00" "$folder/says.txt" || fail "m does not go to the next motion"
+grep -q "osgSkin without shapes" "$folder/says.txt" || fail "4 does not take the shapes off"
+grep -q "'u' .*muscles tensed" "$folder/says.txt" || fail "u does not tense muscles"
 grep -q "x-1" "$folder/says.txt" || fail "r does not turn the time round"
 
 "$program" --pictures "$folder" --keys '?' 2>"$folder/error.txt" && fail "an unknown key was taken"
