@@ -68,8 +68,8 @@ void setRound(double mostFlexion, ShapedJoint& joint) {
 
 } // namespace
 
-void setBendRange(const std::optional<glm::dvec3>& mainAxis, double mostFlexion,
-                  ShapedJoint& joint) {
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint,
+                  double mostFlexion) {
     if (mainAxis)
         setHinge(*mainAxis, mostFlexion, joint);
     else

@@ -11,10 +11,10 @@ namespace osgSkin {
 
 /// Sets basis, axis, range and knots of the functions of a joint between two limbs.
 /// \param mainAxis of findMainAxis(); nothing: it may bend in any direction
-/// \param mostFlexion degrees from the straight limb
 /// \param joint above, bone and twistAxis are set
-void setBendRange(const std::optional<glm::dvec3>& mainAxis, double mostFlexion,
-                  ShapedJoint& joint);
+/// \param mostFlexion degrees from the straight limb
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint,
+                  double mostFlexion = ShapeScope().mostFlexion);
 
 /// The same of a limb's joint at the trunk, which bends in all directions.
 void setBallRange(ShapedJoint& joint);

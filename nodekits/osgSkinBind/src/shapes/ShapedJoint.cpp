@@ -113,7 +113,7 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         if (atTrunk)
             setBallRange(shaped);
         else
-            setBendRange(findMainAxis(skeleton, joints, j), scope.mostFlexion, shaped);
+            setBendRange(findMainAxis(skeleton, joints, j), shaped, scope.mostFlexion);
         addSkin(mesh, joints, ratios, above, atTrunk ? scope.reachAtTrunk : scope.reach, shaped);
         if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
     }
