@@ -49,6 +49,24 @@ void sweep(const Subject& subject, std::size_t joint, const glm::dvec3& axis,
     }
 }
 
+/// The same of ours alone, to `result` where it is worse.
+void sweepOurs(const Subject& subject, std::size_t joint, const glm::dvec3& axis, Sweep& result) {
+    const std::vector<double> rigid =
+        rigidSteps(subject, subject.binding.joints[joint].centre, axis);
+    compare::Points last;
+    for (int degrees = -179; degrees <= 179; ++degrees) {
+        compare::Points posed =
+            deform(subject, Method::Ours,
+                   singleTurn(subject, joint, axis, glm::radians(static_cast<double>(degrees))));
+        for (std::size_t v = 0; v < last.size(); ++v) {
+            if (!(rigid[v] > 0.0)) continue;
+            const double step = glm::distance(posed[v], last[v]) / rigid[v];
+            if (step > result.worst) result = {step, subject.rig.joints[joint].name};
+        }
+        last = std::move(posed);
+    }
+}
+
 } // namespace
 
 Continuity measureContinuity(const Subject& subject) {
@@ -59,6 +77,19 @@ Continuity measureContinuity(const Subject& subject) {
         sweep(subject, j, side, result.bend);
         sweep(subject, j, glm::cross(pole, side), result.bend);
         sweep(subject, j, pole, result.twist);
+    }
+    return result;
+}
+
+Sweep measureShapedBends(const Subject& subject) {
+    Sweep result;
+    for (const osgSkin::CorrectiveJoint& shaped : subject.binding.correctives.joints) {
+        const glm::dvec3& pole = subject.binding.joints[shaped.joint].twistAxis;
+        const glm::dvec3 other = glm::cross(pole, shaped.axis);
+        for (const double share : {0.0, 0.5, 1.0, -0.5})
+            sweepOurs(subject, shaped.joint,
+                      glm::normalize((1.0 - std::abs(share)) * shaped.axis + share * other),
+                      result);
     }
     return result;
 }

@@ -19,4 +19,7 @@ struct Continuity {
 /// Sweeps each joint singly over -179..179 degrees of bend, about two axes, and of twist.
 Continuity measureContinuity(const Subject& subject);
 
+/// The largest step of ours in bends, about four axes each, of the joints that correctives shape.
+Sweep measureShapedBends(const Subject& subject);
+
 } // namespace quality

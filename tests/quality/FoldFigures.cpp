@@ -140,6 +140,7 @@ ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>&
     figures.bytesPerVertex = 2.0 * static_cast<double>(shaped.binding.correctives.shares.size()) /
                              static_cast<double>(subject.rest.size());
     figures.folds = measureFolds(plain, shaped);
+    figures.steps = measureShapedBends(shaped);
     figures.clips.plain = measurePoses(plain, poses)[Method::Ours];
     figures.clips.shaped = measurePoses(shaped, poses)[Method::Ours];
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -172,6 +173,8 @@ void printTable(const ShapeFigures& figures, std::ostream& out) {
     row("  volume error", "%.4f", &PoseFigures::volumeError);
     row("  bulge of limbs", "%.3f", &PoseFigures::bulge);
     row("  self-intersections", "%.2f", &PoseFigures::intersections);
+    out << format("  worst step of a shaped bend: %.2f x a rigid arc (%s)\n", figures.steps.worst,
+                  figures.steps.joint.c_str());
     out << format("  poses with over 2 %% + 2 pairs more: %zu; %.1f bytes a vertex, %.3f s more to "
                   "bind\n",
                   figures.clips.worsePoses, figures.bytesPerVertex, figures.seconds);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "Continuity.h"
 #include "PoseFigures.h"
 
 #include <ostream>
@@ -35,6 +36,7 @@ struct ShapeFigures {
     ShapedClips clips;
     double bytesPerVertex = 0.0; ///< that the correctives' vectors take, in the mean
     double seconds = 0.0;        ///< that they add to the binding
+    Sweep steps;                 ///< of the joints that are shaped, see measureShapedBends()
 };
 
 /// Binds the subject, which bind() has bound, with shapes beside its own binding.

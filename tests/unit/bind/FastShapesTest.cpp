@@ -12,8 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <set>
 #include <string>
 
 using namespace osgSkin;
@@ -84,19 +84,37 @@ Fold foldOf(const SkinMesh& mesh, const std::vector<glm::dvec3>& posed, const gl
     return fold;
 }
 
-std::set<std::string> correctedJoints(const Binding& binding) {
-    std::set<std::string> names;
-    for (const CorrectiveJoint& joint : binding.correctives.joints)
-        names.insert(binding.joints[joint.joint].name);
-    return names;
-}
-
 double bendOf(const Binding& binding, std::size_t vertex, std::size_t joint) {
     for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
          ++i)
         if (binding.influences[i].joint == joint)
             return static_cast<double>(binding.influences[i].bend);
     return 0.0;
+}
+
+/// By how much skin that follows a joint in part swells from the joint's bone when it bends: the
+/// mean, in lengths of the bone.
+double swellingOf(const KnownBody& body, const Binding& binding, std::size_t joint,
+                  const glm::dvec3& axis, double degrees) {
+    const std::vector<glm::dvec3> posed =
+        turned(body.mesh, body.truth, binding, joint, axis, degrees);
+    const glm::dvec3& centre = binding.joints[joint].centre;
+    const glm::dvec3& bone = binding.joints[joint].boneAxis;
+    const glm::dvec3 bent = glm::dvec3(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), axis) *
+                                       glm::dvec4(bone, 0.0));
+    const auto distance = [](const glm::dvec3& from, const glm::dvec3& along) {
+        return glm::length(from - std::max(glm::dot(from, along), 0.0) * along);
+    };
+    double sum = 0.0, count = 0.0;
+    for (std::size_t v = 0; v < posed.size(); ++v) {
+        const double bend = bendOf(binding, v, joint);
+        if (bend < 0.3 || bend > 0.9) continue;
+        const double swollen =
+            distance(posed[v] - centre, bent) - distance(body.mesh.positions[v] - centre, bone);
+        sum += std::max(swollen, 0.0);
+        ++count;
+    }
+    return sum / count;
 }
 
 } // namespace
@@ -131,23 +149,55 @@ TEST(FastShapes, CylinderKeepsItsOuterSideAndDoesNotFoldThroughItself) {
     }
 }
 
-TEST(FastShapes, FindElbowsAndKneesByName) {
+TEST(FastShapes, FindLimbsByName) {
+    using Basis = CorrectiveJoint::Basis;
     const KnownBody body = KnownBody::thrower();
     const Binding binding = bound(body.mesh, body.truth, BindOptions::Shapes::Fast);
-    const std::set<std::string> expected = {"LeftForeArm", "LeftLeg", "RightForeArm", "RightLeg"};
-    EXPECT_EQ(correctedJoints(binding), expected);
+    std::map<std::string, Basis> found;
     for (const CorrectiveJoint& joint : binding.correctives.joints)
-        EXPECT_EQ(joint.basis, CorrectiveJoint::Basis::Hinge);
+        found[binding.joints[joint.joint].name] = joint.basis;
+    const std::map<std::string, Basis> expected = {
+        {"LeftForeArm", Basis::Hinge}, {"RightForeArm", Basis::Hinge}, {"LeftLeg", Basis::Hinge},
+        {"RightLeg", Basis::Hinge},    {"LeftArm", Basis::Ball},       {"RightArm", Basis::Ball},
+        {"LeftUpLeg", Basis::Ball},    {"RightUpLeg", Basis::Ball}};
+    EXPECT_EQ(found, expected);
+}
+
+TEST(FastShapes, ShouldersAndHipsSwellLess) {
+    const KnownBody body = KnownBody::thrower();
+    const Binding plain = bound(body.mesh, body.truth, BindOptions::Shapes::None);
+    const Binding shaped = bound(body.mesh, body.truth, BindOptions::Shapes::Fast);
+    for (const char* name : {"LeftArm", "RightUpLeg"}) {
+        SCOPED_TRACE(name);
+        const auto joint = static_cast<std::size_t>(body.truth.find(name));
+        double before = 0.0, after = 0.0;
+        for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), {0, 0, -1}, {-1, 0, 0}}) {
+            before += swellingOf(body, plain, joint, axis, 80.0);
+            after += swellingOf(body, shaped, joint, axis, 80.0);
+        }
+        EXPECT_GT(before, 0.0);
+        EXPECT_LE(after, 0.75 * before);
+    }
 }
 
 TEST(FastShapes, FindLimbsOfARigThatNobodyKnows) {
     KnownBody body = KnownBody::thrower();
-    const std::vector<int> limbs = {body.truth.find("LeftForeArm"), body.truth.find("RightLeg")};
+    using Basis = CorrectiveJoint::Basis;
+    const std::map<int, bool> limbs = {// whether at the trunk
+                                       {body.truth.find("LeftForeArm"), false},
+                                       {body.truth.find("RightLeg"), false},
+                                       {body.truth.find("LeftArm"), true},
+                                       {body.truth.find("RightUpLeg"), true}};
     for (std::size_t j = 0; j < body.truth.joints.size(); ++j)
         body.truth.joints[j].name = "n" + std::to_string(j);
-    const std::set<std::string> found =
-        correctedJoints(bound(body.mesh, body.truth, BindOptions::Shapes::Fast));
-    for (const int limb : limbs) EXPECT_EQ(found.count("n" + std::to_string(limb)), 1u) << limb;
+    const Binding binding = bound(body.mesh, body.truth, BindOptions::Shapes::Fast);
+    std::map<int, bool> found;
+    for (const CorrectiveJoint& joint : binding.correctives.joints)
+        found[static_cast<int>(joint.joint)] = joint.basis == Basis::Ball;
+    for (const auto& [limb, atTrunk] : limbs) {
+        ASSERT_EQ(found.count(limb), 1u) << limb;
+        EXPECT_EQ(found[limb], atTrunk) << limb;
+    }
 }
 
 TEST(FastShapes, LeaveTheSeamsOfRigidPartsAlone) {

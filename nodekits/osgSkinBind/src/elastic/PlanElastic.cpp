@@ -17,6 +17,9 @@ using Basis = CorrectiveJoint::Basis;
 /// Beyond this a knee's solid begins to tangle; degrees from the straight limb.
 constexpr double kMostFlexion = 139.0;
 
+/// Of a ball joint, degrees from the rest pose: beyond it limbs meet what is not their fold's.
+constexpr double kMostSwing = 90.0;
+
 std::vector<ElasticBone> bonesOf(const RestSkeleton& skeleton, int joint) {
     std::vector<ElasticBone> bones;
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
@@ -53,7 +56,8 @@ std::vector<glm::dquat> samplesOf(const ShapedJoint& shaped) {
 std::vector<ElasticPlan> planElastic(const RestSkeleton& skeleton,
                                      const std::vector<PlannedJoint>& joints,
                                      const WeldedMesh& mesh, const Binding& binding) {
-    const ShapeScope scope{ElasticJoint::kHingeReach, ElasticJoint::kBallReach, kMostFlexion};
+    const ShapeScope scope{ElasticJoint::kHingeReach, ElasticJoint::kBallReach, true, kMostFlexion,
+                           kMostSwing};
     const JointRatios ratios(mesh, binding);
     std::vector<ElasticPlan> plans;
     for (ShapedJoint& shaped : findShapedJoints(skeleton, joints, mesh, binding, scope)) {

@@ -16,8 +16,6 @@ namespace {
 /// Angles in degrees. How far a hinge goes beyond straight and to the sides.
 constexpr double kBeyondStraight = 12.0;
 constexpr double kSideways = 30.0;
-/// How far a limb turns from its rest pose at the trunk.
-constexpr double kMostAtTrunk = 90.0;
 /// Between knots and between samples.
 constexpr double kKnotStep = 30.0;
 constexpr double kRoundKnotStep = 20.0;
@@ -76,12 +74,12 @@ void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint,
         setRound(mostFlexion, joint);
 }
 
-void setBallRange(ShapedJoint& joint) {
-    const double most = sineOfHalf(kMostAtTrunk);
-    joint.functions.basis = CorrectiveJoint::Basis::Ball;
-    joint.functions.axis = anyPerpendicular(joint.twistAxis);
-    joint.functions.low = glm::dvec2(-most);
-    joint.functions.high = glm::dvec2(most);
+void setBallRange(ShapedJoint& joint, double mostSwing) {
+    CorrectiveJoint& functions = joint.functions;
+    functions.basis = CorrectiveJoint::Basis::Ball;
+    functions.axis = anyPerpendicular(joint.twistAxis);
+    functions.low = glm::dvec2(-sineOfHalf(mostSwing));
+    functions.high = -functions.low;
 }
 
 std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint) {

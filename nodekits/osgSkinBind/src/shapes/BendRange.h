@@ -9,15 +9,17 @@
 
 namespace osgSkin {
 
-/// Sets basis, axis, range and knots of the functions of a joint between two limbs.
+/// Sets basis, axis, range and knots of a joint's functions.
 /// \param mainAxis of findMainAxis(); nothing: it may bend in any direction
 /// \param joint above, bone and twistAxis are set
 /// \param mostFlexion degrees from the straight limb
 void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint,
                   double mostFlexion = ShapeScope().mostFlexion);
 
-/// The same of a limb's joint at the trunk, which bends in all directions.
-void setBallRange(ShapedJoint& joint);
+/// The same of a joint at the trunk, which may bend in all directions.
+/// \param joint twistAxis is set
+/// \param mostSwing degrees from the rest pose
+void setBallRange(ShapedJoint& joint, double mostSwing = ShapeScope().mostSwing);
 
 /// The bends, as coordinates (x, y) of the joint's functions, whose shapes those are fitted to: all
 /// over the range and to its end, the rest pose left out.

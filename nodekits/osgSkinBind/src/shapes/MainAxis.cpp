@@ -29,11 +29,11 @@ End endOf(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
 /// Where the body looks: the mean direction in which feet point; zero where there are none.
 glm::dvec3 forward(const std::vector<PlannedJoint>& joints) {
     glm::dvec3 sum(0.0);
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        if (joints[j].part != JointPart::Foot || !(joints[j].boneLength > 0.0)) continue;
+    for (const PlannedJoint& joint : joints) {
+        if (joint.part != JointPart::Foot || !(joint.boneLength > 0.0)) continue;
         // Feet slope: only what is across the shin counts.
-        const glm::dvec3& shin = joints[j].comingFrom;
-        sum += joints[j].boneAxis - shin * glm::dot(shin, joints[j].boneAxis);
+        const glm::dvec3& shin = joint.comingFrom;
+        sum += joint.boneAxis - shin * glm::dot(shin, joint.boneAxis);
     }
     return sum;
 }

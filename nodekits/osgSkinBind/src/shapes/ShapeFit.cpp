@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kRidge = 1e-3;
 
+/// Shapes that are smaller than this share of the mean one's size count no more than it.
+constexpr double kFloor = 0.05;
+
 /// phi_i at each sample: samples x functions.
 Eigen::MatrixXd functionsAt(const JointShapes& shapes) {
     const std::size_t functions = shapes.functions.functionCount();
@@ -80,7 +83,14 @@ FittedShapes fitShapes(const JointShapes& shapes, std::size_t modes, double tole
 
     // The fitted shapes are a matrix of low rank; its right singular vectors are the modes.
     const Eigen::MatrixXd fitted = phi * fit;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(fitted * fitted.transpose());
+    // Slight bends have small shapes but are seen most often: they count more than their size.
+    Eigen::MatrixXd scaled = fitted;
+    const double floor =
+        kFloor * fitted.norm() / std::sqrt(double(std::max<Eigen::Index>(1, fitted.rows())));
+    if (floor > 0.0)
+        for (Eigen::Index s = 0; s < scaled.rows(); ++s)
+            scaled.row(s) /= std::sqrt(fitted.row(s).norm() + floor);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(scaled * scaled.transpose());
     Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(fitted.rows(), fitted.cols());
     std::vector<Eigen::VectorXd> vectors;
     modes = std::min({modes, CorrectiveJoint::kMostModes, static_cast<std::size_t>(fitted.rows())});
@@ -89,7 +99,7 @@ FittedShapes fitShapes(const JointShapes& shapes, std::size_t modes, double tole
         const double singular = std::sqrt(std::max(0.0, left.eigenvalues()[column]));
         if (!(singular > 0.0)) break;
         const Eigen::VectorXd mode =
-            fitted.transpose() * left.eigenvectors().col(column) / singular;
+            scaled.transpose() * left.eigenvectors().col(column) / singular;
         const Eigen::VectorXd share = fitted * mode; // of each sample
         const double longest = longestIn(mode);
         if (share.cwiseAbs().maxCoeff() * longest <= tolerance) break;

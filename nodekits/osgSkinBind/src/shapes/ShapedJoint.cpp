@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/ShapedJoint.h"
 
+#include "joints/TrunkByShape.h"
 #include "limbs/HermiteRatio.h"
 #include "shapes/BendRange.h"
 #include "shapes/JointRatios.h"
@@ -19,6 +20,9 @@ constexpr double kLimbLength = 2.2;
 
 /// Where skin begins to be shaped less, of the reach.
 constexpr double kFadeFrom = 0.75;
+
+/// Of a joint at the trunk, skin that follows it by less is taken for the trunk's.
+constexpr double kTrunkFollows = 0.25;
 
 /// Of fewer vertices no shape can be made.
 constexpr std::size_t kLeastVertices = 16;
@@ -45,18 +49,26 @@ double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
 
 /// Adds the vertices and triangles within reach; `above` is the joint that moves the limb above.
 void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
-             const JointRatios& ratios, std::uint32_t above, double reach, ShapedJoint& shaped) {
+             const JointRatios& ratios, std::uint32_t above, const ShapeScope& scope,
+             ShapedJoint& shaped) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
+    const double reach = shaped.isAtTrunk() ? scope.reachAtTrunk : scope.reach;
+    const auto limbOf = [&](std::uint32_t v, const Influence& own) {
+        if (shaped.isAtTrunk())
+            return scope.trunkToo ? 1.0
+                                  : hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows);
+        return above == 0 ? 1.0 : ratios.bend(v, above);
+    };
     const auto add = [&](std::uint32_t v, bool withinReach) {
         const glm::dvec3 from = mesh.positions[v] - shaped.centre;
         const double r = glm::length(from) / shaped.radius;
-        const double limb = joints[above].trunk || above == 0 ? 1.0 : ratios.bend(v, above);
+        const Influence own = ratios.of(v, shaped.functions.joint);
+        const double limb = limbOf(v, own);
         // Where skin meets a rigid part, nothing may move them apart.
         const double fade = (1.0 - hermiteRatio((r / reach - kFadeFrom) / (1.0 - kFadeFrom))) *
                             (1.0 - ratios.rigid(v, joints));
         if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
-        const Influence own = ratios.of(v, shaped.functions.joint);
         placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
         shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
                                    static_cast<double>(own.twist), limb, withinReach ? fade : 0.0});
@@ -90,15 +102,14 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const WeldedMesh& mesh, const Binding& binding,
                                           const ShapeScope& scope) {
     const JointRatios ratios(mesh, binding);
+    const std::vector<bool> trunk = trunkByShape(joints, mesh.size);
     std::vector<ShapedJoint> result;
     std::vector<double> bend(mesh.vertexCount());
     for (std::uint32_t j = 1; j < joints.size(); ++j) {
         const PlannedJoint& planned = joints[j];
-        if (planned.trunk || planned.extremity || planned.rigid >= 0 || !planned.holdsRegion)
-            continue;
+        if (trunk[j] || planned.extremity || planned.rigid >= 0 || !planned.holdsRegion) continue;
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
-        const bool atTrunk = joints[above].trunk;
-        if (atTrunk && !(scope.reachAtTrunk > 0.0)) continue;
+        const bool atTrunk = trunk[above];
         for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
         ShapedJoint shaped;
         shaped.radius = radiusAt(planned, mesh, bend);
@@ -107,14 +118,15 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
             continue;
         shaped.centre = planned.centre;
         shaped.twistAxis = binding.joints[j].twistAxis;
-        shaped.above = planned.comingFrom;
+        // What is above a shoulder or a hip is no limb: there the rest pose counts as straight.
+        shaped.above = atTrunk ? planned.boneAxis : planned.comingFrom;
         shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
         if (atTrunk)
-            setBallRange(shaped);
+            setBallRange(shaped, scope.mostSwing);
         else
             setBendRange(findMainAxis(skeleton, joints, j), shaped, scope.mostFlexion);
-        addSkin(mesh, joints, ratios, above, atTrunk ? scope.reachAtTrunk : scope.reach, shaped);
+        addSkin(mesh, joints, ratios, above, scope, shaped);
         if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
     }
     return result;

@@ -16,11 +16,13 @@ namespace osgSkin {
 /// A joint between two limbs, or of a limb at the trunk, whose skin correctives can shape, with the
 /// skin around it. Rest space; vertices are welded ones.
 struct ShapedJoint {
-    /// Joint, basis, main axis, range and knots; not yet modes and coefficients.
+    /// Joint, basis (Ball: a shoulder or a hip), main axis, range and knots; not yet modes and
+    /// coefficients.
     CorrectiveJoint functions;
     glm::dvec3 centre{0.0};
     glm::dvec3 twistAxis{0.0}; ///< w
-    glm::dvec3 above{0.0};     ///< unit; direction in which the bone above arrives
+    glm::dvec3 above{0.0};     ///< unit; direction in which the bone above arrives; at the trunk,
+                               ///< `bone`
     glm::dvec3 bone{0.0};      ///< unit; from the centre to the child
     double radius = 0.0;       ///< of the limb at the joint
 
@@ -31,7 +33,7 @@ struct ShapedJoint {
         double bend;     ///< ratios of this joint
         double twist;
         double limb; ///< how much the skin is of the limb above: bend ratio of the joint above; 1
-                     ///< where that is the root
+                     ///< where that is the root. At the trunk, how much it is of the limb itself
         double fade; ///< what of its target it takes: 1, and 0 towards the reach's end
     };
     std::vector<Vertex> vertices;
@@ -39,6 +41,9 @@ struct ShapedJoint {
     /// Those with a corner within reach; three indices in `vertices` each, which for that has
     /// vertices beyond the reach, too, with `fade` 0.
     std::vector<std::array<std::uint32_t, 3>> triangles;
+
+    /// True where the bone above is none of a limb's: at shoulders and hips.
+    bool isAtTrunk() const { return functions.basis == CorrectiveJoint::Basis::Ball; }
 
     /// The bend at coordinates (x, y) of CorrectiveJoint.
     BendTwist bendAt(glm::dvec2 xy) const;
@@ -49,18 +54,19 @@ struct ShapedJoint {
     }
 };
 
-/// How far joints are shaped. In radii of the limb.
+/// How far joints are shaped.
 struct ShapeScope {
-    double reach = 6.0; ///< from the joint
-    /// The same of limbs' joints at the trunk: shoulders and hips. 0: they are left out.
-    double reachAtTrunk = 0.0;
+    double reach = 6.0; ///< of joints between limbs, in radii from the joint
+    double reachAtTrunk = 6.0;
+    bool trunkToo = false;      ///< at the trunk its own skin is shaped like the limb's
     double mostFlexion = 155.0; ///< degrees from the straight limb
+    double mostSwing = 130.0;   ///< of ball joints, degrees from the rest pose
 };
 
 /// Finds the joints to shape: by the shape of their limbs, and where the way they bend is not
 /// plain from that, by names and the way feet point.
 /// \param binding of the mesh as given, whose vertices `mesh` has welded
-/// \param scope which and how far
+/// \param scope how far
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
                                           const WeldedMesh& mesh, const Binding& binding,

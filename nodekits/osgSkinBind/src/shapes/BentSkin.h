@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_BENTSKIN_H
+#define OSGSKINBIND_BENTSKIN_H
+
+#include "shapes/FastTargets.h"
+#include "shapes/ShapedJoint.h"
+
+#include <vector>
+
+namespace osgSkin {
+
+/// A joint's skin in one bend, and where closed forms want it. All points from the joint's centre,
+/// for each of the joint's vertices.
+class BentSkin {
+public:
+    BentSkin(const ShapedJoint& joint, const BendTwist& bend);
+
+    /// Six times what lies between the skin and the joint's centre.
+    static double volumeOf(const ShapedJoint& joint, const std::vector<glm::dvec3>& points);
+
+    /// Where the vertices are to be.
+    std::vector<glm::dvec3> targets(double volumeAtRest) const;
+
+    /// What it counts that a vertex gets there (see JointShapes).
+    std::vector<double> weights() const;
+
+private:
+    std::vector<glm::dvec3> limbTargets(double swelling) const;
+    std::vector<glm::dvec3> filledLimb(double volumeAtRest) const;
+    std::vector<glm::dvec3> trunkTargets(double volumeAtRest) const;
+
+    const ShapedJoint& _joint;
+    FoldShape _fold;
+    std::vector<glm::dvec3> _posed;
+};
+
+} // namespace osgSkin
+
+#endif
