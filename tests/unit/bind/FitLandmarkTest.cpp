@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What an author knows goes before what the fit would find.
+#include "JointSpellings.h"
 #include "KnownBody.h"
 #include "Shapes.h"
 
@@ -102,6 +103,32 @@ TEST(FitLandmark, OnTheSkinIsMovedInside) {
     EXPECT_EQ(fitErrors(fitted, body).inside, 31u);
     ASSERT_EQ(report.notes.size(), 1u) << report.text();
     EXPECT_NE(report.notes[0].find("landmark Head"), std::string::npos);
+}
+
+TEST(FitLandmarkNames, AreToldInEveryDialect) {
+    const std::map<std::string, std::string> ours{
+        {"Hips", "Hips"},        {"Head", "Head"},   {"UpperLeg", "UpLeg"},  {"LowerLeg", "Leg"},
+        {"Foot", "Foot"},        {"Toe", "ToeBase"}, {"Collar", "Shoulder"}, {"UpperArm", "Arm"},
+        {"LowerArm", "ForeArm"}, {"Hand", "Hand"}};
+    for (const test::Dialect& dialect : test::dialects())
+        for (const test::SideStyle& side : test::sideStyles())
+            for (const std::string prefix : {"", "mixamorig_", "DEF-"}) {
+                std::vector<std::string> names;
+                std::map<std::string, std::string> expected;
+                for (const auto& [role, own] : ours)
+                    for (const std::string sideName : {"Left", "Right"}) {
+                        const bool sided = role != "Hips" && role != "Head";
+                        if (dialect.names.at(role) == "root") continue; // the tree tells that
+                        names.push_back(test::spelled(dialect, (sided ? sideName : "") + role, side,
+                                                      prefix, "", 0));
+                        expected[names.back()] = (sided ? sideName : "") + own;
+                        if (!sided) break;
+                    }
+                EXPECT_EQ(fittedNamesOf(names), expected)
+                    << dialect.name << ", side " << side.text() << ", " << prefix;
+            }
+    EXPECT_EQ(fittedNamesOf({"hand.L"}).at("hand.L"), "LeftHand"); // alone
+    EXPECT_TRUE(fittedNamesOf({"Nose", "leg.L", "hand_ik.L", "spine_02"}).empty());
 }
 
 TEST(FitOptions, TakeOsgVectors) {

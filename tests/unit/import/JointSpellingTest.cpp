@@ -51,7 +51,7 @@ std::string wrong(const RestSkeleton& body) {
 /// A single letter in lower case, with no sign between it and other small letters, is no mark.
 bool isLegible(const test::Dialect& dialect, const test::SideStyle& side, const std::string& prefix,
                const std::string& suffix) {
-    if (std::string(side.separator) != "") return true;
+    if (!std::string(side.separator).empty()) return true;
     const std::string name = dialect.names.at("UpperLeg");
     const bool small = std::islower(static_cast<unsigned char>(side.left[0])) != 0;
     if (!side.before) return !small || suffix != "Bone";

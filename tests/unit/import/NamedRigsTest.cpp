@@ -181,6 +181,68 @@ TEST(NamedRigs, WhoseWordsSayWhereTheyAre) {
                  {"Middle1", "CC_Base_@_Mid1"}});
 }
 
+TEST(NamedRigs, OfCaptureSystemsAndRiggingTools) {
+    expectRoles("OptiTrack",
+                "Skeleton Hip<Skeleton Ab<Hip Chest<Ab Neck<Chest Head<Neck @Shoulder<Chest "
+                "@UArm<@Shoulder @FArm<@UArm @Hand<@FArm @Thigh<Hip @Shin<@Thigh @Foot<@Shin "
+                "@Toe<@Foot",
+                "L", "R",
+                {{"Collar", "@Shoulder"},
+                 {"UpperArm", "@UArm"},
+                 {"LowerArm", "@FArm"},
+                 {"Hand", "@Hand"},
+                 {"UpperLeg", "@Thigh"}});
+    expectRoles("mGear",
+                "spine_C0_pelvis_jnt spine_C0_01_jnt<spine_C0_pelvis_jnt "
+                "spine_C0_02_jnt<spine_C0_01_jnt neck_C0_0_jnt<spine_C0_02_jnt "
+                "neck_C0_head_jnt<neck_C0_0_jnt shoulder_@0_shoulder_jnt<spine_C0_02_jnt "
+                "arm_@0_0_jnt<shoulder_@0_shoulder_jnt arm_@0_1_jnt<arm_@0_0_jnt "
+                "arm_@0_2_jnt<arm_@0_1_jnt arm_@0_end_jnt<arm_@0_2_jnt "
+                "leg_@0_0_jnt<spine_C0_pelvis_jnt leg_@0_1_jnt<leg_@0_0_jnt "
+                "leg_@0_2_jnt<leg_@0_1_jnt leg_@0_end_jnt<leg_@0_2_jnt",
+                "L", "R",
+                {{"Hips", "spine_C0_pelvis_jnt"},
+                 {"Head", "neck_C0_head_jnt"},
+                 {"Collar", "shoulder_@0_shoulder_jnt"},
+                 {"UpperArm", "arm_@0_0_jnt"},
+                 {"Hand", "arm_@0_2_jnt"},
+                 {"Foot", "leg_@0_2_jnt"}});
+    expectRoles("AdvancedSkeleton",
+                "Root_M Spine1_M<Root_M Chest_M<Spine1_M Neck_M<Chest_M Head_M<Neck_M "
+                "Scapula_@<Chest_M Shoulder_@<Scapula_@ ShoulderPart1_@<Shoulder_@ "
+                "Elbow_@<ShoulderPart1_@ Wrist_@<Elbow_@ IndexFinger1_@<Wrist_@ Hip_@<Root_M "
+                "Knee_@<Hip_@ Ankle_@<Knee_@ Toes_@<Ankle_@",
+                "L", "R",
+                {{"Hips", "Root_M"},
+                 {"Collar", "Scapula_@"},
+                 {"UpperArm", "Shoulder_@"},
+                 {"Index1", "IndexFinger1_@"},
+                 {"UpperLeg", "Hip_@"}});
+    expectRoles("MikuMikuDance in English",
+                "center upper_body<center upper_body2<upper_body neck<upper_body2 head<neck "
+                "shoulder_@<upper_body2 arm_@<shoulder_@ arm_twist_@<arm_@ elbow_@<arm_twist_@ "
+                "wrist_@<elbow_@ lower_body<center leg_@<lower_body knee_@<leg_@ ankle_@<knee_@ "
+                "toe_@<ankle_@ leg_IK_@<center",
+                "L", "R",
+                {{"Hips", "lower_body"},
+                 {"Spine", "upper_body"},
+                 {"UpperArm", "arm_@"},
+                 {"LowerArm", "elbow_@"},
+                 {"UpperLeg", "leg_@"}});
+    expectRoles("Genesis",
+                "hip pelvis<hip @ThighBend<pelvis @ThighTwist<@ThighBend @Shin<@ThighTwist "
+                "@Foot<@Shin @Metatarsals<@Foot @Toe<@Metatarsals @BigToe<@Toe abdomenLower<hip "
+                "chestLower<abdomenLower @Collar<chestLower @ShldrBend<@Collar "
+                "@ShldrTwist<@ShldrBend @ForearmBend<@ShldrTwist @ForearmTwist<@ForearmBend "
+                "@Hand<@ForearmTwist @Thumb1<@Hand neckLower<chestLower head<neckLower",
+                "l", "r",
+                {{"Hips", "hip"},
+                 {"UpperLeg", "@ThighBend"},
+                 {"Toe", "@Toe"},
+                 {"UpperArm", "@ShldrBend"},
+                 {"LowerArm", "@ForearmBend"}});
+}
+
 TEST(NamedRigs, InJapanese) {
     const RestSkeleton skeleton = makeNamed(
         "全ての親 センター<全ての親 下半身<センター 上半身<センター 上半身2<上半身 首<上半身2 "

@@ -289,6 +289,17 @@ TEST_F(StandingPose, AZeroPoseThatLiesIsReplacedByASample) {
     expectLikeTheActor(throughBvh(countedFrom(actor, lying)), "zero pose lies");
 }
 
+TEST_F(StandingPose, AZeroPoseThatLiesIsReplacedWhereTheActorStaysInPlaceToo) {
+    Motion inPlace = actor;
+    for (glm::dvec3& position : inPlace.rootPositions) position = glm::dvec3(0.0);
+    const std::vector<glm::dquat> lying(joints, turnDegrees(-90, {1, 0, 0}));
+    const Motion motion = countedFrom(inPlace, lying);
+    RetargetReport report;
+    const Clip clip = retarget(motion, rig, {}, &report);
+    EXPECT_TRUE(saysOf(report, "zero pose lies"));
+    EXPECT_LT(compare(clip, rig, actor).limbs, 1.0);
+}
+
 /// Who sleeps has a zero pose that stands.
 TEST_F(StandingPose, AnActorWhoLiesStaysLying) {
     Motion asleep = actor;

@@ -14,6 +14,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <osgSkinRig/JointRoles>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -28,6 +30,21 @@ constexpr double kJointsBegin = 0.95;
 
 bool isDirection(const glm::dvec3& d) {
     return isFinite(d) && glm::length(d) > 0.0;
+}
+
+/// The landmarks by the names that a fitted skeleton has; those that are not known stay.
+std::map<std::string, glm::dvec3> renamed(const std::map<std::string, glm::dvec3>& landmarks) {
+    std::vector<std::string> names;
+    for (const auto& [name, centre] : landmarks) names.push_back(name);
+    const std::map<std::string, std::string> known = fittedNamesOf(names);
+    std::map<std::string, glm::dvec3> result;
+    for (const auto& [name, centre] : landmarks) {
+        const auto found = known.find(name);
+        const std::string& own = found == known.end() ? name : found->second;
+        if (!result.emplace(own, centre).second)
+            throw Error("cannot fit a skeleton: landmark " + name + ": expected one for " + own);
+    }
+    return result;
 }
 
 void check(const FitOptions& options) {
@@ -110,9 +127,11 @@ RestSkeleton skeletonOf(const FitBody& body, PlacedJoints& placed, FitReport& re
 
 } // namespace
 
-RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& options, FitReport* report) {
+RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& given, FitReport* report) {
     const auto start = std::chrono::steady_clock::now();
     mesh.validate();
+    FitOptions options = given;
+    options.landmarks = renamed(given.landmarks);
     check(options);
     const auto tell = [&options](const char* what, double fraction) {
         if (options.progress) options.progress({what, fraction});
@@ -148,6 +167,35 @@ const std::vector<std::string>& fittedJointNames() {
         return result;
     }();
     return names;
+}
+
+std::map<std::string, std::string> fittedNamesOf(const std::vector<std::string>& names) {
+    static const std::map<std::string, std::string> ofRole = [] {
+        std::map<std::string, std::string> result;
+        const std::vector<std::string>& own = fittedJointNames();
+        const std::vector<std::string> roles = recogniseNames(own);
+        for (std::size_t j = 0; j < own.size(); ++j)
+            if (!roles[j].empty()) result.emplace(roles[j], own[j]);
+        return result;
+    }();
+    const std::vector<std::string>& fitted = fittedJointNames();
+    const auto isOwn = [&](const std::string& name) {
+        return std::find(fitted.begin(), fitted.end(), name) != fitted.end();
+    };
+    // "LeftShoulder" is a collar bone here, and an upper arm beside a "LeftCollar".
+    const bool allOwn = std::all_of(names.begin(), names.end(), isOwn);
+    const std::vector<std::string> roles = recogniseNames(names);
+    std::map<std::string, std::string> result;
+    for (std::size_t n = 0; n < names.size(); ++n) {
+        const auto found = ofRole.find(roles[n]);
+        // Of the several joints of a spine or neck, another's name does not tell which.
+        const bool told = found != ofRole.end() && roles[n] != "Spine" && roles[n] != "Neck";
+        if (told && !allOwn)
+            result[names[n]] = found->second;
+        else if (isOwn(names[n]))
+            result[names[n]] = names[n];
+    }
+    return result;
 }
 
 } // namespace osgSkin

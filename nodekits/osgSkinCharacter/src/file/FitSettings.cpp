@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file/FitSettings.h"
 
-#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace osgSkin {
 
@@ -14,13 +16,17 @@ FitOptions readFit(const JsonReader& reader) {
         options.facing = facing->vector();
         if (*options.facing == glm::dvec3(0.0)) facing->failWith("expected a direction");
     }
-    const std::vector<std::string>& names = fittedJointNames();
-    if (const auto landmarks = reader.find("landmarks"))
-        landmarks->forEachMember([&](const std::string& name, const JsonReader& value) {
-            if (std::find(names.begin(), names.end(), name) == names.end())
-                value.failWith("expected the name of a CMU joint, such as LeftHand or Head");
-            options.landmarks[name] = value.vector();
-        });
+    const auto landmarks = reader.find("landmarks");
+    if (!landmarks) return options;
+    std::vector<std::string> names;
+    landmarks->forEachMember(
+        [&](const std::string& name, const JsonReader&) { names.push_back(name); });
+    const std::map<std::string, std::string> known = fittedNamesOf(names);
+    landmarks->forEachMember([&](const std::string& name, const JsonReader& value) {
+        if (known.count(name) == 0)
+            value.failWith("expected the name of a CMU joint, such as LeftHand or Head");
+        options.landmarks[name] = value.vector();
+    });
     return options;
 }
 

@@ -34,7 +34,7 @@ std::vector<Entry> allWords() {
           "upperspine", "lowerspine", "middlespine",   "midspine",     "spineupper", "spinelower",
           "spinemid",   "spinebase",  "spineshoulder", "lowerback",    "upperback",  "midback",
           "abdomen",    "ab",         "abdomenlower",  "abdomenupper", "torso",      "uppertorso",
-          "lowertorso", "waist",      "stomach",       "thorax",       "ribcage"}},
+          "lowertorso", "upperbody",  "waist",         "stomach",      "thorax",     "ribcage"}},
         {BodyWord::Neck, {"neck", "upperneck", "lowerneck", "neckupper", "necklower", "necktwist"}},
         {BodyWord::Head, {"head", "skull"}},
         {BodyWord::HipJoint, {"hipjoint", "buttock"}},
@@ -47,10 +47,12 @@ std::vector<Entry> allWords() {
         {BodyWord::Toe, {"toe", "toes", "toebase", "ball", "foottoe"}},
         {BodyWord::Collar, {"collar", "clavicle", "clavical", "clav", "collarbone", "scapula"}},
         {BodyWord::Shoulder, {"shoulder"}},
-        {BodyWord::UpperArm, {"upperarm", "uparm", "armupper", "armup", "shldr", "humerus"}},
+        {BodyWord::UpperArm,
+         {"upperarm", "uparm", "uarm", "armupper", "armup", "shldr", "humerus"}},
         {BodyWord::Arm, {"arm"}},
         {BodyWord::ForeArm,
-         {"forearm", "lowerarm", "lowarm", "armlower", "armlow", "loarm", "elbow", "radius"}},
+         {"forearm", "lowerarm", "lowarm", "armlower", "armlow", "loarm", "farm", "elbow",
+          "radius"}},
         {BodyWord::Hand, {"hand", "wrist"}},
         {BodyWord::FingerBase, {"fingerbase"}},
         {BodyWord::Fingers, {"fingers"}},
@@ -87,7 +89,9 @@ bool hasSides(BodyWord word) {
 bool saysWhere(const std::string& before, BodyWord word) {
     const bool ofArm = word >= BodyWord::Collar;
     const bool ofLeg = word >= BodyWord::Hip && word <= BodyWord::Toe;
-    return (before == "arm" && ofArm) || (before == "leg" && ofLeg);
+    const bool ofTrunk = word <= BodyWord::Spine;
+    return ((before == "arm" || before == "shoulder") && ofArm) || (before == "leg" && ofLeg) ||
+           (before == "spine" && ofTrunk) || (before == "neck" && word == BodyWord::Head);
 }
 
 bool isForeign(const std::string& word) {

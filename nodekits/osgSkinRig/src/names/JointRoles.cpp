@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/JointRoles>
 
+#include "names/LimbWords.h"
 #include "names/NameWords.h"
 #include "names/ShapeRoles.h"
 #include "names/WordRoles.h"
@@ -163,6 +164,17 @@ JointPart partByWords(const RestSkeleton& skeleton, int joint,
     }
 }
 
+std::string roleOfNameAlone(const std::string& name) {
+    for (const Dictionary& names : knownDictionaries()) {
+        const auto found = names.roleOf.find(plainName(name));
+        if (found != names.roleOf.end()) return found->second;
+    }
+    const auto reading = readName(nameWords(name));
+    // A leg is the thigh here and the shin there.
+    if (!reading || reading->foreign || reading->word == BodyWord::Leg) return {};
+    return limbRoles({{{name, -1, glm::dvec3(0.0), {}}}}, {reading})[0];
+}
+
 } // namespace
 
 JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<JointNames>& extra) {
@@ -189,6 +201,17 @@ JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<Joint
                                    : partOfRole(role));
     }
     return result;
+}
+
+std::vector<std::string> recogniseNames(const std::vector<std::string>& names) {
+    RestSkeleton list; // that no tree orders
+    list.add({}, -1, glm::dvec3(0.0));
+    for (const std::string& name : names) list.add(name, 0, glm::dvec3(0.0));
+    std::vector<std::string> roles = recogniseJoints(list).roles;
+    roles.erase(roles.begin());
+    for (std::size_t n = 0; n < names.size(); ++n)
+        if (roles[n].empty()) roles[n] = roleOfNameAlone(names[n]);
+    return roles;
 }
 
 } // namespace osgSkin

@@ -15,8 +15,8 @@ class Limbs {
 public:
     Limbs(const RestSkeleton& skeleton, const Readings& readings, Side side)
         : _skeleton(skeleton), _readings(readings), _side(side) {
-        for (std::size_t j = 0; j < readings.size(); ++j)
-            if (readings[j] && readings[j]->side == side) ++_count[readings[j]->word];
+        for (const auto& reading : readings)
+            if (reading && reading->side == side) ++_count[reading->word];
     }
 
     std::string role(std::size_t joint) const {

@@ -50,7 +50,7 @@ public:
         const NameReading ended = _result;
         const std::size_t end = _end;
         if (end > 0 && readWhole())
-            if (const auto result = finished()) return result;
+            if (auto result = finished()) return result;
         // Letters without a boundary, in the last word, or in several ("lefthand",
         // "leftUpper_arm"): the longest part that they end with ("ForeArmleft").
         std::optional<NameReading> best;
@@ -63,6 +63,8 @@ public:
                 _rest.clear();
                 _end = first - 1;
                 if (!readRun(run, side)) continue;
+                // A part of several words begins where one does: no "farm" in "DEF-Armleft".
+                if (first < end && !_rest.empty()) continue;
                 const auto result = finished();
                 if (!result || _partSize <= longest) continue;
                 best = result;
@@ -171,7 +173,9 @@ private:
         for (; _end > 0; --_end) {
             const bool centre = !centred && _result.side == Side::None && isCentre(last(), false);
             centred = centred || centre;
-            if (!centre && !takeSide(last()) && !saysWhere(last(), _result.word)) return;
+            if (!centre && !isNumber(last()) && !takeSide(last()) &&
+                !saysWhere(last(), _result.word))
+                return;
         }
     }
 

@@ -48,6 +48,14 @@ std::string withoutNote(const std::string& name) {
     return name.substr(0, open) + name.substr(close + 1);
 }
 
+/// "LUArm", "RFArm": a side, and then the upper arm or forearm.
+bool beginsShortArm(const std::string& name, std::size_t i) {
+    if ((name[i] != 'U' && name[i] != 'F') || i == 0 || i + 2 >= name.size()) return false;
+    const bool afterSide =
+        (name[i - 1] == 'L' || name[i - 1] == 'R') && (i == 1 || !isUpper(name[i - 2]));
+    return afterSide && isUpper(name[i + 1]) && isLetter(name[i + 2]) && !isUpper(name[i + 2]);
+}
+
 std::vector<std::string> wordsOf(const std::string& name) {
     std::vector<std::string> result;
     bool inWord = false;
@@ -66,7 +74,8 @@ std::vector<std::string> wordsOf(const std::string& name) {
         const bool afterLower = i > 0 && isLetter(name[i - 1]) && !isUpper(name[i - 1]);
         const bool beforeLower =
             i + 1 < name.size() && isLetter(name[i + 1]) && !isUpper(name[i + 1]);
-        if (!inWord || (isUpper(c) && (afterLower || beforeLower))) result.emplace_back();
+        if (!inWord || (isUpper(c) && (afterLower || beforeLower)) || beginsShortArm(name, i))
+            result.emplace_back();
         result.back() += lower(c);
         inWord = true;
     }

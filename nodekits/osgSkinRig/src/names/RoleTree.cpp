@@ -22,9 +22,9 @@ public:
         for (std::size_t j = 0; j < _roles.size(); ++j)
             joints[_roles[j]].push_back(static_cast<int>(j));
         for (const auto& [role, members] : joints)
-            if (role != "" && role != "Spine" && role != "Neck") keepOne(members);
-        findHips();
+            if (!role.empty() && role != "Spine" && role != "Neck") keepOne(members);
         findHead();
+        findHips();
         keepTrunk();
     }
 
@@ -62,12 +62,13 @@ private:
         const int left = find("LeftUpperArm"), right = find("RightUpperArm");
         if (find("Head") >= 0 || left < 0 || right < 0) return;
         const int chest = commonAncestor(_skeleton, left, right);
+        if (chest < 0 || role(chest).empty()) return; // a list of names has no order
         int head = -1;
         for (int j = 0; j < static_cast<int>(_roles.size()); ++j)
             if ((role(j) == "Spine" || role(j) == "Neck") && j != chest &&
                 _skeleton.isInSubtree(j, chest))
                 head = j;
-        if (chest < 0 || head < 0) return;
+        if (head < 0) return;
         for (int j = head; j >= 0 && j != chest; j = parent(j))
             if (role(j) == "Spine") role(j) = "Neck";
         role(head) = "Head";

@@ -23,6 +23,8 @@ constexpr std::size_t kMostSamples = 4000;
 /// A body that no sample shows standing may come near: what a pose is off by, untidiness() of it.
 constexpr double kNearlyStands = 5.0;
 
+constexpr int kPlusY = 2; ///< as axisOf() has it
+
 /// Which coordinate axis `up` is within 37 degrees of: 1 to 3, negative for the other way; 0: none.
 int axisOf(const glm::dvec3& up) {
     for (int axis = 0; axis < 3; ++axis)
@@ -138,7 +140,7 @@ std::string faults(const std::optional<Stance>& stance) {
 }
 
 /// Where the skeletons are one, the rig's rest pose tells what the motion's rotations mean.
-bool countFromRig(const Motion& motion, const RestSkeleton& rig, const SameSkeleton& same,
+void countFromRig(const Motion& motion, const RestSkeleton& rig, const SameSkeleton& same,
                   const std::optional<Stance>& rest, const std::optional<Stance>& zero,
                   int samplesAxis, StandingPose& result) {
     const bool alike = std::all_of(same.toRigRest.begin(), same.toRigRest.end(),
@@ -147,9 +149,9 @@ bool countFromRig(const Motion& motion, const RestSkeleton& rig, const SameSkele
         result.copied = same;
         result.notes.emplace_back("the rig is the motion's own skeleton and rests in no standing "
                                   "pose: local rotations are copied");
-        return true;
+        return;
     }
-    if (alike) return true; // it stands as the rig does
+    if (alike) return; // it stands as the rig does
     // Both files' spaces may have different axes up.
     glm::dquat turn(1.0, 0.0, 0.0, 0.0);
     const int axis = zero && zero->stands() ? axisOf(zero->up) : samplesAxis;
@@ -168,7 +170,6 @@ bool countFromRig(const Motion& motion, const RestSkeleton& rig, const SameSkele
     const glm::dvec3 place = turn * rig.joints[static_cast<std::size_t>(root)].centre / same.scale;
     result.counted = countedFrom(motion, world, place);
     result.notes.emplace_back("the rig is the motion's own skeleton: local rotations are copied");
-    return true;
 }
 
 } // namespace
@@ -186,10 +187,16 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
     Sampler sampler(motion, joints);
     const Samples samples = sampler.look();
 
-    if (same && rigJoints.complete() &&
-        countFromRig(motion, rig, *same, rigJoints.measure(centresOf(rig)), zero, samples.axis,
-                     result))
-        return result;
+    if (rigJoints.complete()) {
+        const std::optional<Stance> rest = rigJoints.measure(centresOf(rig));
+        if (same) {
+            countFromRig(motion, rig, *same, rest, zero, samples.axis, result);
+            return result;
+        }
+        if (!rest || !rest->stands())
+            result.notes.push_back("the rig does not stand at rest (" + faults(rest) +
+                                   "): its trunk and feet may point elsewhere than the actor's");
+    }
 
     if (zeroStands) {
         const int own = axisOf(zero->up);
@@ -198,10 +205,12 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
             const auto found = counts.find(axis);
             return found == counts.end() ? std::size_t(0) : found->second;
         };
-        // Who lies on the floor stands across it, too. Who has the floor under the feet stands.
+        // Who lies on the floor stands across it, too. Who has the floor under the feet stands, and
+        // who stands along +y does where files have it up.
         const std::size_t across = countOf(samples.standing, samples.axis);
-        if (countOf(samples.standing, own) > 0 ||
-            10 * countOf(samples.grounded, samples.axis) < 8 * across) {
+        const bool isUp =
+            samples.axis == kPlusY || 10 * countOf(samples.grounded, samples.axis) >= 8 * across;
+        if (!isUp || 10 * countOf(samples.standing, own) > across) {
             if (countOf(samples.standing, own) == 0)
                 result.notes.push_back(
                     "the actor's legs are never along the axis of the motion's zero pose: he lies, "

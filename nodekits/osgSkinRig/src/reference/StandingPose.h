@@ -31,7 +31,8 @@ struct StandingPose {
 /// \param motion in any zero pose
 /// \param rig at rest
 /// \param motionJoint [rig joint] which joint of the motion drives it, -1 for none
-/// \param rigRoles, motionRoles what the joints of both are
+/// \param rigRoles what the rig's joints are
+/// \param motionRoles what the motion's joints are
 /// \throw osgSkin::Error where the actor stands nowhere
 StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
                               const std::vector<int>& motionJoint, const JointRoles& rigRoles,
