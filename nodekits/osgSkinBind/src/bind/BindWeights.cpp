@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/BindWeights>
 
+#include "bind/AddShapes.h"
 #include "bind/CheckOptions.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
@@ -8,7 +9,6 @@
 #include "mesh/WeldedMesh.h"
 #include "muscles/MakeMuscles.h"
 #include "ratios/PackInfluences.h"
-#include "shapes/FastShapes.h"
 #include "shapes/MergeCorrectives.h"
 
 #include <osgSkin/Error>
@@ -143,8 +143,7 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
             if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
-    if (options.shapes == BindOptions::Shapes::Fast)
-        binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
+    addShapes(skeleton, joints, skin, options, options.progress, binding, found.notes);
     if (options.muscles || !options.ownMuscles.empty())
         binding.correctives =
             mergeCorrectives(binding.correctives,

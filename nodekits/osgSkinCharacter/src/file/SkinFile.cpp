@@ -123,7 +123,8 @@ BindOptions::Shapes readShapes(const JsonReader& reader) {
     const std::string name = reader.string();
     if (name == "none") return BindOptions::Shapes::None;
     if (name == "fast") return BindOptions::Shapes::Fast;
-    reader.failWith("expected \"none\" or \"fast\", found \"" + name + "\"");
+    if (name == "elastic") return BindOptions::Shapes::Elastic;
+    reader.failWith("expected \"none\", \"fast\" or \"elastic\", found \"" + name + "\"");
 }
 
 void readBinding(const JsonReader& root, BindOptions& bind) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load/ConvertScene.h"
 
+#include "source/CacheFolder.h"
+
 #include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
 
@@ -26,6 +28,7 @@ ConvertOptions convertOptionsOf(const LoadOptions& options) {
     if (options.method == Method::Paper) convert.bind.method = BindOptions::Method::Paper;
     convert.bind.rigid = options.rigid;
     if (options.shapes) convert.bind.shapes = *options.shapes;
+    convert.bind.cacheFolder = cacheFolder();
     convert.bind.muscles = options.muscles.value_or(false);
     convert.showRegions = options.showRegions;
     return convert;
@@ -42,11 +45,14 @@ osg::ref_ptr<osg::Group> asGroup(osg::Node* node) {
 } // namespace
 
 Character convertScene(const std::string& file, const LoadOptions& options, LoadStages& stages) {
-    stages.plan(LoadStages::kModel + LoadStages::kBinding);
+    const double binding =
+        LoadStages::kBinding +
+        LoadStages::shapesSize(options.shapes.value_or(BindOptions::Shapes::None));
+    stages.plan(LoadStages::kModel + binding);
     stages.begin("model", LoadStages::kModel);
     const osg::ref_ptr<osg::Node> scene = readScene(file, options.readOptions.get());
     ConvertOptions convert = convertOptionsOf(options);
-    convert.bind.progress = stages.begin("binding", LoadStages::kBinding);
+    convert.bind.progress = stages.begin("binding", binding);
     ConvertReport report = convertRigs(*scene, convert);
     if (report.skins.empty())
         throw Error(file + ": " +
