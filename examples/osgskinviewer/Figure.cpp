@@ -5,6 +5,7 @@
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
+#include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinImport/ImportRig>
 
 #include <stdexcept>
@@ -58,6 +59,10 @@ osg::ref_ptr<osg::Group> readScene(const std::string& file) {
     return root;
 }
 
+osg::ref_ptr<osg::Group> loadScene(const std::string& file) {
+    return osgSkin::loadCharacter(file).root;
+}
+
 } // namespace
 
 Figure::Figure(const std::string& file, const std::string& weights,
@@ -71,8 +76,10 @@ Figure::Figure(const std::string& file, const std::string& weights,
     Finder finder(*this);
     root->accept(finder);
     if (!skins.empty()) return;
-    // A scene of rigs: the pseudo-loader makes skins of them.
-    root = readScene(file + ".skin");
+    // A scene of rigs, which a load makes skins of.
+    manager = nullptr;
+    managed = nullptr;
+    root = loadScene(file);
     root->accept(finder);
     if (skins.empty()) throw std::runtime_error(file + ": no skin in it, expected a character");
 }

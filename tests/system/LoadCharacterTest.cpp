@@ -104,7 +104,8 @@ TEST(LoadCharacter, MakesARiggedModelWithAndWithoutSkinAfterItsName) {
 TEST(LoadCharacter, ConvertsASceneThatOsgReads) {
     const std::string file = rigOfOsg();
     const Character character = loadCharacter(file);
-    EXPECT_FALSE(character.hasBody());
+    EXPECT_TRUE(character.hasBody());
+    EXPECT_EQ(character.body.mesh.positions.size(), 4u);
     EXPECT_EQ(character.file, file);
     ASSERT_EQ(character.skin.skins.size(), 1u);
     EXPECT_EQ(character.skin.skins.front().drawable->getModel()->vertexCount(), 4u);

@@ -48,10 +48,12 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
         _skeleton = &skeleton;
         _model = model;
         startTwistAfresh();
+        // A root over several bones, as readSkeleton() adds one, has none and stays at rest.
         for (const std::string& joint : _reader.missing())
-            OSG_WARN << "osgSkin: skin \"" << skin.getName() << "\": skeleton \""
-                     << skeleton.getName() << "\" has no bone \"" << joint
-                     << "\"; the joint moves with its parent" << std::endl;
+            if (joint != model->joints().front().name)
+                OSG_WARN << "osgSkin: skin \"" << skin.getName() << "\": skeleton \""
+                         << skeleton.getName() << "\" has no bone \"" << joint
+                         << "\"; the joint moves with its parent" << std::endl;
     }
     const std::vector<glm::dmat4>& skinning = _reader.read();
     if (!skin.setPose(skinning.data(), skinning.size(), _twist)) return false;

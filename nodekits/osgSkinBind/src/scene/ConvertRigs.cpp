@@ -34,12 +34,12 @@ BindOptions optionsFor(const RestSkeleton& skeleton, const BindOptions& wanted) 
     return options;
 }
 
-Binding bindBody(const RigBody& body, const RestSkeleton& skeleton, const ConvertOptions& options) {
+Binding bindBody(const RigBody& body, const RestSkeleton& skeleton, const ConvertOptions& options,
+                 BindReport& report) {
     const BindOptions own = optionsFor(skeleton, options.bind);
     const bool painted =
         options.ratios == ConvertOptions::Ratios::Painted ||
         (options.ratios == ConvertOptions::Ratios::Best && isWellPainted(body.weights));
-    BindReport report;
     Binding binding = painted ? bindWeights(body.mesh, skeleton, body.weights, own, &report)
                               : bind(body.mesh, skeleton, own, &report);
     OSG_INFO << "osgSkin: bound by " << (painted ? "painted weights" : "regions") << "\n"
@@ -80,28 +80,33 @@ void replace(const Rig& rig, DeformableSkin& skin) {
 
 void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const Rig*>& rigs,
                      const ConvertOptions& options, ConvertReport& report) {
-    const RestSkeleton rest = readSkeleton(skeleton);
+    ConvertedBody made;
+    made.skeleton = &skeleton;
+    made.rest = readSkeleton(skeleton);
     RigBody body;
     std::vector<const Rig*> taken;
     for (const Rig* rig : rigs) {
         try {
-            body.add(*rig->geometry, osg::computeLocalToWorld(rig->nodePaths.front()), rest);
+            body.add(*rig->geometry, osg::computeLocalToWorld(rig->nodePaths.front()), made.rest);
             taken.push_back(rig);
         } catch (const Error& error) {
             report.notes.push_back(nameOf(*rig) + " is left as it is: " + error.what());
         }
     }
     if (taken.empty()) return;
-    const Binding binding = bindBody(body, rest, options);
-    if (options.showRegions) showRegions(body.parts, binding);
+    made.binding = bindBody(body, made.rest, options, made.report);
+    if (options.showRegions) showRegions(body.parts, made.binding);
     RigidSplit whole;
     whole.faceJoint.assign(body.mesh.faceSizes.size(), RigidSplit::kSkin);
-    const SkinParts made = makeSkins(body.mesh, body.parts, binding, whole);
+    made.skins = makeSkins(body.mesh, body.parts, made.binding, whole).skins;
     for (std::size_t i = 0; i < taken.size(); ++i) {
         DeformableSkin& skin = *made.skins[i].drawable;
         replace(*taken[i], skin);
         report.skins.push_back(&skin);
     }
+    made.mesh = std::move(body.mesh);
+    made.parts = std::move(body.parts);
+    report.bodies.push_back(std::move(made));
 }
 
 void noteNonUniformScale(osgAnimation::Skeleton& skeleton, const osgAnimation::AnimationList& clips,

@@ -14,7 +14,7 @@
 namespace osgSkin {
 namespace {
 
-constexpr double kTolerance = 1e-3; ///< of the scale along one axis against that along another
+constexpr double kTolerance = 0.05; ///< of the scale along one axis against that along another
 
 osg::Vec3d axis(const osg::Matrixd& m, int row) {
     return {m(row, 0), m(row, 1), m(row, 2)};

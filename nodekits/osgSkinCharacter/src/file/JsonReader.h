@@ -34,6 +34,7 @@ public:
     JsonReader require(const std::string& key, const std::string& expected) const;
 
     bool isObject() const { return _value.is_object(); }
+    bool isNumber() const { return _value.is_number(); }
     std::string string() const;
     double number() const;
     bool boolean() const;

@@ -97,7 +97,9 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
     static const std::vector<std::pair<const char*, const char*>> words{
         {"bind=<smooth|paper|weights>",
          "how ratios are found; a rig's own weights by default, where it is painted throughout"},
-        {"motion=<clip|file|none>", "the motion to play by its name, or a motion file to retarget"},
+        {"motion=<clip|file|file#clip|none>", "the motion to play by its name, or a motion file to "
+                                              "retarget, or one of the file's clips by "
+                                              "name or number"},
         {"rigid=<joint,joint|none>",
          "joints that move as rigid bodies; head, hands, feet by default"},
         {"shapes=<none|fast|elastic>",

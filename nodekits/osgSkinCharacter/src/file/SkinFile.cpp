@@ -28,10 +28,15 @@ void checkVersion(const JsonReader& root) {
 }
 
 SkinFile::MotionEntry readMotion(const JsonReader& reader, const std::string& folder) {
-    reader.warnUnknown({"file", "name", "skipFrames", "joints"});
+    reader.warnUnknown({"file", "clip", "name", "skipFrames", "joints"});
     SkinFile::MotionEntry motion;
     motion.file = path(reader.require("file", "a motion file's name"), folder);
     motion.name = osgDB::getStrippedName(motion.file);
+    if (const auto clip = reader.find("clip")) {
+        motion.clip = clip->isNumber() ? std::to_string(clip->count()) : clip->string();
+        if (motion.clip.empty()) clip->failExpected("a clip's name or number");
+        motion.name = clip->isNumber() ? motion.name + " " + motion.clip : motion.clip;
+    }
     if (const auto name = reader.find("name")) motion.name = name->string();
     if (const auto skip = reader.find("skipFrames")) motion.skipFrames = skip->count();
     if (const auto joints = reader.find("joints"))

@@ -20,6 +20,7 @@ struct SkinFile {
     /// A motion file to be retargeted.
     struct MotionEntry {
         std::string file;
+        std::string clip; ///< of the file's motions, by name or number; empty: the first
         std::string name;
         std::size_t skipFrames = 0;
         std::map<std::string, std::string> joints; ///< rig joint -> motion joint

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load/BindSource.h"
 
+#include "load/KeepShells.h"
 #include "report/NamingFile.h"
 #include "source/MeshWeights.h"
 
@@ -9,6 +10,8 @@
 #include <osgSkinCharacter/ReadWeights>
 
 #include <osg/Notify>
+
+#include <algorithm>
 
 namespace osgSkin {
 namespace {
@@ -20,19 +23,31 @@ VertexWeights paintedWeights(const CharacterSource& source) {
     return readWeights(source.weightsFile, source.rest, source.body.mesh.positions.size());
 }
 
+/// Whether the mesh has weights for joints of the skeleton, which may be another file's.
+bool carriesWeights(const CharacterSource& source) {
+    const std::vector<BoneWeights>& bones = source.body.weights;
+    return source.weightsFile.empty() && !bones.empty() &&
+           std::all_of(bones.begin(), bones.end(),
+                       [&](const BoneWeights& bone) { return source.rest.find(bone.bone) >= 0; });
+}
+
 } // namespace
 
 Binding bindSource(const CharacterSource& source, const Progress& progress, BindReport& report) {
     BindOptions options = source.bind;
     options.progress = progress;
     VertexWeights weights;
-    if (source.painted != Painted::No) weights = paintedWeights(source);
+    if (source.painted != Painted::No || carriesWeights(source)) weights = paintedWeights(source);
     const bool byWeights = source.painted == Painted::Yes ||
                            (source.painted == Painted::WhereGood && isWellPainted(weights));
     Binding binding = namingFile(source.file, [&] {
         return byWeights ? bindWeights(source.body.mesh, source.rest, weights, options, &report)
                          : bind(source.body.mesh, source.rest, options, &report);
     });
+    if (!byWeights)
+        if (const std::size_t kept = keepShells(source, weights, binding))
+            report.notes.push_back(std::to_string(kept) +
+                                   " shells follow one joint: heads, and what hands hold");
     OSG_INFO << source.file << ": bound by " << (byWeights ? "painted weights" : "regions") << "\n"
              << report.text();
     return binding;

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load/ConvertScene.h"
 
+#include "load/BonesFirst.h"
+#include "load/SceneMotions.h"
 #include "source/CacheFolder.h"
 
 #include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
 
+#include <osg/StateSet>
+#include <osg/Transform>
 #include <osgDB/Registry>
+
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -42,6 +48,33 @@ osg::ref_ptr<osg::Group> asGroup(osg::Node* node) {
     return group;
 }
 
+/// The state that all nodes down to a skin set together.
+osg::ref_ptr<osg::StateSet> stateOf(const osg::Node& skin) {
+    osg::ref_ptr<osg::StateSet> merged = new osg::StateSet;
+    const osg::NodePathList paths = skin.getParentalNodePaths();
+    if (paths.empty()) return merged;
+    for (const osg::Node* node : paths.front())
+        if (node->getStateSet() != nullptr) merged->merge(*node->getStateSet());
+    return merged;
+}
+
+/// The one body of a scene is the character's.
+void takeBody(ConvertedBody& body, const BindOptions& options, Character& character) {
+    character.body.mesh = std::move(body.mesh);
+    character.body.parts = std::move(body.parts);
+    character.rest = std::move(body.rest);
+    character.binding = std::move(body.binding);
+    character.bindReport = std::move(body.report);
+    character.bindOptions = options;
+    character.bindOptions.progress = {};
+    character.skeleton = body.skeleton;
+    character.skin.skins = std::move(body.skins);
+    for (std::size_t i = 0; i < character.skin.skins.size(); ++i)
+        character.body.parts[i].geometry->setStateSet(stateOf(*character.skin.skins[i].drawable));
+    const osg::NodePathList paths = body.skeleton->getParentalNodePaths(character.root);
+    if (!paths.empty()) character.toWorld = osg::computeLocalToWorld(paths.front());
+}
+
 } // namespace
 
 Character convertScene(const std::string& file, const LoadOptions& options, LoadStages& stages) {
@@ -51,6 +84,7 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     stages.plan(LoadStages::kModel + binding);
     stages.begin("model", LoadStages::kModel);
     const osg::ref_ptr<osg::Node> scene = readScene(file, options.readOptions.get());
+    putBonesFirst(*scene);
     ConvertOptions convert = convertOptionsOf(options);
     convert.bind.progress = stages.begin("binding", binding);
     ConvertReport report = convertRigs(*scene, convert);
@@ -63,6 +97,8 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     character.notes = report.notes;
     for (const auto& skin : report.skins) character.skin.skins.push_back({skin, {}});
     character.root = asGroup(scene);
+    if (report.bodies.size() == 1) takeBody(report.bodies.front(), convert.bind, character);
+    takeSceneMotions(options, character);
     stages.finish();
     return character;
 }

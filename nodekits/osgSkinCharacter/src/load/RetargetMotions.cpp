@@ -16,7 +16,7 @@ std::vector<CharacterMotion> retargetMotions(CharacterSource& source, LoadStages
         stages.begin("motion " + entry.name, LoadStages::kMotion);
         CharacterMotion& made = motions.emplace_back();
         namingFile(entry.file, [&] {
-            Motion motion = importMotion(entry.file, entry.skipFrames);
+            Motion motion = importMotion(entry.file, entry.skipFrames, entry.clip);
             motion.name = entry.name;
             RetargetOptions options;
             options.joints = entry.joints;

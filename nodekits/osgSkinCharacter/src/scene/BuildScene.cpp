@@ -38,10 +38,14 @@ osg::ref_ptr<osg::MatrixTransform> makeUpright(const osg::Matrixd& toWorld) {
 
 /// A rigged model's own animations, as the character's motions.
 void takeAnimations(const CharacterSource& source, Character& character) {
-    for (const std::string& bone : findNonUniformScale(*character.skeleton, source.animations))
-        takeNote(character.notes, character.file + ": " + bone +
-                                      " scaled non-uniformly or mirrored, which the skin does not "
-                                      "follow");
+    const std::vector<std::string> bones =
+        findNonUniformScale(*character.skeleton, source.animations);
+    if (!bones.empty())
+        takeNote(
+            character.notes,
+            character.file + ": " + bones.front() +
+                (bones.size() > 1 ? " and " + std::to_string(bones.size() - 1) + " more" : "") +
+                " scaled non-uniformly or mirrored, which the skin does not follow");
     for (const auto& animation : source.animations)
         character.motions.emplace_back().animation = animation;
 }

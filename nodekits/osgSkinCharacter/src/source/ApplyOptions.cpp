@@ -34,27 +34,45 @@ std::string expectedNames(const CharacterSource& source) {
     return names;
 }
 
-/// Puts the element called `name` first. False where there is none.
+/// Puts the element called `name` first, or the only one with that behind the last '|' of its name
+/// (as in "Armature|walk"). False where there is none.
 template <typename List, typename NameOf>
 bool putFirst(List& list, const std::string& name, const NameOf& nameOf) {
-    const auto found = std::find_if(list.begin(), list.end(),
-                                    [&](const auto& item) { return nameOf(item) == name; });
+    auto found = std::find_if(list.begin(), list.end(),
+                              [&](const auto& item) { return nameOf(item) == name; });
+    const auto endsSo = [&](const auto& item) {
+        const std::string whole = nameOf(item);
+        const std::size_t bar = whole.rfind('|');
+        return bar != std::string::npos && whole.substr(bar + 1) == name;
+    };
+    if (found == list.end() && std::count_if(list.begin(), list.end(), endsSo) == 1)
+        found = std::find_if(list.begin(), list.end(), endsSo);
     if (found == list.end()) return false;
     std::rotate(list.begin(), found, found + 1);
     return true;
 }
 
+/// A motion file, or with "#" and a clip's name or number behind it, one of the file's motions.
+SkinFile::MotionEntry fileEntry(const std::string& wanted, const osgDB::Options* read) {
+    SkinFile::MotionEntry entry;
+    entry.file = osgDB::findDataFile(wanted, read);
+    entry.name = osgDB::getStrippedName(entry.file);
+    const std::size_t mark = wanted.rfind('#');
+    if (!entry.file.empty() || mark == std::string::npos || mark + 1 == wanted.size()) return entry;
+    entry.file = osgDB::findDataFile(wanted.substr(0, mark), read);
+    entry.name = entry.clip = wanted.substr(mark + 1);
+    return entry;
+}
+
 void applyMotion(CharacterSource& source, const std::string& wanted, const osgDB::Options* read) {
     if (putFirst(source.animations, wanted, [](const auto& a) { return a->getName(); })) return;
     if (putFirst(source.motions, wanted, [](const auto& m) { return m.name; })) return;
-    SkinFile::MotionEntry entry;
-    entry.file = osgDB::findDataFile(wanted, read);
+    SkinFile::MotionEntry entry = fileEntry(wanted, read);
     if (entry.file.empty())
         throw Error(source.file + ": motion \"" + wanted +
                     "\" is neither one of its motions nor a file" + expectedNames(source));
-    entry.name = osgDB::getStrippedName(entry.file);
     for (const SkinFile::MotionEntry& other : source.motions)
-        if (other.name == entry.name) entry.name = entry.file; // names are unique
+        if (other.name == entry.name) entry.name = wanted; // names are unique
     source.motions.insert(source.motions.begin(), entry);
     // A rigged model's animations move the bones of its own skeleton, retargeted motions those of
     // makeSkeleton(): there is one skeleton, so it is one kind or the other.

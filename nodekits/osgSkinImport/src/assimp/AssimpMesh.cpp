@@ -4,8 +4,11 @@
 #include "assimp/AssimpMaterials.h"
 #include "assimp/AssimpScene.h"
 #include "assimp/SceneBind.h"
+#include "assimp/SceneSkeleton.h"
+#include "assimp/Scenery.h"
 #include "text/FileText.h"
 
+#include <osg/Notify>
 #include <osgDB/FileNameUtils>
 
 #include <assimp/scene.h>
@@ -14,6 +17,8 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 namespace osgSkin {
 namespace {
@@ -54,8 +59,9 @@ void addMesh(const aiMesh& source, const glm::dmat4& toScene, const AssimpMateri
     }
 }
 
-/// Adds the weights of a mesh whose vertices begin at `first`.
-void addWeights(const aiMesh& source, const aiNode& node, const SceneBind& bind, std::size_t first,
+/// Adds the weights of a mesh whose vertices begin at `first`: its own, or where it has none, those
+/// of a thing that hangs on the joint `above`.
+void addWeights(const aiMesh& source, const aiNode* above, std::size_t first,
                 const std::string& where, CornerMesh& result) {
     const auto start = static_cast<std::uint32_t>(first);
     for (unsigned b = 0; b < source.mNumBones; ++b) {
@@ -72,13 +78,17 @@ void addWeights(const aiMesh& source, const aiNode& node, const SceneBind& bind,
             weights.entries.push_back({start + entry.mVertexId, double(entry.mWeight)});
         }
     }
-    if (source.mNumBones > 0) return;
-    const aiNode* above = &node;
-    while (above != nullptr && !bind.isBone(*above)) above = bind.parent(*above);
-    if (above == nullptr) return;
+    if (source.mNumBones > 0 || above == nullptr) return;
     BoneWeights& weights = result.weightsOf(nameOf(*above));
     for (std::uint32_t v = 0; v < source.mNumVertices; ++v)
         weights.entries.push_back({start + v, 1.0});
+}
+
+/// The joints that meshes may hang on; none where nothing is skinned.
+std::set<const aiNode*> jointsOfSkins(const aiScene& scene, const SceneBind& bind) {
+    for (const aiNode* node : bind.nodes())
+        if (bind.isBone(*node)) return jointNodes(scene, bind);
+    return {};
 }
 
 } // namespace
@@ -95,14 +105,26 @@ CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,
     result.stateSets = materials.stateSets();
 
     const SceneBind bind(scene);
+    const std::set<const aiNode*> joints = jointsOfSkins(scene, bind);
+    const Scenery scenery(scene, bind);
+    std::set<std::string> leftOut;
     for (const aiNode* node : bind.nodes())
         for (unsigned m = 0; m < node->mNumMeshes; ++m) {
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
+            const aiNode* above = node;
+            while (above != nullptr && joints.count(above) == 0) above = bind.parent(*above);
+            if (mesh.mNumBones == 0 && above == nullptr && scenery.has(*node, node->mMeshes[m])) {
+                leftOut.insert(nameOf(*node));
+                continue;
+            }
             const std::string where = path + ": mesh \"" + mesh.mName.C_Str() + "\"";
             const std::size_t first = result.mesh.positions.size();
             addMesh(mesh, bind.mesh(*node, node->mMeshes[m]), materials, where, result);
-            addWeights(mesh, *node, bind, first, where, result);
+            addWeights(mesh, above, first, where, result);
         }
+    if (!leftOut.empty())
+        OSG_NOTICE << path << ": " << leftOut.size() << " things beside the figure are left out, \""
+                   << *leftOut.begin() << "\" among them" << std::endl;
     return result;
 }
 

@@ -2,6 +2,9 @@
 #include "assimp/AssimpScene.h"
 
 #include "assimp/MissingBones.h"
+#include "assimp/NodeNames.h"
+#include "assimp/SceneFile.h"
+#include "gltf/PlainGltf.h"
 #include "text/FileText.h"
 #include "text/OffCheck.h"
 #include "text/PlyCheck.h"
@@ -12,6 +15,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -56,10 +61,19 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     checkBefore(path);
+    std::string name = path;
+    bool facesBackwards = false;
+    if (isGltfName(path))
+        if (std::optional<PlainGltf> plain = plainGltf(path)) {
+            // Assimp goes by the extension, and knows no .vrm; text and binary get mixed up, too.
+            name += plain->bytes.compare(0, 4, "glTF") == 0 ? ".glb" : ".gltf";
+            facesBackwards = plain->facesBackwards;
+            importer.SetIOHandler(new SceneFile(name, std::move(plain->bytes))); // takes it over
+        }
     const aiScene* scene = nullptr;
     std::string reason;
     try {
-        scene = importer.ReadFile(path, 0);
+        scene = importer.ReadFile(name, 0);
         if (scene == nullptr) reason = importer.GetErrorString();
     } catch (const std::exception& error) {
         reason = error.what();
@@ -68,6 +82,11 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
         failFile(path, reason.empty() ? "cannot be read" : reason);
     auto& owned = const_cast<aiScene&>(*scene); // the importer's, which nobody else sees
     checkAfter(owned, path);
+    if (facesBackwards) {
+        if (owned.mMetaData == nullptr) owned.mMetaData = new aiMetadata; // the scene's
+        owned.mMetaData->Add(kFacesBackwards, true);
+    }
+    separateNames(owned, path);
     addMissingBones(owned, path);
     return owned;
 }
@@ -90,7 +109,8 @@ glm::dmat4 toGlm(const aiMatrix4x4& m) {
 
 bool assimpReads(const std::string& path) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    return !extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension);
+    return isGltfName(path) ||
+           (!extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension));
 }
 
 } // namespace osgSkin

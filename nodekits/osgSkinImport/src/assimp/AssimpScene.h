@@ -12,6 +12,9 @@
 
 namespace osgSkin {
 
+/// Name of a bool in a scene's metadata: the figure's front is -Z, in a format that has +Z.
+constexpr char kFacesBackwards[] = "osgSkin:facesBackwards";
+
 /// Whether Assimp has a reader for files with this name's extension.
 bool assimpReads(const std::string& path);
 

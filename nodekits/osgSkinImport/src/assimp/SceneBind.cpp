@@ -2,22 +2,14 @@
 #include "assimp/SceneBind.h"
 
 #include "assimp/AssimpScene.h"
+#include "assimp/TrustedBones.h"
 
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace osgSkin {
-namespace {
-
-bool isInvertible(const aiMatrix4x4& m) {
-    const double determinant = glm::determinant(glm::dmat3(toGlm(m)));
-    return std::isfinite(determinant) && determinant != 0.0;
-}
-
-} // namespace
 
 SceneBind::SceneBind(const aiScene& scene) {
     std::vector<const aiNode*> open{scene.mRootNode};
@@ -39,12 +31,18 @@ SceneBind::SceneBind(const aiScene& scene) {
     }
 
     // Skins that reach further up come first: the others follow the bones that they share.
+    std::vector<std::vector<const aiBone*>> bones;
     std::vector<std::pair<int, unsigned>> skins;
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
-        if (const aiBone* top = topmost(*scene.mMeshes[m]))
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        for (unsigned b = 0; b < mesh.mNumBones; ++b)
+            if (const aiNode* node = find(nameOf(*mesh.mBones[b]))) _isBone[node] = true;
+        bones.push_back(trustedBones(mesh, *this));
+        if (const aiBone* top = topmost(bones.back()))
             skins.emplace_back(_depth.at(find(nameOf(*top))), m);
+    }
     std::sort(skins.begin(), skins.end());
-    for (const auto& [depth, m] : skins) bindSkin(*scene.mMeshes[m], _skins[m]);
+    for (const auto& [depth, m] : skins) bindSkin(bones[m], _skins[m]);
 
     for (const aiNode* node : _nodes)
         if (_bind.count(node) == 0) _bind[node] = bindFromAbove(*node);
@@ -60,15 +58,13 @@ glm::dmat4 SceneBind::mesh(const aiNode& node, unsigned meshIndex) const {
     return skin == _skins.end() ? _bind.at(&node) : skin->second;
 }
 
-const aiBone* SceneBind::topmost(const aiMesh& mesh) const {
+const aiBone* SceneBind::topmost(const std::vector<const aiBone*>& bones) const {
     const aiBone* result = nullptr;
     int least = 0;
-    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-        const aiNode* node = find(nameOf(*mesh.mBones[b]));
-        if (node == nullptr || !isInvertible(mesh.mBones[b]->mOffsetMatrix)) continue;
-        const int depth = _depth.at(node);
+    for (const aiBone* bone : bones) {
+        const int depth = _depth.at(find(nameOf(*bone)));
         if (result != nullptr && depth >= least) continue;
-        result = mesh.mBones[b];
+        result = bone;
         least = depth;
     }
     return result;
@@ -84,22 +80,17 @@ glm::dmat4 SceneBind::bindFromAbove(const aiNode& node) const {
     return above == nullptr ? result : _bind.at(above) * result;
 }
 
-void SceneBind::bindSkin(const aiMesh& mesh, glm::dmat4& toScene) {
-    const aiBone* reference = topmost(mesh);
-    for (unsigned b = 0; b < mesh.mNumBones; ++b)
-        if (_bind.count(find(nameOf(*mesh.mBones[b]))) != 0 &&
-            isInvertible(mesh.mBones[b]->mOffsetMatrix)) {
-            reference = mesh.mBones[b];
+void SceneBind::bindSkin(const std::vector<const aiBone*>& bones, glm::dmat4& toScene) {
+    const aiBone* reference = topmost(bones);
+    for (const aiBone* bone : bones)
+        if (_bind.count(find(nameOf(*bone))) != 0) {
+            reference = bone;
             break;
         }
     const aiNode* standing = find(nameOf(*reference));
     toScene = bindFromAbove(*standing) * toGlm(reference->mOffsetMatrix);
-    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-        const aiNode* node = find(nameOf(*mesh.mBones[b]));
-        if (node == nullptr || !isInvertible(mesh.mBones[b]->mOffsetMatrix)) continue;
-        _isBone[node] = true;
-        _bind.emplace(node, toScene * glm::inverse(toGlm(mesh.mBones[b]->mOffsetMatrix)));
-    }
+    for (const aiBone* bone : bones)
+        _bind.emplace(find(nameOf(*bone)), toScene * glm::inverse(toGlm(bone->mOffsetMatrix)));
 }
 
 std::string nameOf(const aiNode& node) {

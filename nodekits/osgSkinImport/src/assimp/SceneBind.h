@@ -17,7 +17,8 @@ namespace osgSkin {
 /// Skins say where each bone was, seen from the mesh, when they were painted (offset matrices). The
 /// topmost bone of a skin is taken to stand there as its node does; what hangs on it follows from
 /// the offsets, which may differ from the nodes' pose (often the first sample of a motion). Nodes
-/// that no skin names keep their transform under the node above.
+/// that no skin names keep their transform under the node above, and so do bones without weights
+/// whose offsets cannot be right: exporters list helpers with any matrix (see TrustedBones).
 class SceneBind {
 public:
     explicit SceneBind(const aiScene& scene);
@@ -45,9 +46,8 @@ public:
     glm::dmat4 mesh(const aiNode& node, unsigned meshIndex) const;
 
 private:
-    void bindSkin(const aiMesh& mesh, glm::dmat4& toScene);
-    /// Of the mesh's bones that have a node and a matrix to invert, the topmost; null for none.
-    const aiBone* topmost(const aiMesh& mesh) const;
+    void bindSkin(const std::vector<const aiBone*>& bones, glm::dmat4& toScene);
+    const aiBone* topmost(const std::vector<const aiBone*>& bones) const; ///< null for none
     glm::dmat4 bindFromAbove(const aiNode& node) const;
 
     std::vector<const aiNode*> _nodes;

@@ -38,22 +38,6 @@ bool isBelow(const aiNode* node, const std::set<const aiNode*>& nodes, const Sce
     return node != nullptr;
 }
 
-/// The nodes that are joints: bones and what moves above or below them. Other things that move
-/// beside a skin (a camera, a door) are not; without a skin, all that moves is a joint.
-std::set<const aiNode*> jointNodes(const aiScene& scene, const SceneBind& bind) {
-    std::set<const aiNode*> bones, moving, lineage;
-    for (const std::string& name : boneNames(scene))
-        if (const aiNode* node = bind.find(name)) bones.insert(node);
-    for (const std::string& name : animatedNames(scene))
-        if (const aiNode* node = bind.find(name)) moving.insert(node);
-    if (bones.empty()) return moving;
-    for (const aiNode* node : bones)
-        for (; node != nullptr && lineage.insert(node).second;) node = bind.parent(*node);
-    for (const aiNode* node : moving)
-        if (lineage.count(node) != 0 || isBelow(node, bones, bind)) bones.insert(node);
-    return bones;
-}
-
 /// Whether a node that nothing moves marks the end of its parent's bone.
 bool isEndNode(const aiNode& node) {
     const std::string name = nameOf(node);
@@ -127,6 +111,20 @@ private:
 };
 
 } // namespace
+
+std::set<const aiNode*> jointNodes(const aiScene& scene, const SceneBind& bind) {
+    std::set<const aiNode*> bones, moving, lineage;
+    for (const std::string& name : boneNames(scene))
+        if (const aiNode* node = bind.find(name)) bones.insert(node);
+    for (const std::string& name : animatedNames(scene))
+        if (const aiNode* node = bind.find(name)) moving.insert(node);
+    if (bones.empty()) return moving;
+    for (const aiNode* node : bones)
+        for (; node != nullptr && lineage.insert(node).second;) node = bind.parent(*node);
+    for (const aiNode* node : moving)
+        if (lineage.count(node) != 0 || isBelow(node, bones, bind)) bones.insert(node);
+    return bones;
+}
 
 glm::dquat rotationOf(const glm::dmat4& matrix) {
     glm::dmat3 axes(matrix);

@@ -9,10 +9,13 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 
+#include <set>
 #include <string>
 #include <vector>
 
 namespace osgSkin {
+
+class SceneBind;
 
 /// The joints of an Assimp scene: what its first animation or its meshes' bones move, and the nodes
 /// that connect them.
@@ -23,6 +26,10 @@ struct SceneSkeleton {
     std::vector<glm::dquat> worldRotations; ///< of `bind`, [joint]
     glm::dmat4 aboveRoot{1.0};              ///< from the root joint's parent node to the scene
 };
+
+/// The nodes that are joints: bones and what moves above or below them. Other things that move
+/// beside a skin (a camera, a door) are not; without a skin, all that moves is a joint.
+std::set<const aiNode*> jointNodes(const aiScene& scene, const SceneBind& bind);
 
 /// Reads the joints, in the bind pose.
 /// \throw osgSkin::Error with `path` where the scene has no joint, or joints of one name.

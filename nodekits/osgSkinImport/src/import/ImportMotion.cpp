@@ -2,10 +2,11 @@
 #include <osgSkinImport/ImportMotion>
 
 #include "assimp/AssimpScene.h"
-#include "assimp/SampleTracks.h"
 #include "assimp/SceneSkeleton.h"
 #include "bvh/BvhFile.h"
 #include "bvh/BvhMotion.h"
+#include "rig/ClipNames.h"
+#include "rig/SampleTracks.h"
 #include "text/FileText.h"
 
 #include <osgSkin/GlmTypes>
@@ -32,22 +33,26 @@ void validate(const Motion& motion, const std::string& path) {
     }
 }
 
-Motion readBvhMotion(const std::string& path) {
+Motion readBvhMotion(const std::string& path, const std::string& clip) {
+    if (!clip.empty()) findClip({osgDB::getStrippedName(path)}, clip, path); // one, called so
     const BvhFile file = readBvh(path);
     if (file.frames == 0) failFile(path, "no frame, expected at least one");
     return makeMotion(file, path);
 }
 
-Motion readAssimpMotion(const std::string& path) {
+Motion readAssimpMotion(const std::string& path, const std::string& clip) {
     requireReadable(path);
     Assimp::Importer importer;
     const aiScene& scene = readAssimpScene(importer, path);
     if (scene.mNumAnimations == 0) failFile(path, "no animation, expected at least one");
-    if (scene.mNumAnimations > 1)
-        OSG_NOTICE << path << ": " << scene.mNumAnimations << " animations, of which the first, \""
-                   << scene.mAnimations[0]->mName.C_Str() << "\", is read" << std::endl;
-    Motion motion = sampleTracks(*scene.mAnimations[0], readSceneSkeleton(scene, path), path);
+    const std::vector<std::string> names = clipNames(scene);
+    if (clip.empty() && names.size() > 1)
+        OSG_NOTICE << path << ": " << names.size() << " animations, of which the first, \""
+                   << names[0] << "\", is read" << std::endl;
+    const std::size_t chosen = clip.empty() ? 0 : findClip(names, clip, path);
+    Motion motion = sampleTracks(*scene.mAnimations[chosen], readSceneSkeleton(scene, path), path);
     validate(motion, path);
+    motion.name = names[chosen];
     return motion;
 }
 
@@ -61,10 +66,10 @@ void dropFirst(Motion& motion, std::size_t count) {
 
 } // namespace
 
-Motion importMotion(const std::string& path, std::size_t skipFrames) {
+Motion importMotion(const std::string& path, std::size_t skipFrames, const std::string& clip) {
     const bool isBvh = osgDB::getLowerCaseFileExtension(path) == "bvh";
-    Motion motion = isBvh ? readBvhMotion(path) : readAssimpMotion(path);
-    motion.name = osgDB::getStrippedName(path);
+    Motion motion = isBvh ? readBvhMotion(path, clip) : readAssimpMotion(path, clip);
+    if (isBvh || clip.empty()) motion.name = osgDB::getStrippedName(path);
     if (skipFrames >= motion.frames)
         failFile(path, std::to_string(motion.frames) + " frame(s), expected more than the " +
                            std::to_string(skipFrames) + " to skip");

@@ -3,10 +3,10 @@
 
 #include "assimp/AssimpMesh.h"
 #include "assimp/AssimpScene.h"
-#include "assimp/RigBones.h"
-#include "assimp/RigClips.h"
 #include "assimp/SceneSkeleton.h"
 #include "mesh/FinishMesh.h"
+#include "rig/RigBones.h"
+#include "rig/RigClips.h"
 #include "text/FileText.h"
 
 #include <osg/Math>
@@ -25,6 +25,9 @@ bool isRigged(const aiScene& scene) {
 /// what they have and are left as they are, and so is SMD, which has Z up.
 osg::Matrixd toWorld(const aiScene& scene, const std::string& path) {
     const osg::Matrixd fromY = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
+    bool backwards = false;
+    if (scene.mMetaData != nullptr && scene.mMetaData->Get(kFacesBackwards, backwards) && backwards)
+        return osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 1, 0)) * fromY;
     if (osgDB::getLowerCaseFileExtension(path) == "smd") return {};
     int up = 1;
     if (scene.mMetaData != nullptr && scene.mMetaData->Get("UpAxis", up) && up == 2) return {};

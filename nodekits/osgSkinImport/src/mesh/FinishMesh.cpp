@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/FinishMesh.h"
 
+#include "mesh/CheckNormals.h"
 #include "mesh/MeshParts.h"
 #include "mesh/SmoothNormals.h"
 #include "text/FileText.h"
@@ -35,7 +36,10 @@ ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
     } catch (const Error& error) {
         failFile(path, error.what());
     }
-    if (!normalise(read.normals)) read.normals = smoothNormals(read.mesh);
+    if (normalise(read.normals))
+        mendNormals(read, path);
+    else
+        read.normals = smoothNormals(read.mesh);
     for (glm::vec2& t : read.texCoords)
         if (!std::isfinite(t.x) || !std::isfinite(t.y)) t = glm::vec2(0.0f);
     for (glm::vec4& c : read.colours)

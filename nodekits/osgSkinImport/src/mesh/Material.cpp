@@ -5,11 +5,10 @@
 #include <osg/CullFace>
 #include <osg/LightModel>
 #include <osg/Material>
-#include <osg/Notify>
 #include <osg/Texture2D>
 
 #include <osgDB/FileNameUtils>
-#include <osgDB/ReadFile>
+#include <osgDB/Registry>
 
 #include <algorithm>
 
@@ -63,16 +62,16 @@ osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material) {
 }
 
 osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string& meshPath,
-                                     const osgDB::Options* options) {
+                                     const osgDB::Options* options, MissingTextures& missing) {
     if (name.empty()) return nullptr;
     osg::ref_ptr<osgDB::Options> local =
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
     const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
-    osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile(fileName, local);
-    if (!image)
-        OSG_NOTICE << meshPath << ": texture \"" << name << "\" cannot be read; drawn without"
-                   << std::endl;
+    // osgDB::readImageFile() would warn of each by itself.
+    osg::ref_ptr<osg::Image> image =
+        osgDB::Registry::instance()->readImage(fileName, local).getImage();
+    if (!image) missing.add(name);
     return image;
 }
 

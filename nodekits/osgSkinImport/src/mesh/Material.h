@@ -2,6 +2,8 @@
 #ifndef OSGSKINIMPORT_MATERIAL_H
 #define OSGSKINIMPORT_MATERIAL_H 1
 
+#include "mesh/MissingTextures.h"
+
 #include <osg/Image>
 #include <osg/StateSet>
 #include <osg/Texture>
@@ -36,9 +38,10 @@ struct Material {
 /// is transparent. Back faces are culled where the format says that there are none.
 osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material);
 
-/// Reads a texture that the mesh file `meshPath` names. Null, with a notice, where it is missing.
+/// Reads a texture that the mesh file `meshPath` names. Null where it cannot be read; `missing`
+/// then has its name.
 osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string& meshPath,
-                                     const osgDB::Options* options);
+                                     const osgDB::Options* options, MissingTextures& missing);
 
 } // namespace osgSkin
 

@@ -11,6 +11,7 @@
 
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -23,13 +24,13 @@ osg::Vec4 colour(const tinyobj::real_t (&rgb)[3], double alpha = 1.0) {
 }
 
 Material readMaterial(const tinyobj::material_t& source, const std::string& path,
-                      const osgDB::Options* options) {
+                      const osgDB::Options* options, MissingTextures& missing) {
     Material material;
     material.diffuse = colour(source.diffuse, source.dissolve);
     material.specular = colour(source.specular);
     material.emission = colour(source.emission);
     material.shininess = static_cast<float>(source.shininess);
-    material.image = readTexture(source.diffuse_texname, path, options);
+    material.image = readTexture(source.diffuse_texname, path, options, missing);
     return material;
 }
 
@@ -39,7 +40,7 @@ public:
     MaterialTable(const std::vector<tinyobj::material_t>& materials, const std::string& path,
                   const osgDB::Options* options, bool vertexColours, CornerMesh& mesh)
         : _materials(materials), _path(path), _options(options), _vertexColours(vertexColours),
-          _mesh(mesh) {}
+          _mesh(mesh), _missing(path) {}
 
     std::uint32_t index(int number) {
         const auto [entry, isNew] =
@@ -48,8 +49,8 @@ public:
             const bool known = number >= 0 && number < static_cast<int>(_materials.size());
             Material material;
             if (known)
-                material =
-                    readMaterial(_materials[static_cast<std::size_t>(number)], _path, _options);
+                material = readMaterial(_materials[static_cast<std::size_t>(number)], _path,
+                                        _options, _missing);
             material.vertexColours = _vertexColours;
             _mesh.stateSets.push_back(makeStateSet(material));
         }
@@ -63,6 +64,7 @@ private:
     bool _vertexColours;
     CornerMesh& _mesh;
     std::map<int, std::uint32_t> _indices;
+    MissingTextures _missing;
 };
 
 glm::vec3 normalAt(const tinyobj::attrib_t& attributes, int index) {
@@ -116,6 +118,10 @@ CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
     if (!read) failFile(path, error.empty() ? "cannot be parsed" : error);
     // A missing .mtl file is no failure: the body is drawn in the default colour.
     while (!warning.empty() && warning.back() == '\n') warning.pop_back();
+    const auto lines = std::count(warning.begin(), warning.end(), '\n');
+    if (lines > 0)
+        warning =
+            warning.substr(0, warning.find('\n')) + " (and " + std::to_string(lines) + " more)";
     if (!warning.empty()) OSG_NOTICE << path << ": " << warning << std::endl;
 
     CornerMesh result;

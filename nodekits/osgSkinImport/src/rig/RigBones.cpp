@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/RigBones.h"
+#include "rig/RigBones.h"
 
 #include "assimp/AssimpScene.h"
 #include "assimp/SceneBind.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/SampleTracks.h"
+#include "rig/SampleTracks.h"
 
 #include "assimp/AssimpScene.h"
 #include "motion/RootMotion.h"
+#include "rig/SampleGrid.h"
 #include "text/FileText.h"
 
 #include <glm/common.hpp>
@@ -10,31 +11,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <utility>
 
 namespace osgSkin {
 namespace {
 
-struct Grid {
-    double first = std::numeric_limits<double>::infinity();
-    double last = -std::numeric_limits<double>::infinity();
-    std::size_t samples = 0;
+constexpr double kMostRotations = 1e8; ///< more is a mistake in the file, and fills the memory
 
-    template <typename Key>
-    void include(const Key* keys, unsigned count) {
-        if (count == 0) return;
-        first = std::min(first, keys[0].mTime);
-        last = std::max(last, keys[count - 1].mTime);
-        samples = std::max(samples, static_cast<std::size_t>(count));
-    }
-
-    double time(std::size_t sample) const {
-        if (samples < 2) return first;
-        return first +
-               (last - first) * static_cast<double>(sample) / static_cast<double>(samples - 1);
-    }
-};
+/// The times of a track's keys, in seconds. A single key holds its value at all times, and Assimp
+/// adds some at 0.
+template <typename Key>
+void addTimes(const Key* keys, unsigned count, double rate, std::vector<double>& times) {
+    if (count < 2) return;
+    for (unsigned k = 0; k < count; ++k)
+        if (std::isfinite(keys[k].mTime)) times.push_back(keys[k].mTime / rate);
+}
 
 glm::dquat blend(const glm::dquat& a, const glm::dquat& b, double t) {
     return glm::slerp(a, b, t);
@@ -43,16 +35,24 @@ glm::dvec3 blend(const glm::dvec3& a, const glm::dvec3& b, double t) {
     return glm::mix(a, b, t);
 }
 
-/// The track's value at `time`: a key's own value where one stands there.
+/// A sample's time, in ticks, and how far around it a key counts as standing there.
+struct Moment {
+    double time, reach;
+};
+
+/// The track's value: a key's own where one stands there.
 template <typename Key>
-auto valueAt(const Key* keys, unsigned count, double time) {
+auto valueAt(const Key* keys, unsigned count, const Moment& moment) {
+    const double time = moment.time;
     const Key* next = std::lower_bound(keys, keys + count, time,
                                        [](const Key& key, double t) { return key.mTime < t; });
     if (next == keys + count) return toGlm(keys[count - 1].mValue);
-    if (next == keys || next->mTime == time) return toGlm(next->mValue);
+    if (next == keys) return toGlm(next->mValue);
     const Key* before = next - 1;
-    const double fraction = (time - before->mTime) / (next->mTime - before->mTime);
-    return blend(toGlm(before->mValue), toGlm(next->mValue), fraction);
+    const double since = time - before->mTime, until = next->mTime - time;
+    if (std::min(since, until) <= moment.reach)
+        return toGlm(since < until ? before->mValue : next->mValue);
+    return blend(toGlm(before->mValue), toGlm(next->mValue), since / (since + until));
 }
 
 std::vector<const aiNodeAnim*> tracksOf(const aiAnimation& animation,
@@ -83,24 +83,24 @@ std::vector<bool> findMovedJoints(const std::vector<const aiNodeAnim*>& tracks,
     return result;
 }
 
-glm::dquat localRotation(const aiNodeAnim* track, const aiNode& node, double time) {
+glm::dquat localRotation(const aiNodeAnim* track, const aiNode& node, const Moment& moment) {
     if (track == nullptr || track->mNumRotationKeys == 0)
         return rotationOf(toGlm(node.mTransformation));
-    return glm::normalize(valueAt(track->mRotationKeys, track->mNumRotationKeys, time));
+    return glm::normalize(valueAt(track->mRotationKeys, track->mNumRotationKeys, moment));
 }
 
-glm::dvec3 localPosition(const aiNodeAnim* track, const aiNode& node, double time) {
+glm::dvec3 localPosition(const aiNodeAnim* track, const aiNode& node, const Moment& moment) {
     if (track == nullptr || track->mNumPositionKeys == 0)
         return glm::dvec3(toGlm(node.mTransformation)[3]);
-    return valueAt(track->mPositionKeys, track->mNumPositionKeys, time);
+    return valueAt(track->mPositionKeys, track->mNumPositionKeys, moment);
 }
 
 /// A node's matrix as its track has it, with the scale that the node has.
-glm::dmat4 localMatrix(const aiNodeAnim* track, const aiNode& node, double time) {
+glm::dmat4 localMatrix(const aiNodeAnim* track, const aiNode& node, const Moment& moment) {
     const glm::dmat4 own = toGlm(node.mTransformation);
-    glm::dmat4 result = glm::mat4_cast(localRotation(track, node, time));
+    glm::dmat4 result = glm::mat4_cast(localRotation(track, node, moment));
     for (int axis = 0; axis < 3; ++axis) result[axis] *= glm::length(glm::dvec3(own[axis]));
-    result[3] = glm::dvec4(localPosition(track, node, time), 1.0);
+    result[3] = glm::dvec4(localPosition(track, node, moment), 1.0);
     return result;
 }
 
@@ -109,23 +109,30 @@ glm::dmat4 localMatrix(const aiNodeAnim* track, const aiNode& node, double time)
 Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
                     const std::string& path) {
     const std::vector<const aiNodeAnim*> tracks = tracksOf(animation, skeleton);
-    Grid grid;
+    const double rate = animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : 25.0;
+    std::vector<double> times;
+    bool any = false;
     for (const aiNodeAnim* track : tracks) {
         if (track == nullptr) continue;
-        grid.include(track->mRotationKeys, track->mNumRotationKeys);
-        grid.include(track->mPositionKeys, track->mNumPositionKeys);
+        addTimes(track->mRotationKeys, track->mNumRotationKeys, rate, times);
+        addTimes(track->mPositionKeys, track->mNumPositionKeys, rate, times);
+        any = any || track->mNumRotationKeys > 0 || track->mNumPositionKeys > 0;
     }
-    if (grid.samples == 0) failFile(path, "no key in its animation, expected at least one");
-    const double rate = animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : 25.0;
+    if (times.empty() && any) times.push_back(0.0); // a pose
+    if (times.empty()) failFile(path, "no key in its animation, expected at least one");
+    const SampleGrid grid(std::move(times));
+    if (!(static_cast<double>(grid.samples()) * static_cast<double>(tracks.size()) <
+          kMostRotations))
+        failFile(path, "its animation lasts " +
+                           std::to_string(grid.step() * double(grid.samples())) +
+                           " s, expected some minutes");
 
     Motion motion;
     const std::vector<bool> moved = findMovedJoints(tracks, skeleton);
     const std::size_t root = rootMotionJoint(skeleton.rest, moved);
     motion.skeleton = skeletonFrom(skeleton.rest, root);
-    motion.frames = grid.samples;
-    motion.frameTime = 1.0 / rate;
-    if (grid.samples > 1)
-        motion.frameTime = (grid.last - grid.first) / rate / static_cast<double>(grid.samples - 1);
+    motion.frames = grid.samples();
+    motion.frameTime = grid.samples() > 1 ? grid.step() : 1.0 / rate;
     if (!std::isfinite(motion.frameTime) || !(motion.frameTime > 0.0))
         failFile(path, "the time between its samples is not positive");
     noticeUnusedMoves(skeleton.rest, moved, root, path);
@@ -135,12 +142,12 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
     std::vector<glm::dquat> world(joints);   // the nodes' own frames
     std::vector<glm::dquat> aligned(joints); // the same, as rotations from rest
     for (std::size_t f = 0; f < motion.frames; ++f) {
-        const double time = grid.time(f);
+        const Moment moment{grid.time(f) * rate, 0.5001 * grid.step() * rate};
         for (std::size_t j = 0; j < joints; ++j) {
             const int up = skeleton.rest.joints[j].parent;
             const auto p = static_cast<std::size_t>(std::max(up, 0));
             world[j] = (up < 0 ? aboveRotation : world[p]) *
-                       localRotation(tracks[j], *skeleton.nodes[j], time);
+                       localRotation(tracks[j], *skeleton.nodes[j], moment);
             aligned[j] = world[j] * glm::conjugate(skeleton.worldRotations[j]);
             if (j >= root)
                 motion.rotations.push_back(glm::normalize(
@@ -150,9 +157,10 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
         if (root > 0 || (tracks[0] != nullptr && tracks[0]->mNumPositionKeys > 0)) {
             glm::dmat4 above = skeleton.aboveRoot;
             for (std::size_t j = 0; j < root; ++j)
-                above *= localMatrix(tracks[j], *skeleton.nodes[j], time);
+                above *= localMatrix(tracks[j], *skeleton.nodes[j], moment);
             position = glm::dvec3(
-                above * glm::dvec4(localPosition(tracks[root], *skeleton.nodes[root], time), 1.0));
+                above *
+                glm::dvec4(localPosition(tracks[root], *skeleton.nodes[root], moment), 1.0));
         }
         motion.rootPositions.push_back(position);
     }

@@ -12,8 +12,8 @@
 
 namespace osgSkin {
 
-/// Samples an animation at equal steps, as many as its longest track has keys. Rotations are
-/// brought into frames that are aligned with the world at rest, as a Motion has them.
+/// Samples an animation at equal steps, 30 a second or more, and at every key (see SampleGrid).
+/// Rotations are brought into frames that are aligned with the world at rest, as a Motion has them.
 ///
 /// Of positions, those of the root are used, or of the joint that rootMotionJoint() finds; moves of
 /// others are left out, with a notice.

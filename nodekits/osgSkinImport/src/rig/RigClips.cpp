@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/RigClips.h"
+#include "rig/RigClips.h"
 
 #include "assimp/AssimpScene.h"
-#include "assimp/RigBones.h"
+#include "rig/ClipNames.h"
+#include "rig/RigBones.h"
 #include "text/FileText.h"
 
 #include <osgSkin/GlmOsg>
@@ -16,7 +17,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 
 namespace osgSkin {
 namespace {
@@ -51,12 +51,15 @@ osg::Quat stored(const glm::dquat& q) {
 struct Clock {
     double first = std::numeric_limits<double>::infinity();
     double ticksPerSecond = 25.0;
+    bool any = false; ///< key
 
     double seconds(double ticks) const { return (ticks - first) / ticksPerSecond; }
 
+    /// A single key holds its value at all times, and Assimp adds some at 0.
     template <typename Key>
     void include(const Key* keys, unsigned count) {
-        for (unsigned k = 0; k < count; ++k)
+        any = any || count > 0;
+        for (unsigned k = 0; k < count && count > 1; ++k)
             if (std::isfinite(keys[k].mTime)) first = std::min(first, keys[k].mTime);
     }
 };
@@ -77,7 +80,7 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
             failFile(path, "animation " + quoted(animation.getName()) + ": joint " + quoted(joint) +
                                ": key " + std::to_string(k) + " of its " + element +
                                " is not finite");
-        const double time = clock.seconds(keys[k].mTime);
+        const double time = count > 1 ? clock.seconds(keys[k].mTime) : 0.0;
         if (!(time > last)) continue; // interpolation needs keys in order
         container->push_back(Keyframe(time, stored(value)));
         last = time;
@@ -119,7 +122,8 @@ osg::ref_ptr<osgAnimation::Animation> makeClip(const aiAnimation& source, const 
             clock.include(track->mRotationKeys, track->mNumRotationKeys);
             clock.include(track->mScalingKeys, track->mNumScalingKeys);
         }
-    if (!std::isfinite(clock.first)) return nullptr;
+    if (!clock.any) return nullptr;
+    if (!std::isfinite(clock.first)) clock.first = 0.0; // a pose
     osg::ref_ptr<osgAnimation::Animation> clip = new osgAnimation::Animation;
     clip->setName(name);
     clip->setPlayMode(osgAnimation::Animation::LOOP);
@@ -146,15 +150,10 @@ osgAnimation::AnimationList makeClips(const aiScene& scene, const SceneSkeleton&
                                       const std::string& path) {
     const std::vector<bool> moves = movedJoints(scene, joints);
     osgAnimation::AnimationList result;
-    std::set<std::string> names;
-    for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
-        std::string name = scene.mAnimations[a]->mName.C_Str();
-        if (name.empty()) name = "clip" + std::to_string(a);
-        for (int copy = 2; !names.insert(name).second; ++copy)
-            name = scene.mAnimations[a]->mName.C_Str() + (" " + std::to_string(copy));
-        if (const auto clip = makeClip(*scene.mAnimations[a], name, joints, moves, path))
+    const std::vector<std::string> names = clipNames(scene);
+    for (unsigned a = 0; a < scene.mNumAnimations; ++a)
+        if (const auto clip = makeClip(*scene.mAnimations[a], names[a], joints, moves, path))
             result.push_back(clip);
-    }
     return result;
 }
 

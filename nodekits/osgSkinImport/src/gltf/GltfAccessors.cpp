@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/GltfAccessors.h"
+
+#include "gltf/Base64.h"
+#include "text/FileText.h"
+
+#include <osgDB/FileNameUtils>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace osgSkin {
+namespace {
+
+enum ComponentType { kByte = 5120, kUByte, kShort, kUShort, kInt, kUInt, kFloat };
+
+std::size_t sizeOf(int type) {
+    if (type == kByte || type == kUByte) return 1;
+    return type == kShort || type == kUShort ? 2 : 4;
+}
+
+std::size_t widthOf(const std::string& type) {
+    if (type == "SCALAR") return 1;
+    if (type == "MAT2") return 4;
+    if (type == "MAT3") return 9;
+    if (type == "MAT4") return 16;
+    return type == "VEC2" ? 2 : type == "VEC3" ? 3 : 4;
+}
+
+template <typename Number>
+double numberAt(const char* at) {
+    Number value;
+    std::memcpy(&value, at, sizeof value);
+    return static_cast<double>(value);
+}
+
+double component(const char* at, int type) {
+    switch (type) {
+    case kByte:
+        return numberAt<std::int8_t>(at);
+    case kUByte:
+        return numberAt<std::uint8_t>(at);
+    case kShort:
+        return numberAt<std::int16_t>(at);
+    case kUShort:
+        return numberAt<std::uint16_t>(at);
+    case kInt:
+        return numberAt<std::int32_t>(at);
+    case kUInt:
+        return numberAt<std::uint32_t>(at);
+    default:
+        return numberAt<float>(at);
+    }
+}
+
+/// What the largest number of a type stands for is 1.
+double normalised(double value, int type) {
+    switch (type) {
+    case kByte:
+        return std::max(value / 127.0, -1.0);
+    case kUByte:
+        return value / 255.0;
+    case kShort:
+        return std::max(value / 32767.0, -1.0);
+    case kUShort:
+        return value / 65535.0;
+    default:
+        return value;
+    }
+}
+
+std::size_t sizeAt(const nlohmann::json& object, const char* key) {
+    return object.value(key, std::size_t(0));
+}
+
+} // namespace
+
+std::string decodedUri(const std::string& uri) {
+    std::string result;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned code = 0;
+        const char* const digits = uri.data() + i + 1;
+        const bool isCode = uri[i] == '%' && i + 2 < uri.size() &&
+                            std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        result.push_back(isCode ? static_cast<char>(code) : uri[i]);
+        if (isCode) i += 2;
+    }
+    return result;
+}
+
+const nlohmann::json& GltfAccessors::accessor(std::size_t index) const {
+    return _file.json.at("accessors").at(index);
+}
+
+std::size_t GltfAccessors::count(std::size_t index) const {
+    return accessor(index).at("count").get<std::size_t>();
+}
+
+std::size_t GltfAccessors::width(std::size_t index) const {
+    return widthOf(accessor(index).at("type").get<std::string>());
+}
+
+bool GltfAccessors::isPlain(std::size_t index) const {
+    return accessor(index).at("componentType") == int(kFloat) &&
+           !accessor(index).contains("sparse");
+}
+
+bool GltfAccessors::hasValues(std::size_t index) const {
+    return accessor(index).contains("bufferView") || accessor(index).contains("sparse");
+}
+
+const std::string& GltfAccessors::buffer(std::size_t index) {
+    const auto known = _buffers.find(index);
+    if (known != _buffers.end()) return known->second;
+    const nlohmann::json& buffer = _file.json.at("buffers").at(index);
+    if (!buffer.contains("uri")) {
+        if (index != 0 || !_file.binary)
+            failFile(_file.path, "buffer " + std::to_string(index) + " has no content");
+        return *_file.binary;
+    }
+    const std::string uri = buffer.at("uri").get<std::string>();
+    std::string& content = _buffers[index];
+    if (uri.rfind("data:", 0) == 0)
+        content = fromBase64(std::string_view(uri).substr(std::min(uri.find(',') + 1, uri.size())));
+    else
+        content = readText(osgDB::concatPaths(osgDB::getFilePath(_file.path), decodedUri(uri)));
+    return content;
+}
+
+void GltfAccessors::read(std::size_t view, std::size_t offset, int type, std::size_t wide,
+                         std::size_t many, std::vector<double>& result) {
+    const nlohmann::json& source = _file.json.at("bufferViews").at(view);
+    const std::string& bytes = buffer(source.at("buffer").get<std::size_t>());
+    const std::size_t size = sizeOf(type);
+    // Columns of small matrices begin at multiples of four bytes.
+    const bool padded = wide == 9 && size < 4;
+    const std::size_t columns = padded ? 3 : 1;
+    const std::size_t rows = wide / columns;
+    const std::size_t column = padded ? (rows * size + 3) / 4 * 4 : rows * size;
+    const std::size_t stride = std::max(sizeAt(source, "byteStride"), columns * column);
+    const std::size_t begin = sizeAt(source, "byteOffset") + offset;
+    if (many > 0 && (begin > bytes.size() || (bytes.size() - begin) / stride + 1 < many ||
+                     begin + stride * (many - 1) + columns * column > bytes.size()))
+        failFile(_file.path, "buffer view " + std::to_string(view) + " ends beyond its buffer");
+    result.reserve(result.size() + many * wide);
+    for (std::size_t i = 0; i < many; ++i)
+        for (std::size_t c = 0; c < columns; ++c)
+            for (std::size_t r = 0; r < rows; ++r)
+                result.push_back(
+                    component(bytes.data() + begin + i * stride + c * column + r * size, type));
+}
+
+std::vector<double> GltfAccessors::values(std::size_t index) {
+    const nlohmann::json& source = accessor(index);
+    const int type = source.at("componentType").get<int>();
+    const std::size_t wide = width(index), many = count(index);
+    std::vector<double> result;
+    if (source.contains("bufferView"))
+        read(source.at("bufferView").get<std::size_t>(), sizeAt(source, "byteOffset"), type, wide,
+             many, result);
+    else if (many < std::numeric_limits<std::uint32_t>::max() / 16)
+        result.assign(many * wide, 0.0);
+    if (source.contains("sparse")) {
+        const nlohmann::json& sparse = source.at("sparse");
+        const auto changes = sparse.at("count").get<std::size_t>();
+        const nlohmann::json& places = sparse.at("indices");
+        const nlohmann::json& changed = sparse.at("values");
+        std::vector<double> indices, numbers;
+        read(places.at("bufferView").get<std::size_t>(), sizeAt(places, "byteOffset"),
+             places.at("componentType").get<int>(), 1, changes, indices);
+        read(changed.at("bufferView").get<std::size_t>(), sizeAt(changed, "byteOffset"), type, wide,
+             changes, numbers);
+        for (std::size_t i = 0; i < changes; ++i)
+            for (std::size_t k = 0; k < wide; ++k)
+                result.at(static_cast<std::size_t>(indices[i]) * wide + k) = numbers[i * wide + k];
+    }
+    if (source.value("normalized", false))
+        for (double& value : result) value = normalised(value, type);
+    return result;
+}
+
+std::size_t GltfAccessors::add(const std::string& type, const std::vector<double>& values) {
+    std::string bytes;
+    bytes.reserve(values.size() * sizeof(float));
+    for (const double value : values) {
+        const auto single = static_cast<float>(value);
+        char raw[sizeof single];
+        std::memcpy(raw, &single, sizeof single);
+        bytes.append(raw, sizeof single);
+    }
+    nlohmann::json& buffers = _file.json["buffers"];
+    nlohmann::json& views = _file.json["bufferViews"];
+    nlohmann::json& accessors = _file.json["accessors"];
+    buffers.push_back({{"byteLength", bytes.size()},
+                       {"uri", "data:application/octet-stream;base64," + toBase64(bytes)}});
+    views.push_back({{"buffer", buffers.size() - 1}, {"byteLength", bytes.size()}});
+    accessors.push_back({{"bufferView", views.size() - 1},
+                         {"componentType", int(kFloat)},
+                         {"count", values.size() / widthOf(type)},
+                         {"type", type}});
+    return accessors.size() - 1;
+}
+
+} // namespace osgSkin

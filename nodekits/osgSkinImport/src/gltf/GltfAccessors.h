@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_GLTFACCESSORS_H
+#define OSGSKINIMPORT_GLTFACCESSORS_H 1
+
+#include "gltf/GltfFile.h"
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+
+/// A file's name as a URI has it, with "%20" for a space and the like, in plain characters.
+std::string decodedUri(const std::string& uri);
+
+/// The numbers of a glTF file, read as its specification says: normalised integers, sparse
+/// accessors, strides, buffers in the file, in its text or beside it.
+///
+/// What is malformed throws nlohmann::json::exception or osgSkin::Error.
+class GltfAccessors {
+public:
+    /// \param file is read, and added to; must outlive this
+    explicit GltfAccessors(GltfFile& file) : _file(file) {}
+
+    /// How many elements, and numbers in each.
+    std::size_t count(std::size_t accessor) const;
+    std::size_t width(std::size_t accessor) const;
+
+    /// Whether it has floats and nothing else: no integers, not sparse.
+    bool isPlain(std::size_t accessor) const;
+
+    /// Whether the file holds its values, not only in a compressed form of some extension.
+    bool hasValues(std::size_t accessor) const;
+
+    /// All numbers of an accessor, element by element.
+    std::vector<double> values(std::size_t accessor);
+
+    /// Adds an accessor of floats.
+    /// \param type of its elements, as "VEC3"
+    /// \return its index
+    std::size_t add(const std::string& type, const std::vector<double>& values);
+
+private:
+    const nlohmann::json& accessor(std::size_t index) const;
+    const std::string& buffer(std::size_t index);
+    void read(std::size_t view, std::size_t offset, int type, std::size_t wide, std::size_t many,
+              std::vector<double>& result);
+
+    GltfFile& _file;
+    std::map<std::size_t, std::string> _buffers; ///< those that have been read
+};
+
+} // namespace osgSkin
+
+#endif

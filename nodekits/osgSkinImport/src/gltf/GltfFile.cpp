@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/GltfFile.h"
+
+#include "text/FileText.h"
+
+#include <cstdint>
+#include <string_view>
+
+namespace osgSkin {
+namespace {
+
+constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+constexpr std::string_view kJson("JSON", 4), kBinary("BIN\0", 4);
+
+/// Little-endian, as all numbers of a binary file.
+std::uint32_t numberAt(std::string_view bytes, std::size_t offset) {
+    std::uint32_t result = 0;
+    for (std::size_t k = 4; k-- > 0;)
+        result = result << 8 | static_cast<unsigned char>(bytes[offset + k]);
+    return result;
+}
+
+void addNumber(std::string& bytes, std::size_t number) {
+    for (std::size_t k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(number >> 8 * k & 0xff));
+}
+
+void addChunk(std::string& bytes, std::string_view type, std::string content, char padding) {
+    content.resize((content.size() + 3) / 4 * 4, padding);
+    addNumber(bytes, content.size());
+    bytes += type;
+    bytes += content;
+}
+
+/// Takes the chunks apart. False where they do not fit the file.
+bool readChunks(std::string_view all, GltfFile& file, std::string& text) {
+    for (std::size_t at = kHeader; at + kChunkHeader <= all.size();) {
+        const std::size_t size = numberAt(all, at);
+        const std::string_view type = all.substr(at + 4, 4);
+        at += kChunkHeader;
+        if (size > all.size() - at) return false;
+        if (type == kJson && text.empty()) text = all.substr(at, size);
+        if (type == kBinary && !file.binary) file.binary = all.substr(at, size);
+        at += size;
+    }
+    return !text.empty();
+}
+
+bool isSecond(const nlohmann::json& json) {
+    if (!json.is_object()) return false;
+    const auto asset = json.find("asset");
+    if (asset == json.end() || !asset->is_object()) return false;
+    const auto version = asset->find("version");
+    return version != asset->end() && version->is_string() &&
+           version->get<std::string>().rfind('2', 0) == 0;
+}
+
+} // namespace
+
+std::optional<GltfFile> GltfFile::read(const std::string& path) {
+    GltfFile file;
+    file.path = path;
+    std::string all = readText(path);
+    file.isBinary = all.size() > kHeader && all.compare(0, 4, "glTF") == 0;
+    if (file.isBinary) {
+        std::string text;
+        if (numberAt(all, 4) != 2 || !readChunks(all, file, text)) return std::nullopt;
+        all = std::move(text);
+    }
+    file.json = nlohmann::json::parse(all, nullptr, false);
+    if (!isSecond(file.json)) return std::nullopt;
+    return file;
+}
+
+std::string GltfFile::bytes() const {
+    const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (!isBinary) return text;
+    std::string chunks;
+    addChunk(chunks, kJson, text, ' ');
+    if (binary) addChunk(chunks, kBinary, *binary, '\0');
+    std::string result = "glTF";
+    addNumber(result, 2);
+    addNumber(result, kHeader + chunks.size());
+    return result + chunks;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_GLTFFILE_H
+#define OSGSKINIMPORT_GLTFFILE_H 1
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+
+namespace osgSkin {
+
+/// A glTF 2 file, text or binary (.gltf, .glb, .vrm), apart in its JSON and its binary chunk.
+struct GltfFile {
+    std::string path; ///< other files are named relative to its folder
+    nlohmann::json json;
+    std::optional<std::string> binary; ///< of a binary file: what buffer 0 holds, where it has one
+
+    bool isBinary = false;
+
+    /// Reads a file. None where it is no glTF 2, or broken as a whole.
+    /// \throw osgSkin::Error where the file cannot be opened
+    static std::optional<GltfFile> read(const std::string& path);
+
+    /// The whole file again, of the kind that it was.
+    std::string bytes() const;
+};
+
+} // namespace osgSkin
+
+#endif

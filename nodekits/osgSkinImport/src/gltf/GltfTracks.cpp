@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/GltfTracks.h"
+
+#include "text/FileText.h"
+
+#include <osg/Notify>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace osgSkin {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kStep = 1.0 / 30.0; ///< seconds between samples of a spline, at most
+
+/// Keys of one track: `width` numbers a key.
+struct Keys {
+    std::size_t width = 0;
+    std::vector<double> times, values;
+
+    void add(double time, const double* value) {
+        times.push_back(time);
+        values.insert(values.end(), value, value + width);
+    }
+};
+
+/// A value holds until the next key.
+Keys fromSteps(const Keys& track) {
+    Keys result{track.width, {}, {}};
+    for (std::size_t k = 0; k < track.times.size(); ++k) {
+        const double* value = &track.values[k * track.width];
+        if (k > 0) {
+            const float before = std::nextafter(static_cast<float>(track.times[k]), -1.0f);
+            if (double(before) > track.times[k - 1])
+                result.add(double(before), value - track.width);
+        }
+        result.add(track.times[k], value);
+    }
+    return result;
+}
+
+/// Cubic Hermite splines, as the specification's appendix C has them: of each key the tangent in,
+/// the value, and the tangent out.
+Keys fromSplines(const Keys& track, bool isRotation) {
+    Keys result{track.width, {}, {}};
+    const std::size_t width = track.width, last = track.times.size() - 1;
+    const auto part = [&](std::size_t key, std::size_t which) {
+        return &track.values[(3 * key + which) * width];
+    };
+    std::vector<double> value(width);
+    for (std::size_t k = 0; k < last; ++k) {
+        const double duration = track.times[k + 1] - track.times[k];
+        const double pieces = std::max(1.0, std::ceil(duration / kStep));
+        for (double piece = 0.0; piece < pieces; piece += 1.0) {
+            const double t = piece / pieces, t2 = t * t, t3 = t2 * t;
+            double length = 0.0;
+            for (std::size_t i = 0; i < width; ++i) {
+                value[i] = (2.0 * t3 - 3.0 * t2 + 1.0) * part(k, 1)[i] +
+                           duration * (t3 - 2.0 * t2 + t) * part(k, 2)[i] +
+                           (3.0 * t2 - 2.0 * t3) * part(k + 1, 1)[i] +
+                           duration * (t3 - t2) * part(k + 1, 0)[i];
+                length += value[i] * value[i];
+            }
+            if (isRotation && length > 0.0)
+                for (double& number : value) number /= std::sqrt(length);
+            result.add(track.times[k] + t * duration, value.data());
+        }
+    }
+    result.add(track.times[last], part(last, 1));
+    return result;
+}
+
+/// Replaces a track's accessors where Assimp would read them wrongly.
+void makeLinear(json& sampler, const std::string& path, const std::string& where,
+                GltfAccessors& accessors) {
+    const auto input = sampler.at("input").get<std::size_t>();
+    const auto output = sampler.at("output").get<std::size_t>();
+    const std::string interpolation = sampler.value("interpolation", "LINEAR");
+    const bool isSpline = interpolation == "CUBICSPLINE", isStepped = interpolation == "STEP";
+    const std::size_t keys = accessors.count(input), width = path == "rotation" ? 4 : 3;
+    if (accessors.width(input) != 1 || accessors.width(output) != width ||
+        accessors.count(output) != keys * (isSpline ? 3 : 1) || keys == 0)
+        failFile(where, std::to_string(keys) + " keys and " +
+                            std::to_string(accessors.count(output)) + " values, expected " +
+                            std::to_string(width) + " numbers a key");
+    if (!isSpline && !isStepped && accessors.isPlain(input) && accessors.isPlain(output)) return;
+    Keys track{width, accessors.values(input), accessors.values(output)};
+    if (isStepped) track = fromSteps(track);
+    if (isSpline) track = fromSplines(track, path == "rotation");
+    sampler["input"] = accessors.add("SCALAR", track.times);
+    sampler["output"] = accessors.add(width == 4 ? "VEC4" : "VEC3", track.values);
+    sampler["interpolation"] = "LINEAR";
+}
+
+bool movesANode(const json& channel) {
+    const json& target = channel.at("target");
+    const std::string path = target.at("path").get<std::string>();
+    return target.contains("node") &&
+           (path == "translation" || path == "rotation" || path == "scale");
+}
+
+} // namespace
+
+void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
+    const auto animations = file.json.find("animations");
+    if (animations == file.json.end()) return;
+    bool morphs = false;
+    for (std::size_t a = 0; a < animations->size(); ++a) {
+        json& animation = animations->at(a);
+        json kept = json::array();
+        std::set<std::size_t> done; // samplers, which channels may share
+        for (const json& channel : animation.at("channels")) {
+            morphs = morphs || channel.at("target").at("path") == "weights";
+            if (!movesANode(channel)) continue;
+            kept.push_back(channel);
+            const auto sampler = channel.at("sampler").get<std::size_t>();
+            if (!done.insert(sampler).second) continue;
+            const std::string name = animation.value("name", std::to_string(a));
+            makeLinear(animation.at("samplers").at(sampler),
+                       channel.at("target").at("path").get<std::string>(),
+                       file.path + ": animation " + osgSkin::quoted(name) + ": sampler " +
+                           std::to_string(sampler),
+                       accessors);
+        }
+        animation["channels"] = kept;
+    }
+    if (morphs)
+        OSG_NOTICE << file.path << ": morph targets are animated, which is not played" << std::endl;
+    for (std::size_t a = animations->size(); a-- > 0;)
+        if (animations->at(a).at("channels").empty()) animations->erase(a);
+    if (animations->empty()) file.json.erase("animations");
+}
+
+} // namespace osgSkin

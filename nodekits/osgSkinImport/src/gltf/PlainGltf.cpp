@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/PlainGltf.h"
+
+#include "gltf/GltfAccessors.h"
+#include "gltf/GltfExtensions.h"
+#include "gltf/GltfFile.h"
+#include "gltf/GltfNames.h"
+#include "gltf/GltfTracks.h"
+#include "text/FileText.h"
+
+#include <osgDB/FileNameUtils>
+
+#include <map>
+#include <utility>
+
+namespace osgSkin {
+namespace {
+
+using nlohmann::json;
+
+/// Attributes whose numbers Assimp takes for floats, whatever they are.
+bool isTakenForFloats(const std::string& attribute) {
+    for (const char* start : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_", "COLOR_", "WEIGHTS_"})
+        if (attribute.rfind(start, 0) == 0) return true;
+    return false;
+}
+
+class Plainer {
+public:
+    explicit Plainer(GltfFile& file) : _file(file), _accessors(file) {}
+
+    void run() {
+        checkExtensions(_file);
+        separateMeshes();
+        nameNodes(_file);
+        for (json& skin : list("skins")) addBindMatrices(skin);
+        for (json& mesh : list("meshes"))
+            for (json& primitive : mesh.at("primitives")) {
+                makeFloats(primitive.at("attributes"));
+                if (primitive.contains("targets"))
+                    for (json& target : primitive.at("targets")) makeFloats(target);
+            }
+        makeTracksLinear(_file, _accessors);
+        for (const char* files : {"buffers", "images"})
+            for (json& named : list(files)) decodeUri(named);
+    }
+
+private:
+    json& list(const char* key) {
+        if (!_file.json.contains(key)) return _none;
+        return _file.json.at(key);
+    }
+
+    /// A mesh that nodes show with different skins becomes one for each: Assimp keeps bones by
+    /// mesh.
+    void separateMeshes() {
+        std::map<std::size_t, json> skinOf; // mesh -> the skin of its first node
+        for (json& node : list("nodes")) {
+            if (!node.contains("mesh")) continue;
+            const auto mesh = node.at("mesh").get<std::size_t>();
+            const json skin = node.value("skin", json());
+            if (skinOf.emplace(mesh, skin).first->second == skin) continue;
+            json& meshes = _file.json.at("meshes");
+            const json copy = meshes.at(mesh);
+            meshes.push_back(copy);
+            node["mesh"] = meshes.size() - 1;
+        }
+    }
+
+    /// Without inverse bind matrices, all of them are the identity (section 3.7.3.1).
+    void addBindMatrices(json& skin) {
+        const std::size_t joints = skin.at("joints").size();
+        if (skin.contains("inverseBindMatrices")) {
+            const auto index = skin.at("inverseBindMatrices").get<std::size_t>();
+            if (_accessors.width(index) != 16 || _accessors.count(index) < joints)
+                failFile(_file.path, "skin " + osgSkin::quoted(skin.value("name", "")) + " has " +
+                                         std::to_string(_accessors.count(index)) +
+                                         " inverse bind matrices for " + std::to_string(joints) +
+                                         " joints");
+            if (!_accessors.isPlain(index))
+                skin["inverseBindMatrices"] = _accessors.add("MAT4", _accessors.values(index));
+            return;
+        }
+        std::vector<double> matrices(16 * joints, 0.0);
+        for (std::size_t i = 0; i < matrices.size(); ++i)
+            if (i % 16 % 5 == 0) matrices[i] = 1.0;
+        skin["inverseBindMatrices"] = _accessors.add("MAT4", matrices);
+    }
+
+    void makeFloats(json& attributes) {
+        for (auto& [name, index] : attributes.items()) {
+            if (!isTakenForFloats(name)) continue;
+            const auto accessor = index.get<std::size_t>();
+            if (_accessors.isPlain(accessor) || !_accessors.hasValues(accessor)) continue;
+            const auto known = _floats.find(accessor);
+            if (known == _floats.end()) {
+                const std::string type =
+                    _file.json.at("accessors").at(accessor).at("type").get<std::string>();
+                _floats[accessor] = _accessors.add(type, _accessors.values(accessor));
+            }
+            index = _floats.at(accessor);
+        }
+    }
+
+    /// "my%20file.png" is called "my file.png".
+    static void decodeUri(json& named) {
+        if (!named.contains("uri")) return;
+        const std::string uri = named.at("uri").get<std::string>();
+        if (uri.rfind("data:", 0) != 0) named["uri"] = decodedUri(uri);
+    }
+
+    GltfFile& _file;
+    GltfAccessors _accessors;
+    std::map<std::size_t, std::size_t> _floats; ///< accessors that have been converted
+    json _none = json::array();
+};
+
+} // namespace
+
+bool isGltfName(const std::string& path) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    return extension == "gltf" || extension == "glb" || extension == "vrm";
+}
+
+std::optional<PlainGltf> plainGltf(const std::string& path) {
+    std::optional<GltfFile> file = GltfFile::read(path);
+    if (!file) return std::nullopt;
+    try {
+        Plainer(*file).run();
+        return PlainGltf{file->bytes(), facesBackwards(*file)};
+    } catch (const json::exception& error) {
+        failFile(path, std::string("malformed glTF: ") + error.what());
+    }
+}
+
+} // namespace osgSkin

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "rig/ClipNames.h"
+
+#include "text/FileText.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+namespace osgSkin {
+
+std::vector<std::string> clipNames(const aiScene& scene) {
+    std::vector<std::string> result;
+    std::set<std::string> taken;
+    for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
+        const std::string given = scene.mAnimations[a]->mName.C_Str();
+        std::string name = given.empty() ? "clip" + std::to_string(a) : given;
+        for (int copy = 2; !taken.insert(name).second; ++copy)
+            name = given + " " + std::to_string(copy);
+        result.push_back(name);
+    }
+    return result;
+}
+
+std::size_t findClip(const std::vector<std::string>& names, const std::string& wanted,
+                     const std::string& path) {
+    const auto exact = std::find(names.begin(), names.end(), wanted);
+    if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
+    std::vector<std::size_t> found;
+    for (std::size_t n = 0; n < names.size(); ++n) {
+        const std::size_t bar = names[n].rfind('|');
+        if (bar != std::string::npos && names[n].compare(bar + 1, std::string::npos, wanted) == 0)
+            found.push_back(n);
+    }
+    if (found.size() == 1) return found.front();
+    std::size_t number = 0;
+    const char* const end = wanted.data() + wanted.size();
+    const auto [stop, status] = std::from_chars(wanted.data(), end, number);
+    if (found.empty() && !wanted.empty() && stop == end && status == std::errc() &&
+        number < names.size())
+        return number;
+    std::string known;
+    for (std::size_t n = 0; n < names.size(); ++n)
+        known += (n > 0 ? ", " : "") + std::to_string(n) + " \"" + names[n] + '"';
+    failFile(path, (found.empty() ? "no clip " : "several clips ") + quoted(wanted) +
+                       ", expected one of " + known);
+}
+
+} // namespace osgSkin

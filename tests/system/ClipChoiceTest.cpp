@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// One motion of a file with several: in a .skin file and in options.
+#include "GltfBuilder.h"
+
+#include <osgSkin/Error>
+#include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinCharacter/OptionString>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <fstream>
+
+namespace {
+
+using osgSkin::Character;
+using test::GltfColumn;
+
+/// A column with clips "Armature|still", "Armature|bow" and "twist", which hold turns of 0, 30 and
+/// 60 degrees.
+std::string movesFile() {
+    GltfColumn column;
+    double angle = 0.0;
+    for (const char* name : {"Armature|still", "Armature|bow", "twist"}) {
+        column.animate(name, column.joints[1], "rotation", {0.0, 1.0},
+                       GltfColumn::turns({angle, angle}));
+        angle += 30.0;
+    }
+    return column.save("moves.gltf");
+}
+
+/// A .skin file over the column itself.
+std::string skinFile(const std::string& motions) {
+    std::string path = testing::TempDir() + "choice.skin";
+    std::ofstream(path) << R"({"osgskin": 1, "mesh": "moves.gltf", "rigid": [], "motions": [)"
+                        << motions << "]}";
+    return path;
+}
+
+double angleOf(const osgSkin::CharacterMotion& motion, const Character& character) {
+    const int joint = character.rest.find("middle");
+    const glm::dquat& q = motion.clip.rotations.at(std::size_t(joint));
+    return 2.0 * std::atan2(std::abs(q.x), q.w) * 57.29577951308232;
+}
+
+std::string whyRefused(const std::string& file, const std::string& options = {}) {
+    try {
+        const osg::ref_ptr<osgDB::Options> given = new osgDB::Options(options);
+        osgSkin::loadCharacter(file, osgSkin::toLoadOptions(given));
+    } catch (const osgSkin::Error& error) {
+        return error.what();
+    }
+    return "read";
+}
+
+} // namespace
+
+TEST(ClipChoice, InASkinFile) {
+    movesFile();
+    const Character character =
+        osgSkin::loadCharacter(skinFile(R"({"file": "moves.gltf", "clip": "bow"},
+                    {"file": "moves.gltf", "clip": 2},
+                    {"file": "moves.gltf", "clip": "twist", "name": "turn"},
+                    {"file": "moves.gltf"})"));
+    ASSERT_EQ(character.motions.size(), 4u);
+    const char* const names[] = {"bow", "moves 2", "turn", "moves"};
+    const double angles[] = {30, 60, 60, 0};
+    for (std::size_t m = 0; m < 4; ++m) {
+        EXPECT_EQ(character.motions[m].name(), names[m]);
+        EXPECT_NEAR(angleOf(character.motions[m], character), angles[m], 0.01) << names[m];
+    }
+    const std::string why = whyRefused(skinFile(R"({"file": "moves.gltf", "clip": "fly"})"));
+    EXPECT_NE(why.find(R"(no clip "fly", expected one of 0 "Armature|still", 1 "Armature|bow", 2)"),
+              std::string::npos)
+        << why;
+    EXPECT_NE(
+        whyRefused(skinFile(R"({"file": "moves.gltf", "clip": true})")).find("motions[0].clip"),
+        std::string::npos);
+}
+
+TEST(ClipChoice, InOptions) {
+    const std::string moves = movesFile();
+    const std::string skin = skinFile("");
+    for (const auto& [wanted, angle] : {std::pair<std::string, double>{"bow", 30},
+                                        {"Armature|bow", 30},
+                                        {"2", 60},
+                                        {"twist", 60}}) {
+        osgSkin::LoadOptions options;
+        options.motion = moves + "#" + wanted;
+        const Character character = osgSkin::loadCharacter(skin, options);
+        ASSERT_EQ(character.motions.size(), 1u);
+        EXPECT_EQ(character.motions[0].name(), wanted);
+        EXPECT_NEAR(angleOf(character.motions[0], character), angle, 0.01) << wanted;
+    }
+    const std::string why = whyRefused(skin, "motion=" + moves + "#fly");
+    EXPECT_NE(why.find(R"(no clip "fly")"), std::string::npos) << why;
+    EXPECT_NE(whyRefused(skin, "motion=nowhere.gltf#bow").find("neither"), std::string::npos);
+    // Of a rigged model's own clips, what stands behind the bar will do.
+    osgSkin::LoadOptions own;
+    own.motion = "bow";
+    EXPECT_EQ(osgSkin::loadCharacter(moves, own).motions.front().name(), "Armature|bow");
+}

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+// What exporters write into glTF: each thing in a small file of its own, beside linear blending by
+// the format's definition.
+#include "BlendError.h"
+#include "GltfBuilder.h"
+#include "Notices.h"
+
+#include <osgSkin/Error>
+#include <osgSkinCharacter/LoadCharacter>
+
+#include <osgAnimation/Bone>
+#include <osgAnimation/BoneMapVisitor>
+
+#include <algorithm>
+#include <fstream>
+
+namespace {
+
+using osgSkin::Character;
+using osgSkin::loadCharacter;
+using osgSkin::LoadOptions;
+using test::BlendError;
+using test::blendError;
+using test::GltfColumn;
+
+constexpr double kExact = 1e-5; ///< of the size: single precision
+
+std::vector<std::string> jointsOf(const Character& character) {
+    std::vector<std::string> result;
+    for (const osgSkin::RestJoint& joint : character.rest.joints) result.push_back(joint.name);
+    return result;
+}
+
+std::string whyRefused(const std::string& file) {
+    try {
+        loadCharacter(file);
+    } catch (const osgSkin::Error& error) {
+        return error.what();
+    }
+    return "read";
+}
+
+void expectExact(const std::string& file) {
+    const BlendError error = blendError(file);
+    EXPECT_LT(error.whole, kExact) << error.clip;
+    EXPECT_LT(error.mixed, kExact) << error.clip;
+}
+
+} // namespace
+
+TEST(WildGltf, AMeshMayBeCalledAsItsBone) {
+    GltfColumn column;
+    column.bend();
+    column.json["nodes"][column.meshNode]["name"] = "top";
+    // The mesh comes first, as in some exporters' order.
+    column.json["scenes"][0]["nodes"] = {column.meshNode, 0};
+    const std::string file = column.save("twin_mesh.gltf");
+    expectExact(file);
+    EXPECT_EQ(jointsOf(loadCharacter(file)), (std::vector<std::string>{"base", "middle", "top"}));
+}
+
+TEST(WildGltf, JointsMayBeCalledAlike) {
+    GltfColumn column;
+    column.bend();
+    for (const std::size_t joint : column.joints) column.json["nodes"][joint]["name"] = "Bone";
+    const std::string file = column.save("twin_joints.gltf");
+    expectExact(file);
+    EXPECT_EQ(jointsOf(loadCharacter(file)),
+              (std::vector<std::string>{"Bone", "Bone.001", "Bone.002"}));
+}
+
+TEST(WildGltf, JointsMayHaveNoNamesOrThatOfAssimpsRoot) {
+    GltfColumn column;
+    column.bend();
+    column.json["nodes"][column.joints[0]]["name"] = "ROOT";
+    column.json["nodes"][column.joints[1]].erase("name");
+    column.json["nodes"][column.joints[2]]["name"] = "";
+    expectExact(column.save("no_names.gltf"));
+}
+
+/// Sketchfab's: the mesh in centimetres and Z up, turned and scaled by nodes above a root joint
+/// that nobody weights and whose inverse bind matrix is the identity.
+TEST(WildGltf, HelperJointsWithoutWeightsDoNotCount) {
+    for (const bool isTop : {true, false}) {
+        GltfColumn column(100.0);
+        column.bend();
+        std::vector<double> matrices(16, 0.0);
+        for (int k = 0; k < 16; k += 5) matrices[std::size_t(k)] = 1.0;
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < 16; ++k)
+                matrices.push_back(k == 13 ? -j : k == 15 ? 1.0 : k % 5 == 0 ? 0.01 : 0.0);
+        const std::size_t helper = column.node({{"name", "_rootJoint"}});
+        if (isTop) { // above all, under a node that turns
+            column.json["nodes"][helper]["children"] = {column.joints[0]};
+            column.json["nodes"][helper]["translation"] = {0, 0.5, 0};
+        } else { // a leaf
+            column.json["nodes"][helper]["translation"] = {0, 0.5, 0.5};
+            column.json["nodes"][column.joints[1]]["children"].push_back(helper);
+        }
+        const std::size_t above =
+            column.node({{"name", "Sketchfab_model"},
+                         {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
+                         {"children", {isTop ? helper : column.joints[0]}}});
+        std::vector<double> indices;
+        for (int v = 0; v < 24; ++v) indices.insert(indices.end(), {double(v / 8 + 1), 0, 0, 0});
+        column.attributes()["JOINTS_0"] = column.accessor("VEC4", indices, 5121);
+        column.json["skins"][0] = {
+            {"joints", {helper, column.joints[0], column.joints[1], column.joints[2]}},
+            {"inverseBindMatrices", column.accessor("MAT4", matrices)}};
+        column.json["scenes"][0]["nodes"] = {above, column.meshNode};
+        const std::string file = column.save(isTop ? "helper_root.gltf" : "helper_leaf.gltf");
+        expectExact(file);
+        // The rest pose is the character's own: as tall as it is, its joints in it.
+        const Character character = loadCharacter(file);
+        EXPECT_NEAR(character.body.mesh.size(), 2.9, 0.01);
+        const int top = character.rest.find("top");
+        ASSERT_GE(top, 0);
+        double nearest = 10.0;
+        for (const glm::dvec3& p : character.body.mesh.positions)
+            nearest =
+                std::min(nearest, glm::length(p - character.rest.joints[std::size_t(top)].centre));
+        EXPECT_LT(nearest, 0.5);
+        const int odd = character.rest.find("_rootJoint");
+        ASSERT_GE(odd, 0);
+        const glm::dvec3 hips =
+            character.rest.joints[std::size_t(character.rest.find("base"))].centre;
+        EXPECT_LT(glm::length(character.rest.joints[std::size_t(odd)].centre - hips), 2.0);
+    }
+}
+
+TEST(WildGltf, SkinsNeedNoInverseBindMatrices) {
+    GltfColumn column;
+    column.json["skins"][0].erase("inverseBindMatrices");
+    // Joints that stand at the origin in the bind pose move from there.
+    for (const std::size_t joint : {column.joints[1], column.joints[2]})
+        column.json["nodes"][joint].erase("translation");
+    column.bend();
+    expectExact(column.save("no_inverse_bind.gltf"));
+    column.json["skins"][0]["inverseBindMatrices"] =
+        column.accessor("MAT4", std::vector<double>(32, 1.0));
+    column.json.erase("buffers");
+    EXPECT_NE(whyRefused(column.save("few_inverse_bind.gltf")).find("2 inverse bind matrices"),
+              std::string::npos);
+}
+
+TEST(WildGltf, NumbersMayBeQuantised) {
+    GltfColumn column;
+    std::vector<double> small = column.places;
+    for (double& p : small) p /= 4.0;
+    column.attributes()["POSITION"] = column.accessor("VEC3", small, 5122, true);
+    std::vector<double> weights, corners, matrices;
+    for (int v = 0; v < 24; ++v) {
+        weights.insert(weights.end(), {0.4, 0.6, 0, 0});
+        corners.insert(corners.end(), {double(v / 8), double(v / 8), 0, 0});
+    }
+    column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights, 5121, true);
+    column.attributes()["JOINTS_0"] = column.accessor("VEC4", corners, 5123);
+    for (int j = 0; j < 3; ++j)
+        for (int k = 0; k < 16; ++k)
+            matrices.push_back(k == 13 ? -j : k == 15 ? 1.0 : k % 5 == 0 ? 4.0 : 0.0);
+    column.json["skins"][0]["inverseBindMatrices"] = column.accessor("MAT4", matrices);
+    column.animate("bend", column.joints[1], "rotation", {0.0, 0.5, 1.0},
+                   GltfColumn::turns({0, 60, 90}), "LINEAR", 5122);
+    column.json["extensionsUsed"] = column.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    const BlendError error = blendError(column.save("quantised.gltf"));
+    EXPECT_LT(error.whole, kExact);
+    EXPECT_LT(error.mixed, kExact);
+}
+
+TEST(WildGltf, ASecondSetOfJointsCounts) {
+    GltfColumn column;
+    for (const std::size_t joint : {column.joints[1], column.joints[2]})
+        column.animate("nod", joint, "rotation", {0.0, 1.0}, GltfColumn::turns({0, 10}));
+    std::vector<double> weights, others, last;
+    for (int v = 0; v < 24; ++v) {
+        weights.insert(weights.end(), {0.25, 0, 0, 0});
+        others.insert(others.end(), {0.75, 0, 0, 0});
+        last.insert(last.end(), {2, 0, 0, 0});
+    }
+    column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+    column.attributes()["JOINTS_1"] = column.accessor("VEC4", last, 5121);
+    column.attributes()["WEIGHTS_1"] = column.accessor("VEC4", others);
+    const BlendError error = blendError(column.save("eight_joints.gltf"));
+    EXPECT_LT(error.mixed, 0.01);
+    EXPECT_LT(error.whole, kExact);
+}
+
+TEST(WildGltf, SplinesAndStepsAreReadAsSuch) {
+    GltfColumn column;
+    std::vector<double> spline;
+    for (const double angle : {0.0, 60.0, 30.0})
+        for (const auto& part : {std::vector<double>{0.8, 0, 0, 0}, GltfColumn::turn(angle),
+                                 std::vector<double>{0.8, 0, 0, 0}})
+            spline.insert(spline.end(), part.begin(), part.end());
+    column.animate("spline", column.joints[1], "rotation", {0.0, 0.7, 1.0}, spline, "CUBICSPLINE");
+    column.animate("steps", column.joints[1], "rotation", {0.0, 0.4, 1.0},
+                   GltfColumn::turns({0, 60, 90}), "STEP");
+    const BlendError error = blendError(column.save("splines.gltf"));
+    EXPECT_EQ(error.clips, 2u);
+    EXPECT_LT(error.whole, 1e-3) << error.clip; // 30 samples a second between the keys
+}
+
+/// A box of the column's first vertices and faces as a mesh without a skin.
+static std::size_t addBox(GltfColumn& column) {
+    std::vector<double> places(column.places.begin(), column.places.begin() + 24);
+    std::vector<double> indices;
+    for (const int corner : {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6}) indices.push_back(corner);
+    column.json["meshes"].push_back(
+        {{"name", "box"},
+         {"primitives",
+          {{{"attributes", {{"POSITION", column.accessor("VEC3", places)}}},
+            {"indices", column.accessor("SCALAR", indices, 5123)}}}}});
+    return column.json["meshes"].size() - 1;
+}
+
+TEST(WildGltf, ThingsFollowTheNodeThatTheyHangOn) {
+    GltfColumn column;
+    column.bend();
+    // A thing on an animated node below a joint, which no skin names.
+    const std::size_t grip = column.node({{"name", "grip"}, {"translation", {0.5, 0.5, 0}}});
+    const std::size_t thing =
+        column.node({{"name", "thing"}, {"mesh", addBox(column)}, {"translation", {0, 0.2, 0}}});
+    column.json["nodes"][column.joints[2]]["children"] = {grip};
+    column.json["nodes"][grip]["children"] = {thing};
+    column.animate("bend", grip, "rotation", {0.0, 1.0}, GltfColumn::turns({0, 80}));
+    expectExact(column.save("thing.gltf"));
+}
+
+TEST(WildGltf, SceneryIsNoPartOfTheFigure) {
+    GltfColumn column;
+    column.bend();
+    const std::size_t box = addBox(column);
+    const std::size_t floor =
+        column.node({{"name", "floor"}, {"mesh", box}, {"scale", {20, 0.1, 20}}});
+    const std::size_t stand =
+        column.node({{"name", "stand"}, {"mesh", box}, {"translation", {5, 0, 0}}});
+    const std::size_t eye =
+        column.node({{"name", "eye"}, {"mesh", box}, {"scale", {0.2, 0.2, 0.2}}});
+    column.json["scenes"][0]["nodes"] = {0, column.meshNode, floor, stand, eye};
+    const test::Notices notices;
+    const Character character = loadCharacter(column.save("scenery.gltf"));
+    EXPECT_EQ(character.body.mesh.positions.size(), 24u + 8u);
+    EXPECT_TRUE(notices.say("2 things beside the figure are left out, \"floor\" among them"))
+        << notices.text();
+}
+
+TEST(WildGltf, NonUniformScaleIsNotedOnceAndAboveFivePerCent) {
+    for (const double scale : {1.04, 1.2}) {
+        GltfColumn column;
+        for (const std::size_t joint : column.joints)
+            column.animate("squash", joint, "scale", {0.0, 1.0}, {1, 1, 1, 1, scale, 1});
+        const test::Notices notices;
+        const Character character = loadCharacter(column.save("squash.gltf"));
+        EXPECT_EQ(character.notes.size(), scale > 1.05 ? 1u : 0u);
+        EXPECT_EQ(notices.lines(), scale > 1.05 ? 1u : 0u) << notices.text();
+        if (scale > 1.05) EXPECT_TRUE(notices.say("\"squash\" and 2 more scaled non-uniformly"));
+    }
+}
+
+TEST(WildGltf, ClipsMayBeginLate) {
+    GltfColumn column;
+    column.animate("late", column.joints[1], "rotation", {5.0, 5.5, 6.0},
+                   GltfColumn::turns({0, 60, 90}));
+    const std::string file = column.save("late.gltf");
+    expectExact(file);
+    EXPECT_NEAR(loadCharacter(file).motions.front().duration(), 1.0, 1e-6);
+}
+
+TEST(WildGltf, OneMeshMayHaveTwoSkins) {
+    GltfColumn column;
+    column.bend();
+    std::vector<std::size_t> twins;
+    for (int j = 0; j < 3; ++j)
+        twins.push_back(column.node({{"name", "twin" + std::to_string(j)},
+                                     {"translation", {j == 0 ? 3 : 0, j == 0 ? 0 : 1, 0}}}));
+    column.json["nodes"][twins[0]]["children"] = {twins[1]};
+    column.json["nodes"][twins[1]]["children"] = {twins[2]};
+    const std::size_t base = column.node({{"name", "both"}, {"children", {0, twins[0]}}});
+    column.json["skins"].push_back(
+        {{"joints", twins}, {"inverseBindMatrices", column.inverseBind}});
+    const std::size_t second = column.node({{"name", "body2"}, {"mesh", 0}, {"skin", 1}});
+    column.json["scenes"][0]["nodes"] = {base, column.meshNode, second};
+    expectExact(column.save("two_skins.gltf"));
+}
+
+TEST(WildGltf, CompressionsThatNobodyReadsAreRefusedByName) {
+    GltfColumn column;
+    column.json["extensionsUsed"] = column.json["extensionsRequired"] = {"EXT_meshopt_compression"};
+    column.json["buffers"] = {
+        {{"byteLength", 4}, {"uri", "data:;base64,AAAAAA=="}},
+        {{"byteLength", column.bytes().size()},
+         {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    for (auto& view : column.json["bufferViews"]) {
+        view["buffer"] = 1;
+        view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                         {"byteLength", 4},
+                                                         {"byteStride", 4},
+                                                         {"count", 1},
+                                                         {"mode", "ATTRIBUTES"}};
+    }
+    const std::string why = whyRefused(column.save("meshopt.gltf"));
+    EXPECT_NE(why.find("meshopt compression"), std::string::npos) << why;
+    EXPECT_NE(why.find("meshopt.gltf"), std::string::npos) << why;
+}
+
+TEST(WildGltf, VrmIsGltf) {
+    GltfColumn column;
+    column.bend();
+    expectExact(column.save("avatar.vrm"));
+    const Character plain = loadCharacter(column.save("avatar.VRM"));
+    EXPECT_LT((osg::Vec3d(0, 0, 1) * plain.toWorld - osg::Vec3d(0, -1, 0)).length(), 1e-6);
+    column.json["extensions"]["VRM"] = {{"specVersion", "0.0"}}; // its front is -Z
+    const Character turned = loadCharacter(column.save("avatar0.vrm"));
+    EXPECT_LT((osg::Vec3d(0, 0, -1) * turned.toWorld - osg::Vec3d(0, -1, 0)).length(), 1e-6);
+    EXPECT_LT((osg::Vec3d(0, 1, 0) * turned.toWorld - osg::Vec3d(0, 0, 1)).length(), 1e-6);
+}
+
+TEST(WildGltf, FilesMayHaveSpacesInTheirNames) {
+    GltfColumn column;
+    column.bend();
+    const std::string inside = column.save("inside.gltf");
+    std::ofstream(testing::TempDir() + "with a space.bin", std::ios::binary) << column.bytes();
+    column.json["buffers"] = {
+        {{"byteLength", column.bytes().size()}, {"uri", "with%20a%20space.bin"}}};
+    Character character = loadCharacter(column.save("outside.gltf"));
+    EXPECT_LT(blendError(character, inside).whole, kExact);
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What a mesh file says wrongly, and how much is said about it.
+#include "Notices.h"
+#include "Paths.h"
+
+#include <osgSkinImport/ImportMesh>
+
+#include <osg/Array>
+
+#include <fstream>
+
+namespace {
+
+/// A cube, its normals along the faces' own or against them, as an OBJ file.
+std::string cube(const std::string& name, double side, const std::string& materials = "") {
+    const std::string path = testing::TempDir() + name;
+    std::ofstream out(path);
+    if (!materials.empty()) out << "mtllib " << materials << "\n";
+    for (int v = 0; v < 8; ++v)
+        out << "v " << (v & 1) << " " << (v >> 1 & 1) << " " << (v >> 2) << "\n";
+    const int faces[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
+                             {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+    const int normals[6][3] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
+    for (const auto& n : normals)
+        out << "vn " << side * n[0] << " " << side * n[1] << " " << side * n[2] << "\n";
+    for (int f = 0; f < 6; ++f) {
+        if (!materials.empty()) out << "usemtl m" << f << "\n";
+        out << "f";
+        for (const int v : faces[f]) out << " " << v << "//" << f + 1;
+        out << "\n";
+    }
+    return path;
+}
+
+/// How far the normals point outwards at the cube's corners, at least.
+double outwards(const osgSkin::ImportedMesh& mesh) {
+    double least = 1.0;
+    for (const osgSkin::MeshPart& part : mesh.parts) {
+        const auto& normals = dynamic_cast<const osg::Vec3Array&>(*part.geometry->getNormalArray());
+        const auto& places = dynamic_cast<const osg::Vec3Array&>(*part.geometry->getVertexArray());
+        for (std::size_t v = 0; v < normals.size(); ++v)
+            least = std::min(least, double(normals[v] * (places[v] - osg::Vec3(0.5f, 0.5f, 0.5f))));
+    }
+    return least;
+}
+
+} // namespace
+
+TEST(MeshTrust, NormalsThatContradictTheirFacesAreComputedAnew) {
+    {
+        const test::Notices notices;
+        const osgSkin::ImportedMesh mesh = osgSkin::importMesh(cube("inward.obj", -1.0));
+        EXPECT_GT(outwards(mesh), 0.4);
+        EXPECT_EQ(notices.lines(), 1u) << notices.text();
+        EXPECT_TRUE(notices.say("normals of 6 of 6 faces")) << notices.text();
+    }
+    const test::Notices notices;
+    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(cube("outward.obj", 1.0));
+    EXPECT_GT(outwards(mesh), 0.4);
+    const auto& normals =
+        dynamic_cast<const osg::Vec3Array&>(*mesh.parts[0].geometry->getNormalArray());
+    EXPECT_EQ(normals.size(), 24u) << "the file's own, a face";
+    EXPECT_EQ(notices.text(), "");
+}
+
+TEST(MeshTrust, MissingTexturesAreOneLine) {
+    std::ofstream materials(testing::TempDir() + "textured.mtl");
+    for (int m = 0; m < 6; ++m) materials << "newmtl m" << m << "\nmap_Kd nowhere" << m << ".png\n";
+    materials.close();
+    const test::Notices notices;
+    osgSkin::importMesh(cube("textured.obj", 1.0, "textured.mtl"));
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
+    EXPECT_TRUE(notices.say("6 textures, \"nowhere0.png\" among them, cannot be read"))
+        << notices.text();
+}
+
+TEST(MeshTrust, MissingMaterialsAreOneLine) {
+    const test::Notices notices;
+    osgSkin::importMesh(cube("unmade.obj", 1.0, "no_such.mtl"));
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
+}
