@@ -22,7 +22,8 @@ PoseFigures measure(const Subject& subject, Method method, const std::vector<Nam
     const double volume = compare::enclosedVolume(subject.rest, subject.triangles);
     const auto count = static_cast<double>(poses.size());
     for (const NamedPose& pose : poses) {
-        const PosedSkin posed = deformWithNormals(subject, method, pose.skinning);
+        const PosedSkin posed = shape ? deformWithNormals(subject, method, pose.skinning)
+                                      : PosedSkin{deform(subject, method, pose.skinning), {}};
         const double posedVolume = compare::enclosedVolume(posed.points, subject.triangles);
         PoseFigure figure;
         figure.name = pose.name;
@@ -53,6 +54,12 @@ PoseFigures measure(const Subject& subject, Method method, const std::vector<Nam
 
 PoseFigures measureOurs(const Subject& subject, const std::vector<NamedPose>& poses) {
     return measure(subject, Method::Ours, poses, nullptr);
+}
+
+PerMethod<PoseFigures> measureStrains(const Subject& subject, const std::vector<NamedPose>& poses) {
+    PerMethod<PoseFigures> result;
+    for (const Method method : kMethods) result[method] = measure(subject, method, poses, nullptr);
+    return result;
 }
 
 PerMethod<PoseFigures> measurePoses(const Subject& subject, const std::vector<NamedPose>& poses) {

@@ -33,6 +33,9 @@ struct PoseFigures {
 /// Ours alone, and of each pose only strain and volume.
 PoseFigures measureOurs(const Subject& subject, const std::vector<NamedPose>& poses);
 
+/// All methods, and of each pose only strain and volume.
+PerMethod<PoseFigures> measureStrains(const Subject& subject, const std::vector<NamedPose>& poses);
+
 PerMethod<PoseFigures> measurePoses(const Subject& subject, const std::vector<NamedPose>& poses);
 
 } // namespace quality

@@ -2,18 +2,14 @@
 #include "Subject.h"
 
 #include <osgSkinBind/Bind>
-#include <osgSkinCharacter/ReadWeights>
-#include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/ImportSkeleton>
-#include <osgSkinRig/Motion>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace quality {
 namespace {
@@ -45,19 +41,22 @@ std::vector<std::uint32_t> firstCopies(const compare::Points& points) {
 } // namespace
 
 Subject loadSubject(const SubjectFiles& files) {
+    return makeSubject(loadBody(files.body, files.rig, files.weights), files.ratios);
+}
+
+Subject makeSubject(PaintedBody body, Ratios ratios) {
     Subject subject;
-    subject.name = std::filesystem::path(files.body).stem().string();
-    subject.mesh = osgSkin::importMesh(files.body).mesh;
-    subject.rig = osgSkin::importSkeleton(files.rig);
+    subject.name = std::move(body.name);
+    subject.mesh = std::move(body.mesh);
+    subject.rig = std::move(body.rig);
     const osgSkin::SkinMesh& mesh = subject.mesh;
-    const osgSkin::VertexWeights painted =
-        osgSkin::readWeights(files.weights, subject.rig, mesh.positions.size());
-    subject.weights = normalised(painted);
-    if (!files.bindByWeights) subject.options.emplace();
-    if (files.bindAsPrinted) subject.options->method = osgSkin::BindOptions::Method::Paper;
-    subject.binding = subject.options
-                          ? osgSkin::bind(mesh, subject.rig, *subject.options, &subject.report)
-                          : osgSkin::bindWeights(mesh, subject.rig, painted, {}, &subject.report);
+    subject.weights = normalised(body.painted);
+    if (ratios != Ratios::Painted) subject.options.emplace();
+    if (ratios == Ratios::AsPrinted) subject.options->method = osgSkin::BindOptions::Method::Paper;
+    subject.binding =
+        subject.options
+            ? osgSkin::bind(mesh, subject.rig, *subject.options, &subject.report)
+            : osgSkin::bindWeights(mesh, subject.rig, body.painted, {}, &subject.report);
     subject.rest = mesh.positions;
 
     const std::vector<std::uint32_t> first = firstCopies(subject.rest);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "PaintedBody.h"
+
 #include <SkinMeasures.h>
 #include <SkinWeights.h>
 #include <osgSkin/Binding>
 #include <osgSkin/SkinModel>
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/BindReport>
-#include <osgSkinRig/RestSkeleton>
-#include <osgSkinRig/SkinMesh>
 
 #include <memory>
 #include <optional>
@@ -17,10 +17,16 @@
 
 namespace quality {
 
+/// Where our ratios come from.
+enum class Ratios {
+    Smooth,    ///< regions, made continuous: the default
+    AsPrinted, ///< between boundary planes
+    Painted    ///< the painted weights
+};
+
 struct SubjectFiles {
     std::string body, rig, weights;
-    bool bindByWeights = false; ///< our ratios from the painted weights, not from regions
-    bool bindAsPrinted = false; ///< between boundary planes
+    Ratios ratios = Ratios::Smooth;
 };
 
 /// A body to measure: bound by us, and with its painted weights for the peers.
@@ -50,6 +56,10 @@ struct Subject {
 
 /// \throw osgSkin::Error where a file cannot be read or does not fit the others
 Subject loadSubject(const SubjectFiles& files);
+
+/// Binds a body.
+/// \throw osgSkin::Error where its parts do not fit each other
+Subject makeSubject(PaintedBody body, Ratios ratios = Ratios::Smooth);
 
 /// The model of the subject's binding.
 osg::ref_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject);

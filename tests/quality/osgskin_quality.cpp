@@ -62,8 +62,8 @@ std::vector<SubjectFiles> subjects(const Options& options) {
 }
 
 Report measure(SubjectFiles files, const Options& options) {
-    files.bindByWeights = options.method == "weights";
-    files.bindAsPrinted = options.method == "paper";
+    if (options.method == "weights") files.ratios = Ratios::Painted;
+    if (options.method == "paper") files.ratios = Ratios::AsPrinted;
     const Subject subject = loadSubject(files);
     const std::vector<NamedPose> poses = standardPoses(options.motions, subject);
     Report report;
