@@ -29,7 +29,7 @@ RestSkeleton bones() {
     return skeleton;
 }
 
-BindOptions elastic(const std::string& cache = {}) {
+BindOptions elasticOptions(const std::string& cache = {}) {
     BindOptions options;
     options.shapes = BindOptions::Shapes::Elastic;
     options.cacheFolder = cache;
@@ -46,7 +46,7 @@ bool hasNote(const BindReport& report, const std::string& text) {
 
 TEST(ElasticBind, ShapesAHingeAndKeepsWhatItMade) {
     const ScratchFolder scratch;
-    const BindOptions options = elastic((scratch.path() / "cache").string());
+    const BindOptions options = elasticOptions((scratch.path() / "cache").string());
     BindReport report;
     const Binding first = bind(arm(), bones(), options, &report);
     EXPECT_FALSE(hasNote(report, "not elastic"));
@@ -73,7 +73,7 @@ TEST(ElasticBind, ShapesAHingeAndKeepsWhatItMade) {
 }
 
 TEST(ElasticBind, TellsHowFarItIsAndGivesUpWhenTold) {
-    BindOptions options = elastic();
+    BindOptions options = elasticOptions();
     double last = 0.0;
     std::size_t solved = 0;
     options.progress = [&](const ProgressStep& step) {
@@ -92,7 +92,7 @@ TEST(ElasticBind, WhatCannotBeSolvedHasFastShapesAndALine) {
     straight.add("lower", 0, glm::dvec3(0, 7, 0));
     straight.joints.back().tip = glm::dvec3(0, 14, 0);
     BindReport report;
-    const Binding binding = bind(arm(), straight, elastic(), &report);
+    const Binding binding = bind(arm(), straight, elasticOptions(), &report);
     EXPECT_TRUE(hasNote(report, "joint \"lower\" has fast shapes, not elastic ones"));
     BindOptions fast;
     fast.shapes = BindOptions::Shapes::Fast;
@@ -107,7 +107,7 @@ TEST(ElasticBind, TakesPaintedWeightsAndSeams) {
         weights.push_back({{0, 1.0 - lower}, {1, lower}});
     }
     BindReport report;
-    const Binding binding = bindWeights(mesh, bones(), weights, elastic(), &report);
+    const Binding binding = bindWeights(mesh, bones(), weights, elasticOptions(), &report);
     EXPECT_FALSE(hasNote(report, "not elastic"));
     EXPECT_FALSE(binding.correctives.empty());
     EXPECT_TRUE(bindWeights(mesh, bones(), weights).correctives.empty());
