@@ -151,6 +151,7 @@ private:
         }
         const auto skinning = singleTurn(_subject, _index, axis, glm::angle(sample.rotation));
         std::vector<compare::Points> posed;
+        posed.reserve(4);
         for (const Method method : kMethods) posed.push_back(deform(_subject, method, skinning));
         posed.push_back(deform(_shaped, Method::Ours, skinning));
         compare::Points elastic = posed[2];

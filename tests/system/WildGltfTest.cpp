@@ -102,7 +102,8 @@ TEST(WildGltf, HelperJointsWithoutWeightsDoNotCount) {
                          {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
                          {"children", {isTop ? helper : column.joints[0]}}});
         std::vector<double> indices;
-        for (int v = 0; v < 24; ++v) indices.insert(indices.end(), {double(v / 8 + 1), 0, 0, 0});
+        for (int v = 0; v < 24; ++v)
+            indices.insert(indices.end(), {double(1 + (v >= 8) + (v >= 16)), 0, 0, 0});
         column.attributes()["JOINTS_0"] = column.accessor("VEC4", indices, 5121);
         column.json["skins"][0] = {
             {"joints", {helper, column.joints[0], column.joints[1], column.joints[2]}},
@@ -151,7 +152,8 @@ TEST(WildGltf, NumbersMayBeQuantised) {
     std::vector<double> weights, corners, matrices;
     for (int v = 0; v < 24; ++v) {
         weights.insert(weights.end(), {0.4, 0.6, 0, 0});
-        corners.insert(corners.end(), {double(v / 8), double(v / 8), 0, 0});
+        const double third = (v >= 8) + (v >= 16);
+        corners.insert(corners.end(), {third, third, 0, 0});
     }
     column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights, 5121, true);
     column.attributes()["JOINTS_0"] = column.accessor("VEC4", corners, 5123);
@@ -270,6 +272,7 @@ TEST(WildGltf, OneMeshMayHaveTwoSkins) {
     GltfColumn column;
     column.bend();
     std::vector<std::size_t> twins;
+    twins.reserve(3);
     for (int j = 0; j < 3; ++j)
         twins.push_back(column.node({{"name", "twin" + std::to_string(j)},
                                      {"translation", {j == 0 ? 3 : 0, j == 0 ? 0 : 1, 0}}}));

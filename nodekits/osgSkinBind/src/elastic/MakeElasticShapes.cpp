@@ -49,8 +49,7 @@ class ElasticOffsets {
 public:
     ElasticOffsets(const ElasticPlan& plan, const ElasticShapes& solved)
         : _plan(plan), _solved(solved) {
-        for (std::size_t i = 0; i < plan.shaped.vertices.size(); ++i) {
-            const ShapedJoint::Vertex& vertex = plan.shaped.vertices[i];
+        for (const ShapedJoint::Vertex& vertex : plan.shaped.vertices) {
             const auto found =
                 std::lower_bound(solved.vertices.begin(), solved.vertices.end(), vertex.index);
             if (vertex.limb * vertex.fade > 0.0 && found != solved.vertices.end() &&

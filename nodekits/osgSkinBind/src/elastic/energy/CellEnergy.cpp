@@ -86,13 +86,13 @@ OSGSKIN_WIDEST double cellEnergy(const CellShape& shape, const Flesh& flesh, Cel
     }
 
     double meanJacobian = 0.0;
-    for (std::size_t g = 0; g < kLanes; ++g) meanJacobian += jacobian[g] / kLanes;
+    for (const double j : jacobian) meanJacobian += j / kLanes;
     const double change = meanJacobian - 1.0;
     double energy = 0.5 * flesh.bulk * kLanes * change * change;
     for (std::size_t g = 0; g < kLanes; ++g) energy += first[g] - 2.0 * trace[g] + 3.0;
 
     Lanes byJacobian;
-    for (std::size_t g = 0; g < kLanes; ++g) byJacobian[g] = flesh.bulk * change;
+    for (double& by : byJacobian) by = flesh.bulk * change;
     if (leastJacobian < flesh.barrierBegins)
         for (std::size_t g = 0; g < kLanes; ++g) {
             const double below = jacobian[g] - flesh.barrierBegins;

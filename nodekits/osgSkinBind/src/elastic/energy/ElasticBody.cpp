@@ -16,14 +16,14 @@ double ElasticBody::value(const Points& nodes, Points& gradient) const {
     state.volume = pointVolume;
     for (const VoxelLattice::Cell& cell : _lattice.cells()) {
         for (std::size_t c = 0; c < 8; ++c) {
-            const double* corner = nodes.data() + 3 * cell.nodes[c];
+            const double* corner = nodes.data() + std::size_t{3} * cell.nodes[c];
             for (std::size_t i = 0; i < 3; ++i) state.corner[i][c] = corner[i];
         }
         double least = 0.0;
         energy += cellEnergy(_lattice.shape(), _flesh, state, least);
         if (!std::isfinite(energy)) return energy;
         for (std::size_t c = 0; c < 8; ++c) {
-            double* corner = gradient.data() + 3 * cell.nodes[c];
+            double* corner = gradient.data() + std::size_t{3} * cell.nodes[c];
             for (std::size_t i = 0; i < 3; ++i) corner[i] += state.gradient[i][c];
         }
     }

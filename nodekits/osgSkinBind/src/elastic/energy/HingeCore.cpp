@@ -17,7 +17,7 @@ Point outwardsOf(const std::vector<Bone>& bones, const std::vector<Eigen::Quater
     for (const Bone& bone : bones)
         if (bone.moves && bone.from.norm() < kAtCentre && bone.to.norm() > along.norm())
             along = bone.to;
-    const Point outwards = along.cross(flexion); // a flexion takes the bone the other way
+    Point outwards = along.cross(flexion); // a flexion takes the bone the other way
     if (!(outwards.norm() > 0.0)) return outwards;
     across = outwards.cross(flexion).normalized();
     if (across.dot(along) < 0.0) across = -across;

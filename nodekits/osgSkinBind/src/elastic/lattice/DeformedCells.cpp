@@ -42,7 +42,8 @@ Eigen::Vector3i DeformedCells::binAt(const Point& point) const {
 }
 
 std::size_t DeformedCells::index(const Eigen::Vector3i& bin) const {
-    return static_cast<std::size_t>((bin.z() * _bins.y() + bin.y()) * _bins.x() + bin.x());
+    const auto at = bin.cast<std::size_t>(), bins = _bins.cast<std::size_t>();
+    return (at.z() * bins.y() + at.y()) * bins.x() + at.x();
 }
 
 /// Newton's method on the trilinear map.

@@ -10,6 +10,7 @@ SampleTree::SampleTree(const std::vector<Eigen::Quaterniond>& rotations)
     : _following(rotations.size() + 1) {
     const Eigen::Quaterniond rest = Eigen::Quaterniond::Identity();
     std::vector<double> angles;
+    angles.reserve(rotations.size());
     for (const Eigen::Quaterniond& rotation : rotations)
         angles.push_back(rest.angularDistance(rotation));
     std::vector<std::size_t> order(rotations.size());
