@@ -75,7 +75,8 @@ public:
         std::vector<Local> locals;
         for (const nlohmann::json& node : json["nodes"]) locals.push_back(localOf(node));
         if (animation >= 0)
-            for (const nlohmann::json& channel : json["animations"].at(animation)["channels"])
+            for (const nlohmann::json& channel :
+                 json["animations"].at(std::size_t(animation))["channels"])
                 apply(std::size_t(animation), channel, seconds, locals);
         std::vector<glm::dmat4> world(locals.size(), glm::dmat4(1.0));
         for (const std::size_t root : roots()) place(root, glm::dmat4(1.0), locals, world);

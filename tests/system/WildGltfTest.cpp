@@ -18,7 +18,6 @@ namespace {
 
 using osgSkin::Character;
 using osgSkin::loadCharacter;
-using osgSkin::LoadOptions;
 using test::BlendError;
 using test::blendError;
 using test::GltfColumn;
