@@ -120,8 +120,9 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.add_option("--rate", arguments.rate, "frames a second of a rigged model's clips; 30")
         ->check(CLI::Range(1e-3, 1e6));
     app.add_option("--shapes", arguments.shapes,
-                   "none or fast: what shapes bent limbs; as the character says by default")
-        ->check(CLI::IsMember({"none", "fast"}));
+                   "none, fast or elastic: what shapes bent limbs; as the character says by "
+                   "default")
+        ->check(CLI::IsMember({"none", "fast", "elastic"}));
     app.add_option("--muscles", arguments.muscles,
                    "on or off: muscles that swell; as the character says by default")
         ->check(CLI::IsMember({"on", "off"}));

@@ -22,12 +22,12 @@ struct Arguments {
     std::string motion; ///< empty: the first one
     std::optional<FrameRange> frames;
     std::optional<double> rate; ///< samples a second of a rigged model's clips
-    std::string shapes;         ///< "none" or "fast"; empty: as the character has them
+    std::string shapes;         ///< "none", "fast" or "elastic"; empty: as the character has them
     std::string muscles;        ///< "on" or "off"; empty: as the character has them
     std::vector<std::pair<std::string, float>> activations; ///< of inputs, by name
-    std::string out;            ///< pattern of the frames' files; empty: no frames wanted
-    std::string rest;           ///< file for the bind pose; empty: not wanted
-    std::string binding;        ///< JSON files; empty: not wanted
+    std::string out;     ///< pattern of the frames' files; empty: no frames wanted
+    std::string rest;    ///< file for the bind pose; empty: not wanted
+    std::string binding; ///< JSON files; empty: not wanted
     std::string pose;
     bool quiet = false;
 };

@@ -93,6 +93,7 @@ Character load(const Arguments& arguments) {
     osgSkin::LoadOptions options;
     if (arguments.shapes == "none") options.shapes = osgSkin::BindOptions::Shapes::None;
     if (arguments.shapes == "fast") options.shapes = osgSkin::BindOptions::Shapes::Fast;
+    if (arguments.shapes == "elastic") options.shapes = osgSkin::BindOptions::Shapes::Elastic;
     if (!arguments.muscles.empty()) options.muscles = arguments.muscles == "on";
     options.progress = line.progress();
     Character character = osgSkin::loadCharacter(file, options);

@@ -70,8 +70,8 @@ int main(int argc, char** argv) {
                    "a .skin file, a rigged model (.glb, .fbx, ...), or a scene (.osgb)");
     app.add_option("--weights", weights,
                    "painted weights (JSON) for the peers; without: from our ratios");
-    app.add_option("--shapes", shapes, "none or fast; as the character says by default")
-        ->check(CLI::IsMember({"none", "fast"}));
+    app.add_option("--shapes", shapes, "none, fast or elastic; as the character says by default")
+        ->check(CLI::IsMember({"none", "fast", "elastic"}));
     app.add_option("--muscles", muscles, "on or off; as the character says by default")
         ->check(CLI::IsMember({"on", "off"}));
     app.add_option("--motion", motion, "name of the motion to start with");
@@ -94,6 +94,7 @@ int main(int argc, char** argv) {
         osgSkin::LoadOptions options;
         if (shapes == "none") options.shapes = osgSkin::BindOptions::Shapes::None;
         if (shapes == "fast") options.shapes = osgSkin::BindOptions::Shapes::Fast;
+        if (shapes == "elastic") options.shapes = osgSkin::BindOptions::Shapes::Elastic;
         if (!muscles.empty()) options.muscles = muscles == "on";
         viewer::Stage stage(character, weights, options, size.width, size.height);
         if (!motion.empty()) stage.setMotion(motion);

@@ -124,10 +124,12 @@ std::vector<FoldFigure> measureFolds(const Subject& plain, const Subject& shaped
 
 } // namespace
 
-ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses) {
+ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses,
+                           const std::string& shapes) {
     Subject plain = subject, shaped = subject;
     plain.options->shapes = osgSkin::BindOptions::Shapes::None;
-    shaped.options->shapes = osgSkin::BindOptions::Shapes::Fast;
+    shaped.options->shapes = shapes == "elastic" ? osgSkin::BindOptions::Shapes::Elastic
+                                                 : osgSkin::BindOptions::Shapes::Fast;
     const auto seconds = [](Subject& bound) {
         const auto start = std::chrono::steady_clock::now();
         bound.binding = osgSkin::bind(bound.mesh, bound.rig, *bound.options);
@@ -136,7 +138,7 @@ ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>&
         return std::chrono::duration<double>(end - start).count();
     };
     ShapeFigures figures;
-    figures.shapes = "fast";
+    figures.shapes = shapes;
     figures.seconds = -seconds(plain);
     figures.seconds += seconds(shaped);
     figures.bytesPerVertex = 2.0 *

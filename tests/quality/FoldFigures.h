@@ -33,7 +33,7 @@ struct ShapedClips {
 
 /// What shapes do to a body.
 struct ShapeFigures {
-    std::string shapes; ///< "fast"
+    std::string shapes; ///< "fast" or "elastic"
     std::vector<FoldFigure> folds;
     ShapedClips clips;
     double bytesPerVertex = 0.0; ///< that the correctives' vectors take, in the mean
@@ -42,7 +42,9 @@ struct ShapeFigures {
 };
 
 /// Binds the subject, which bind() has bound, with shapes beside its own binding.
-ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses);
+/// \param shapes "fast" or "elastic"
+ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses,
+                           const std::string& shapes);
 
 void printTable(const ShapeFigures& figures, std::ostream& out);
 

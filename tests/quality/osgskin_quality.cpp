@@ -23,7 +23,7 @@ struct Options {
     std::string json;
     std::string method = "smooth";
     bool noSweeps = false;
-    bool shapes = false;
+    std::string shapes;
 };
 
 void define(CLI::App& app, Options& options) {
@@ -40,8 +40,9 @@ void define(CLI::App& app, Options& options) {
         ->check(CLI::IsMember({"smooth", "paper", "weights"}))
         ->capture_default_str();
     app.add_option("--json", options.json, "a file to write the figures to");
-    app.add_flag("--shapes", options.shapes,
-                 "only what shapes do: limbs folded, and the clips, with and without them");
+    app.add_option("--shapes", options.shapes,
+                   "only what shapes do: limbs folded, and the clips, with and without them")
+        ->check(CLI::IsMember({"fast", "elastic"}));
     app.add_flag("--no-sweeps", options.noSweeps, "leave out the sweeps, which take longest");
 }
 
@@ -85,12 +86,13 @@ void reportShapes(const Options& options) {
     for (const SubjectFiles& files : subjects(options)) {
         const Subject subject = loadSubject(files);
         std::cout << subject.name << '\n';
-        printTable(measureShapes(subject, standardPoses(options.motions, subject)), std::cout);
+        printTable(measureShapes(subject, standardPoses(options.motions, subject), options.shapes),
+                   std::cout);
     }
 }
 
 void run(const Options& options) {
-    if (options.shapes) return reportShapes(options);
+    if (!options.shapes.empty()) return reportShapes(options);
     nlohmann::ordered_json json = {{"bind", options.method}, {"bodies", nlohmann::json::array()}};
     if (options.files.body.empty()) {
         const std::vector<CylinderPose> cylinder = measureCylinder();

@@ -39,7 +39,9 @@ public:
         for (const double value : values) add(value, component, normalized);
         json["bufferViews"].push_back(
             {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", _bytes.size() - begin}});
-        const std::size_t width = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : type[3] - '0';
+        const std::size_t width = type == "SCALAR" ? 1
+                                  : type == "MAT4" ? 16
+                                                   : static_cast<std::size_t>(type[3] - '0');
         nlohmann::json accessor = {{"bufferView", json["bufferViews"].size() - 1},
                                    {"componentType", component},
                                    {"count", values.size() / width},
@@ -78,7 +80,7 @@ public:
         if (!json.contains("buffers"))
             json["buffers"] = {{{"byteLength", _bytes.size()},
                                 {"uri", "data:application/octet-stream;base64," + base64()}}};
-        const std::string path = testing::TempDir() + name;
+        std::string path = testing::TempDir() + name;
         std::ofstream(path) << json.dump();
         return path;
     }

@@ -33,8 +33,8 @@ public:
             if (28 + size <= all.size()) _binary = all.substr(28 + size);
         }
         json = nlohmann::json::parse(text);
-        for (std::size_t b = 0; b < json["buffers"].size(); ++b) {
-            const std::string uri = json["buffers"][b].value("uri", "");
+        for (const nlohmann::json& buffer : json["buffers"]) {
+            const std::string uri = buffer.value("uri", "");
             _buffers.push_back(uri.empty() ? _binary : decoded(uri.substr(uri.find(',') + 1)));
         }
     }
@@ -44,7 +44,9 @@ public:
     std::vector<double> accessor(std::size_t index) const {
         const nlohmann::json& a = json["accessors"].at(index);
         const std::string type = a["type"];
-        const std::size_t width = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : type[3] - '0';
+        const std::size_t width = type == "SCALAR" ? 1
+                                  : type == "MAT4" ? 16
+                                                   : static_cast<std::size_t>(type[3] - '0');
         const nlohmann::json& view = json["bufferViews"].at(a["bufferView"].get<std::size_t>());
         const std::string& bytes = _buffers.at(view["buffer"].get<std::size_t>());
         const int kind = a["componentType"];
@@ -62,7 +64,8 @@ public:
 
     double firstKey(std::size_t animation) const {
         double first = INFINITY;
-        for (const nlohmann::json& channel : json["animations"].at(animation)["channels"])
+        for (const nlohmann::json& channel :
+             json["animations"].at(std::size_t(animation))["channels"])
             first = std::min(first, accessor(samplerOf(animation, channel)["input"])[0]);
         return first;
     }
@@ -72,7 +75,8 @@ public:
         std::vector<Local> locals;
         for (const nlohmann::json& node : json["nodes"]) locals.push_back(localOf(node));
         if (animation >= 0)
-            for (const nlohmann::json& channel : json["animations"].at(animation)["channels"])
+            for (const nlohmann::json& channel :
+                 json["animations"].at(std::size_t(animation))["channels"])
                 apply(std::size_t(animation), channel, seconds, locals);
         std::vector<glm::dmat4> world(locals.size(), glm::dmat4(1.0));
         for (const std::size_t root : roots()) place(root, glm::dmat4(1.0), locals, world);

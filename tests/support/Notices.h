@@ -13,7 +13,7 @@ namespace test {
 class Notices {
 public:
     Notices() { osg::setNotifyHandler(_handler); }
-    ~Notices() { osg::setNotifyHandler(new osg::StandardNotifyHandler); }
+    ~Notices() { osg::setNotifyHandler(_before); }
     Notices(const Notices&) = delete;
     Notices& operator=(const Notices&) = delete;
 
@@ -33,6 +33,7 @@ private:
         }
         std::string text, warnings;
     };
+    osg::ref_ptr<osg::NotifyHandler> _before = osg::getNotifyHandler();
     osg::ref_ptr<Handler> _handler = new Handler;
 };
 

@@ -10,6 +10,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
 
 namespace {
 
@@ -42,6 +47,44 @@ void expectRefused(const test::CommandResult& result, const std::string& plugIn,
     EXPECT_NE(line.find("0.1.7 (00000000)"), std::string::npos) << line;
 }
 
+/// An arm along y, bent by 13 degrees at rest, as a `.skin` file with all it names.
+void writeArm(const std::string& folder) {
+    constexpr int kSides = 16, kRings = 57;
+    std::ofstream mesh(folder + "/arm.obj");
+    for (int ring = 0; ring < kRings; ++ring)
+        for (int side = 0; side < kSides; ++side) {
+            const double angle = 2.0 * 3.141592653589793 * side / kSides;
+            mesh << "v " << std::cos(angle) << ' ' << 0.25 * ring << ' ' << -std::sin(angle)
+                 << '\n';
+        }
+    for (int ring = 0; ring + 1 < kRings; ++ring)
+        for (int side = 0; side < kSides; ++side) {
+            const int next = (side + 1) % kSides, low = 1 + ring * kSides, high = low + kSides;
+            mesh << "f " << low + side << ' ' << low + next << ' ' << high + next << ' '
+                 << high + side << '\n';
+        }
+    std::ofstream(folder + "/arm.bvh")
+        << "HIERARCHY\nROOT upper\n{\n OFFSET 0 0 0\n CHANNELS 3 Zrotation Yrotation Xrotation\n"
+           " JOINT lower\n {\n  OFFSET 0 7 0.8\n  CHANNELS 3 Zrotation Yrotation Xrotation\n"
+           "  End Site\n  {\n   OFFSET 0 7 -0.8\n  }\n }\n}\nMOTION\nFrames: 1\n"
+           "Frame Time: 0.1\n0 0 0 0 0 0\n";
+    std::ofstream(folder + "/arm.skin")
+        << R"({ "osgskin": 1, "mesh": "arm.obj", "skeleton": "arm.bvh" })";
+}
+
+std::string contentOf(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::vector<std::filesystem::path> filesIn(const std::string& folder) {
+    std::vector<std::filesystem::path> files;
+    if (!std::filesystem::exists(folder)) return files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        files.push_back(entry.path());
+    return files;
+}
+
 const char* anotherBuild() {
     return "0.1.7 (00000000)";
 }
@@ -66,6 +109,29 @@ TEST_F(PlugIn, IsSilentOnStandardError) {
         EXPECT_EQ(result.err, "");
     }
     EXPECT_EQ(convert("saved.osgb", "saved.osgt").err, "") << "the serializers";
+}
+
+TEST_F(PlugIn, KeepsElasticShapesInTheUsersCacheFolder) {
+    writeArm(folder);
+    const std::string cache = "XDG_CACHE_HOME='" + folder + "/cache' ";
+    const std::string kept = folder + "/cache/osgSkin";
+    ASSERT_EQ(convert("arm.skin", "plain.osgb", cache).status, 0);
+    EXPECT_TRUE(filesIn(kept).empty()); // nobody asked for them
+    const auto shaped = [&](const std::string& to) {
+        const auto result = convert("arm.skin", to + " -O shapes=elastic", cache);
+        EXPECT_EQ(result.status, 0);
+        EXPECT_EQ(result.err, "");
+        return contentOf(folder + '/' + to);
+    };
+    const std::string first = shaped("first.osgb");
+    EXPECT_GT(first.size(), contentOf(folder + "/plain.osgb").size());
+    ASSERT_EQ(filesIn(kept).size(), 1u);
+    const auto written = std::filesystem::last_write_time(filesIn(kept)[0]);
+    EXPECT_EQ(shaped("second.osgb"), first);
+    EXPECT_EQ(std::filesystem::last_write_time(filesIn(kept)[0]), written);
+    std::ofstream(filesIn(kept)[0], std::ios::trunc) << "broken";
+    EXPECT_EQ(shaped("third.osgb"), first);
+    EXPECT_GT(std::filesystem::file_size(filesIn(kept)[0]), 1000u);
 }
 
 TEST_F(PlugIn, RefusesLibrariesOfAnotherBuild) {

@@ -18,7 +18,6 @@ namespace {
 
 using osgSkin::Character;
 using osgSkin::loadCharacter;
-using osgSkin::LoadOptions;
 using test::BlendError;
 using test::blendError;
 using test::GltfColumn;
@@ -102,7 +101,8 @@ TEST(WildGltf, HelperJointsWithoutWeightsDoNotCount) {
                          {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
                          {"children", {isTop ? helper : column.joints[0]}}});
         std::vector<double> indices;
-        for (int v = 0; v < 24; ++v) indices.insert(indices.end(), {double(v / 8 + 1), 0, 0, 0});
+        for (int v = 0; v < 24; ++v)
+            indices.insert(indices.end(), {double(1 + (v >= 8) + (v >= 16)), 0, 0, 0});
         column.attributes()["JOINTS_0"] = column.accessor("VEC4", indices, 5121);
         column.json["skins"][0] = {
             {"joints", {helper, column.joints[0], column.joints[1], column.joints[2]}},
@@ -151,7 +151,8 @@ TEST(WildGltf, NumbersMayBeQuantised) {
     std::vector<double> weights, corners, matrices;
     for (int v = 0; v < 24; ++v) {
         weights.insert(weights.end(), {0.4, 0.6, 0, 0});
-        corners.insert(corners.end(), {double(v / 8), double(v / 8), 0, 0});
+        const double third = (v >= 8) + (v >= 16);
+        corners.insert(corners.end(), {third, third, 0, 0});
     }
     column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights, 5121, true);
     column.attributes()["JOINTS_0"] = column.accessor("VEC4", corners, 5123);
@@ -253,7 +254,7 @@ TEST(WildGltf, NonUniformScaleIsNotedOnceAndAboveFivePerCent) {
         const Character character = loadCharacter(column.save("squash.gltf"));
         EXPECT_EQ(character.notes.size(), scale > 1.05 ? 1u : 0u);
         EXPECT_EQ(notices.lines(), scale > 1.05 ? 1u : 0u) << notices.text();
-        if (scale > 1.05) EXPECT_TRUE(notices.say("\"squash\" and 2 more scaled non-uniformly"));
+        EXPECT_EQ(notices.say("\"squash\" and 2 more scaled non-uniformly"), scale > 1.05);
     }
 }
 
@@ -270,6 +271,7 @@ TEST(WildGltf, OneMeshMayHaveTwoSkins) {
     GltfColumn column;
     column.bend();
     std::vector<std::size_t> twins;
+    twins.reserve(3);
     for (int j = 0; j < 3; ++j)
         twins.push_back(column.node({{"name", "twin" + std::to_string(j)},
                                      {"translation", {j == 0 ? 3 : 0, j == 0 ? 0 : 1, 0}}}));

@@ -41,7 +41,8 @@ void addGirths(std::vector<Named>& all) {
 }
 
 void addLengths(std::vector<Named>& all) {
-    const auto add = [&all](const char* what, std::vector<const char*> joints, double length) {
+    const auto add = [&all](const char* what, const std::vector<const char*>& joints,
+                            double length) {
         all.push_back(
             {format("%s %.2f long", what, length), [joints, length](const PaintedBody& body) {
                  Bones bones;

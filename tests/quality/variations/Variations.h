@@ -18,7 +18,8 @@ struct Variation {
 
 /// Variations of two bodies of one topology: between and beyond them, thinner and thicker, of other
 /// proportions, in other rest poses, aged. Every second one is held out.
-/// \param neutral, male the bodies; the variations refer to them
+/// \param neutral one of the bodies; the variations refer to both
+/// \param male the other
 std::vector<Variation> variations(const PaintedBody& neutral, const PaintedBody& male);
 
 } // namespace quality

@@ -51,6 +51,7 @@ std::vector<WorstEdge> worstEdges(const Subject& subject, const std::vector<Name
         }
     }
     std::vector<WorstEdge> result;
+    result.reserve(found.size());
     for (const auto& [edge, worst] : found) result.push_back(worst);
     std::sort(result.begin(), result.end(),
               [](const WorstEdge& a, const WorstEdge& b) { return a.excess > b.excess; });

@@ -93,6 +93,7 @@ TEST_F(BodyNames, EverySpellingHasTheSameRigidParts) {
                             : prefix + "extra_" + std::to_string(names.size());
                 }
                 std::vector<std::string> expected;
+                expected.reserve(ours.size());
                 for (const std::string& name : ours) expected.push_back(names.at(name));
                 EXPECT_EQ(automaticRigidJoints(test::renamed(body.truth, names)), expected)
                     << dialect.name << ", side " << side.text() << ", " << prefix;

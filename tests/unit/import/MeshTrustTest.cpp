@@ -13,7 +13,7 @@ namespace {
 
 /// A cube, its normals along the faces' own or against them, as an OBJ file.
 std::string cube(const std::string& name, double side, const std::string& materials = "") {
-    const std::string path = testing::TempDir() + name;
+    std::string path = testing::TempDir() + name;
     std::ofstream out(path);
     if (!materials.empty()) out << "mtllib " << materials << "\n";
     for (int v = 0; v < 8; ++v)

@@ -96,12 +96,12 @@ TEST(ShapeRolesOf, ThingsThatAreNoPersonAreNone) {
     const int neck = dog.add("c", chest, glm::dvec3(0, 1.2, 1.2));
     dog.add("d", neck, glm::dvec3(0, 1.4, 1.4));
     for (const int base : {rump, chest})
-        for (const double x : {0.2, -0.2}) {
-            const double z = base == rump ? 0.0 : 1.0;
-            const std::string name = std::to_string(base) + (x > 0.0 ? "l" : "r");
-            const int upper = dog.add(name + "1", base, glm::dvec3(x, 0.9, z));
-            const int lower = dog.add(name + "2", upper, glm::dvec3(x, 0.5, z));
-            dog.add(name + "3", lower, glm::dvec3(x, 0.1, z));
+        for (const double across : {0.2, -0.2}) {
+            const double along = base == rump ? 0.0 : 1.0;
+            const std::string name = std::to_string(base) + (across > 0.0 ? "l" : "r");
+            const int upper = dog.add(name + "1", base, glm::dvec3(across, 0.9, along));
+            const int lower = dog.add(name + "2", upper, glm::dvec3(across, 0.5, along));
+            dog.add(name + "3", lower, glm::dvec3(across, 0.1, along));
         }
     EXPECT_FALSE(recogniseJoints(dog).known());
 }

@@ -78,7 +78,7 @@ void expectSame(const osgSkin::ImportedRig& found, const osgSkin::ImportedRig& e
 /// A figure of X: its mesh's frame has the name of one of its bones.
 std::string xFile(const std::string& mesh) {
     const std::string unit = "1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0,0.0,";
-    const std::string path = testing::TempDir() + "twin_" + mesh + ".x";
+    std::string path = testing::TempDir() + "twin_" + mesh + ".x";
     std::ofstream(path) << "xof 0303txt 0032\nFrame Root {\n FrameTransformMatrix { " << unit
                         << "0.0,0.0,0.0,1.0;; }\n"
                         << " Frame " << mesh << " {\n  FrameTransformMatrix { " << unit

@@ -167,7 +167,8 @@ HWY_INLINE void storeRows(V x, V y, V z, float* HWY_RESTRICT to) {
 }
 
 /// The chunk's rest positions with their correctives, from where the first link takes them.
-inline HWY_NOINLINE void correctChunk(const KernelCall& call, const Chunk& chunk, ChunkStream& stream) {
+inline HWY_NOINLINE void correctChunk(const KernelCall& call, const Chunk& chunk,
+                                      ChunkStream& stream) {
     const D d;
     const float* HWY_RESTRICT from = stream.from;
     float* HWY_RESTRICT to = stream.state;

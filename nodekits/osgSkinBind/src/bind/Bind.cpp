@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/Bind>
 
+#include "bind/AddShapes.h"
 #include "bind/CheckOptions.h"
 #include "bind/NormalCorrectives.h"
 #include "joints/BoundJoints.h"
@@ -16,7 +17,6 @@
 #include "ratios/RatioGradients.h"
 #include "ratios/TwistFields.h"
 #include "regions/Regions.h"
-#include "shapes/FastShapes.h"
 #include "shapes/MergeCorrectives.h"
 
 #include <chrono>
@@ -29,7 +29,6 @@ constexpr double kRegionsBegin = 0.2;
 constexpr double kBendsBegin = 0.8;
 constexpr double kTwistsBegin = 0.96;
 constexpr double kRatiosBegin = 0.98;
-constexpr double kShapesBegin = 0.99;
 
 /// Vertices that no face uses do as the nearest vertex of the skin does.
 std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
@@ -104,15 +103,17 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     skeleton.validate();
     checkOptions(skeleton, options);
 
-    const auto tell = [&options](const std::string& what, double fraction) {
-        if (options.progress) options.progress({what, fraction});
+    const double shapesBegin = shareWithoutShapes(options);
+    const Progress ratiosProgress = subProgress(options.progress, 0.0, shapesBegin);
+    const auto tell = [&ratiosProgress](const std::string& what, double fraction) {
+        if (ratiosProgress) ratiosProgress({what, fraction});
     };
     BindReport found;
     tell("welding", 0.0);
     const WeldedMesh skin(mesh);
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
     const Regions regions = findRegions(
-        skin, joints, subProgress(options.progress, kRegionsBegin, kBendsBegin)); // section 1
+        skin, joints, subProgress(ratiosProgress, kRegionsBegin, kBendsBegin)); // section 1
 
     // Section 3: what fraction of each joint's rotation each vertex takes.
     const BinaryField binary{skin, joints, regions.jointOf};
@@ -149,15 +150,13 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
             if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
-    if (options.surfaceNormals) binding.gradients = ratioGradients(skin, binding);
-    if (options.shapes == BindOptions::Shapes::Fast) {
-        tell("shapes", kShapesBegin);
-        binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
-    }
+    addShapes(skeleton, joints, skin, options, subProgress(options.progress, shapesBegin, 1.0),
+              binding, found.notes);
     if (options.muscles || !options.ownMuscles.empty())
         binding.correctives =
             mergeCorrectives(binding.correctives,
                              makeMuscles(skeleton, joints, skin, binding, options, found.notes));
+    if (options.surfaceNormals) binding.gradients = ratioGradients(skin, binding);
     if (options.surfaceNormals && !binding.correctives.empty()) addNormalCorrectives(skin, binding);
     binding.validate();
 
@@ -171,7 +170,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     reportRegions(skeleton, joints, regions, found);
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (report) *report = found;
-    tell("done", 1.0);
+    if (options.progress) options.progress({"done", 1.0});
     return binding;
 }
 

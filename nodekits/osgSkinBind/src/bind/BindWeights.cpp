@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/BindWeights>
 
+#include "bind/AddShapes.h"
 #include "bind/CheckOptions.h"
 #include "bind/NormalCorrectives.h"
 #include "joints/BoundJoints.h"
@@ -10,7 +11,6 @@
 #include "muscles/MakeMuscles.h"
 #include "ratios/PackInfluences.h"
 #include "ratios/RatioGradients.h"
-#include "shapes/FastShapes.h"
 #include "shapes/MergeCorrectives.h"
 
 #include <osgSkin/Error>
@@ -145,13 +145,12 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
             if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
-    if (options.surfaceNormals) binding.gradients = ratioGradients(skin, binding);
-    if (options.shapes == BindOptions::Shapes::Fast)
-        binding.correctives = makeFastShapes(skeleton, joints, skin, binding);
+    addShapes(skeleton, joints, skin, options, options.progress, binding, found.notes);
     if (options.muscles || !options.ownMuscles.empty())
         binding.correctives =
             mergeCorrectives(binding.correctives,
                              makeMuscles(skeleton, joints, skin, binding, options, found.notes));
+    if (options.surfaceNormals) binding.gradients = ratioGradients(skin, binding);
     if (options.surfaceNormals && !binding.correctives.empty()) addNormalCorrectives(skin, binding);
     binding.validate();
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -35,35 +36,30 @@ struct MadeMuscle {
     Heights lifted; ///< fully shortened
 };
 
-/// A spindle as one mode; its length goes into the scale.
-FittedShapes asShape(const MuscleSkin& skin, const Heights& lifted, const Muscle& muscle) {
+/// A spindle as one mode of these functions; its length goes into their coefficients.
+FittedShapes asMode(const MuscleSkin& skin, const Heights& lifted, const Muscle& muscle,
+                    const CorrectiveJoint& functions, std::vector<double> coefficients) {
     FittedShapes shape;
-    shape.functions = muscle.functions;
+    shape.functions = functions;
     shape.functions.modes = 1;
+    shape.functions.coefficients = std::move(coefficients);
     shape.vertices = skin.vertices();
     shape.tolerance = kLeastLift * muscle.radius;
     double highest = 0.0;
     for (const double h : lifted) highest = std::max(highest, std::abs(h));
     for (std::size_t i = 0; i < lifted.size(); ++i)
         shape.vectors.push_back(lifted[i] / highest * skin.normal(i));
-    shape.functions.coefficients = contractionCoefficients(muscle);
     for (double& c : shape.functions.coefficients) c *= highest;
     return shape;
 }
 
-/// The same, following the input.
-FittedShapes asInput(const MuscleSkin& skin, const Heights& lifted, const Muscle& muscle,
-                     std::size_t input) {
-    FittedShapes shape = asShape(skin, lifted, muscle);
-    double highest = 0.0;
-    for (const double h : lifted) highest = std::max(highest, std::abs(h));
-    shape.functions = {};
-    shape.functions.basis = CorrectiveJoint::Basis::Input;
-    shape.functions.joint = static_cast<std::uint32_t>(input);
-    shape.functions.high.x = 1.0;
-    shape.functions.modes = 1;
-    shape.functions.coefficients = {highest};
-    return shape;
+/// The only function of an input, 0 to 1.
+CorrectiveJoint functionOf(std::size_t input) {
+    CorrectiveJoint functions;
+    functions.basis = CorrectiveJoint::Basis::Input;
+    functions.joint = static_cast<std::uint32_t>(input);
+    functions.high.x = 1.0;
+    return functions;
 }
 
 } // namespace
@@ -106,9 +102,11 @@ Correctives makeMuscles(const RestSkeleton& skeleton, const std::vector<PlannedJ
             notes.push_back("muscle " + muscle.name + " is left out: its limb has no skin to lift");
             continue;
         }
-        if (!lifted.empty()) shapes.push_back(asShape(skin, lifted, muscle));
+        if (!lifted.empty())
+            shapes.push_back(
+                asMode(skin, lifted, muscle, muscle.functions, contractionCoefficients(muscle)));
         if (!tensed.empty()) {
-            shapes.push_back(asInput(skin, tensed, muscle, inputs.size()));
+            shapes.push_back(asMode(skin, tensed, muscle, functionOf(inputs.size()), {1.0}));
             inputs.push_back(muscle.name);
         }
         if (!lifted.empty()) made.push_back({muscle, lifted});

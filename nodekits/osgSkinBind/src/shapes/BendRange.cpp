@@ -13,13 +13,9 @@
 namespace osgSkin {
 namespace {
 
-/// Angles in degrees. How far a limb folds, counted from straight, and how far a hinge goes beyond
-/// straight and to the sides.
-constexpr double kMostFlexion = 155.0;
+/// Angles in degrees. How far a hinge goes beyond straight and to the sides.
 constexpr double kBeyondStraight = 12.0;
 constexpr double kSideways = 30.0;
-/// How far a ball joint swings from its rest.
-constexpr double kMostSwing = 130.0;
 /// Between knots and between samples.
 constexpr double kKnotStep = 30.0;
 constexpr double kRoundKnotStep = 20.0;
@@ -43,10 +39,10 @@ std::vector<double> steps(double from, double to, double step) {
     return result;
 }
 
-void setHinge(const glm::dvec3& axis, ShapedJoint& joint) {
+void setHinge(const glm::dvec3& axis, double mostFlexion, ShapedJoint& joint) {
     const double atRest = glm::degrees(std::atan2(
         glm::dot(glm::cross(joint.above, joint.bone), axis), glm::dot(joint.above, joint.bone)));
-    const double most = std::clamp(kMostFlexion - atRest, 30.0, 170.0);
+    const double most = std::clamp(mostFlexion - atRest, 30.0, 170.0);
     const double least = -std::clamp(kBeyondStraight + atRest, 15.0, 90.0);
     CorrectiveJoint& functions = joint.functions;
     functions.basis = CorrectiveJoint::Basis::Hinge;
@@ -57,31 +53,32 @@ void setHinge(const glm::dvec3& axis, ShapedJoint& joint) {
         functions.knots.push_back(sineOfHalf(angle));
 }
 
-void setRound(ShapedJoint& joint) {
+void setRound(double mostFlexion, ShapedJoint& joint) {
     CorrectiveJoint& functions = joint.functions;
-    const double most = sineOfHalf(kMostFlexion);
+    const double most = sineOfHalf(mostFlexion);
     functions.basis = CorrectiveJoint::Basis::Round;
     functions.axis = anyPerpendicular(joint.twistAxis);
     functions.low = glm::dvec2(-most);
     functions.high = glm::dvec2(most);
-    for (const double angle : steps(0.0, kMostFlexion, kRoundKnotStep))
+    for (const double angle : steps(0.0, mostFlexion, kRoundKnotStep))
         functions.knots.push_back(sineOfHalf(angle) * sineOfHalf(angle));
 }
 
 } // namespace
 
-void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint) {
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint,
+                  double mostFlexion) {
     if (mainAxis)
-        setHinge(*mainAxis, joint);
+        setHinge(*mainAxis, mostFlexion, joint);
     else
-        setRound(joint);
+        setRound(mostFlexion, joint);
 }
 
-void setBallRange(ShapedJoint& joint) {
+void setBallRange(ShapedJoint& joint, double mostSwing) {
     CorrectiveJoint& functions = joint.functions;
     functions.basis = CorrectiveJoint::Basis::Ball;
     functions.axis = anyPerpendicular(joint.twistAxis);
-    functions.low = glm::dvec2(-sineOfHalf(kMostSwing));
+    functions.low = glm::dvec2(-sineOfHalf(mostSwing));
     functions.high = -functions.low;
 }
 

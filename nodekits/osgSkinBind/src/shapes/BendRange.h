@@ -11,12 +11,15 @@ namespace osgSkin {
 
 /// Sets basis, axis, range and knots of a joint's functions.
 /// \param mainAxis of findMainAxis(); nothing: it may bend in any direction
-/// \pre above, bone and twistAxis are set
-void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint);
+/// \param joint above, bone and twistAxis are set
+/// \param mostFlexion degrees from the straight limb
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint,
+                  double mostFlexion = ShapeScope().mostFlexion);
 
 /// The same of a joint at the trunk, which may bend in all directions.
-/// \pre twistAxis is set
-void setBallRange(ShapedJoint& joint);
+/// \param joint twistAxis is set
+/// \param mostSwing degrees from the rest pose
+void setBallRange(ShapedJoint& joint, double mostSwing = ShapeScope().mostSwing);
 
 /// The bends, as coordinates (x, y) of the joint's functions, whose shapes those are fitted to: all
 /// over the range and to its end, the rest pose left out.

@@ -48,14 +48,16 @@ JointShapes shapesOf(const ShapedJoint& joint) {
 
 } // namespace
 
+FittedShapes fastShapesOf(const ShapedJoint& joint) {
+    const bool round = joint.functions.basis == CorrectiveJoint::Basis::Round;
+    return fitShapes(shapesOf(joint), round ? kRoundModes : kModes, kTolerance * joint.radius);
+}
+
 Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                            const WeldedMesh& mesh, const Binding& binding) {
     std::vector<FittedShapes> fitted;
-    for (const ShapedJoint& joint : findShapedJoints(skeleton, joints, mesh, binding)) {
-        const bool round = joint.functions.basis == CorrectiveJoint::Basis::Round;
-        fitted.push_back(
-            fitShapes(shapesOf(joint), round ? kRoundModes : kModes, kTolerance * joint.radius));
-    }
+    for (const ShapedJoint& joint : findShapedJoints(skeleton, joints, mesh, binding))
+        fitted.push_back(fastShapesOf(joint));
     return packShapes(fitted, mesh.weldedOf);
 }
 

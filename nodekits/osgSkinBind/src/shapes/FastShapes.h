@@ -4,13 +4,18 @@
 
 #include "joints/JointPlan.h"
 #include "mesh/WeldedMesh.h"
+#include "shapes/ShapeFit.h"
+#include "shapes/ShapedJoint.h"
 
 #include <osgSkin/Binding>
 
 namespace osgSkin {
 
-/// Correctives whose targets are closed forms: limbs that bend without a balloon outside and
-/// without going through themselves inside.
+/// The shapes of one joint by closed forms: its limbs bend without a balloon outside and without
+/// going through themselves inside.
+FittedShapes fastShapesOf(const ShapedJoint& joint);
+
+/// Correctives of all joints between two limbs, see fastShapesOf().
 /// \param binding of the mesh as given, without correctives
 Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                            const WeldedMesh& mesh, const Binding& binding);

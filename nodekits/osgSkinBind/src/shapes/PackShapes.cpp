@@ -11,13 +11,13 @@ namespace {
 
 /// The most that each mode is scaled by at any bend: no more than its functions' bounds give.
 std::vector<double> largestWeights(const CorrectiveJoint& joint) {
-    constexpr int kSteps = 24;
+    constexpr int kGrid = 24;
     std::vector<double> largest(joint.modes, 0.0);
     CorrectiveJoint::Functions phi;
-    for (int i = 0; i <= kSteps; ++i)
-        for (int j = 0; j <= kSteps; ++j) {
+    for (int i = 0; i <= kGrid; ++i)
+        for (int j = 0; j <= kGrid; ++j) {
             const glm::dvec2 xy = joint.low + (joint.high - joint.low) *
-                                                  glm::dvec2(double(i), double(j)) / double(kSteps);
+                                                  glm::dvec2(double(i), double(j)) / double(kGrid);
             joint.evaluate(joint.clamped(xy), phi);
             for (std::size_t k = 0; k < joint.modes; ++k) {
                 double weight = 0.0;

@@ -18,9 +18,8 @@ namespace {
 /// A limb's bones are at least this many radii long.
 constexpr double kLimbLength = 2.2;
 
-/// How far skin is shaped, in radii from the joint, and where it begins to be shaped less.
-constexpr double kReach = 6.0;
-constexpr double kFadeFrom = 0.75 * kReach;
+/// Where skin begins to be shaped less, of the reach.
+constexpr double kFadeFrom = 0.75;
 
 /// Of a joint at the trunk, skin that follows it by less is taken for the trunk's.
 constexpr double kTrunkFollows = 0.25;
@@ -50,19 +49,24 @@ double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
 
 /// Adds the vertices and triangles within reach; `above` is the joint that moves the limb above.
 void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
-             const JointRatios& ratios, std::uint32_t above, ShapedJoint& shaped) {
+             const JointRatios& ratios, std::uint32_t above, const ShapeScope& scope,
+             ShapedJoint& shaped) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
+    const double reach = shaped.isAtTrunk() ? scope.reachAtTrunk : scope.reach;
+    const auto limbOf = [&](std::uint32_t v, const Influence& own) {
+        if (shaped.isAtTrunk())
+            return scope.trunkToo ? 1.0
+                                  : hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows);
+        return above == 0 ? 1.0 : ratios.bend(v, above);
+    };
     const auto add = [&](std::uint32_t v, bool withinReach) {
         const glm::dvec3 from = mesh.positions[v] - shaped.centre;
         const double r = glm::length(from) / shaped.radius;
         const Influence own = ratios.of(v, shaped.functions.joint);
-        const double limb = shaped.isAtTrunk()
-                                ? hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows)
-                            : above == 0 ? 1.0
-                                         : ratios.bend(v, above);
+        const double limb = limbOf(v, own);
         // Where skin meets a rigid part, nothing may move them apart.
-        const double fade = (1.0 - hermiteRatio((r - kFadeFrom) / (kReach - kFadeFrom))) *
+        const double fade = (1.0 - hermiteRatio((r / reach - kFadeFrom) / (1.0 - kFadeFrom))) *
                             (1.0 - ratios.rigid(v, joints));
         if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
         placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
@@ -95,7 +99,8 @@ BendTwist ShapedJoint::bendAt(glm::dvec2 xy) const {
 
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
-                                          const WeldedMesh& mesh, const Binding& binding) {
+                                          const WeldedMesh& mesh, const Binding& binding,
+                                          const ShapeScope& scope) {
     const JointRatios ratios(mesh, binding);
     const std::vector<bool> trunk = trunkByShape(joints, mesh.size);
     std::vector<ShapedJoint> result;
@@ -118,10 +123,10 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
         if (atTrunk)
-            setBallRange(shaped);
+            setBallRange(shaped, scope.mostSwing);
         else
-            setBendRange(findMainAxis(skeleton, joints, j), shaped);
-        addSkin(mesh, joints, ratios, above, shaped);
+            setBendRange(findMainAxis(skeleton, joints, j), shaped, scope.mostFlexion);
+        addSkin(mesh, joints, ratios, above, scope, shaped);
         if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
     }
     return result;

@@ -54,12 +54,23 @@ struct ShapedJoint {
     }
 };
 
+/// How far joints are shaped.
+struct ShapeScope {
+    double reach = 6.0; ///< of joints between limbs, in radii from the joint
+    double reachAtTrunk = 6.0;
+    bool trunkToo = false;      ///< at the trunk its own skin is shaped like the limb's
+    double mostFlexion = 155.0; ///< degrees from the straight limb
+    double mostSwing = 130.0;   ///< of ball joints, degrees from the rest pose
+};
+
 /// Finds the joints to shape: by the shape of their limbs, and where the way they bend is not
 /// plain from that, by names and the way feet point.
 /// \param binding of the mesh as given, whose vertices `mesh` has welded
+/// \param scope how far
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
-                                          const WeldedMesh& mesh, const Binding& binding);
+                                          const WeldedMesh& mesh, const Binding& binding,
+                                          const ShapeScope& scope = {});
 
 } // namespace osgSkin
 

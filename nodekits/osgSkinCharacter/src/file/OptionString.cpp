@@ -48,7 +48,8 @@ LoadOptions::Method methodOf(const std::string& value) {
 BindOptions::Shapes shapesOf(const std::string& value) {
     if (value == "none") return BindOptions::Shapes::None;
     if (value == "fast") return BindOptions::Shapes::Fast;
-    fail("shapes", value, "none or fast");
+    if (value == "elastic") return BindOptions::Shapes::Elastic;
+    fail("shapes", value, "none, fast or elastic");
 }
 
 bool musclesOf(const std::string& value) {
@@ -109,8 +110,9 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
          "those of the deformed surface, or the rest skin's as their vertices turn them: faster"},
         {"rigid=<joint,joint|none>",
          "joints that move as rigid bodies; head, hands, feet by default"},
-        {"shapes=<none|fast>",
-         "what keeps bent limbs from swelling and from going through themselves"},
+        {"shapes=<none|fast|elastic>",
+         "what keeps bent limbs from swelling and from going through themselves; elastic takes "
+         "a minute or more, and is kept in the cache folder"},
         {"muscles=<on|off>",
          "biceps, triceps, quadriceps, hamstrings and calves that swell; off by default"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},

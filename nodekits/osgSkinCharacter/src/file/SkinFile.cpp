@@ -128,7 +128,8 @@ BindOptions::Shapes readShapes(const JsonReader& reader) {
     const std::string name = reader.string();
     if (name == "none") return BindOptions::Shapes::None;
     if (name == "fast") return BindOptions::Shapes::Fast;
-    reader.failWith("expected \"none\" or \"fast\", found \"" + name + "\"");
+    if (name == "elastic") return BindOptions::Shapes::Elastic;
+    reader.failWith("expected \"none\", \"fast\" or \"elastic\", found \"" + name + "\"");
 }
 
 bool readSurfaceNormals(const JsonReader& reader) {

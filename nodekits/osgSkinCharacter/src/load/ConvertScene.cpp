@@ -3,6 +3,7 @@
 
 #include "load/BonesFirst.h"
 #include "load/SceneMotions.h"
+#include "source/CacheFolder.h"
 
 #include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
@@ -33,6 +34,7 @@ ConvertOptions convertOptionsOf(const LoadOptions& options) {
     if (options.method == Method::Paper) convert.bind.method = BindOptions::Method::Paper;
     convert.bind.rigid = options.rigid;
     if (options.shapes) convert.bind.shapes = *options.shapes;
+    convert.bind.cacheFolder = cacheFolder();
     convert.bind.muscles = options.muscles.value_or(false);
     if (options.surfaceNormals) convert.bind.surfaceNormals = *options.surfaceNormals;
     convert.showRegions = options.showRegions;
@@ -77,12 +79,15 @@ void takeBody(ConvertedBody& body, const BindOptions& options, Character& charac
 } // namespace
 
 Character convertScene(const std::string& file, const LoadOptions& options, LoadStages& stages) {
-    stages.plan(LoadStages::kModel + LoadStages::kBinding);
+    const double binding =
+        LoadStages::kBinding +
+        LoadStages::shapesSize(options.shapes.value_or(BindOptions::Shapes::None));
+    stages.plan(LoadStages::kModel + binding);
     stages.begin("model", LoadStages::kModel);
     const osg::ref_ptr<osg::Node> scene = readScene(file, options.readOptions.get());
     putBonesFirst(*scene);
     ConvertOptions convert = convertOptionsOf(options);
-    convert.bind.progress = stages.begin("binding", LoadStages::kBinding);
+    convert.bind.progress = stages.begin("binding", binding);
     ConvertReport report = convertRigs(*scene, convert);
     if (report.skins.empty())
         throw Error(file + ": " +

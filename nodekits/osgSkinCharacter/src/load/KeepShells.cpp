@@ -39,6 +39,7 @@ std::vector<Shell> shellsOf(const SkinMesh& mesh) {
     std::map<std::uint32_t, Shell> shells;
     for (std::uint32_t v = 0; v < up.size(); ++v) shells[top(v)].push_back(v);
     std::vector<Shell> result;
+    result.reserve(shells.size());
     for (auto& [root, shell] : shells) result.push_back(std::move(shell));
     return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <osgSkinBind/BindOptions>
 #include <osgSkinBind/Progress>
 
 #include <string>
@@ -21,6 +22,11 @@ public:
     static constexpr double kMotion = 15.0;         ///< each motion file
     static constexpr double kScene = 3.0;
     static constexpr double kPlayedScene = 40.0; ///< with animations that must be played for bounds
+
+    /// What is to be added to the binding.
+    static constexpr double shapesSize(BindOptions::Shapes shapes) {
+        return shapes == BindOptions::Shapes::Elastic ? 10000.0 : 0.0;
+    }
 
     /// \param progress told; may be empty
     explicit LoadStages(Progress progress);

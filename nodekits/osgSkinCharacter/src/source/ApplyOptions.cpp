@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/ApplyOptions.h"
 
+#include "source/CacheFolder.h"
+
 #include <osgSkin/Error>
 
 #include <osgDB/FileNameUtils>
@@ -84,6 +86,7 @@ void applyOptions(CharacterSource& source, const LoadOptions& options) {
     applyMethod(source, options.method);
     if (options.rigid) source.bind.rigid = options.rigid;
     if (options.shapes) source.bind.shapes = *options.shapes;
+    source.bind.cacheFolder = cacheFolder();
     if (options.muscles) {
         source.bind.muscles = *options.muscles;
         if (!*options.muscles) source.bind.ownMuscles.clear();

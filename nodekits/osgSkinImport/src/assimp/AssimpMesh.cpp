@@ -71,7 +71,7 @@ void addWeights(const aiMesh& source, const aiNode* above, std::size_t first,
             const aiVertexWeight& entry = bone.mWeights[w];
             if (entry.mVertexId >= source.mNumVertices || !std::isfinite(entry.mWeight) ||
                 entry.mWeight < 0.0f)
-                failFile(where, "bone " + quoted(nameOf(bone)) + ": weight " + std::to_string(w) +
+                failFile(where, "bone " + inQuotes(nameOf(bone)) + ": weight " + std::to_string(w) +
                                     ", expected a vertex below " +
                                     std::to_string(source.mNumVertices) +
                                     " and a finite number of 0 or more");

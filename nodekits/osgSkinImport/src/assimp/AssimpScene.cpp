@@ -43,7 +43,7 @@ void checkAfter(aiScene& scene, const std::string& path) {
         open.pop_back();
         for (unsigned m = 0; m < node.mNumMeshes; ++m)
             if (node.mMeshes[m] >= scene.mNumMeshes)
-                failFile(path, "node " + quoted(node.mName.C_Str()) + " names mesh " +
+                failFile(path, "node " + inQuotes(node.mName.C_Str()) + " names mesh " +
                                    std::to_string(node.mMeshes[m]) + ", expected less than " +
                                    std::to_string(scene.mNumMeshes));
         if (node.mChildren == nullptr) node.mNumChildren = 0;

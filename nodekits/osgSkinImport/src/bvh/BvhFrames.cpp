@@ -43,7 +43,7 @@ std::vector<Row> readRows(BvhTokens& words, BvhFile& file) {
         const std::size_t read = file.values.size();
         if (const char* expected = parseFinite(word, value))
             words.fail("frame " + std::to_string(read / file.channels) + ", joint " +
-                       quoted(ownerOf(file, read % file.channels).name) + " has " +
+                       inQuotes(ownerOf(file, read % file.channels).name) + " has " +
                        described(word) + ", expected " + expected);
         if (result.empty() || result.back().line != words.line())
             result.push_back({words.line(), 0});

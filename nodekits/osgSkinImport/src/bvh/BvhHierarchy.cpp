@@ -33,7 +33,7 @@ private:
     };
 
     BvhJoint& joint() { return _file.joints[static_cast<std::size_t>(_open.back().joint)]; }
-    std::string owner() { return "joint " + quoted(joint().name); }
+    std::string owner() { return "joint " + inQuotes(joint().name); }
 
     void readMember() {
         const std::string_view word = _words.next();
@@ -60,9 +60,9 @@ private:
         joint.name = std::string(_words.jointName());
         joint.parent = _open.empty() ? -1 : _open.back().joint;
         if (!_names.insert(joint.name).second)
-            _words.fail("second joint called " + quoted(joint.name) + ", expected unique names");
+            _words.fail("second joint called " + inQuotes(joint.name) + ", expected unique names");
         if (_open.size() >= deepest)
-            _words.fail("joint " + quoted(joint.name) + " is nested more than " +
+            _words.fail("joint " + inQuotes(joint.name) + " is nested more than " +
                         std::to_string(deepest) + " deep");
         _words.expect("{");
         _open.push_back({static_cast<int>(_file.joints.size())});

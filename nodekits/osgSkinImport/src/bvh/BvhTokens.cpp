@@ -26,7 +26,7 @@ char lower(char c) {
 } // namespace
 
 std::string described(std::string_view word) {
-    return word.empty() ? "the end of the file" : quoted(word);
+    return word.empty() ? "the end of the file" : inQuotes(word);
 }
 
 bool isSameWord(std::string_view a, std::string_view b) {
@@ -80,7 +80,7 @@ void BvhTokens::expect(std::string_view word) {
         take(length);
         return;
     }
-    fail("found " + described(next()) + ", expected " + quoted(word));
+    fail("found " + described(next()) + ", expected " + inQuotes(word));
 }
 
 std::string_view BvhTokens::jointName() {

@@ -72,7 +72,7 @@ std::optional<GltfFile> GltfFile::read(const std::string& path) {
 }
 
 std::string GltfFile::bytes() const {
-    const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (!isBinary) return text;
     std::string chunks;
     addChunk(chunks, kJson, text, ' ');

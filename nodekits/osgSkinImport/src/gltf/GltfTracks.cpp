@@ -122,7 +122,7 @@ void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
             const std::string name = animation.value("name", std::to_string(a));
             makeLinear(animation.at("samplers").at(sampler),
                        channel.at("target").at("path").get<std::string>(),
-                       file.path + ": animation " + osgSkin::quoted(name) + ": sampler " +
+                       file.path + ": animation " + osgSkin::inQuotes(name) + ": sampler " +
                            std::to_string(sampler),
                        accessors);
         }

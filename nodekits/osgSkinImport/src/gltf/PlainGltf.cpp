@@ -73,7 +73,7 @@ private:
         if (skin.contains("inverseBindMatrices")) {
             const auto index = skin.at("inverseBindMatrices").get<std::size_t>();
             if (_accessors.width(index) != 16 || _accessors.count(index) < joints)
-                failFile(_file.path, "skin " + osgSkin::quoted(skin.value("name", "")) + " has " +
+                failFile(_file.path, "skin " + osgSkin::inQuotes(skin.value("name", "")) + " has " +
                                          std::to_string(_accessors.count(index)) +
                                          " inverse bind matrices for " + std::to_string(joints) +
                                          " joints");

@@ -28,7 +28,7 @@ void validate(const Motion& motion, const std::string& path) {
             failFile(path, where + "the root's position is not finite");
         for (std::size_t j = 0; j < joints; ++j)
             if (!isFinite(motion.rotation(f, j)))
-                failFile(path, where + "joint " + quoted(motion.skeleton.joints[j].name) +
+                failFile(path, where + "joint " + inQuotes(motion.skeleton.joints[j].name) +
                                    " has a rotation that is not finite");
     }
 }

@@ -93,7 +93,7 @@ private:
             BoneWeights& weights = _result.weightsOf(bone);
             for (const auto& [vertex, weight] : entries) {
                 if (vertex >= vertices || !std::isfinite(weight) || weight < 0.0f)
-                    failFile(_path, "bone " + quoted(bone) + ": weight of vertex " +
+                    failFile(_path, "bone " + inQuotes(bone) + ": weight of vertex " +
                                         std::to_string(vertex) + ", expected a vertex below " +
                                         std::to_string(vertices) +
                                         " and a finite number of 0 or more");

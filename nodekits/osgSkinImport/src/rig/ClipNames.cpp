@@ -42,7 +42,7 @@ std::size_t findClip(const std::vector<std::string>& names, const std::string& w
     std::string known;
     for (std::size_t n = 0; n < names.size(); ++n)
         known += (n > 0 ? ", " : "") + std::to_string(n) + " \"" + names[n] + '"';
-    failFile(path, (found.empty() ? "no clip " : "several clips ") + quoted(wanted) +
+    failFile(path, (found.empty() ? "no clip " : "several clips ") + inQuotes(wanted) +
                        ", expected one of " + known);
 }
 

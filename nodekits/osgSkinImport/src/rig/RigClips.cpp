@@ -77,9 +77,9 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
     for (unsigned k = 0; k < count; ++k) {
         const Value value = toGlm(keys[k].mValue);
         if (!isValid(value) || !std::isfinite(keys[k].mTime))
-            failFile(path, "animation " + quoted(animation.getName()) + ": joint " + quoted(joint) +
-                               ": key " + std::to_string(k) + " of its " + element +
-                               " is not finite");
+            failFile(path, "animation " + inQuotes(animation.getName()) + ": joint " +
+                               inQuotes(joint) + ": key " + std::to_string(k) + " of its " +
+                               element + " is not finite");
         const double time = count > 1 ? clock.seconds(keys[k].mTime) : 0.0;
         if (!(time > last)) continue; // interpolation needs keys in order
         container->push_back(Keyframe(time, stored(value)));

@@ -73,7 +73,7 @@ bool parseNumber(std::string_view token, double& value) {
     return status == std::errc();
 }
 
-std::string quoted(std::string_view token) {
+std::string inQuotes(std::string_view token) {
     constexpr std::size_t longest = 40;
     std::string text(token.substr(0, longest));
     if (token.size() > longest) text += "...";

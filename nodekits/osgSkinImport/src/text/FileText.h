@@ -24,7 +24,7 @@ void requireReadable(const std::string& path);
 bool parseNumber(std::string_view token, double& value);
 
 /// `token` in quotes, cut short and with control characters replaced, for an error message.
-std::string quoted(std::string_view token);
+std::string inQuotes(std::string_view token);
 
 } // namespace osgSkin
 

@@ -70,7 +70,7 @@ private:
             // A body is drawn well enough without a broken normal: all are computed then.
             if (isNumber && (std::isfinite(value) || keyword == "vn")) continue;
             failLine(_path, _line,
-                     (word.empty() ? "nothing" : quoted(word)) + std::string(" in a \"") +
+                     (word.empty() ? "nothing" : inQuotes(word)) + std::string(" in a \"") +
                          std::string(keyword) + "\" line, expected " + std::to_string(expected) +
                          " finite numbers");
         }
@@ -98,7 +98,7 @@ private:
             if (slash == std::string_view::npos) return;
             rest.remove_prefix(slash + 1);
         }
-        failLine(_path, _line, quoted(word) + " in a face, expected v, v/vt, v//vn or v/vt/vn");
+        failLine(_path, _line, inQuotes(word) + " in a face, expected v, v/vt, v//vn or v/vt/vn");
     }
 
     void index(std::string_view digits, std::size_t kind, std::string_view word) const {
@@ -111,7 +111,7 @@ private:
                           ((value >= 1 && value <= total) || (value <= -1 && value >= -soFar));
         if (!fits)
             failLine(_path, _line,
-                     quoted(word) + " in a face, expected a " + kinds[kind] + " from 1 to " +
+                     inQuotes(word) + " in a face, expected a " + kinds[kind] + " from 1 to " +
                          std::to_string(total) + " or from -" + std::to_string(soFar) + " to -1");
     }
 

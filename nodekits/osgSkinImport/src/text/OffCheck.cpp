@@ -18,7 +18,7 @@ void checkOff(const std::string& path, const std::string& text) {
             if (!parseNumber(word, count)) continue; // OFF, STOFF, ...
             // Each vertex and each face takes a few characters.
             if (!(count >= 0.0 && count <= double(text.size())))
-                failFile(path, quoted(word) + (found == 0 ? " vertices" : " faces") +
+                failFile(path, inQuotes(word) + (found == 0 ? " vertices" : " faces") +
                                    ", expected no more than the file has room for");
             ++found;
         }

@@ -26,7 +26,7 @@ constexpr Type kTypes[] = {
 const Type& typeOf(const std::string& path, std::size_t line, const std::string& name) {
     for (const Type& type : kTypes)
         if (name == type.name) return type;
-    failLine(path, line, quoted(name) + " is no type of a property");
+    failLine(path, line, inQuotes(name) + " is no type of a property");
 }
 
 void readElement(const std::string& path, std::size_t line, std::istream& words,
@@ -38,7 +38,7 @@ void readElement(const std::string& path, std::size_t line, std::istream& words,
     // Each element takes a byte at least.
     if (!isNumber || !(element.count >= 0.0 && element.count <= double(bodySize)))
         failLine(path, line,
-                 quoted(count) + " elements, expected no more than the file has room for");
+                 inQuotes(count) + " elements, expected no more than the file has room for");
     header.elements.push_back(element);
 }
 
@@ -54,7 +54,7 @@ void readProperty(const std::string& path, std::size_t line, std::istream& words
         property.countBytes = count.bytes;
         property.countIsSigned = count.isSigned;
         if (type == "float" || type == "float32" || count.bytes > 4)
-            failLine(path, line, quoted(type) + " counts no entries, expected a whole number");
+            failLine(path, line, inQuotes(type) + " counts no entries, expected a whole number");
         words >> type;
     }
     property.bytes = typeOf(path, line, type).bytes;

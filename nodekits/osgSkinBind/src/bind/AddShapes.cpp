@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bind/AddShapes.h"
+
+#include "cache/Digest.h"
+#include "cache/ShapesCache.h"
+#include "elastic/MakeElasticShapes.h"
+#include "shapes/FastShapes.h"
+
+#include <optional>
+#include <utility>
+
+namespace osgSkin {
+namespace {
+
+using Shapes = BindOptions::Shapes;
+
+Correctives elasticShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                          const WeldedMesh& mesh, const BindOptions& options,
+                          const Progress& progress, const Binding& binding,
+                          std::vector<std::string>& notes) {
+    std::optional<ShapesCache> cache;
+    if (!options.cacheFolder.empty()) {
+        cache.emplace(options.cacheFolder, digestOf(skeleton, joints, mesh, binding));
+        if (std::optional<MadeShapes> known = cache->read(binding, notes)) {
+            notes.insert(notes.end(), known->notes.begin(), known->notes.end());
+            return std::move(known->correctives);
+        }
+    }
+    MadeShapes made;
+    made.correctives = makeElasticShapes(skeleton, joints, mesh, binding, progress, made.notes);
+    notes.insert(notes.end(), made.notes.begin(), made.notes.end());
+    if (cache) cache->write(made, notes);
+    return made.correctives;
+}
+
+} // namespace
+
+void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+               const WeldedMesh& mesh, const BindOptions& options, const Progress& progress,
+               Binding& binding, std::vector<std::string>& notes) {
+    if (options.shapes == Shapes::None) return;
+    if (progress) progress({"shapes", 0.0});
+    binding.correctives =
+        options.shapes == Shapes::Fast
+            ? makeFastShapes(skeleton, joints, mesh, binding)
+            : elasticShapes(skeleton, joints, mesh, options, progress, binding, notes);
+    if (progress) progress({"shapes", 1.0});
+}
+
+double shareWithoutShapes(const BindOptions& options) {
+    switch (options.shapes) {
+    case Shapes::None:
+        return 1.0;
+    case Shapes::Fast:
+        return 0.99;
+    case Shapes::Elastic:
+        return 0.01;
+    }
+    return 1.0;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "elastic/MakeElasticShapes.h"
+
+#include "elastic/PlanElastic.h"
+#include "elastic/SolveElastic.h"
+#include "shapes/FastShapes.h"
+#include "shapes/PackShapes.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace osgSkin {
+namespace {
+
+constexpr std::size_t kHingeModes = 8;
+constexpr std::size_t kBallModes = 9;
+
+/// What makes no difference, in radii of the limb.
+constexpr double kTolerance = 2e-3;
+
+/// Of a joint with fewer good samples than this share no shapes are made.
+constexpr double kEnoughSamples = 0.5;
+
+/// The good sample that comes nearest to one that is not good and bends less; nothing where the
+/// rest pose does.
+std::optional<std::size_t> standInFor(const ElasticPlan& plan, const ElasticShapes& shapes,
+                                      std::size_t sample) {
+    const double length = glm::length(plan.samples[sample]);
+    std::optional<std::size_t> best;
+    double nearest = length;
+    for (std::size_t i = 0; i < plan.samples.size(); ++i) {
+        const double away = glm::distance(plan.samples[i], plan.samples[sample]);
+        if (!shapes.samples[i].reason.empty() || glm::length(plan.samples[i]) >= length ||
+            away >= nearest)
+            continue;
+        nearest = away;
+        best = i;
+    }
+    return best;
+}
+
+/// A joint's solved shapes as offsets of the vertices that correctives may move.
+class ElasticOffsets {
+public:
+    ElasticOffsets(const ElasticPlan& plan, const ElasticShapes& solved)
+        : _plan(plan), _solved(solved) {
+        for (const ShapedJoint::Vertex& vertex : plan.shaped.vertices) {
+            const auto found =
+                std::lower_bound(solved.vertices.begin(), solved.vertices.end(), vertex.index);
+            if (vertex.limb * vertex.fade > 0.0 && found != solved.vertices.end() &&
+                *found == vertex.index)
+                _moved.push_back(
+                    {&vertex, static_cast<std::size_t>(found - solved.vertices.begin())});
+        }
+    }
+
+    JointShapes shapes() const {
+        JointShapes result;
+        result.functions = _plan.shaped.functions;
+        for (const Moved& moved : _moved) result.vertices.push_back(moved.vertex->index);
+        for (std::size_t i = 0; i < _plan.samples.size(); ++i) {
+            result.samples.push_back(_plan.samples[i]);
+            // Where it cannot be solved the joint keeps the shape of the way there: functions that
+            // nothing holds would run away.
+            const std::optional<std::size_t> good =
+                _solved.samples[i].reason.empty() ? i : standInFor(_plan, _solved, i);
+            result.offsets.push_back(
+                good ? offsetsAt(*good) : std::vector<glm::dvec3>(_moved.size(), glm::dvec3(0.0)));
+        }
+        return result;
+    }
+
+private:
+    struct Moved {
+        const ShapedJoint::Vertex* vertex;
+        std::size_t solved; ///< index in ElasticShapes::vertices
+    };
+
+    std::vector<glm::dvec3> offsetsAt(std::size_t sample) const {
+        const BendTwist bend = _plan.shaped.bendAt(_plan.samples[sample]);
+        std::vector<glm::dvec3> offsets;
+        offsets.reserve(_moved.size());
+        for (const Moved& moved : _moved) {
+            const ShapedJoint::Vertex& vertex = *moved.vertex;
+            const glm::dvec3 target =
+                _solved.samples[sample].positions[moved.solved] - _plan.shaped.centre;
+            const glm::dvec3 unbent =
+                glm::conjugate(_plan.shaped.turnOf(vertex, bend)) * target - vertex.from;
+            offsets.push_back(vertex.limb * vertex.fade * unbent);
+        }
+        return offsets;
+    }
+
+    const ElasticPlan& _plan;
+    const ElasticShapes& _solved;
+    std::vector<Moved> _moved;
+};
+
+/// Why shapes cannot be made of what was solved; empty where they can.
+std::string reasonAgainst(const ElasticShapes& solved) {
+    if (!solved.reason.empty()) return solved.reason;
+    std::size_t good = 0;
+    for (const ElasticSample& sample : solved.samples) good += sample.reason.empty() ? 1 : 0;
+    if (static_cast<double>(good) >= kEnoughSamples * static_cast<double>(solved.samples.size()))
+        return {};
+    return "only " + std::to_string(good) + " of " + std::to_string(solved.samples.size()) +
+           " bends can be solved";
+}
+
+/// A line on the samples that others stand in for, where there are any.
+void noteBadSamples(const ElasticShapes& solved, std::vector<std::string>& notes) {
+    std::size_t bad = 0;
+    std::string reason;
+    for (const ElasticSample& sample : solved.samples) {
+        if (sample.reason.empty()) continue;
+        ++bad;
+        reason = sample.reason;
+    }
+    if (bad == 0) return;
+    notes.push_back("elastic shapes of \"" + solved.joint + "\": " + std::to_string(bad) + " of " +
+                    std::to_string(solved.samples.size()) +
+                    " bends keep a smaller one's shape, as " + reason);
+}
+
+} // namespace
+
+Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                              const WeldedMesh& mesh, const Binding& binding,
+                              const Progress& progress, std::vector<std::string>& notes) {
+    const std::vector<ElasticPlan> plans = planElastic(skeleton, joints, mesh, binding);
+    std::vector<ElasticJoint> toSolve;
+    toSolve.reserve(plans.size());
+    for (const ElasticPlan& plan : plans) toSolve.push_back(plan.joint);
+    const std::vector<ElasticShapes> solved =
+        solveElasticJoints({mesh.positions, mesh.triangles}, toSolve, progress);
+
+    std::map<std::uint32_t, FittedShapes> fitted; // by joint
+    std::map<std::uint32_t, std::string> unsolved;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const ShapedJoint& shaped = plans[i].shaped;
+        const std::uint32_t joint = shaped.functions.joint;
+        if (std::string reason = reasonAgainst(solved[i]); !reason.empty()) {
+            unsolved[joint] = std::move(reason);
+            continue;
+        }
+        noteBadSamples(solved[i], notes);
+        fitted[joint] =
+            fitShapes(ElasticOffsets(plans[i], solved[i]).shapes(),
+                      plans[i].joint.hinge ? kHingeModes : kBallModes, kTolerance * shaped.radius);
+    }
+    for (const ShapedJoint& shaped : findShapedJoints(skeleton, joints, mesh, binding)) {
+        const std::uint32_t joint = shaped.functions.joint;
+        if (fitted.count(joint) != 0) continue;
+        fitted[joint] = fastShapesOf(shaped);
+        unsolved.try_emplace(joint, "which way it bends is not known");
+    }
+    for (const auto& [joint, reason] : unsolved)
+        notes.push_back("joint \"" + skeleton.joints[joint].name + "\" has " +
+                        (fitted.count(joint) != 0 ? "fast" : "no") +
+                        " shapes, not elastic ones: " + reason);
+    std::vector<FittedShapes> all;
+    all.reserve(fitted.size());
+    for (auto& [joint, shapes] : fitted) all.push_back(std::move(shapes));
+    return packShapes(all, mesh.weldedOf);
+}
+
+} // namespace osgSkin

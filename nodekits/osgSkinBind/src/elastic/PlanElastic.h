@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_ELASTIC_PLANELASTIC_H
+#define OSGSKINBIND_ELASTIC_PLANELASTIC_H
+
+#include "elastic/joint/ElasticJoint.h"
+#include "shapes/ShapedJoint.h"
+
+#include <vector>
+
+namespace osgSkin {
+
+/// A joint to solve, and what its shapes are fitted to.
+struct ElasticPlan {
+    ShapedJoint shaped;
+    ElasticJoint joint;
+    std::vector<glm::dvec2> samples; ///< joint.samples as coordinates of shaped.functions
+};
+
+/// The joints whose limbs have the shape for it: between two limbs, where it is known which way
+/// they bend, and at the trunk.
+/// \param binding of the mesh as given, whose vertices `mesh` has welded
+std::vector<ElasticPlan> planElastic(const RestSkeleton& skeleton,
+                                     const std::vector<PlannedJoint>& joints,
+                                     const WeldedMesh& mesh, const Binding& binding);
+
+} // namespace osgSkin
+
+#endif

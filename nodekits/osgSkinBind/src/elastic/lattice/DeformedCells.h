@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_ELASTIC_DEFORMEDCELLS_H
+#define OSGSKINBIND_ELASTIC_DEFORMEDCELLS_H
+
+#include "elastic/lattice/VoxelLattice.h"
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <vector>
+
+namespace osgSkin::elastic {
+
+/// Finds what flesh is at a place once the lattice is deformed: a point's rest positions. Cells are
+/// sorted into a regular grid of bins.
+class DeformedCells {
+public:
+    DeformedCells(const VoxelLattice& lattice, const Points& nodes);
+
+    /// Calls found(cell, local) for each cell that the point lies in, until it returns true.
+    template <typename Found>
+    void find(const Point& point, const Found& found) const;
+
+private:
+    Eigen::Vector3i binAt(const Point& point) const;
+    std::size_t index(const Eigen::Vector3i& bin) const;
+    bool locate(std::uint32_t cell, const Point& point, Point& local) const;
+
+    const VoxelLattice& _lattice;
+    const Points& _nodes;
+    Eigen::AlignedBox3d _bounds;
+    Eigen::Vector3i _bins;
+    double _binSize;
+    std::vector<Eigen::AlignedBox3d> _boxes; ///< of the cells
+    std::vector<std::uint32_t> _first;       ///< of each bin; size: bins + 1
+    std::vector<std::uint32_t> _cells;
+};
+
+template <typename Found>
+void DeformedCells::find(const Point& point, const Found& found) const {
+    if (!_bounds.contains(point)) return;
+    const std::size_t bin = index(binAt(point));
+    for (std::uint32_t i = _first[bin]; i < _first[bin + 1]; ++i) {
+        Point local;
+        if (_boxes[_cells[i]].contains(point) && locate(_cells[i], point, local) &&
+            found(_cells[i], local))
+            return;
+    }
+}
+
+} // namespace osgSkin::elastic
+
+#endif

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ElasticFigures.h"
+
+#include "Methods.h"
+#include "SelfIntersections.h"
+
+#include <elastic/SolveElastic.h>
+#include <osgSkinBind/Bind>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace quality {
+namespace {
+
+using osgSkin::ElasticJoint;
+using osgSkin::ElasticSample;
+using osgSkin::ElasticShapes;
+
+/// Distance of skin to bone, posed over rest: 2nd and 98th percentile on the fold's outer side,
+/// within a radius of the joint's plane.
+struct OuterSide {
+    double low = 0.0, high = 0.0;
+};
+
+/// Cosine of the angle about the bone, from the outermost line, that the outer side takes up.
+constexpr double kOuter = 0.7;
+
+double distanceToBones(const glm::dvec3& p, const ElasticJoint& joint, const glm::dmat3& turn) {
+    double nearest = 1e300;
+    for (const osgSkin::ElasticBone& bone : joint.bones) {
+        const glm::dmat3 own = bone.moves ? turn : glm::dmat3(1.0);
+        const glm::dvec3 from = own * (bone.from - joint.centre);
+        const glm::dvec3 along = own * (bone.to - joint.centre) - from;
+        const double square = glm::dot(along, along);
+        const double t =
+            square > 0.0 ? std::clamp(glm::dot(p - from, along) / square, 0.0, 1.0) : 0.0;
+        nearest = std::min(nearest, glm::length(p - from - t * along));
+    }
+    return nearest;
+}
+
+OuterSide outerSide(const Subject& subject, std::size_t index, const ElasticJoint& joint,
+                    const ElasticShapes& shapes, const ElasticSample& sample,
+                    const compare::Points& posed) {
+    const glm::dmat3 turn = glm::mat3_cast(sample.rotation);
+    const auto parent = static_cast<std::size_t>(subject.rig.joints[index].parent);
+    const glm::dvec3 a = glm::normalize(subject.rig.joints[parent].centre - joint.centre);
+    const glm::dvec3 b = turn * subject.binding.joints[index].boneAxis;
+    const glm::dvec3 inwards = glm::normalize(a + b), along = glm::normalize(b - a);
+    std::vector<double> ratios;
+    for (const std::uint32_t v : shapes.vertices) {
+        const glm::dvec3 p = posed[v] - joint.centre;
+        const double height = glm::dot(along, p);
+        // What an incompressible solid gives way sideways is no bulge.
+        if (-glm::dot(inwards, p) < kOuter * glm::length(p - height * along) ||
+            std::abs(height) > joint.radius || glm::length(p) > 3.0 * joint.radius)
+            continue;
+        ratios.push_back(distanceToBones(p, joint, turn) /
+                         distanceToBones(subject.rest[v] - joint.centre, joint, glm::dmat3(1.0)));
+    }
+    if (ratios.empty()) return {};
+    std::sort(ratios.begin(), ratios.end());
+    const auto last = static_cast<double>(ratios.size() - 1);
+    return {ratios[static_cast<std::size_t>(0.02 * last)],
+            ratios[static_cast<std::size_t>(std::ceil(0.98 * last))]};
+}
+
+double rmsDistance(const ElasticShapes& shapes, const ElasticJoint& joint, const compare::Points& a,
+                   const compare::Points& b) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < shapes.vertices.size(); ++i) {
+        if (glm::length(shapes.rest[i] - joint.centre) > 2.0 * joint.radius) continue;
+        const glm::dvec3 d = a[shapes.vertices[i]] - b[shapes.vertices[i]];
+        sum += glm::dot(d, d);
+        ++count;
+    }
+    return count > 0 ? std::sqrt(sum / static_cast<double>(count)) / joint.radius : 0.0;
+}
+
+void writeObj(const std::filesystem::path& file, const Subject& subject,
+              const compare::Points& posed) {
+    std::ofstream out(file);
+    for (const glm::dvec3& p : posed) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    for (std::size_t t = 0; t + 2 < subject.triangles.size(); t += 3)
+        out << "f " << subject.triangles[t] + 1 << ' ' << subject.triangles[t + 1] + 1 << ' '
+            << subject.triangles[t + 2] + 1 << '\n';
+    if (!out) throw std::runtime_error("cannot write " + file.string());
+}
+
+/// One joint's table.
+class JointTable {
+public:
+    JointTable(const Subject& subject, const Subject& shaped, const ReferenceJoint& reference,
+               const ElasticShapes& shapes, SelfIntersections& intersections,
+               const std::string& folder)
+        : _subject(subject), _shaped(shaped), _reference(reference), _joint(reference.joint),
+          _shapes(shapes), _intersections(intersections), _folder(folder),
+          _index(static_cast<std::size_t>(subject.joint(reference.joint.name))) {}
+
+    void print() {
+        std::printf("\n%s %s: r = %.4f, %zu cells, %zu nodes, %zu vertices, %.1f s%s%s\n",
+                    _subject.name.c_str(), _joint.name.c_str(), _joint.radius, _shapes.cells,
+                    _shapes.nodes, _shapes.vertices.size(), _shapes.seconds,
+                    _shapes.reason.empty() ? "" : "; not solved: ", _shapes.reason.c_str());
+        if (!_shapes.reason.empty()) return;
+        std::printf("  angle   axis             | steps    J  volume | pairs: LBS DQS plain fitted "
+                    "elastic | RMS/r: LBS DQS plain fitted | outer side, 2 and 98 %%: plain, "
+                    "elastic, fitted\n");
+        for (std::size_t i = 0; i < _shapes.samples.size(); ++i) line(_shapes.samples[i], i);
+        for (const bool between : {false, true}) {
+            const Summary& sum = _summary[between];
+            if (sum.lines == 0) continue;
+            std::printf(
+                "  %s: %zu bends; fitted RMS/r mean %.3f, most %.3f; farther than a peer at "
+                "%zu; pairs %zu of plain %zu; outer side %.2f to %.2f\n",
+                between ? "between" : "at samples", sum.lines,
+                sum.rms / static_cast<double>(sum.lines), sum.most, sum.farther, sum.pairs,
+                sum.plainPairs, sum.outer.low, sum.outer.high);
+        }
+    }
+
+private:
+    struct Summary {
+        std::size_t lines = 0, farther = 0, pairs = 0, plainPairs = 0;
+        double rms = 0.0, most = 0.0;
+        OuterSide outer{1e9, 0.0};
+    };
+
+    void line(const ElasticSample& sample, std::size_t number) {
+        const bool between = number >= _reference.fitted;
+        const glm::dvec3 axis = glm::axis(sample.rotation);
+        std::printf("%c %5.1f %5.2f %5.2f %5.2f %c| %4d %5.2f %6.3f |", between ? '~' : ' ',
+                    glm::degrees(glm::angle(sample.rotation)), axis.x, axis.y, axis.z,
+                    sample.converged ? ' ' : '!', sample.steps, sample.leastJacobian,
+                    sample.volumeRatio);
+        if (sample.positions.empty()) {
+            std::printf(" %s\n", sample.reason.c_str());
+            return;
+        }
+        const auto skinning = singleTurn(_subject, _index, axis, glm::angle(sample.rotation));
+        std::vector<compare::Points> posed;
+        posed.reserve(4);
+        for (const Method method : kMethods) posed.push_back(deform(_subject, method, skinning));
+        posed.push_back(deform(_shaped, Method::Ours, skinning));
+        compare::Points elastic = posed[2];
+        for (std::size_t i = 0; i < sample.positions.size(); ++i)
+            elastic[_shapes.vertices[i]] = sample.positions[i];
+        std::vector<std::size_t> pairs;
+        pairs.reserve(posed.size());
+        for (const compare::Points& points : posed)
+            pairs.push_back(_intersections.beyondRest(points));
+        for (const std::size_t count : pairs) std::printf(" %4zu", count);
+        std::printf(" %4zu |", _intersections.beyondRest(elastic));
+        std::vector<double> rms;
+        rms.reserve(posed.size());
+        for (const compare::Points& points : posed)
+            rms.push_back(rmsDistance(_shapes, _joint, points, elastic));
+        for (const double distance : rms) std::printf(" %.3f", distance);
+        OuterSide outer;
+        for (const compare::Points* points : {&posed[2], &elastic, &posed[3]}) {
+            outer = outerSide(_subject, _index, _joint, _shapes, sample, *points);
+            std::printf(" | %.2f %.2f", outer.low, outer.high);
+        }
+        std::printf(" %s\n", sample.reason.c_str());
+        std::fflush(stdout);
+        if (sample.reason.empty()) {
+            Summary& sum = _summary[between];
+            ++sum.lines;
+            sum.rms += rms[3];
+            sum.most = std::max(sum.most, rms[3]);
+            sum.farther += rms[3] > *std::min_element(rms.begin(), rms.begin() + 3) ? 1 : 0;
+            sum.plainPairs += pairs[2];
+            sum.pairs += pairs[3];
+            sum.outer.low = std::min(sum.outer.low, outer.low);
+            sum.outer.high = std::max(sum.outer.high, outer.high);
+        }
+        if (_folder.empty()) return;
+        const std::string stem = _subject.name + '_' + _joint.name + '_' + std::to_string(number);
+        const char* names[] = {"_lbs", "_dqs", "_plain", "_fitted"};
+        for (std::size_t i = 0; i < posed.size(); ++i)
+            writeObj(std::filesystem::path(_folder) / (stem + names[i] + ".obj"), _subject,
+                     posed[i]);
+        writeObj(std::filesystem::path(_folder) / (stem + "_elastic.obj"), _subject, elastic);
+    }
+
+    const Subject& _subject;
+    const Subject& _shaped;
+    const ReferenceJoint& _reference;
+    const ElasticJoint& _joint;
+    const ElasticShapes& _shapes;
+    SelfIntersections& _intersections;
+    const std::string& _folder;
+    std::size_t _index;
+    Summary _summary[2]; ///< at samples, between
+};
+
+/// The body with elastic shapes.
+Subject shapedOf(const Subject& subject) {
+    Subject shaped = subject;
+    osgSkin::BindOptions options = subject.options.value_or(osgSkin::BindOptions());
+    options.shapes = osgSkin::BindOptions::Shapes::Elastic;
+    options.progress = [](const osgSkin::ProgressStep& step) {
+        std::fprintf(stderr, "\r%3.0f %% %-16s", 100.0 * step.fraction, step.what.c_str());
+    };
+    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t processor = std::clock();
+    shaped.binding = osgSkin::bind(subject.mesh, subject.rig, options, &shaped.report);
+    std::fprintf(stderr, "\r%24s\r", "");
+    std::printf("\n%s: elastic shapes of %zu joints in %.1f s, %.1f s of processors; %.1f bytes a "
+                "vertex\n",
+                subject.name.c_str(), shaped.binding.correctives.joints.size(),
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+                static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC,
+                2.0 * static_cast<double>(shaped.binding.correctives.shares.size()) /
+                    static_cast<double>(subject.rest.size()));
+    for (const std::string& note : shaped.report.notes) std::printf("  %s\n", note.c_str());
+    shaped.model = modelOf(shaped);
+    return shaped;
+}
+
+} // namespace
+
+void measureElastic(const Subject& subject, const ElasticRun& run) {
+    if (!run.folder.empty()) std::filesystem::create_directories(run.folder);
+    const Subject shaped = shapedOf(subject);
+    std::vector<ReferenceJoint> references;
+    std::vector<ElasticJoint> joints;
+    joints.reserve(run.joints.size());
+    for (const std::string& name : run.joints) {
+        references.push_back(referenceJointOf(shaped, name));
+        joints.push_back(references.back().joint);
+    }
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t t = 0; t + 2 < subject.triangles.size(); t += 3)
+        triangles.push_back(
+            {subject.triangles[t], subject.triangles[t + 1], subject.triangles[t + 2]});
+    const std::vector<ElasticShapes> shapes =
+        osgSkin::solveElasticJoints({subject.rest, triangles}, joints);
+    SelfIntersections intersections(subject);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        JointTable(subject, shaped, references[i], shapes[i], intersections, run.folder).print();
+}
+
+} // namespace quality

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elastic shapes as binding gives them: from a mesh and a skeleton to correctives.
+#include "ScratchFolder.h"
+#include "Shapes.h"
+
+#include <osgSkinBind/Bind>
+#include <osgSkinBind/BindWeights>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+using namespace osgSkin;
+
+namespace {
+
+SkinMesh arm() {
+    return shapes::cylinder(14.0, 16);
+}
+
+/// Bent by 13 degrees at rest: so it is known which way it bends on.
+RestSkeleton bones() {
+    RestSkeleton skeleton;
+    skeleton.add("upper", -1, glm::dvec3(0, 0, 0));
+    skeleton.add("lower", 0, glm::dvec3(0, 7, 0.8));
+    skeleton.joints.back().tip = glm::dvec3(0, 14, 0);
+    return skeleton;
+}
+
+BindOptions elasticOptions(const std::string& cache = {}) {
+    BindOptions options;
+    options.shapes = BindOptions::Shapes::Elastic;
+    options.cacheFolder = cache;
+    return options;
+}
+
+bool hasNote(const BindReport& report, const std::string& text) {
+    return std::any_of(report.notes.begin(), report.notes.end(), [&text](const std::string& note) {
+        return note.find(text) != std::string::npos;
+    });
+}
+
+} // namespace
+
+TEST(ElasticBind, ShapesAHingeAndKeepsWhatItMade) {
+    const ScratchFolder scratch;
+    const BindOptions options = elasticOptions((scratch.path() / "cache").string());
+    BindReport report;
+    const Binding first = bind(arm(), bones(), options, &report);
+    EXPECT_FALSE(hasNote(report, "not elastic"));
+    ASSERT_EQ(first.correctives.joints.size(), 1u);
+    EXPECT_EQ(first.correctives.joints[0].joint, 1u);
+    EXPECT_EQ(first.correctives.joints[0].basis, CorrectiveJoint::Basis::Hinge);
+    const auto files = scratch.files();
+    ASSERT_EQ(files.size(), 1u);
+
+    std::vector<std::string> told;
+    BindOptions again = options;
+    again.progress = [&told](const ProgressStep& step) { told.push_back(step.what); };
+    const Binding second = bind(arm(), bones(), again, &report);
+    EXPECT_EQ(std::count(told.begin(), told.end(), "lower"), 0); // nothing was solved
+    EXPECT_EQ(second.correctives.shares, first.correctives.shares);
+    EXPECT_EQ(second.correctives.joints[0].coefficients, first.correctives.joints[0].coefficients);
+
+    std::ofstream(files[0], std::ios::trunc) << "broken";
+    const Binding third = bind(arm(), bones(), options, &report);
+    EXPECT_TRUE(hasNote(report, "made anew"));
+    EXPECT_EQ(third.correctives.shares, first.correctives.shares);
+    bind(arm(), bones(), again, &report);
+    EXPECT_FALSE(hasNote(report, "made anew"));
+}
+
+TEST(ElasticBind, TellsHowFarItIsAndGivesUpWhenTold) {
+    BindOptions options = elasticOptions();
+    double last = 0.0;
+    std::size_t solved = 0;
+    options.progress = [&](const ProgressStep& step) {
+        EXPECT_GE(step.fraction, last);
+        last = step.fraction;
+        if (step.what == "lower" && ++solved == 3) throw std::runtime_error("enough");
+    };
+    EXPECT_THROW(bind(arm(), bones(), options), std::runtime_error);
+    EXPECT_GT(last, 0.05);
+    EXPECT_LT(last, 1.0);
+}
+
+TEST(ElasticBind, WhatCannotBeSolvedHasFastShapesAndALine) {
+    RestSkeleton straight;
+    straight.add("upper", -1, glm::dvec3(0, 0, 0));
+    straight.add("lower", 0, glm::dvec3(0, 7, 0));
+    straight.joints.back().tip = glm::dvec3(0, 14, 0);
+    BindReport report;
+    const Binding binding = bind(arm(), straight, elasticOptions(), &report);
+    EXPECT_TRUE(hasNote(report, "joint \"lower\" has fast shapes, not elastic ones"));
+    BindOptions fast;
+    fast.shapes = BindOptions::Shapes::Fast;
+    EXPECT_EQ(binding.correctives.shares, bind(arm(), straight, fast).correctives.shares);
+}
+
+TEST(ElasticBind, TakesPaintedWeightsAndSeams) {
+    const SkinMesh mesh = shapes::exploded(arm());
+    VertexWeights weights;
+    for (const glm::dvec3& p : mesh.positions) {
+        const double lower = std::clamp((p.y - 6.0) / 2.0, 0.0, 1.0);
+        weights.push_back({{0, 1.0 - lower}, {1, lower}});
+    }
+    BindReport report;
+    const Binding binding = bindWeights(mesh, bones(), weights, elasticOptions(), &report);
+    EXPECT_FALSE(hasNote(report, "not elastic"));
+    EXPECT_FALSE(binding.correctives.empty());
+    EXPECT_TRUE(bindWeights(mesh, bones(), weights).correctives.empty());
+}

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The elastic solver's parts, each on its own.
+#include "ElasticTube.h"
+
+#include <elastic/ElasticSamples.h>
+#include <elastic/energy/BoneCores.h>
+#include <elastic/lattice/Unsolvable.h>
+#include <elastic/skin/WindingTree.h>
+#include <elastic/solve/Minimise.h>
+#include <elastic/solve/Preconditioner.h>
+#include <elastic/solve/SampleTree.h>
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include <random>
+#include <set>
+
+namespace {
+
+using namespace osgSkin;
+using namespace osgSkin::elastic;
+
+Points pointsOf(const ElasticTube& tube) {
+    Points result(3, static_cast<Eigen::Index>(tube.positions.size()));
+    for (std::size_t v = 0; v < tube.positions.size(); ++v)
+        result.col(static_cast<Eigen::Index>(v)) << tube.positions[v].x, tube.positions[v].y,
+            tube.positions[v].z;
+    return result;
+}
+
+Point randomPoint(std::mt19937& random, double reach) {
+    std::uniform_real_distribution<double> entry(-reach, reach);
+    return {entry(random), entry(random), entry(random)};
+}
+
+} // namespace
+
+TEST(WindingTree, TellsInsideFromOutside) {
+    const ElasticTube tube;
+    const WindingTree tree(pointsOf(tube), tube.triangles);
+    std::mt19937 random(1);
+    int inside = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Point p = randomPoint(random, 2.0);
+        const double radius = std::hypot(p.x(), p.z());
+        if (radius > 0.98 && radius < 1.02) continue; // the tube's facets
+        EXPECT_EQ(tree.inside(p), radius < 1.0) << p.transpose();
+        // What is far off counts as one: enough to tell a half from.
+        EXPECT_NEAR(std::abs(tree.at(p)), radius < 1.0 ? 1.0 : 0.0, 0.1);
+        inside += radius < 1.0;
+    }
+    EXPECT_GT(inside, 200);
+}
+
+TEST(RestSkin, KnowsDistancesAndLeavesOutTrianglesWithoutArea) {
+    ElasticTube tube;
+    tube.triangles.push_back({0, 1, 1});
+    const RestSkin skin(pointsOf(tube), tube.triangles);
+    EXPECT_NEAR(skin.signedDistance({0, 0, 0}), -1.0, 0.02);
+    EXPECT_NEAR(skin.signedDistance({0, 1, 3}), 2.0, 0.02);
+    const RestSkin::Nearest nearest = skin.nearest({0.2, 0.4, 1.5});
+    EXPECT_NEAR(nearest.shares.sum(), 1.0, 1e-12);
+    EXPECT_LT(nearest.triangle, tube.triangles.size() - 1);
+    EXPECT_NEAR(nearest.distance, std::hypot(0.2, 1.5) - 1.0, 0.03);
+}
+
+TEST(VoxelLattice, FillsTheTubeAndEmbedsItsSkinExactly) {
+    const ElasticTube tube;
+    const RestSkin skin(pointsOf(tube), tube.triangles);
+    const VoxelLattice lattice(skin, 1.0 / 3.0, 4.0);
+    // Cells that hold a sample inside: the tube's volume and up to a cell around it.
+    const double volume = double(lattice.cells().size()) / 27.0;
+    EXPECT_GT(volume, 3.14 * 7.4);
+    EXPECT_LT(volume, 3.14 * 8.2 * 1.4 * 1.4);
+    for (Eigen::Index i = 0; i < lattice.rest().cols(); ++i)
+        EXPECT_EQ(lattice.rest().col(i).norm() > 4.0 - 1.0 / 3.0, i >= lattice.freeNodes());
+    std::size_t embedded = 0;
+    for (Eigen::Index v = 0; v < skin.positions().cols(); ++v) {
+        Embedded at;
+        if (!lattice.embed(skin.positions().col(v), at)) continue;
+        ++embedded;
+        EXPECT_LT((lattice.positionOf(at, lattice.rest()) - skin.positions().col(v)).norm(), 1e-9);
+    }
+    EXPECT_GT(embedded, 400u);
+}
+
+TEST(Preconditioner, SolvesItsSystem) {
+    const ElasticTube tube;
+    const RestSkin skin(pointsOf(tube), tube.triangles);
+    const VoxelLattice lattice(skin, 1.0 / 3.0, 4.0);
+    const BoneCores cores(lattice, skin,
+                          {{{0, -6, 0}, {0, 0, 0}, false}, {{0, 0, 0}, {0, 6, 0}, true}}, nullptr,
+                          CoreSizes());
+    ASSERT_GT(cores.held().size(), 10u);
+    const Preconditioner preconditioner(lattice, cores);
+    std::mt19937 random(5);
+    Points way = Points::Zero(3, lattice.rest().cols());
+    for (Eigen::Index i = 0; i < lattice.freeNodes(); ++i) way.col(i) = randomPoint(random, 1.0);
+    // Gradient of the quadratic energy that it stands for: 2 |grad u|^2 / 2 and the bones.
+    Points gradient = Points::Zero(3, way.cols());
+    const auto laplacian = lattice.shape().laplacian();
+    for (const VoxelLattice::Cell& cell : lattice.cells())
+        for (Eigen::Index a = 0; a < 8; ++a)
+            for (Eigen::Index b = 0; b < 8; ++b)
+                gradient.col(cell.nodes[std::size_t(a)]) +=
+                    2.0 * laplacian(a, b) * way.col(cell.nodes[std::size_t(b)]);
+    Points atRest = Points::Zero(3, way.cols()), moved = atRest;
+    const Points goals = cores.goals(Eigen::Quaterniond::Identity());
+    cores.value(lattice.rest(), goals, atRest);
+    cores.value(lattice.rest() + way, goals, moved);
+    EXPECT_LT(atRest.cwiseAbs().maxCoeff(), 1e-9);
+    const Points found = preconditioner.solve(gradient + moved);
+    EXPECT_LT((found - way).leftCols(lattice.freeNodes()).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_EQ(found.rightCols(found.cols() - lattice.freeNodes()).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(Minimise, FindsTheMinimumOfACurvedValley) {
+    // Rosenbrock's function, (1 - x)^2 + 100 (y - x^2)^2: minimum at (1, 1).
+    Energy energy;
+    energy.value = [](const Points& at, Points& gradient) {
+        const double x = at(0, 0), y = at(1, 0), off = y - x * x;
+        gradient.setZero(3, 1);
+        gradient(0, 0) = -2.0 * (1.0 - x) - 400.0 * x * off;
+        gradient(1, 0) = 200.0 * off;
+        return (1.0 - x) * (1.0 - x) + 100.0 * off * off;
+    };
+    energy.precondition = [](const Points& gradient) { return gradient; };
+    Points at(3, 1);
+    at << -1.2, 1.0, 0.0;
+    MinimiseLimits limits;
+    limits.mostSteps = 300;
+    limits.smallStep = 1e-8;
+    const MinimiseResult result = minimise(energy, at, limits);
+    EXPECT_TRUE(result.converged);
+    EXPECT_NEAR(at(0, 0), 1.0, 1e-5);
+    EXPECT_NEAR(at(1, 0), 1.0, 1e-5);
+    limits.mostSteps = 3;
+    at << -1.2, 1.0, 0.0;
+    EXPECT_FALSE(minimise(energy, at, limits).converged);
+}
+
+TEST(Minimise, StaysWhereTheEnergyIsDefined) {
+    // x - ln x, which is not defined below 0: minimum at 1.
+    Energy energy;
+    energy.value = [](const Points& at, Points& gradient) {
+        const double x = at(0, 0);
+        gradient.setZero(3, 1);
+        if (x <= 0.0) return std::numeric_limits<double>::infinity();
+        gradient(0, 0) = 1.0 - 1.0 / x;
+        return x - std::log(x);
+    };
+    energy.precondition = [](const Points& gradient) { return Points(100.0 * gradient); };
+    Points at = Points::Zero(3, 1);
+    at(0, 0) = 5.0;
+    EXPECT_TRUE(minimise(energy, at, MinimiseLimits()).converged);
+    EXPECT_NEAR(at(0, 0), 1.0, 1e-2);
+}
+
+TEST(SampleTree, GoesEveryWayOnceInSmallSteps) {
+    std::vector<Eigen::Quaterniond> samples;
+    for (const double angle : {1.0, 0.5, -0.5, 1.5})
+        samples.emplace_back(Eigen::AngleAxisd(angle, Point::UnitX()));
+    const SampleTree tree(samples);
+    EXPECT_EQ(tree.startingFrom(SampleTree::kRest), (std::vector<std::size_t>{1, 2}));
+    EXPECT_EQ(tree.startingFrom(1), std::vector<std::size_t>{0});
+    EXPECT_EQ(tree.startingFrom(0), std::vector<std::size_t>{3});
+    EXPECT_TRUE(tree.startingFrom(2).empty());
+}
+
+TEST(ElasticSamples, OfAHingeReachBothEndsInSmallSteps) {
+    HingeRange range;
+    range.axis = {1, 0, 0};
+    range.restFlexion = glm::radians(40.0);
+    range.mostFlexion = glm::radians(139.0);
+    const auto samples = hingeSamples(range, {0, 1, 0});
+    double most = -10.0, least = 10.0;
+    std::set<double> along;
+    for (const glm::dquat& q : samples) {
+        EXPECT_NEAR(glm::dot(glm::axis(q), glm::dvec3(0, 1, 0)), 0.0, 1e-12); // no twist
+        if (std::abs(q.z) > 1e-9) continue;                                   // sideways
+        const double angle = 2.0 * std::asin(q.x);
+        along.insert(angle);
+        most = std::max(most, angle);
+        least = std::min(least, angle);
+    }
+    EXPECT_NEAR(most, glm::radians(99.0), 1e-9);
+    EXPECT_NEAR(least, glm::radians(-40.0), 1e-9);
+    along.insert(0.0);
+    for (auto next = std::next(along.begin()); next != along.end(); ++next)
+        EXPECT_LT(*next - *std::prev(next), glm::radians(15.1));
+    EXPECT_GT(samples.size(), along.size());
+}
+
+TEST(ElasticSamples, OfABallJointGoAllAround) {
+    const glm::dvec3 pole = glm::normalize(glm::dvec3(1, 2, 3));
+    const auto samples = ballSamples(pole, glm::radians(90.0));
+    ASSERT_EQ(samples.size(), 24u);
+    glm::dvec3 sum(0.0);
+    double most = 0.0;
+    for (const glm::dquat& q : samples) {
+        EXPECT_NEAR(glm::dot(glm::axis(q), pole), 0.0, 1e-12);
+        sum += glm::axis(q);
+        most = std::max(most, glm::angle(q));
+    }
+    EXPECT_LT(glm::length(sum), 1e-9);
+    EXPECT_NEAR(most, glm::radians(90.0), 1e-9);
+}
