@@ -130,6 +130,7 @@ ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>&
     plain.options->shapes = osgSkin::BindOptions::Shapes::None;
     shaped.options->shapes = shapes == "elastic" ? osgSkin::BindOptions::Shapes::Elastic
                                                  : osgSkin::BindOptions::Shapes::Fast;
+    plain.options->surfaceNormals = shaped.options->surfaceNormals = true;
     const auto seconds = [](Subject& bound) {
         const auto start = std::chrono::steady_clock::now();
         bound.binding = osgSkin::bind(bound.mesh, bound.rig, *bound.options);

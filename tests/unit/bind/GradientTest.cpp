@@ -39,6 +39,12 @@ std::vector<glm::vec3> normalsOf(const std::vector<glm::vec3>& points,
     return normals;
 }
 
+BindOptions withNormals() {
+    BindOptions options;
+    options.surfaceNormals = true;
+    return options;
+}
+
 struct NormalError {
     double mean = 0.0, percentile95 = 0.0; ///< degrees
 };
@@ -82,7 +88,7 @@ TEST(SurfaceNormals, OfABentLimbAreThoseOfItsTriangles) {
     const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
     for (const auto shapes : {BindOptions::Shapes::None, BindOptions::Shapes::Fast}) {
         SCOPED_TRACE(shapes == BindOptions::Shapes::Fast ? "fast" : "none");
-        BindOptions options;
+        BindOptions options = withNormals();
         options.shapes = shapes;
         const Binding binding = bind(mesh, skeleton, options);
         EXPECT_EQ(binding.correctives.hasNormals(), shapes == BindOptions::Shapes::Fast);
@@ -101,7 +107,7 @@ TEST(SurfaceNormals, OfABentLimbAreThoseOfItsTriangles) {
 TEST(RatioGradients, SayHowRatiosGrowAlongEdges) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
-    const Binding binding = bind(mesh, skeleton);
+    const Binding binding = bind(mesh, skeleton, withNormals());
     ASSERT_EQ(binding.gradients.size(), binding.influences.size());
     const std::vector<std::uint32_t> corners = mesh.triangles();
     double worst = 0.0, steepest = 0.0;
@@ -125,7 +131,7 @@ TEST(RatioGradients, SayHowRatiosGrowAlongEdges) {
 TEST(RatioGradients, AreTheSameOnBothSidesOfASeam) {
     SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
-    const Binding whole = bind(mesh, skeleton);
+    const Binding whole = bind(mesh, skeleton, withNormals());
     // The first face's corners become vertices of their own.
     const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
     std::vector<std::uint32_t> from;
@@ -137,7 +143,7 @@ TEST(RatioGradients, AreTheSameOnBothSidesOfASeam) {
         mesh.positions.push_back(mesh.positions[from.back()]);
         mesh.faceVertices[k] = static_cast<std::uint32_t>(mesh.positions.size() - 1);
     }
-    const Binding split = bind(mesh, skeleton);
+    const Binding split = bind(mesh, skeleton, withNormals());
     bool any = false;
     for (std::uint32_t k = 0; k < from.size(); ++k) {
         const std::uint32_t copy = vertices + k;
@@ -153,8 +159,6 @@ TEST(RatioGradients, AreTheSameOnBothSidesOfASeam) {
 }
 
 TEST(RatioGradients, AreLeftOutWhereNormalsOnlyTurn) {
-    BindOptions options;
-    options.surfaceNormals = false;
-    const Binding binding = bind(shapes::cylinder(), shapes::chainAlongY({0.0, 4.0}, 8.0), options);
+    const Binding binding = bind(shapes::cylinder(), shapes::chainAlongY({0.0, 4.0}, 8.0));
     EXPECT_TRUE(binding.gradients.empty());
 }
