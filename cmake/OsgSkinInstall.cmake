@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # What `cmake --install` and `cpack -G DEB` give: three components, and with them three packages.
-#   runtime  libosgSkin and the serializers: all that a saved character needs (MIT)
+#   runtime  libosgSkin, libosgSkinRig, libosgSkinGpu and the serializers: all that a saved character needs (MIT)
 #   plugin   osgSkinBind, osgSkinImport, osgSkinCharacter, the .skin plug-in, osgskinbake
 #            (GPL-3.0-or-later)
 #   dev      headers, CMake and pkg-config files of whatever kits were built
@@ -30,6 +30,7 @@ file(RELATIVE_PATH osgskin_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 
 osgskin_install_kit(osgSkin runtime "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation")
 osgskin_install_kit(osgSkinRig runtime "Skeletons, motions and retargeting for osgSkin" "osgSkin")
+osgskin_install_kit(osgSkinGpu runtime "Deforms on a graphics card for osgSkin" "osgSkin")
 if(TARGET osgSkinBind)
   osgskin_install_kit(osgSkinBind plugin "Binds a skin to a skeleton for osgSkin" "osgSkinRig")
 endif()
@@ -39,7 +40,7 @@ if(TARGET osgSkinImport)
 endif()
 if(TARGET osgSkinCharacter)
   osgskin_install_kit(osgSkinCharacter plugin "From a file to a character for osgSkin"
-    "osgSkinBind osgSkinImport")
+    "osgSkinBind osgSkinImport osgSkinGpu")
 endif()
 if(TARGET osgdb_serializers_osgskin)
   install(TARGETS osgdb_serializers_osgskin

@@ -25,7 +25,7 @@ function(osgskin_settings target)
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
     POSITION_INDEPENDENT_CODE ON
-    UNITY_BUILD ${OSGSKIN_UNITY} UNITY_BUILD_BATCH_SIZE 10)
+    UNITY_BUILD ${OSGSKIN_UNITY} UNITY_BUILD_BATCH_SIZE 30)
 endfunction()
 
 # osgskin_alone(SOURCE...): these are never compiled together with others (OSGSKIN_UNITY): they

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
 # find_package(osgSkin COMPONENTS osgSkinCharacter): a target osgSkin::NAME for each component, of
-# osgSkin, osgSkinRig, osgSkinBind, osgSkinImport and osgSkinCharacter, and for the kits that it
-# links. The runtime, osgSkin and osgSkinRig, is always there.
+# osgSkin, osgSkinRig, osgSkinGpu, osgSkinBind, osgSkinImport and osgSkinCharacter, and for the kits that it
+# links. The runtime, osgSkin, osgSkinRig and osgSkinGpu, is always there.
 include(CMakeFindDependencyMacro)
 find_dependency(glm)
 # OpenSceneGraph's targets first: ours name them.
 include("${CMAKE_CURRENT_LIST_DIR}/OsgTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinRigTargets.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/osgSkinGpuTargets.cmake")
 
-set(osgskin_kits osgSkin osgSkinRig)
+set(osgskin_kits osgSkin osgSkinRig osgSkinGpu)
 foreach(component IN LISTS osgSkin_FIND_COMPONENTS)
   if(component STREQUAL "osgSkinCharacter")
     list(APPEND osgskin_kits osgSkinBind osgSkinImport)

@@ -15,11 +15,13 @@ registerWrapper(osgDB::ObjectWrapper::CreateInstanceFunc* create, const std::str
 /// osgDB's REGISTER_OBJECT_WRAPPER, by registerWrapper().
 #define REGISTER_OSGSKIN_WRAPPER(NAME, CREATE, CLASS, BASES)                                       \
     extern "C" void wrapper_serializer_##NAME(void) {}                                             \
-    extern void wrapper_propfunc_##NAME(osgDB::ObjectWrapper*);                                    \
-    static osg::Object* wrapper_create_##NAME() {                                                  \
-        return CREATE;                                                                             \
+    namespace {                                                                                    \
+    struct wrapper_##NAME {                                                                        \
+        using MyClass = CLASS; /* osgDB's ADD_... macros say so */                                 \
+        static osg::Object* create() { return CREATE; }                                            \
+        static void addProperties(osgDB::ObjectWrapper*);                                          \
+    };                                                                                             \
     }                                                                                              \
     static const auto wrapper_proxy_##NAME =                                                       \
-        registerWrapper(wrapper_create_##NAME, #CLASS, BASES, &wrapper_propfunc_##NAME);           \
-    using MyClass = CLASS;                                                                         \
-    void wrapper_propfunc_##NAME([[maybe_unused]] osgDB::ObjectWrapper* wrapper)
+        registerWrapper(wrapper_##NAME::create, #CLASS, BASES, &wrapper_##NAME::addProperties);    \
+    void wrapper_##NAME::addProperties([[maybe_unused]] osgDB::ObjectWrapper* wrapper)

@@ -3,6 +3,7 @@
 #include "osgSkinBindBuild.h"
 #include "osgSkinBuild.h"
 #include "osgSkinCharacterBuild.h"
+#include "osgSkinGpuBuild.h"
 #include "osgSkinImportBuild.h"
 #include "osgSkinRigBuild.h"
 
@@ -52,8 +53,9 @@ public:
 // As REGISTER_OSGPLUGIN, but only beside the libraries that it was built with.
 extern "C" void osgdb_skin(void) {}
 static const auto g_proxy =
-    plugin::mayUse("osgdb_skin", {OSGSKIN_KIT_BUILD(osgSkin), OSGSKIN_KIT_BUILD(osgSkinRig),
-                                  OSGSKIN_KIT_BUILD(osgSkinBind), OSGSKIN_KIT_BUILD(osgSkinImport),
-                                  OSGSKIN_KIT_BUILD(osgSkinCharacter)})
+    plugin::mayUse("osgdb_skin",
+                   {OSGSKIN_KIT_BUILD(osgSkin), OSGSKIN_KIT_BUILD(osgSkinRig),
+                    OSGSKIN_KIT_BUILD(osgSkinGpu), OSGSKIN_KIT_BUILD(osgSkinBind),
+                    OSGSKIN_KIT_BUILD(osgSkinImport), OSGSKIN_KIT_BUILD(osgSkinCharacter)})
         ? std::make_unique<osgDB::RegisterReaderWriterProxy<ReaderWriterSkin>>()
         : nullptr;

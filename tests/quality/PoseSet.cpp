@@ -32,12 +32,12 @@ std::map<std::string, std::string> jointMap(const osgSkin::RestSkeleton& rig) {
     static const std::map<std::string, std::string> kMiddle = {
         {"pelvis", "Hips"},     {"spine_01", "LowerBack"}, {"spine_02", "Spine"},
         {"spine_03", "Spine1"}, {"neck_01", "Neck"},       {"head", "Head"}};
-    static const std::map<std::string, std::string> kSides = {
+    static const std::map<std::string, std::string> kBothSides = {
         {"clavicle", "Shoulder"}, {"upperarm", "Arm"}, {"lowerarm", "ForeArm"},
         {"hand", "Hand"},         {"thigh", "UpLeg"},  {"calf", "Leg"},
         {"foot", "Foot"},         {"ball", "ToeBase"}};
     std::map<std::string, std::string> map = kMiddle;
-    for (const auto& [name, motion] : kSides) {
+    for (const auto& [name, motion] : kBothSides) {
         map[name + "_l"] = "Left" + motion;
         map[name + "_r"] = "Right" + motion;
     }

@@ -2,8 +2,8 @@
 // Each bad file is refused with one line that names the file and the place, by the plug-in and by
 // osgskinbake alike.
 #include "Command.h"
+#include "Notices.h"
 
-#include <osg/Notify>
 #include <osgDB/ReadFile>
 
 #include <gtest/gtest.h>
@@ -95,13 +95,6 @@ std::string path(const BadFile& bad) {
     return std::string(OSGSKIN_TEST_DATA "/character/bad/") + bad.name + ".skin";
 }
 
-/// Keeps OSG's messages instead of printing them.
-class Messages : public osg::NotifyHandler {
-public:
-    void notify(osg::NotifySeverity, const char* message) override { text += message; }
-    std::string text;
-};
-
 class BadInput : public testing::TestWithParam<BadFile> {
 protected:
     static void expectClear(const std::string& complaint) {
@@ -123,16 +116,14 @@ TEST_P(BadInput, BakeExitsWithOneAndOneLine) {
 }
 
 TEST_P(BadInput, ReadNodeFileReturnsNull) {
-    const osg::ref_ptr<Messages> messages = new Messages;
-    osg::setNotifyHandler(messages);
+    const test::Notices notices;
     const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(path(GetParam()));
-    osg::setNotifyHandler(new osg::StandardNotifyHandler);
     EXPECT_FALSE(node.valid());
     if (std::string(GetParam().name) == "no_such_character") {
-        EXPECT_NE(messages->text.find("no_such_character.skin"), std::string::npos);
+        EXPECT_TRUE(notices.say("no_such_character.skin"));
         return; // osgDB finds out by itself, in its own words
     }
-    expectClear(messages->text);
+    expectClear(notices.text());
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, BadInput, testing::ValuesIn(kBadFiles),

@@ -54,10 +54,6 @@ void expectNear(const osg::Vec4& a, const osg::Vec4& b, float tolerance) {
     for (unsigned k = 0; k < 4; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << k;
 }
 
-nlohmann::json readJson(const std::string& file) {
-    return nlohmann::json::parse(test::readBytes(file));
-}
-
 /// Adds floats to a glTF description, in a file of their own. Returns the accessor's index.
 std::size_t addFloats(nlohmann::json& gltf, const std::string& folder, const std::string& name,
                       const std::vector<float>& floats, const char* type, std::size_t components) {
@@ -89,7 +85,7 @@ std::vector<float> tubeTexCoords() {
 
 /// The tube with a texture, cut out where it is transparent, on its second texture coordinates.
 std::string texturedRig(const std::string& folder) {
-    nlohmann::json gltf = readJson(OSGSKIN_TEST_DATA "/rig/tube.gltf");
+    nlohmann::json gltf = test::readJson(OSGSKIN_TEST_DATA "/rig/tube.gltf");
     osgDB::writeImageFile(*smallImage(), folder + "/skin.png");
     gltf["images"] = {{{"uri", "skin.png"}}};
     gltf["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
@@ -214,7 +210,7 @@ TEST(BakeMaterials, RiggedModelsClipIsSampled) {
     EXPECT_EQ(glb.json["animations"][0]["name"], "wave");
     const nlohmann::json& primitive = glb.json["meshes"][0]["primitives"][0];
     ASSERT_EQ(primitive["targets"].size(), 10u); // 1 second
-    EXPECT_EQ(readJson(folder + "/pose.json").size(), 11u);
+    EXPECT_EQ(test::readJson(folder + "/pose.json").size(), 11u);
     const auto base = glb.vectors(primitive["attributes"]["POSITION"]);
     const auto moved = glb.vectors(primitive["targets"][4]["POSITION"]);
     double least = 0.0;

@@ -2,6 +2,7 @@
 // osgskinbake from outside: its meshes agree with a reference that reads only what it writes.
 #include "CharacterFiles.h"
 #include "Command.h"
+#include "GlbFile.h"
 #include "ReferenceSkin.h"
 
 #include <gtest/gtest.h>
@@ -15,11 +16,6 @@ namespace {
 
 using test::CharacterCase;
 using test::runBake;
-
-nlohmann::json readJson(const std::string& file) {
-    std::ifstream in(file);
-    return nlohmann::json::parse(in);
-}
 
 std::string frameFile(const std::string& folder, int frame) {
     char name[32];
@@ -50,9 +46,9 @@ protected:
 } // namespace
 
 TEST_P(BakedCharacter, AgreesWithTheReference) {
-    const nlohmann::json binding = readJson(folder + "/binding.json");
+    const nlohmann::json binding = test::readJson(folder + "/binding.json");
     const test::ReferenceSkin reference(binding, test::readObjVertices(folder + "/rest.obj"));
-    const nlohmann::json poses = readJson(folder + "/pose.json");
+    const nlohmann::json poses = test::readJson(folder + "/pose.json");
     ASSERT_GE(poses.size(), 20u);
     double worst = 0.0;
     for (const nlohmann::json& pose : poses) {
@@ -67,7 +63,7 @@ TEST_P(BakedCharacter, AgreesWithTheReference) {
 }
 
 TEST_P(BakedCharacter, EveryVertexIsBoundWithRatiosFromZeroToOne) {
-    const nlohmann::json binding = readJson(folder + "/binding.json");
+    const nlohmann::json binding = test::readJson(folder + "/binding.json");
     const auto rest = test::readObjVertices(folder + "/rest.obj");
     ASSERT_EQ(binding["vertices"].size(), rest.size());
     std::vector<std::string> names;
@@ -103,7 +99,7 @@ TEST_P(BakedCharacter, KeepsTheInputsVerticesAndFaces) {
 TEST_P(BakedCharacter, DoesNotTear) {
     const auto rest = test::readObjVertices(folder + "/rest.obj");
     const auto faces = test::readObjFaces(folder + "/rest.obj");
-    const nlohmann::json poses = readJson(folder + "/pose.json");
+    const nlohmann::json poses = test::readJson(folder + "/pose.json");
     double longest = 0.0;
     for (const nlohmann::json& pose : poses) {
         const auto posed = test::readObjVertices(frameFile(folder, pose["frame"]));
@@ -128,8 +124,8 @@ TEST(Bake, FramesAreTheFilesOwnSamples) {
     const std::string skin = OSGSKIN_TEST_DATA "/character/good.skin";
     ASSERT_EQ(runBake("'" + skin + "' --pose all.json", folder).status, 0);
     ASSERT_EQ(runBake("'" + skin + "' --motion later --pose later.json", folder).status, 0);
-    const nlohmann::json all = readJson(folder + "/all.json");
-    const nlohmann::json later = readJson(folder + "/later.json");
+    const nlohmann::json all = test::readJson(folder + "/all.json");
+    const nlohmann::json later = test::readJson(folder + "/later.json");
     ASSERT_EQ(all.size(), 4u);
     ASSERT_EQ(later.size(), 2u);
     EXPECT_EQ(later[0]["frame"], 0);

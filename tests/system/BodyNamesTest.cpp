@@ -3,15 +3,14 @@
 // parts and move alike.
 #include "Command.h"
 #include "RenamedBody.h"
+#include "UpdateAt.h"
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/RigidPart>
 #include <osgSkinImport/ImportSkeleton>
 
-#include <osg/FrameStamp>
 #include <osg/NodeVisitor>
 #include <osgDB/ReadFile>
-#include <osgUtil/UpdateVisitor>
 
 #include <gtest/gtest.h>
 
@@ -85,13 +84,7 @@ Drawn drawn(const RestSkeleton& skeleton, const std::string& extra) {
     const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(folder + "/body.skin");
     Drawn result;
     if (!scene) return result;
-    osgUtil::UpdateVisitor update;
-    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-    for (const double time : {0.0, 1.1}) { // the first frame starts the clock
-        stamp->setSimulationTime(time);
-        update.setFrameStamp(stamp);
-        scene->accept(update);
-    }
+    for (const double time : {0.0, 1.1}) test::updateAt(*scene, time); // the first starts the clock
     scene->accept(result);
     return result;
 }

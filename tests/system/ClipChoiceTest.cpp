@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One motion of a file with several: in a .skin file and in options.
 #include "GltfBuilder.h"
+#include "WhyRefused.h"
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
@@ -42,16 +43,6 @@ double angleOf(const osgSkin::CharacterMotion& motion, const Character& characte
     return 2.0 * std::atan2(std::abs(q.x), q.w) * 57.29577951308232;
 }
 
-std::string whyRefused(const std::string& file, const std::string& options = {}) {
-    try {
-        const osg::ref_ptr<osgDB::Options> given = new osgDB::Options(options);
-        osgSkin::loadCharacter(file, osgSkin::toLoadOptions(given));
-    } catch (const osgSkin::Error& error) {
-        return error.what();
-    }
-    return "read";
-}
-
 } // namespace
 
 TEST(ClipChoice, InASkinFile) {
@@ -68,13 +59,13 @@ TEST(ClipChoice, InASkinFile) {
         EXPECT_EQ(character.motions[m].name(), names[m]);
         EXPECT_NEAR(angleOf(character.motions[m], character), angles[m], 0.01) << names[m];
     }
-    const std::string why = whyRefused(skinFile(R"({"file": "moves.gltf", "clip": "fly"})"));
+    const std::string why = test::whyRefused(skinFile(R"({"file": "moves.gltf", "clip": "fly"})"));
     EXPECT_NE(why.find(R"(no clip "fly", expected one of 0 "Armature|still", 1 "Armature|bow", 2)"),
               std::string::npos)
         << why;
-    EXPECT_NE(
-        whyRefused(skinFile(R"({"file": "moves.gltf", "clip": true})")).find("motions[0].clip"),
-        std::string::npos);
+    EXPECT_NE(test::whyRefused(skinFile(R"({"file": "moves.gltf", "clip": true})"))
+                  .find("motions[0].clip"),
+              std::string::npos);
 }
 
 TEST(ClipChoice, InOptions) {
@@ -91,9 +82,10 @@ TEST(ClipChoice, InOptions) {
         EXPECT_EQ(character.motions[0].name(), wanted);
         EXPECT_NEAR(angleOf(character.motions[0], character), angle, 0.01) << wanted;
     }
-    const std::string why = whyRefused(skin, "motion=" + moves + "#fly");
+    const std::string why = test::whyRefused(skin, test::loadOptions("motion=" + moves + "#fly"));
     EXPECT_NE(why.find(R"(no clip "fly")"), std::string::npos) << why;
-    EXPECT_NE(whyRefused(skin, "motion=nowhere.gltf#bow").find("neither"), std::string::npos);
+    EXPECT_NE(test::whyRefused(skin, test::loadOptions("motion=nowhere.gltf#bow")).find("neither"),
+              std::string::npos);
     // Of a rigged model's own clips, what stands behind the bar will do.
     osgSkin::LoadOptions own;
     own.motion = "bow";

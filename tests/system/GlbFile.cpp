@@ -18,6 +18,10 @@ std::string readBytes(const std::string& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+nlohmann::json readJson(const std::string& file) {
+    return nlohmann::json::parse(readBytes(file));
+}
+
 glm::dvec3 vectorAt(const std::string& bytes, std::size_t offset) {
     return {double(at<float>(bytes, offset)), double(at<float>(bytes, offset + 4)),
             double(at<float>(bytes, offset + 8))};

@@ -14,6 +14,9 @@ namespace test {
 
 std::string readBytes(const std::string& file);
 
+/// Throws where the file is no JSON.
+nlohmann::json readJson(const std::string& file);
+
 /// The number at a place in little-endian bytes.
 template <typename Number>
 Number at(const std::string& bytes, std::size_t offset) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // loadCharacter() as an application calls it: what it takes, what it gives, what it refuses.
 #include "DrawnSkin.h"
+#include "WhyRefused.h"
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
@@ -30,15 +31,6 @@ std::vector<osg::Vec3d> drawn(const Character& character) {
     std::vector<osg::Vec3d> result;
     test::forEachCopy(character, [&](std::uint32_t, const osg::Vec3d& p) { result.push_back(p); });
     return result;
-}
-
-std::string whyRefused(const std::string& file, const LoadOptions& options = {}) {
-    try {
-        loadCharacter(file, options);
-    } catch (const osgSkin::Error& error) {
-        return error.what();
-    }
-    return "";
 }
 
 std::vector<std::string> motionsOf(const Character& character) {
@@ -182,10 +174,10 @@ TEST(LoadCharacter, BothSourcesRefuseAlike) {
     dance.motion = "dance";
     nobody.rigid = {"nobody"};
     for (const std::string& file : {kGood, kTube}) {
-        const std::string motion = whyRefused(file, dance);
+        const std::string motion = test::whyRefused(file, dance);
         EXPECT_EQ(motion.rfind(file + ": motion \"dance\" is neither", 0), 0u) << motion;
         EXPECT_NE(motion.find("expected one of \""), std::string::npos) << motion;
-        const std::string rigid = whyRefused(file, nobody);
+        const std::string rigid = test::whyRefused(file, nobody);
         EXPECT_EQ(rigid.rfind(file + ": ", 0), 0u) << rigid;
         EXPECT_NE(rigid.find("nobody"), std::string::npos) << rigid;
     }
@@ -194,7 +186,7 @@ TEST(LoadCharacter, BothSourcesRefuseAlike) {
 TEST(LoadCharacter, RefusesWhatIsNotThere) {
     osg::setNotifyLevel(osg::FATAL);
     for (const char* file : {"nowhere.skin", "nowhere.glb", "nowhere.glb.skin", "nowhere.osgt"}) {
-        const std::string why = whyRefused(file);
+        const std::string why = test::whyRefused(file);
         EXPECT_EQ(why.rfind("nowhere.", 0), 0u) << file << ": " << why;
     }
     osg::setNotifyLevel(osg::NOTICE);

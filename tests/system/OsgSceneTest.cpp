@@ -2,6 +2,7 @@
 // Characters that OSG's own scenes hold: bones, rigs and clips of osgAnimation.
 #include "Command.h"
 #include "Notices.h"
+#include "WhyRefused.h"
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
@@ -130,20 +131,6 @@ double leanOf(osg::Node& root) {
     return osg::RadiansToDegrees(std::acos(std::min(1.0, up.z())));
 }
 
-osgSkin::LoadOptions optionsOf(const std::string& text) {
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(text);
-    return osgSkin::toLoadOptions(options);
-}
-
-std::string whyRefused(const std::string& file, const std::string& options) {
-    try {
-        osgSkin::loadCharacter(file, optionsOf(options));
-    } catch (const osgSkin::Error& error) {
-        return error.what();
-    }
-    return "read";
-}
-
 } // namespace
 
 TEST(OsgScene, PlaysItsFirstClipWithoutWarnings) {
@@ -161,25 +148,26 @@ TEST(OsgScene, PlaysItsFirstClipWithoutWarnings) {
 
 TEST(OsgScene, HonoursOptions) {
     const std::string file = sceneFile("scene.osgt");
-    const Character leaning = osgSkin::loadCharacter(file, optionsOf("motion=lean"));
+    const Character leaning = osgSkin::loadCharacter(file, test::loadOptions("motion=lean"));
     EXPECT_EQ(leaning.motions.front().name(), "lean");
     EXPECT_NEAR(leanOf(*leaning.root), 40.0, 1e-3);
-    const Character still = osgSkin::loadCharacter(file, optionsOf("motion=none"));
+    const Character still = osgSkin::loadCharacter(file, test::loadOptions("motion=none"));
     EXPECT_EQ(still.manager, nullptr);
     EXPECT_NEAR(leanOf(*still.root), 0.0, 1e-3);
     // A vertex between the joint and where the paint ends.
     const auto region = [](const Character& character) {
         return character.binding.joints.at(character.binding.regions.at(10)).name;
     };
-    EXPECT_EQ(region(osgSkin::loadCharacter(file, optionsOf("bind=weights"))), "lower");
-    EXPECT_NE(region(osgSkin::loadCharacter(file, optionsOf("bind=smooth"))), "lower");
+    EXPECT_EQ(region(osgSkin::loadCharacter(file, test::loadOptions("bind=weights"))), "lower");
+    EXPECT_NE(region(osgSkin::loadCharacter(file, test::loadOptions("bind=smooth"))), "lower");
 
-    const std::string why = whyRefused(file, "motion=run");
+    const std::string why = test::whyRefused(file, test::loadOptions("motion=run"));
     EXPECT_NE(why.find(R"("run" is none of the scene's, expected one of "rest", "lean")"),
               std::string::npos)
         << why;
     EXPECT_NE(
-        whyRefused(file, "motion=" OSGSKIN_TEST_DATA "/character/move.bvh").find("not carried"),
+        test::whyRefused(file, test::loadOptions("motion=" OSGSKIN_TEST_DATA "/character/move.bvh"))
+            .find("not carried"),
         std::string::npos);
 }
 
@@ -187,7 +175,7 @@ TEST(OsgScene, PlaysAgainWhenSaved) {
     const std::string file = sceneFile("scene.osgt");
     const std::string saved = file + ".saved.osgb";
     {
-        const Character leaning = osgSkin::loadCharacter(file, optionsOf("motion=lean"));
+        const Character leaning = osgSkin::loadCharacter(file, test::loadOptions("motion=lean"));
         ASSERT_TRUE(osgDB::writeNodeFile(*leaning.root, saved));
     }
     const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(saved);

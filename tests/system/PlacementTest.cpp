@@ -18,7 +18,7 @@
 
 namespace {
 
-const std::string kThrower = OSGSKIN_DATA "/thrower.skin";
+const std::string kThrowerFile = OSGSKIN_DATA "/thrower.skin";
 
 /// Where a scene's skins and rigid parts are, in world space.
 class Collector : public osg::NodeVisitor {
@@ -57,7 +57,7 @@ Collector at(double time, osg::Node& scene) {
 /// `scene` must stand at several times where the plain thrower, moved by `move`, does.
 void expectPlaced(osg::Node* scene, const osg::Matrix& move) {
     ASSERT_NE(scene, nullptr);
-    const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(kThrower);
+    const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(kThrowerFile);
     ASSERT_NE(plain, nullptr);
     for (const double time : {0.0, 0.9, 1.3, 2.1}) {
         const Collector is = at(time, *scene);
@@ -98,11 +98,11 @@ const PseudoLoader kLoaders[] = {
 } // namespace
 
 TEST_P(Placement, AsRead) {
-    expectPlaced(osgDB::readRefNodeFile(kThrower + GetParam().suffix).get(), GetParam().move);
+    expectPlaced(osgDB::readRefNodeFile(kThrowerFile + GetParam().suffix).get(), GetParam().move);
 }
 
 TEST_P(Placement, AfterEveryOptimization) {
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(kThrower + GetParam().suffix);
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(kThrowerFile + GetParam().suffix);
     ASSERT_NE(scene, nullptr);
     osgUtil::Optimizer().optimize(scene, osgUtil::Optimizer::ALL_OPTIMIZATIONS);
     expectPlaced(scene.get(), GetParam().move);
@@ -114,7 +114,7 @@ TEST_P(Placement, AfterOsgconv) {
 #endif
     const std::string saved = test::makeTestFolder() + "/saved.osgb";
     const std::string command =
-        "osgconv '" + kThrower + GetParam().suffix + "' '" + saved + "' >/dev/null 2>&1";
+        "osgconv '" + kThrowerFile + GetParam().suffix + "' '" + saved + "' >/dev/null 2>&1";
     ASSERT_EQ(std::system(command.c_str()), 0); // NOLINT(cert-env33-c): our own arguments
     expectPlaced(osgDB::readRefNodeFile(saved).get(), GetParam().move);
 }

@@ -3,9 +3,7 @@
 // libraries of another build instead of crashing.
 #include "Command.h"
 #include "KitCheck.h"
-
-#include <osg/Notify>
-#include <osg/ref_ptr>
+#include "Notices.h"
 
 #include <gtest/gtest.h>
 
@@ -92,13 +90,6 @@ const char* thisBuild() {
     return "0.2.0 (1a2b3c4d)";
 }
 
-/// Keeps OSG's messages instead of printing them.
-class Messages : public osg::NotifyHandler {
-public:
-    void notify(osg::NotifySeverity, const char* message) override { text += message; }
-    std::string text;
-};
-
 } // namespace
 
 TEST_F(PlugIn, IsSilentOnStandardError) {
@@ -159,14 +150,12 @@ TEST(KitCheck, AnyOtherIsRefusedWithOneLine) {
                           {{"osgSkinRig", "0.2.0 (99999999)", thisBuild}, "0.2.0 (1a2b3c4d)"},
                           {{"osgSkinRig", "0.2.0 (1a2b3c4d)", nullptr}, "an older one"}};
     for (const Case& c : cases) {
-        const osg::ref_ptr<Messages> messages = new Messages;
-        osg::setNotifyHandler(messages);
+        const test::Notices notices;
         const bool used =
             plugin::mayUse("osgdb_any", {{"osgSkin", "0.2.0 (1a2b3c4d)", thisBuild}, c.kit});
-        osg::setNotifyHandler(new osg::StandardNotifyHandler);
         EXPECT_FALSE(used);
-        EXPECT_EQ(std::count(messages->text.begin(), messages->text.end(), '\n'), 1);
+        EXPECT_EQ(notices.lines(), 1u);
         for (const char* part : {"osgdb_any", "osgSkinRig", c.kit.compiled, c.found})
-            EXPECT_NE(messages->text.find(part), std::string::npos) << messages->text;
+            EXPECT_TRUE(notices.say(part)) << notices.text();
     }
 }

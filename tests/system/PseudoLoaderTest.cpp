@@ -24,7 +24,7 @@
 
 namespace {
 
-const std::string kTube = OSGSKIN_TEST_DATA "/rig/tube.gltf.skin";
+const std::string kTubeSkin = OSGSKIN_TEST_DATA "/rig/tube.gltf.skin";
 
 osg::ref_ptr<osgDB::Options> optionsOf(const std::string& text) {
     osg::ref_ptr<osgDB::Options> options = new osgDB::Options(text);
@@ -32,7 +32,7 @@ osg::ref_ptr<osgDB::Options> optionsOf(const std::string& text) {
     return options;
 }
 
-osg::ref_ptr<osg::Node> read(const std::string& file, const std::string& options = {}) {
+osg::ref_ptr<osg::Node> readCharacter(const std::string& file, const std::string& options = {}) {
     return osgDB::readRefNodeFile(file, optionsOf(options));
 }
 
@@ -96,7 +96,7 @@ osg::BoundingBox posedBox(osg::Node& scene) {
 } // namespace
 
 TEST(PseudoLoader, ReSkinsAndPlaysTheFirstClip) {
-    const osg::ref_ptr<osg::Node> scene = read(kTube);
+    const osg::ref_ptr<osg::Node> scene = readCharacter(kTubeSkin);
     ASSERT_NE(scene, nullptr);
     const Parts parts(*scene);
     ASSERT_EQ(parts.skins.size(), 1u);
@@ -119,7 +119,7 @@ TEST(PseudoLoader, ReSkinsAndPlaysTheFirstClip) {
 }
 
 TEST(PseudoLoader, MotionChoosesTheClip) {
-    const osg::ref_ptr<osg::Node> scene = read(kTube, "other=1 motion=move more");
+    const osg::ref_ptr<osg::Node> scene = readCharacter(kTubeSkin, "other=1 motion=move more");
     ASSERT_NE(scene, nullptr);
     update(*scene, 0.0);
     const float start = posedBox(*scene).center().x();
@@ -127,7 +127,7 @@ TEST(PseudoLoader, MotionChoosesTheClip) {
     EXPECT_GT(std::abs(posedBox(*scene).center().x() - start), 0.1f);
     EXPECT_EQ(Parts(*scene).manager->getAnimationList().front()->getName(), "move");
 
-    const osg::ref_ptr<osg::Node> still = read(kTube, "motion=none");
+    const osg::ref_ptr<osg::Node> still = readCharacter(kTubeSkin, "motion=none");
     ASSERT_NE(still, nullptr);
     EXPECT_EQ(Parts(*still).manager, nullptr);
     EXPECT_NEAR(posedBox(*still).yMin(), -2.0f, 1e-5f);
@@ -135,7 +135,7 @@ TEST(PseudoLoader, MotionChoosesTheClip) {
 
 TEST(PseudoLoader, MotionMayBeAFile) {
     const std::string file = OSGSKIN_TEST_DATA "/character/move.bvh"; // of joints base and arm
-    const osg::ref_ptr<osg::Node> scene = read(kTube, "motion=\"" + file + "\"");
+    const osg::ref_ptr<osg::Node> scene = readCharacter(kTubeSkin, "motion=\"" + file + "\"");
     ASSERT_NE(scene, nullptr);
     ASSERT_NE(Parts(*scene).manager, nullptr);
     EXPECT_EQ(Parts(*scene).manager->getAnimationList().front()->getName(), "move");
@@ -145,7 +145,7 @@ TEST(PseudoLoader, MotionMayBeAFile) {
 
 TEST(PseudoLoader, OptionsChangeTheBinding) {
     const auto positionsAt = [](const std::string& options) {
-        const osg::ref_ptr<osg::Node> scene = read(kTube, options);
+        const osg::ref_ptr<osg::Node> scene = readCharacter(kTubeSkin, options);
         EXPECT_NE(scene, nullptr) << options;
         update(*scene, 0.5);
         const auto& vertices = static_cast<const osg::Vec3Array&>(
@@ -157,19 +157,19 @@ TEST(PseudoLoader, OptionsChangeTheBinding) {
     EXPECT_EQ(positionsAt(""), positionsAt("bind=weights")) << "the file is well painted";
     EXPECT_NE(positionsAt(""), positionsAt("bind=smooth"));
     EXPECT_NE(positionsAt("bind=paper"), positionsAt("bind=smooth"));
-    EXPECT_EQ(Parts(*read(kTube, "rigid=none")).rigid, 0u);
-    EXPECT_EQ(Parts(*read(kTube, "rigid=arm")).rigid, 1u);
+    EXPECT_EQ(Parts(*readCharacter(kTubeSkin, "rigid=none")).rigid, 0u);
+    EXPECT_EQ(Parts(*readCharacter(kTubeSkin, "rigid=arm")).rigid, 1u);
 }
 
 TEST(PseudoLoader, ShowRegionsColoursThem) {
-    const osg::ref_ptr<osg::Node> scene = read(kTube, "show=regions rigid=none");
+    const osg::ref_ptr<osg::Node> scene = readCharacter(kTubeSkin, "show=regions rigid=none");
     ASSERT_NE(scene, nullptr);
     const auto* colours = dynamic_cast<const osg::Vec4Array*>(
         Parts(*scene).skins.at(0)->getRestGeometry()->getColorArray());
     ASSERT_NE(colours, nullptr);
     EXPECT_EQ(std::set<osg::Vec4>(colours->begin(), colours->end()).size(), 2u);
     const osg::ref_ptr<osg::Node> character =
-        read(OSGSKIN_TEST_DATA "/character/good.skin", "show=regions motion=none");
+        readCharacter(OSGSKIN_TEST_DATA "/character/good.skin", "show=regions motion=none");
     ASSERT_NE(character, nullptr);
     EXPECT_NE(Parts(*character).skins.at(0)->getRestGeometry()->getColorArray(), nullptr);
     EXPECT_EQ(character->getUpdateCallback(), nullptr);
@@ -195,7 +195,7 @@ TEST(PseudoLoader, ConvertsRigsThatOsgReads) {
     skeleton->addChild(rig);
     const std::string file = testing::TempDir() + "osg_rig.osgt";
     ASSERT_TRUE(osgDB::writeNodeFile(*skeleton, file));
-    const osg::ref_ptr<osg::Node> scene = read(file + ".skin");
+    const osg::ref_ptr<osg::Node> scene = readCharacter(file + ".skin");
     ASSERT_NE(scene, nullptr);
     EXPECT_EQ(Parts(*scene).skins.size(), 1u);
     EXPECT_EQ(Parts(*scene).rigs, 0u);
@@ -206,7 +206,7 @@ TEST(PseudoLoader, LoadsEveryRiggedTestModel) {
     for (const test::Rigged& rigged : test::kRigged) {
         SCOPED_TRACE(rigged.file);
         const osg::ref_ptr<osg::Node> scene =
-            read(std::string(test::kModels) + rigged.file + ".skin");
+            readCharacter(std::string(test::kModels) + rigged.file + ".skin");
         ASSERT_NE(scene, nullptr);
         Parts parts(*scene);
         EXPECT_GT(parts.skins.size() + parts.rigid, 0u);
@@ -221,11 +221,11 @@ TEST(PseudoLoader, RefusesWithAReason) {
     EXPECT_SAYS(complaint(OSGSKIN_TEST_DATA "/bvh/two_joints.bvh.skin"), "no mesh with bones");
     EXPECT_SAYS(complaint(OSGSKIN_DATA "/thrower.obj.skin"), "no mesh with bones");
     EXPECT_SAYS(complaint(OSGSKIN_TEST_DATA "/mesh/broken.osgt.skin"), "broken.osgt");
-    EXPECT_SAYS(complaint(kTube, "motion=dance"), "expected one of \"wave\", \"move\"");
-    EXPECT_SAYS(complaint(kTube, "bind=tight"), "bind=tight: expected smooth");
-    EXPECT_SAYS(complaint(kTube, "show=bones"), "expected skin or regions");
-    EXPECT_SAYS(complaint(kTube, "rigid="), "names of joints");
-    EXPECT_SAYS(complaint(kTube, "rigid=nobody"), "nobody");
+    EXPECT_SAYS(complaint(kTubeSkin, "motion=dance"), "expected one of \"wave\", \"move\"");
+    EXPECT_SAYS(complaint(kTubeSkin, "bind=tight"), "bind=tight: expected smooth");
+    EXPECT_SAYS(complaint(kTubeSkin, "show=bones"), "expected skin or regions");
+    EXPECT_SAYS(complaint(kTubeSkin, "rigid="), "names of joints");
+    EXPECT_SAYS(complaint(kTubeSkin, "rigid=nobody"), "nobody");
     EXPECT_SAYS(complaint(OSGSKIN_TEST_DATA "/character/good.skin", "motion=dance"),
                 "neither one of its motions nor a file");
 }

@@ -4,6 +4,7 @@
 #include "BlendError.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
+#include "WhyRefused.h"
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
@@ -28,15 +29,6 @@ std::vector<std::string> jointsOf(const Character& character) {
     std::vector<std::string> result;
     for (const osgSkin::RestJoint& joint : character.rest.joints) result.push_back(joint.name);
     return result;
-}
-
-std::string whyRefused(const std::string& file) {
-    try {
-        loadCharacter(file);
-    } catch (const osgSkin::Error& error) {
-        return error.what();
-    }
-    return "read";
 }
 
 void expectExact(const std::string& file) {
@@ -139,8 +131,9 @@ TEST(WildGltf, SkinsNeedNoInverseBindMatrices) {
     column.json["skins"][0]["inverseBindMatrices"] =
         column.accessor("MAT4", std::vector<double>(32, 1.0));
     column.json.erase("buffers");
-    EXPECT_NE(whyRefused(column.save("few_inverse_bind.gltf")).find("2 inverse bind matrices"),
-              std::string::npos);
+    EXPECT_NE(
+        test::whyRefused(column.save("few_inverse_bind.gltf")).find("2 inverse bind matrices"),
+        std::string::npos);
 }
 
 TEST(WildGltf, NumbersMayBeQuantised) {
@@ -300,7 +293,7 @@ TEST(WildGltf, CompressionsThatNobodyReadsAreRefusedByName) {
                                                          {"count", 1},
                                                          {"mode", "ATTRIBUTES"}};
     }
-    const std::string why = whyRefused(column.save("meshopt.gltf"));
+    const std::string why = test::whyRefused(column.save("meshopt.gltf"));
     EXPECT_NE(why.find("meshopt compression"), std::string::npos) << why;
     EXPECT_NE(why.find("meshopt.gltf"), std::string::npos) << why;
 }

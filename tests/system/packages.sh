@@ -26,7 +26,7 @@ expect() {
   dpkg-deb -f "$deb" Depends >"$folder/$package.depends"
   echo "$package needs $(cat "$folder/$package.depends")"
 }
-expect libosgskin0.2 libosgSkin.so.0.2 libosgSkinRig.so.0.2 osgdb_serializers_osgskin.so
+expect libosgskin0.2 libosgSkin.so.0.2 libosgSkinRig.so.0.2 libosgSkinGpu.so.0.2 osgdb_serializers_osgskin.so
 expect libosgskin-dev include/osgSkin/DeformableSkin include/osgSkinBind/Bind \
   include/osgSkinCharacter/LoadCharacter osgSkinConfig.cmake \
   OsgTargets.cmake pkgconfig/osgSkin.pc libosgSkin.so

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# runtime_only.sh BUILD SOURCE FOLDER: the runtime, the rig kit and the serializers, built where CGAL and Assimp
+# runtime_only.sh BUILD SOURCE FOLDER: the runtime, the rig and GPU kits and the serializers, built where CGAL and Assimp
 # cannot be found and installed alone, name neither, and play a character that BUILD's .skin plug-in
 # has saved; and a game that links the rig kit alone retargets a motion and plays it.
 set -euo pipefail
@@ -24,9 +24,10 @@ cmake --install "$folder/build" --component runtime --prefix "$folder/installed"
 
 runtime=$(find "$folder/installed" -name 'libosgSkin.so.*' -type f)
 rig=$(find "$folder/installed" -name 'libosgSkinRig.so.*' -type f)
+gpu=$(find "$folder/installed" -name 'libosgSkinGpu.so.*' -type f)
 serializers=$(find "$folder/installed" -name osgdb_serializers_osgskin.so)
-[ "$(find "$folder/installed" -type f | wc -l)" -eq 3 ] || fail "more than the three libraries is installed"
-for file in "$runtime" "$rig" "$serializers" "$build"/lib/libosgSkin.so "$build"/lib/libosgSkinRig.so \
+[ "$(find "$folder/installed" -type f | wc -l)" -eq 4 ] || fail "more than the four libraries is installed"
+for file in "$runtime" "$rig" "$gpu" "$serializers" "$build"/lib/libosgSkin.so "$build"/lib/libosgSkinRig.so \
   "$build"/lib/osgPlugins-*/osgdb_serializers_osgskin.so; do
   needed=$(readelf -d "$file" | grep NEEDED)
   case $file in *serializers*) ;; *) grep -q libosgDB.so <<<"$needed" && fail "$file needs osgDB" ;; esac

@@ -2,6 +2,7 @@
 // What applications do to a scene that a skin stands in: several skins and parents, parts that go
 // away while it runs, time that stops and goes back, masks and levels of detail, picking.
 #include "TubeSkin.h"
+#include "UpdateAt.h"
 
 #include <osgSkin/UpdateDeformableSkin>
 
@@ -11,7 +12,6 @@
 #include <osgDB/ReadFile>
 #include <osgUtil/LineSegmentIntersector>
 #include <osgUtil/PolytopeIntersector>
-#include <osgUtil/UpdateVisitor>
 
 #include <gtest/gtest.h>
 
@@ -19,14 +19,6 @@ namespace {
 
 using osgSkin::DeformableSkin;
 using Vertices = std::vector<osg::Vec3>;
-
-void update(osg::Node& scene, double time) {
-    osgUtil::UpdateVisitor visitor;
-    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-    stamp->setSimulationTime(time);
-    visitor.setFrameStamp(stamp);
-    scene.accept(visitor);
-}
 
 Vertices vertices(const DeformableSkin& skin) {
     const auto& array =
@@ -52,7 +44,7 @@ struct Thrower {
         if (!skins.empty()) skin = skins.front();
     }
     Vertices at(double time) {
-        update(*scene, time);
+        test::updateAt(*scene, time);
         return vertices(*skin);
     }
 };
@@ -88,7 +80,7 @@ TEST(Scene, SeveralSkinsUnderOneSkeleton) {
         skeleton->addChild(skins.back());
     }
     bendBones(*skeleton, 0.7);
-    update(*skeleton, 0.0);
+    test::updateAt(*skeleton, 0.0);
     test::cull(*skeleton, true);
     for (const auto& skin : skins) {
         EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
@@ -106,7 +98,7 @@ TEST(Scene, OneSkinUnderSeveralParents) {
         skeleton->addChild(place);
     }
     bendBones(*skeleton, 0.7);
-    update(*skeleton, 0.0);
+    test::updateAt(*skeleton, 0.0);
     test::cull(*skeleton, true);
     EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
     EXPECT_EQ(skin->getDeformCount(), 1u);
@@ -119,12 +111,12 @@ TEST(Scene, SkeletonReplacedWhileRunning) {
     const auto skin = makeFollower();
     skeleton->addChild(skin);
     bendBones(*skeleton, 0.7);
-    update(*root, 0.0);
+    test::updateAt(*root, 0.0);
     skeleton->removeChild(skin);
     root->removeChild(skeleton);
     skeleton = nullptr;
     root->addChild(skin);
-    update(*root, 0.1); // no skeleton: the pose stays
+    test::updateAt(*root, 0.1); // no skeleton: the pose stays
     test::cull(*root, true);
     EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
     root->removeChild(skin);
@@ -132,7 +124,7 @@ TEST(Scene, SkeletonReplacedWhileRunning) {
     skeleton->addChild(skin);
     root->addChild(skeleton);
     bendBones(*skeleton, 0.2);
-    update(*root, 0.2);
+    test::updateAt(*root, 0.2);
     EXPECT_NEAR(bendOf(*skin), 0.2, 1e-9);
 }
 
@@ -140,9 +132,9 @@ TEST(Scene, BonesRemovedWhileRunning) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
     const auto skin = makeFollower();
     skeleton->addChild(skin);
-    update(*skeleton, 0.0);
+    test::updateAt(*skeleton, 0.0);
     skeleton->removeChild(skeleton->getChild(0)); // the bones; the callback keeps them alive
-    update(*skeleton, 0.1);
+    test::updateAt(*skeleton, 0.1);
     test::cull(*skeleton, true);
     EXPECT_NEAR(bendOf(*skin), 0.0, 1e-9);
 }
@@ -152,13 +144,13 @@ TEST(Scene, CallbackRemovedAndSetAgain) {
     const auto skin = makeFollower();
     skeleton->addChild(skin);
     bendBones(*skeleton, 0.7);
-    update(*skeleton, 0.0);
+    test::updateAt(*skeleton, 0.0);
     skin->setUpdateCallback(nullptr);
     bendBones(*skeleton, 0.3);
-    update(*skeleton, 0.1);
+    test::updateAt(*skeleton, 0.1);
     EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
     skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
-    update(*skeleton, 0.2);
+    test::updateAt(*skeleton, 0.2);
     EXPECT_NEAR(bendOf(*skin), 0.3, 1e-9);
 }
 
@@ -216,7 +208,7 @@ TEST(Scene, OnlyTheLevelInUseIsDeformed) {
 TEST(Scene, OutOfViewFiguresAreNotDeformed) {
     Thrower thrower;
     ASSERT_NE(thrower.skin, nullptr);
-    update(*thrower.scene, 1.0);
+    test::updateAt(*thrower.scene, 1.0);
     test::cull(*thrower.scene, false);
     EXPECT_EQ(thrower.skin->getDeformCount(), 0u);
 }

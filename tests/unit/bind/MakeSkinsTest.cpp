@@ -17,13 +17,13 @@ namespace {
 
 /// A cylinder over three bones, the last of which is rigid, in two parts: its lower and its upper
 /// half.
-struct Body {
+struct PartedBody {
     SkinMesh mesh = shapes::cylinder();
     Binding binding;
     RigidSplit split;
     std::vector<MeshPart> parts;
 
-    Body() {
+    PartedBody() {
         RestSkeleton skeleton = shapes::chainAlongY({0.6, 3.0, 5.5}, 6.5);
         for (std::size_t j = 0; j < 3; ++j) skeleton.joints[j].name = "bone" + std::to_string(j);
         BindOptions options;
@@ -67,14 +67,14 @@ struct Body {
     }
 };
 
-std::size_t triangles(const Body& body) {
+std::size_t triangles(const PartedBody& body) {
     return body.parts[0].sourceFace.size() + body.parts[1].sourceFace.size();
 }
 
 } // namespace
 
 TEST(MakeSkins, NeedsNoSkeletonAndKeepsEveryFace) {
-    const Body body;
+    const PartedBody body;
     const SkinParts made = makeSkins(body.mesh, body.parts, body.binding, body.split);
     ASSERT_EQ(made.skins.size(), 2u);
     ASSERT_EQ(made.rigids.size(), 1u) << "the lower half has no rigid face";
@@ -96,7 +96,7 @@ TEST(MakeSkins, NeedsNoSkeletonAndKeepsEveryFace) {
 }
 
 TEST(MakeSkins, RefusesWhatDoesNotFit) {
-    const Body body;
+    const PartedBody body;
     EXPECT_THROW(makeSkins(shapes::cylinder(2.0), body.parts, body.binding, body.split), Error);
     RigidSplit shorter = body.split;
     shorter.faceJoint.pop_back();
@@ -112,7 +112,7 @@ TEST(MakeSkins, RefusesWhatDoesNotFit) {
 }
 
 TEST(PlaceSkins, HangsSkinsUnderTheSkeletonAndRigidPartsUnderTheirBones) {
-    const Body body;
+    const PartedBody body;
     rigs::Scene scene;
     const unsigned int before = scene.skeleton->getNumChildren();
     const SkinParts made = makeSkins(body.mesh, body.parts, body.binding, body.split);
@@ -127,7 +127,7 @@ TEST(PlaceSkins, HangsSkinsUnderTheSkeletonAndRigidPartsUnderTheirBones) {
 }
 
 TEST(PlaceSkins, WithoutTheRigidPartsBonePlacesNothing) {
-    const Body body;
+    const PartedBody body;
     const SkinParts made = makeSkins(body.mesh, body.parts, body.binding, body.split);
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
     EXPECT_THROW(placeSkins(*skeleton, made), Error);

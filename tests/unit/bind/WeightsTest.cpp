@@ -18,15 +18,13 @@ using namespace osgSkin;
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// A cylinder over three joints, painted so that each takes over from the one above.
-struct Input {
+struct PaintedCylinder {
     SkinMesh mesh = shapes::cylinder();
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 4.0, 6.0}, 7.0);
     VertexWeights weights;
 
-    Input() {
+    PaintedCylinder() {
         for (const glm::dvec3& p : mesh.positions) {
             const double first = std::clamp((p.y - 3.0) / 2.0, 0.0, 1.0);
             const double second = std::clamp((p.y - 4.0) / 2.0, 0.0, first);
@@ -41,7 +39,7 @@ struct Input {
 } // namespace
 
 TEST(BindWeights, RatioIsTheShareOfTheSubtree) {
-    const Input input;
+    const PaintedCylinder input;
     const Binding binding = input.bind();
     expectSound(binding);
     for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
@@ -55,7 +53,7 @@ TEST(BindWeights, RatioIsTheShareOfTheSubtree) {
 }
 
 TEST(BindWeights, RegionIsTheHeaviestJoint) {
-    const Input input;
+    const PaintedCylinder input;
     BindReport report;
     const Binding binding = input.bind(&report);
     for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
@@ -74,7 +72,7 @@ TEST(BindWeights, RegionIsTheHeaviestJoint) {
 }
 
 TEST(BindWeights, ScaleOfTheWeightsDoesNotMatter) {
-    Input input;
+    PaintedCylinder input;
     const Binding before = input.bind();
     for (auto& vertex : input.weights)
         for (JointWeight& entry : vertex) entry.weight *= 300.0;
@@ -84,9 +82,9 @@ TEST(BindWeights, ScaleOfTheWeightsDoesNotMatter) {
 }
 
 TEST(BindWeights, CopiesOfAVertexMoveAlike) {
-    Input input;
+    PaintedCylinder input;
     input.mesh = shapes::exploded(input.mesh);
-    input.weights = Input().weights;
+    input.weights = PaintedCylinder().weights;
     VertexWeights copies;
     const SkinMesh whole = shapes::cylinder();
     for (std::size_t i = 0; i < whole.faceVertices.size(); ++i) {
@@ -103,7 +101,7 @@ TEST(BindWeights, CopiesOfAVertexMoveAlike) {
 }
 
 TEST(BindWeights, UnpaintedSkinDoesAsTheNearestPainted) {
-    Input input;
+    PaintedCylinder input;
     input.weights[20].clear();
     input.weights[21] = {{1, 0.0}};
     BindReport report;
@@ -131,7 +129,7 @@ namespace {
 
 struct BadWeights {
     const char* name;
-    std::function<void(Input&)> spoil;
+    std::function<void(PaintedCylinder&)> spoil;
     const char* message;
 };
 
@@ -140,30 +138,31 @@ void PrintTo(const BadWeights& bad, std::ostream* out) {
 }
 
 const BadWeights kBad[] = {
-    {"TooFewLists", [](Input& i) { i.weights.pop_back(); }, "expected one list for each"},
-    {"NoLists", [](Input& i) { i.weights.clear(); }, "expected one list for each"},
+    {"TooFewLists", [](PaintedCylinder& i) { i.weights.pop_back(); }, "expected one list for each"},
+    {"NoLists", [](PaintedCylinder& i) { i.weights.clear(); }, "expected one list for each"},
     {"UnknownJoint",
-     [](Input& i) {
+     [](PaintedCylinder& i) {
          i.weights[5] = {{3, 1.0}};
      },
      "vertex 5: joint 3"},
     {"Negative",
-     [](Input& i) {
+     [](PaintedCylinder& i) {
          i.weights[6] = {{1, -0.1}};
      },
      "vertex 6"},
     {"NotANumber",
-     [](Input& i) {
-         i.weights[7] = {{1, kNaN}};
+     [](PaintedCylinder& i) {
+         i.weights[7] = {{1, std::numeric_limits<double>::quiet_NaN()}};
      },
      "vertex 7"},
     {"AllZero",
-     [](Input& i) {
+     [](PaintedCylinder& i) {
          i.weights.assign(i.weights.size(), {{1, 0.0}});
      },
      "no vertex has"},
-    {"NoFace", [](Input& i) { i.mesh.faceSizes.clear(), i.mesh.faceVertices.clear(); }, "no face"},
-    {"NoJoint", [](Input& i) { i.skeleton.joints.clear(); }, "no joint"},
+    {"NoFace", [](PaintedCylinder& i) { i.mesh.faceSizes.clear(), i.mesh.faceVertices.clear(); },
+     "no face"},
+    {"NoJoint", [](PaintedCylinder& i) { i.skeleton.joints.clear(); }, "no joint"},
 };
 
 class BindWeightsError : public testing::TestWithParam<BadWeights> {};
@@ -171,7 +170,7 @@ class BindWeightsError : public testing::TestWithParam<BadWeights> {};
 } // namespace
 
 TEST_P(BindWeightsError, SaysWhatIsWrong) {
-    Input input;
+    PaintedCylinder input;
     GetParam().spoil(input);
     try {
         input.bind();

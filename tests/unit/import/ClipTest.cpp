@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ExpectError.h"
 #include "Figure.h"
+#include "UpdateAt.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkinRig/ApplyFrame>
@@ -8,10 +9,8 @@
 #include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 
-#include <osg/FrameStamp>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Bone>
-#include <osgUtil/UpdateVisitor>
 
 #include <gtest/gtest.h>
 
@@ -53,15 +52,6 @@ Clip makeClip(const RestSkeleton& rig, std::size_t frames) {
         clip.rootPositions.emplace_back(0.1 * static_cast<double>(f), 10.0, -1.0);
     }
     return clip;
-}
-
-void update(osg::Node& root, double time) {
-    osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-    stamp->setSimulationTime(time);
-    stamp->setFrameNumber(static_cast<unsigned>(1000.0 * time));
-    osgUtil::UpdateVisitor visitor;
-    visitor.setFrameStamp(stamp);
-    root.accept(visitor);
 }
 
 double largestDifference(const osg::Matrixd& a, const osg::Matrixd& b) {
@@ -107,7 +97,7 @@ TEST(MakeSkeleton, HoldsTheRestPoseBeforeAnyUpdate) {
 TEST(MakeSkeleton, StaysAtRestThroughAnUpdate) {
     const RestSkeleton rig = makeFigure(30.0);
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(rig);
-    update(*skeleton, 1.0);
+    test::updateAt(*skeleton, 1.0);
     const Bones bones(*skeleton);
     for (const osgSkin::RestJoint& joint : rig.joints)
         EXPECT_LT(largestDifference(bones.byName.at(joint.name)->getMatrixInSkeletonSpace(),
@@ -124,7 +114,7 @@ TEST(MakeAnimation, PlaysTheSamplesAtTheirTimes) {
     const Bones playedBones(*played);
     const Bones exactBones(*exact);
     for (std::size_t f = 0; f < clip.frames; ++f) {
-        update(*played, static_cast<double>(f) * clip.frameTime);
+        test::updateAt(*played, static_cast<double>(f) * clip.frameTime);
         osgSkin::applyFrame(clip, rig, f, *exact);
         const Placed expected = place(clip, rig, f);
         for (std::size_t j = 0; j < rig.joints.size(); ++j) {
@@ -148,7 +138,7 @@ TEST(MakeAnimation, TakesTheShortWayBetweenSamples) {
     const osg::ref_ptr<osgAnimation::Skeleton> played = makePlayer(clip, rig);
     const Bones bones(*played);
     for (std::size_t f = 0; f + 1 < clip.frames; ++f) {
-        update(*played, (static_cast<double>(f) + 0.5) * clip.frameTime);
+        test::updateAt(*played, (static_cast<double>(f) + 0.5) * clip.frameTime);
         for (std::size_t j = 0; j < rig.joints.size(); ++j) {
             const glm::dquat half =
                 osgSkin::toGlm(bones.byName.at(rig.joints[j].name)->getMatrix().getRotate());
@@ -165,8 +155,8 @@ TEST(MakeAnimation, Loops) {
     EXPECT_NEAR(animation->getDuration(), 11.0 * clip.frameTime, 1e-6);
     const osg::ref_ptr<osgAnimation::Skeleton> played = makePlayer(clip, rig);
     const Bones bones(*played);
-    update(*played, 0.0);
-    update(*played, 14.0 * clip.frameTime);
+    test::updateAt(*played, 0.0);
+    test::updateAt(*played, 14.0 * clip.frameTime);
     EXPECT_LT(angleBetween(osgSkin::toGlm(bones.byName.at("Spine")->getMatrix().getRotate()),
                            clip.rotations[3 * clip.joints + 1]),
               0.01);
@@ -178,7 +168,7 @@ TEST(MakeAnimation, OneSampleIsAPose) {
     const osg::ref_ptr<osgAnimation::Skeleton> played = makePlayer(clip, rig);
     const Bones bones(*played);
     for (const double time : {0.0, 0.001, 3.0}) {
-        update(*played, time);
+        test::updateAt(*played, time);
         EXPECT_LT(angleBetween(osgSkin::toGlm(bones.byName.at("Head")->getMatrix().getRotate()),
                                clip.rotations[2]),
                   1e-4)
@@ -193,7 +183,7 @@ TEST(ApplyFrame, OutlivesAnUpdateTraversal) {
     osgSkin::applyFrame(clip, rig, 3, *skeleton);
     const Bones bones(*skeleton);
     const osg::Matrixd before = bones.byName.at("LeftHand")->getMatrixInSkeletonSpace();
-    update(*skeleton, 0.0);
+    test::updateAt(*skeleton, 0.0);
     EXPECT_LT(largestDifference(bones.byName.at("LeftHand")->getMatrixInSkeletonSpace(), before),
               1e-5);
 }

@@ -120,7 +120,7 @@ TEST_P(UprightFrames, PropsTurnToo) {
 INSTANTIATE_TEST_SUITE_P(Turns, UprightFrames, testing::ValuesIn(kTurns),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-struct Bone {
+struct ExpectedBone {
     const char* from;
     const char* to;
 };
@@ -143,8 +143,9 @@ TEST(UprightActors, LimbsAreWhereTheTurnedActorsAre) {
             for (std::size_t f = 0; f < clip.frames; f += 50) {
                 const Placed ours = place(clip, body, f), theirs = place(motion, f);
                 for (const std::string side : {"Left", "Right"})
-                    for (const Bone& bone : {Bone{"Arm", "ForeArm"}, Bone{"ForeArm", "Hand"},
-                                             Bone{"UpLeg", "Leg"}, Bone{"Leg", "Foot"}}) {
+                    for (const ExpectedBone& bone :
+                         {ExpectedBone{"Arm", "ForeArm"}, ExpectedBone{"ForeArm", "Hand"},
+                          ExpectedBone{"UpLeg", "Leg"}, ExpectedBone{"Leg", "Foot"}}) {
                         const auto way = [&](const Placed& placed, const RestSkeleton& skeleton) {
                             const auto at = [&](const char* end) {
                                 return placed.places.at(std::size_t(skeleton.find(side + end)));

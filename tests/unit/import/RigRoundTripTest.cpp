@@ -3,14 +3,13 @@
 // out here, with nothing of ours in between.
 #include "ExpectError.h"
 #include "Paths.h"
+#include "UpdateAt.h"
 
 #include <osgSkinImport/ImportRig>
 
-#include <osg/FrameStamp>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Bone>
 #include <osgAnimation/BoneMapVisitor>
-#include <osgUtil/UpdateVisitor>
 
 #include <glm/geometric.hpp>
 
@@ -92,14 +91,6 @@ double firstKey(const aiAnimation& animation) {
         if (track.mNumScalingKeys > 0) first = std::min(first, track.mScalingKeys[0].mTime);
     }
     return first;
-}
-
-void update(osg::Node& root, double time) {
-    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-    stamp->setSimulationTime(time);
-    osgUtil::UpdateVisitor visitor;
-    visitor.setFrameStamp(stamp);
-    root.accept(visitor);
 }
 
 struct Player {
@@ -207,7 +198,7 @@ TEST_P(RigRoundTrip, BonesAgreeWithAssimpsNodes) {
     Player player(rig);
     expectPose(rig, player, *scene, placesAt(*scene, nullptr, 0.0), tolerance);
     if (HasFatalFailure()) return;
-    update(*player.root, 0.0);
+    test::updateAt(*player.root, 0.0);
     expectPose(rig, player, *scene, placesAt(*scene, nullptr, 0.0), tolerance);
     if (HasFatalFailure()) return;
 
@@ -221,14 +212,14 @@ TEST_P(RigRoundTrip, BonesAgreeWithAssimpsNodes) {
         const double duration = rig.animations[a]->getDuration();
         for (double share = 0.0; share < 0.99; share += 0.07) { // the loop's end is its start
             const double seconds = share * duration;
-            update(*player.root, start + seconds);
+            test::updateAt(*player.root, start + seconds);
             expectPose(rig, player, *scene, placesAt(*scene, &animation, zero + seconds * rate),
                        tolerance);
             if (HasFatalFailure()) return;
         }
         player.manager->stopAnimation(rig.animations[a]);
         start += 1000.0;
-        update(*player.root, start); // the next one starts here
+        test::updateAt(*player.root, start); // the next one starts here
     }
 }
 

@@ -2,6 +2,7 @@
 // A scene saved and read again, field by field. osgDB says nothing where a wrapper is missing: only
 // what comes back counts.
 #include "SavedScene.h"
+#include "UpdateAt.h"
 
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/RigidPart>
@@ -10,7 +11,6 @@
 #include <osg/Material>
 #include <osg/ValueObject>
 #include <osgAnimation/Bone>
-#include <osgUtil/UpdateVisitor>
 
 #include <gtest/gtest.h>
 
@@ -38,14 +38,6 @@ protected:
     osg::ref_ptr<osg::Node> before, after;
     std::vector<DeformableSkin*> was, is;
 };
-
-void update(osg::Node& scene, double time) {
-    osgUtil::UpdateVisitor visitor;
-    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-    stamp->setSimulationTime(time);
-    visitor.setFrameStamp(stamp);
-    scene.accept(visitor);
-}
 
 } // namespace
 
@@ -127,8 +119,8 @@ TEST_P(RoundTrip, PlaysByItself) {
     ASSERT_NE(dynamic_cast<osgSkin::AutoPlayManager*>(after->getUpdateCallback()), nullptr);
     std::vector<osg::Vec3> first;
     for (const double time : {0.0, 0.25, 0.5, 0.75}) {
-        update(*before, time);
-        update(*after, time);
+        test::updateAt(*before, time);
+        test::updateAt(*after, time);
         const auto a = vertices(*was[0]->getDeformedGeometry()).asVector();
         EXPECT_EQ(a, vertices(*is[0]->getDeformedGeometry()).asVector()) << time;
         if (time == 0.0) first = a;

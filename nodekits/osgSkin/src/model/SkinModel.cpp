@@ -62,6 +62,10 @@ const std::vector<std::string>& SkinModel::inputs() const {
     return _correctives ? _correctives->inputs : none;
 }
 
+Correctives SkinModel::correctives() const {
+    return correctivesOf(*this);
+}
+
 osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
                                                 std::vector<glm::vec3> positions,
                                                 std::vector<glm::vec3> normals,

@@ -21,6 +21,8 @@ std::size_t indexOf(const std::string& name, const std::vector<std::string>& nam
 
 } // namespace
 
+DeformableSkin::Drawer::~Drawer() = default;
+
 DeformableSkin::DeformableSkin() {
     setUseDisplayList(false);
     setSupportsDisplayList(false);
@@ -32,7 +34,7 @@ DeformableSkin::DeformableSkin() {
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
       _eager(other._eager), _pool(other._pool), _tangentAttribute(other._tangentAttribute),
-      _tangents(other._tangents) {
+      _tangents(other._tangents), _drawer(other._drawer ? other._drawer->clone() : nullptr) {
     makeBuffers();
     poseChanged();
 }
@@ -96,6 +98,37 @@ osg::ref_ptr<Array> stream(const osg::Array& source, osg::VertexBufferObject& vb
 
 } // namespace
 
+osg::ref_ptr<osg::Geometry> DeformableSkin::makeDrawnGeometry() const {
+    osg::ref_ptr<osg::Geometry> buffer = new osg::Geometry(*_rest, osg::CopyOp::SHALLOW_COPY);
+    buffer->setStateSet(nullptr); // the outer drawable's stands above it while culling
+    buffer->setUpdateCallback(nullptr);
+    buffer->setEventCallback(nullptr);
+    buffer->setCullCallback(nullptr);
+    buffer->setNodeMask(~0u);
+    buffer->setDataVariance(osg::Object::UNSPECIFIED); // DYNAMIC would hold up the next update
+    buffer->setUseDisplayList(false);
+    buffer->setSupportsDisplayList(false);
+    buffer->setUseVertexBufferObjects(getUseVertexBufferObjects());
+    // Each buffer streams from memory of its own: a draw thread may still read the other one.
+    const osg::ref_ptr<osg::VertexBufferObject> vbo = new osg::VertexBufferObject;
+    vbo->setUsage(GL_DYNAMIC_DRAW);
+    buffer->setVertexArray(stream<osg::Vec3Array>(*_rest->getVertexArray(), *vbo));
+    buffer->setNormalArray(stream<osg::Vec3Array>(*_rest->getNormalArray(), *vbo));
+    if (_tangents) {
+        const auto index = static_cast<unsigned int>(_tangentAttribute);
+        buffer->setVertexAttribArray(
+            index, stream<osg::Vec4Array>(*_rest->getVertexAttribArray(index), *vbo));
+    }
+    // Bounds are the skin's, known from the pose before any vertex is deformed: set as initial
+    // ones, to which the callback adds nothing.
+    static const osg::ref_ptr<osg::Drawable::ComputeBoundingBoxCallback> nothing =
+        new osg::Drawable::ComputeBoundingBoxCallback;
+    buffer->setComputeBoundingBoxCallback(nothing);
+    // Culled by the outer drawable already, before it was deformed.
+    buffer->setCullingActive(false);
+    return buffer;
+}
+
 void DeformableSkin::makeBuffers() {
     releaseGLObjects();
     _buffers = {};
@@ -103,35 +136,15 @@ void DeformableSkin::makeBuffers() {
     _current = 0;
     _handedOut = false;
     if (!_rest) return;
-    for (osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
-        buffer = new osg::Geometry(*_rest, osg::CopyOp::SHALLOW_COPY);
-        buffer->setStateSet(nullptr); // the outer drawable's stands above it while culling
-        buffer->setUpdateCallback(nullptr);
-        buffer->setEventCallback(nullptr);
-        buffer->setCullCallback(nullptr);
-        buffer->setNodeMask(~0u);
-        buffer->setDataVariance(osg::Object::UNSPECIFIED); // DYNAMIC would hold up the next update
-        buffer->setUseDisplayList(false);
-        buffer->setSupportsDisplayList(false);
-        buffer->setUseVertexBufferObjects(getUseVertexBufferObjects());
-        // Each buffer streams from memory of its own: a draw thread may still read the other one.
-        const osg::ref_ptr<osg::VertexBufferObject> vbo = new osg::VertexBufferObject;
-        vbo->setUsage(GL_DYNAMIC_DRAW);
-        buffer->setVertexArray(stream<osg::Vec3Array>(*_rest->getVertexArray(), *vbo));
-        buffer->setNormalArray(stream<osg::Vec3Array>(*_rest->getNormalArray(), *vbo));
-        if (_tangents) {
-            const auto index = static_cast<unsigned int>(_tangentAttribute);
-            buffer->setVertexAttribArray(
-                index, stream<osg::Vec4Array>(*_rest->getVertexAttribArray(index), *vbo));
-        }
-        // Bounds are the skin's, known from the pose before any vertex is deformed: set as initial
-        // ones, to which the callback adds nothing.
-        static const osg::ref_ptr<osg::Drawable::ComputeBoundingBoxCallback> nothing =
-            new osg::Drawable::ComputeBoundingBoxCallback;
-        buffer->setComputeBoundingBoxCallback(nothing);
-        // Culled by the outer drawable already, before it was deformed.
-        buffer->setCullingActive(false);
-    }
+    for (osg::ref_ptr<osg::Geometry>& buffer : _buffers) buffer = makeDrawnGeometry();
+    if (_drawer) _drawer->skinChanged(*this);
+}
+
+void DeformableSkin::setDrawer(Drawer* drawer) {
+    _drawer = drawer;
+    if (!_drawer || !_model) return;
+    _drawer->skinChanged(*this);
+    _drawer->poseChanged(*this);
 }
 
 bool DeformableSkin::setPose(const glm::dmat4* skinning, std::size_t count, Pose::Twist twist) {
@@ -178,6 +191,7 @@ void DeformableSkin::poseChanged() {
         buffer->getBound(); // now: several cull threads may ask for it at once
     }
     dirtyBound();
+    if (_drawer) _drawer->poseChanged(*this);
     if (_eager) deform();
 }
 
@@ -246,11 +260,16 @@ void DeformableSkin::cull(osg::NodeVisitor& nv) {
             return;
     }
     if (cv && isCullingActive() && cv->isCulled(getBoundingBox())) return;
-    deform();
-    _handedOut = true;
+    osg::Geometry* drawn = nullptr;
+    if (_drawer && cv && !_eager && !getDrawCallback()) drawn = _drawer->cull(*this, *cv);
+    if (!drawn) {
+        deform();
+        _handedOut = true;
+        drawn = _buffers[_current].get();
+    }
     osg::StateSet* stateSet = cv ? getStateSet() : nullptr;
     if (stateSet) cv->pushStateSet(stateSet);
-    _buffers[_current]->accept(nv);
+    drawn->accept(nv);
     if (stateSet) cv->popStateSet();
 }
 
@@ -288,18 +307,21 @@ void DeformableSkin::compileGLObjects(osg::RenderInfo& renderInfo) const {
     const std::lock_guard<std::mutex> lock(_mutex);
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
         if (buffer) buffer->compileGLObjects(renderInfo);
+    if (_drawer) _drawer->compileGLObjects(renderInfo);
 }
 
 void DeformableSkin::resizeGLObjectBuffers(unsigned int maxSize) {
     osg::Drawable::resizeGLObjectBuffers(maxSize);
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
         if (buffer) buffer->resizeGLObjectBuffers(maxSize);
+    if (_drawer) _drawer->resizeGLObjectBuffers(maxSize);
 }
 
 void DeformableSkin::releaseGLObjects(osg::State* state) const {
     osg::Drawable::releaseGLObjects(state);
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
         if (buffer) buffer->releaseGLObjects(state);
+    if (_drawer) _drawer->releaseGLObjects(state);
 }
 
 } // namespace osgSkin

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/FitSkeleton>
 
+#include "fit/Shells.h"
 #include "fit/place/CheckProportions.h"
 #include "fit/place/PlaceArm.h"
 #include "fit/place/PlaceHand.h"
@@ -12,6 +13,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <osgSkinRig/JointRoles>
@@ -20,6 +22,8 @@
 #include <chrono>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
+#include <optional>
 
 namespace osgSkin {
 namespace {
@@ -27,6 +31,12 @@ namespace {
 /// Fractions of the time that have passed when the steps begin.
 constexpr double kFacingBegins = 0.85;
 constexpr double kJointsBegin = 0.95;
+
+/// A measured surface with so much of the mesh's extents that is no odder is a person, and no other
+/// is tried; a shell smaller than this is none.
+constexpr double kReaches = 0.88;
+constexpr double kPerson = 0.10;
+constexpr double kHardlyAll = 0.6;
 
 bool isDirection(const glm::dvec3& d) {
     return isFinite(d) && glm::length(d) > 0.0;
@@ -111,6 +121,13 @@ void placeJoints(const FitBody& body, PlacedJoints& placed, std::vector<std::str
     pushInside(body, placed, notes);
 }
 
+struct Fitted {
+    RestSkeleton skeleton;
+    FitReport report;
+    double odd = 0.0;   ///< oddity()
+    double reach = 0.0; ///< least share of the mesh's main extents that the measured surface has
+};
+
 RestSkeleton skeletonOf(const FitBody& body, PlacedJoints& placed, FitReport& report) {
     RestSkeleton skeleton;
     for (const FittedJoint& joint : fittedTree()) {
@@ -126,6 +143,83 @@ RestSkeleton skeletonOf(const FitBody& body, PlacedJoints& placed, FitReport& re
     return skeleton;
 }
 
+/// Thin extents do not count: a nose, a bag.
+double reachOf(const FitBody& body, const WeldedMesh& mesh) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    glm::dvec3 low(kInfinity), high(-kInfinity), wholeLow(kInfinity), wholeHigh(-kInfinity);
+    for (const glm::dvec3& p : body.surface.points()) {
+        low = glm::min(low, body.toRest(p));
+        high = glm::max(high, body.toRest(p));
+    }
+    for (const auto& t : mesh.triangles)
+        for (const std::uint32_t v : t) {
+            wholeLow = glm::min(wholeLow, mesh.positions[v]);
+            wholeHigh = glm::max(wholeHigh, mesh.positions[v]);
+        }
+    const glm::dvec3 own = high - low, whole = wholeHigh - wholeLow;
+    double reach = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+        if (2.0 * whole[axis] > std::max({whole.x, whole.y, whole.z}))
+            reach = std::min(reach, own[axis] / whole[axis]);
+    return reach;
+}
+
+/// \param mesh the body
+/// \param filled what all its shells fill; null to measure the largest one
+/// \param options names of landmarks are the fit's own
+/// \throw Error where that surface is no body's
+Fitted fitTo(const WeldedMesh& mesh, const fit::SolidGrid* filled, const FitOptions& options) {
+    const auto tell = [&options](const char* what, double fraction) {
+        if (options.progress) options.progress({what, fraction});
+    };
+    Fitted found;
+    FitReport& report = found.report;
+    tell("surface", 0.0);
+    FitBody body(mesh, filled, options, areGiven(options, "UpLeg", "Foot"),
+                 areGiven(options, "Arm", "Hand"), report.notes);
+    tell("facing", kFacingBegins);
+    report.facing = body.face(options.facing, leftOf(options, body));
+    if (report.facing == "assumed")
+        report.notes.push_back("feet, face and elbows do not tell where the body faces: give a "
+                               "facing if left and right are exchanged");
+    report.height = body.height();
+    report.symmetryError = body.symmetryError;
+
+    PlacedJoints placed;
+    for (const auto& [name, centre] : options.landmarks)
+        placed.addLandmark(name, body.toBody(centre));
+    tell("joints", kJointsBegin);
+    placeJoints(body, placed, report.notes);
+    found.odd = oddity(placed);
+    found.reach = reachOf(body, mesh);
+    found.skeleton = skeletonOf(body, placed, report);
+    return found;
+}
+
+/// The largest shell is the body where it looks like one and reaches as far as all do: eyes, teeth
+/// and buttons are others. Else it may be a body in clothes, or clothes with a body in them, or one
+/// of a mannequin's parts: what looks most like a person is.
+Fitted fitBest(const WeldedMesh& mesh, const FitOptions& options) {
+    if (isOneSkin(mesh)) return fitTo(mesh, nullptr, options);
+    std::optional<Fitted> best;
+    if (largestShellShare(mesh) > kHardlyAll) {
+        try {
+            best = fitTo(mesh, nullptr, options);
+        } catch (const Error&) {
+            // The union's complaint says more.
+        }
+        if (best && best->reach > kReaches && best->odd < kPerson) return *best;
+    }
+    try {
+        const fit::SolidGrid filled = filledByAll(mesh);
+        Fitted whole = fitTo(mesh, &filled, options);
+        if (!best || whole.odd < best->odd) return whole;
+    } catch (const Error& error) {
+        if (!best) throw Error(error.what() + ("; " + describeShells(mesh)));
+    }
+    return *best;
+}
+
 } // namespace
 
 RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& given, FitReport* report) {
@@ -134,31 +228,12 @@ RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& given, FitRepor
     FitOptions options = given;
     options.landmarks = renamed(given.landmarks);
     check(options);
-    const auto tell = [&options](const char* what, double fraction) {
-        if (options.progress) options.progress({what, fraction});
-    };
-    FitReport found;
-    tell("surface", 0.0);
-    FitBody body(WeldedMesh(mesh), options, areGiven(options, "UpLeg", "Foot"),
-                 areGiven(options, "Arm", "Hand"), found.notes);
-    tell("facing", kFacingBegins);
-    found.facing = body.face(options.facing, leftOf(options, body));
-    if (found.facing == "assumed")
-        found.notes.push_back("feet, face and elbows do not tell where the body faces: give a "
-                              "facing if left and right are exchanged");
-    found.height = body.height();
-    found.symmetryError = body.symmetryError;
-
-    PlacedJoints placed;
-    for (const auto& [name, centre] : options.landmarks)
-        placed.addLandmark(name, body.toBody(centre));
-    tell("joints", kJointsBegin);
-    placeJoints(body, placed, found.notes);
-    RestSkeleton skeleton = skeletonOf(body, placed, found);
-    found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (report) *report = found;
-    tell("done", 1.0);
-    return skeleton;
+    Fitted found = fitBest(WeldedMesh(mesh), options);
+    found.report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (report) *report = found.report;
+    if (options.progress) options.progress({"done", 1.0});
+    return found.skeleton;
 }
 
 const std::vector<std::string>& fittedJointNames() {

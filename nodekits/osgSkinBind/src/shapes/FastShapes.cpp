@@ -17,7 +17,7 @@ constexpr std::size_t kModes = 3;
 constexpr std::size_t kRoundModes = CorrectiveJoint::kMostModes;
 
 /// What makes no difference, in radii of the limb.
-constexpr double kTolerance = 1e-2;
+constexpr double kFitTolerance = 1e-2;
 
 JointShapes shapesOf(const ShapedJoint& joint) {
     JointShapes shapes;
@@ -50,7 +50,7 @@ JointShapes shapesOf(const ShapedJoint& joint) {
 
 FittedShapes fastShapesOf(const ShapedJoint& joint) {
     const bool round = joint.functions.basis == CorrectiveJoint::Basis::Round;
-    return fitShapes(shapesOf(joint), round ? kRoundModes : kModes, kTolerance * joint.radius);
+    return fitShapes(shapesOf(joint), round ? kRoundModes : kModes, kFitTolerance * joint.radius);
 }
 
 Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,

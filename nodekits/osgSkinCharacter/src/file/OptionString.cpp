@@ -63,6 +63,12 @@ bool surfaceNormalsOf(const std::string& value) {
     return value == "surface";
 }
 
+bool gpuOf(const std::string& value) {
+    if (value == "on") return true;
+    if (value == "off") return false;
+    fail("gpu", value, "on or off");
+}
+
 std::vector<std::string> namesOf(const std::string& value) {
     std::vector<std::string> names;
     if (value == "none") return names;
@@ -86,6 +92,7 @@ LoadOptions toLoadOptions(const osgDB::Options* options) {
         if (key == "muscles") result.muscles = musclesOf(value);
         if (key == "normals") result.surfaceNormals = surfaceNormalsOf(value);
         if (key == "rigid") result.rigid = namesOf(value);
+        if (key == "gpu") result.gpu = gpuOf(value);
         if (key == "motion") {
             if (value.empty()) fail(key, value, "a clip's name, a motion file, or none");
             result.atRest = value == "none";
@@ -115,6 +122,7 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
          "a minute or more, and is kept in the cache folder"},
         {"muscles=<on|off>",
          "biceps, triceps, quadriceps, hamstrings and calves that swell; off by default"},
+        {"gpu=<on|off>", "on: skins are deformed on the graphics card where it has OpenGL 4.3"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };
     return words;

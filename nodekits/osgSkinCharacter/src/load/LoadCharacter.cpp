@@ -9,6 +9,7 @@
 #include "source/ReadRig.h"
 #include "source/ReadSkinFile.h"
 
+#include <osgSkinGpu/GpuSkin>
 #include <osgSkinImport/ImportRig>
 
 #include <osgDB/FileNameUtils>
@@ -39,20 +40,26 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     return character;
 }
 
-} // namespace
-
-Character loadCharacter(const std::string& path, const LoadOptions& options) {
+Character loadFrom(const std::string& path, const LoadOptions& options) {
     const std::string found = osgDB::findDataFile(path, options.readOptions.get());
     const std::string& file = found.empty() ? path : found;
     LoadStages stages(options.progress);
     if (osgDB::getLowerCaseFileExtension(path) == "skin") {
         const std::string model = osgDB::getNameLessExtension(path);
         if (found.empty() && !osgDB::getFileExtension(model).empty())
-            return loadCharacter(model, options);
+            return loadFrom(model, options);
         return makeCharacter(readSkinFile(file, options, stages), options, stages);
     }
     if (isReadByAssimp(file)) return makeCharacter(readRig(file, options, stages), options, stages);
     return convertScene(file, options, stages);
+}
+
+} // namespace
+
+Character loadCharacter(const std::string& path, const LoadOptions& options) {
+    Character character = loadFrom(path, options);
+    if (options.gpu && character.root) setGpu(*character.root, true);
+    return character;
 }
 
 } // namespace osgSkin

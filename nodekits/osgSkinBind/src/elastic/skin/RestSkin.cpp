@@ -15,12 +15,12 @@
 namespace osgSkin::elastic {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Faces = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Faces::const_iterator>;
-using AabbTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using Cartesian = CGAL::Simple_cartesian<double>;
+using Faces = std::vector<Cartesian::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Cartesian, Faces::const_iterator>;
+using AabbTree = CGAL::AABB_tree<CGAL::AABB_traits<Cartesian, Primitive>>;
 
-Kernel::Point_3 cgal(const Point& p) {
+Cartesian::Point_3 cgal(const Point& p) {
     return {p.x(), p.y(), p.z()};
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <limits>
 #include <optional>
@@ -21,9 +22,14 @@ using Indices = std::vector<std::size_t>;
 constexpr double kShortestArm = 0.15;
 constexpr double kThirdLimb = 0.6;
 
-/// No crotch is lower, no foot ends higher.
-constexpr double kLegZone = 0.3;
+/// No crotch is lower, a person's first, then figures' with short legs or in skirts; no foot ends
+/// higher.
+constexpr double kLegZones[] = {0.3, 0.2, 0.13};
 constexpr double kFootZone = 0.1;
+
+/// What leaves the trunk this far above the arms is hair, this near the legs a tail.
+constexpr double kAboveArms = 0.08;
+constexpr double kAtLegs = 0.08;
 
 [[noreturn]] void fail(const std::string& what) {
     throw Error("cannot fit a skeleton: " + what);
@@ -35,12 +41,19 @@ public:
 
     BodyBranches find(bool legsGiven, bool armsGiven) {
         const CurveSkeleton::Paths toHead = _skeleton.pathsTo(highest());
-        Indices feet = footEnds(toHead);
+        Indices feet;
+        std::size_t found = 0; // for persons
+        for (const double zone : kLegZones) {
+            feet = footEnds(toHead, zone);
+            if (zone == kLegZones[0]) found = feet.size();
+            if (feet.size() == 2) break;
+        }
         if (feet.size() != 2) {
             if (!legsGiven)
                 fail("expected two legs that reach the floor apart from each other, found " +
-                     std::to_string(feet.size()) +
-                     "; is the body upright, with `up` as its up axis?");
+                     std::to_string(found) +
+                     "; is the body upright, with `up` as its up axis? Else give landmarks for "
+                     "LeftUpLeg, LeftFoot, RightUpLeg and RightFoot");
             feet.assign(2, lowest());
         }
         std::array<Indices, 2> legs{toHead.pathFrom(feet[0]), toHead.pathFrom(feet[1])};
@@ -87,11 +100,11 @@ private:
 
     /// In each connected piece of the curves below the leg zone's top: the point farthest from the
     /// head, if it is near the floor.
-    Indices footEnds(const CurveSkeleton::Paths& toHead) const {
+    Indices footEnds(const CurveSkeleton::Paths& toHead, double zone) const {
         std::vector<bool> known(_skeleton.points.size(), false);
         Indices ends;
         for (std::size_t start = 0; start < known.size(); ++start) {
-            if (known[start] || _skeleton.points[start].y > kLegZone) continue;
+            if (known[start] || _skeleton.points[start].y > zone) continue;
             Indices open{start};
             std::size_t end = start;
             double lowest = 1.0;
@@ -102,7 +115,7 @@ private:
                 lowest = std::min(lowest, _skeleton.points[p].y);
                 if (toHead.length[p] > toHead.length[end]) end = p;
                 for (const std::size_t q : _skeleton.neighbours[p])
-                    if (!known[q] && _skeleton.points[q].y <= kLegZone) {
+                    if (!known[q] && _skeleton.points[q].y <= zone) {
                         known[q] = true;
                         open.push_back(q);
                     }
@@ -137,12 +150,21 @@ private:
             }
         std::stable_sort(branches.begin(), branches.end(),
                          [](const auto& a, const auto& b) { return a.first > b.first; });
-        std::size_t arms = 0;
-        while (arms < branches.size() && branches[arms].first > kShortestArm) ++arms;
+        const auto heightOf = [this](const auto& branch) {
+            return _skeleton.points[branch.second.front()].y;
+        };
+        const double legsAt = _skeleton.points[trunk.back()].y;
+        const auto isNoArm = [&](const auto& branch) {
+            return branch.first <= kShortestArm || heightOf(branch) < legsAt + kAtLegs;
+        };
+        branches.erase(std::remove_if(branches.begin(), branches.end(), isNoArm), branches.end());
+        preferPair(branches, heightOf);
+        const std::size_t arms = branches.size();
         if (given && arms != 2) return std::nullopt;
         if (arms < 2)
             fail("expected two arms that stand off the trunk (a T or an A pose), found " +
-                 std::to_string(arms));
+                 std::to_string(arms) +
+                 "; give landmarks for LeftArm, LeftHand, RightArm and RightHand");
         if (arms > 2 && branches[2].first > kThirdLimb * branches[1].first) {
             std::ostringstream what;
             what << "expected two arms, found " << arms << " limbs between head and legs, at least "
@@ -150,6 +172,23 @@ private:
             fail(what.str());
         }
         return std::array<Indices, 2>{branches[0].second, branches[1].second};
+    }
+
+    /// Leaves hair and ears out that hang from a head: of three limbs or more, what leaves the
+    /// trunk far above the two that leave it alike and are longest.
+    template <typename Branches, typename Height>
+    static void preferPair(Branches& branches, const Height& heightOf) {
+        for (std::size_t second = 1; second < branches.size() && branches.size() > 2; ++second)
+            for (std::size_t first = 0; first < second; ++first) {
+                const double a = heightOf(branches[first]), b = heightOf(branches[second]);
+                if (std::abs(a - b) > kAboveArms) continue;
+                const double most = std::max(a, b) + kAboveArms;
+                const auto above = [&](const auto& branch) { return heightOf(branch) > most; };
+                if (branches[second].first < kThirdLimb * branches[first].first) continue;
+                branches.erase(std::remove_if(branches.begin(), branches.end(), above),
+                               branches.end());
+                return;
+            }
     }
 
     static void pairSides(BodyBranches& body) {

@@ -52,9 +52,11 @@ struct BodySurface::Surface {
     }
 };
 
-BodySurface::BodySurface(const WeldedMesh& mesh, std::vector<std::string>& notes)
+BodySurface::BodySurface(const WeldedMesh& mesh, const fit::SolidGrid* filled,
+                         std::vector<std::string>& notes)
     : _surface(std::make_unique<Surface>()) {
-    _surface->mesh = fit::closedSurface(mesh, notes);
+    _surface->mesh =
+        filled ? fit::unionSurface(*filled, mesh, notes) : fit::largestSurface(mesh, notes);
     _surface->index();
 }
 

@@ -14,18 +14,24 @@
 #include <string>
 #include <vector>
 
+namespace osgSkin::fit {
+class SolidGrid;
+}
+
 namespace osgSkin {
 
-/// The body's largest shell as one closed, oriented surface: what skeleton fitting measures.
+/// One closed, oriented surface of the body: what skeleton fitting measures.
 ///
-/// Eyes, teeth and clothes are other shells and are left out; holes (a mouth, a cut neck) are
-/// closed.
+/// Of the largest shell, without eyes, teeth and clothes, its holes (a mouth, a cut neck) closed;
+/// or around all shells together.
 class BodySurface {
 public:
     /// \param mesh the body, rest space
+    /// \param filled what all its shells fill; null for the largest shell's surface
     /// \param notes gets one line for each thing that was left out or closed
     /// \throw Error where no closed surface can be made
-    BodySurface(const WeldedMesh& mesh, std::vector<std::string>& notes);
+    BodySurface(const WeldedMesh& mesh, const fit::SolidGrid* filled,
+                std::vector<std::string>& notes);
     ~BodySurface();
 
     /// Moves all points: p becomes scale * rotation * (p - origin).

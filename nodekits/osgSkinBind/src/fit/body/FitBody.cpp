@@ -39,9 +39,9 @@ glm::dmat3 yaw(const glm::dvec3& ahead) {
 
 } // namespace
 
-FitBody::FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiven, bool armsGiven,
-                 std::vector<std::string>& notes)
-    : surface(mesh, notes) {
+FitBody::FitBody(const WeldedMesh& mesh, const fit::SolidGrid* filled, const FitOptions& options,
+                 bool legsGiven, bool armsGiven, std::vector<std::string>& notes)
+    : surface(mesh, filled, notes) {
     const glm::dmat3 rotation = standUp(options.up);
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const glm::dvec3& p : surface.points()) {
@@ -66,6 +66,35 @@ FitBody::FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiv
     };
     tell(0.0);
     branches = BodyBranches::find(surface.curveSkeleton(tell), legsGiven, armsGiven);
+    shrinkHead(notes);
+}
+
+/// Proportions are those of a person's height: a cartoon's is taken from its neck.
+void FitBody::shrinkHead(std::vector<std::string>& notes) {
+    constexpr double kLargeHead = 0.80, kNeck = 0.87, kWider = 1.3;
+    if (branches.arms[0].empty()) return;
+    const double from = std::min(branches.arms[0].front().y, branches.arms[1].front().y);
+    double neck = 1.0, least = std::numeric_limits<double>::infinity(), above = 0.0;
+    for (double y = from; y < 0.95; y += 0.005) {
+        glm::dvec3 at = branches.trunk.front();
+        for (const glm::dvec3& p : branches.trunk)
+            if (p.y > y) at = p;
+        at.y = y;
+        const auto section = surface.sectionAt(at, {0, 1, 0}, 0.1);
+        if (!section) continue;
+        above = std::max(above, section->area);
+        if (section->area >= least) continue;
+        least = above = section->area;
+        neck = y;
+    }
+    if (neck > kLargeHead || above < kWider * least) return;
+    const double scale = kNeck / neck;
+    surface.transform(glm::dmat3(1.0), glm::dvec3(0.0), scale);
+    branches.transform(glm::dmat3(scale), glm::dvec3(0.0));
+    _scale *= scale;
+    _top = scale;
+    notes.push_back("a large head: the neck is at " + std::to_string(std::lround(100.0 * neck)) +
+                    " % of the height");
 }
 
 void FitBody::move(const glm::dmat3& rotation, const glm::dvec3& origin) {

@@ -14,7 +14,8 @@
 namespace osgSkin {
 
 /// A body in the frame in which it is measured: y up, +z where it faces, +x its left, the floor at
-/// y = 0, the top of the head at 1, x = 0 between left and right.
+/// y = 0, the top of the head at 1, x = 0 between left and right. A figure whose head is larger
+/// than a person's has its neck where a person has it, and the top of the head above 1.
 struct FitBody {
     BodySurface surface;
     BodyBranches branches;
@@ -24,13 +25,14 @@ struct FitBody {
     /// known yet.
     ///
     /// \param mesh the body, rest space
+    /// \param filled what all its shells fill; null to measure the largest one
     /// \param options its up axis and whom to tell
     /// \param legsGiven landmarks stand in for legs that are not found
     /// \param armsGiven landmarks stand in for arms that are not found
     /// \param notes gets a line for each thing that is unusual
     /// \throw Error where the surface is not that of a body that stands
-    FitBody(const WeldedMesh& mesh, const FitOptions& options, bool legsGiven, bool armsGiven,
-            std::vector<std::string>& notes);
+    FitBody(const WeldedMesh& mesh, const fit::SolidGrid* filled, const FitOptions& options,
+            bool legsGiven, bool armsGiven, std::vector<std::string>& notes);
 
     /// Rotates the body about its up axis until it faces +z.
     ///
@@ -48,18 +50,21 @@ struct FitBody {
         return _origin + glm::transpose(_rotation) * (body / _scale);
     }
     bool isSymmetric() const { return symmetryError < 0.01; }
-    double height() const { return 1.0 / _scale; } ///< in the mesh's unit
+    double top() const { return _top; }             ///< of the head
+    double height() const { return _top / _scale; } ///< in the mesh's unit
 
 private:
     void move(const glm::dmat3& rotation, const glm::dvec3& origin);
     glm::dvec3 lateral(const std::optional<glm::dvec3>& left) const;
     void faceBackwards();
+    void shrinkHead(std::vector<std::string>& notes);
     void refineSymmetry();
     double mirrorError(double angle, double x) const;
 
     glm::dmat3 _rotation{1.0};
     glm::dvec3 _origin{0.0};
     double _scale = 1.0;
+    double _top = 1.0;
 };
 
 } // namespace osgSkin

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/place/CheckProportions.h"
 
+#include "fit/place/Proportions.h"
+
 #include <osgSkin/Error>
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -75,6 +79,25 @@ void checkProportions(const PlacedJoints& placed) {
         checker.bone("Arm", "ForeArm", kUpperArm);
         checker.bone("ForeArm", "Hand", kForeArm);
     }
+}
+
+double oddity(const PlacedJoints& placed) {
+    namespace part = proportions;
+    double sum = 0.0;
+    const auto add = [&sum](double found, double expected) {
+        sum += std::abs(std::log(std::max(found, 1e-3) / expected)) / 12.0;
+    };
+    for (const std::size_t side : {0u, 1u}) {
+        const std::string& prefix = sidePrefix(side);
+        const auto at = [&](const char* joint) { return placed.at(prefix + joint); };
+        add(glm::distance(at("UpLeg"), at("Leg")), part::kThigh);
+        add(glm::distance(at("Leg"), at("Foot")), part::kShin);
+        add(glm::distance(at("Arm"), at("ForeArm")), part::kUpperArm);
+        add(glm::distance(at("ForeArm"), at("Hand")), part::kForeArm);
+        add(at("UpLeg").y, part::kHipHeight);
+        add(at("Arm").y, part::kShoulderHeight);
+    }
+    return sum;
 }
 
 } // namespace osgSkin

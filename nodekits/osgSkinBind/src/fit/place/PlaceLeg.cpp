@@ -59,6 +59,13 @@ private:
     std::size_t _side;
 };
 
+/// Whether the legs part at the hem of a skirt: it is much wider than both together.
+bool isHem(const FitBody& body, const Fork& fork) {
+    constexpr double kAbove = 0.02, kWider = 2.0;
+    const auto above = body.surface.sectionAt(fork.point + kAbove * kUp, kUp, 0.05);
+    return above && above->area > kWider * (fork.a.area + fork.b.area);
+}
+
 void placeHip(const FitBody& body, std::size_t side, PlacedJoints& placed) {
     const std::string name = sidePrefix(side) + "UpLeg";
     if (placed.has(name)) return;
@@ -69,11 +76,13 @@ void placeHip(const FitBody& body, std::size_t side, PlacedJoints& placed) {
                     "height, found no such place; give landmarks for " +
                     name);
     const glm::dvec3 thigh = (side == 0 ? crotch->a : crotch->b).centre;
-    const double height = crotch->point.y + part::kHipAboveCrotch;
+    const bool skirted = isHem(body, *crotch);
+    const double height = skirted ? part::kHipHeight : crotch->point.y + part::kHipAboveCrotch;
     double depth = thigh.z;
     if (const auto section = body.surface.sectionAt({0.0, height, thigh.z}, kUp, 0.05))
         depth = glm::mix(section->low(2), section->high(2), part::kHipsDepth);
-    placed.place(name, {thigh.x, height, depth}, "above the crotch");
+    placed.place(name, {thigh.x, height, depth},
+                 skirted ? "share of the height, above a skirt's hem" : "above the crotch");
 }
 
 void placeAnkle(const Leg& leg, const std::string& name, PlacedJoints& placed,

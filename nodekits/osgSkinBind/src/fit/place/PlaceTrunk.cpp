@@ -92,7 +92,7 @@ void placeTrunk(const FitBody& body, PlacedJoints& placed) {
                     "heights " +
                     std::to_string(head.y) + ", " + std::to_string(neck.y) + " and " +
                     std::to_string(hips.y) + " of the body's");
-    placed.setTip("Head", {head.x, 1.0, head.z});
+    placed.setTip("Head", {head.x, body.top(), head.z});
     placed.place("Neck1", 0.5 * (neck + head), "between Neck and Head");
 
     const auto spine = [&](const char* name, double up, double depth) {

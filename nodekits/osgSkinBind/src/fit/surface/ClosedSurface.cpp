@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/surface/ClosedSurface.h"
 
+#include "fit/solid/SurfaceNet.h"
+
 #include <osgSkin/Error>
 
 #include <CGAL/Polygon_mesh_processing/border.h>
@@ -44,9 +46,24 @@ void closeHoles(Mesh& mesh, std::vector<std::string>& notes) {
     if (!holes.empty()) notes.push_back("closed " + std::to_string(holes.size()) + " holes");
 }
 
+/// The soup's largest piece as a closed surface that faces outwards.
+Mesh closedMesh(std::vector<Kernel::Point_3>& points,
+                std::vector<std::array<std::size_t, 3>>& triangles,
+                std::vector<std::string>& notes) {
+    // Splits what is not manifold, so that a flawed mesh still gives a surface.
+    PMP::orient_polygon_soup(points, triangles);
+    Mesh result;
+    PMP::polygon_soup_to_polygon_mesh(points, triangles, result);
+    PMP::keep_largest_connected_components(result, 1);
+    result.collect_garbage();
+    closeHoles(result, notes);
+    if (!PMP::is_outward_oriented(result)) PMP::reverse_face_orientations(result);
+    return result;
+}
+
 } // namespace
 
-Mesh closedSurface(const WeldedMesh& mesh, std::vector<std::string>& notes) {
+Mesh largestSurface(const WeldedMesh& mesh, std::vector<std::string>& notes) {
     if (mesh.shells == 0) throw Error("cannot fit a skeleton: the mesh has no triangle with area");
     const std::uint32_t shell = largestShell(mesh);
     std::vector<Kernel::Point_3> points;
@@ -63,16 +80,22 @@ Mesh closedSurface(const WeldedMesh& mesh, std::vector<std::string>& notes) {
     if (mesh.shells > 1)
         notes.push_back("measured the largest of " + std::to_string(mesh.shells) + " shells, " +
                         std::to_string(points.size()) + " vertices");
+    return closedMesh(points, triangles, notes);
+}
 
-    // Splits what is not manifold, so that a flawed mesh still gives a surface.
-    PMP::orient_polygon_soup(points, triangles);
-    Mesh result;
-    PMP::polygon_soup_to_polygon_mesh(points, triangles, result);
-    PMP::keep_largest_connected_components(result, 1);
-    result.collect_garbage();
-    closeHoles(result, notes);
-    if (!PMP::is_outward_oriented(result)) PMP::reverse_face_orientations(result);
-    return result;
+Mesh unionSurface(const SolidGrid& filled, const WeldedMesh& mesh,
+                  std::vector<std::string>& notes) {
+    SolidGrid grid = filled;
+    const int bars = grid.join();
+    if (grid.count() == 0)
+        throw Error("cannot fit a skeleton: the mesh's shells enclose no volume");
+    grid.thickenTouches();
+    SurfaceNet net(grid);
+    notes.push_back("measured the union of " + std::to_string(mesh.shells) + " shells" +
+                    (bars > 0 ? ", " + std::to_string(bars) + " gaps between them bridged" : ""));
+    std::vector<Kernel::Point_3> points;
+    for (const glm::dvec3& p : net.points) points.push_back(point(p));
+    return closedMesh(points, net.triangles, notes);
 }
 
 } // namespace osgSkin::fit

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "model/PackModel.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace osgSkin {
+namespace {
+
+constexpr unsigned int kNone = ~0u;
+
+unsigned int bits(float x) {
+    unsigned int word;
+    std::memcpy(&word, &x, sizeof word);
+    return word;
+}
+
+unsigned int halves(int low, int high) {
+    return (static_cast<unsigned int>(low) & 0xffffu) | static_cast<unsigned int>(high) << 16;
+}
+
+osg::Vec4ui texel(const glm::vec3& v, unsigned int word) {
+    return {bits(v.x), bits(v.y), bits(v.z), word};
+}
+
+/// A group's chain: the joint whose G comes last, and the links before that, innermost first.
+struct PackedChain {
+    struct Link {
+        unsigned int joint;
+        std::size_t ratio; ///< among the vertex's partial ratios; kFull: 1, 1
+    };
+    static constexpr std::size_t kFull = ~std::size_t(0);
+
+    unsigned int anchor = kNone;
+    std::vector<Link> links;
+};
+
+PackedChain chainOf(const SkinModel& model, const SkinModel::Group& group) {
+    PackedChain chain;
+    std::size_t partial = 0;
+    for (std::uint32_t i = 0; i < group.linkCount; ++i) {
+        const SkinModel::Link& link = model.links()[group.firstLink + i];
+        const int above = chain.anchor == kNone ? -1 : static_cast<int>(chain.anchor);
+        // Only as long as they lead down one path from the root do full links make up a joint's G.
+        if (!link.partial && chain.links.empty() && model.joints()[link.joint].parent == above)
+            chain.anchor = link.joint;
+        else
+            chain.links.push_back({link.joint, link.partial ? partial : PackedChain::kFull});
+        partial += link.partial ? 1 : 0;
+    }
+    std::reverse(chain.links.begin(), chain.links.end());
+    return chain;
+}
+
+class Packer {
+public:
+    Packer(const SkinModel& model, const Correctives& correctives)
+        : _model(model), _correctives(correctives),
+          _weights(weightTexels(model, correctives.joints)), _texels(new osg::Vec4uiArray) {}
+
+    osg::ref_ptr<osg::Vec4uiArray> pack() {
+        addJoints();
+        std::vector<PackedChain> chains;
+        std::vector<std::size_t> chainTexels;
+        for (const SkinModel::Group& group : _model.groups()) {
+            chains.push_back(chainOf(_model, group));
+            chainTexels.push_back(_texels->size());
+            addChain(chains.back());
+        }
+        const std::size_t vertices = _texels->size();
+        const std::size_t count = _model.vertexCount();
+        (*_texels)[0] = {word(_model.joints().size()), word(vertices), word(count), bits(1.0f)};
+        _texels->resize(vertices + 2 * count);
+        for (std::size_t g = 0; g < chains.size(); ++g) {
+            const SkinModel::Group& group = _model.groups()[g];
+            const SkinModel::Ratio* ratios = _model.ratios().data() + group.firstRatio;
+            for (std::uint32_t row = 0; row < group.vertexCount;
+                 ++row, ratios += group.partialCount) {
+                const std::uint32_t v = _model.order()[group.firstVertex + row];
+                (*_texels)[vertices + 2 * v] = texel(_model.positions()[v], word(chainTexels[g]));
+                (*_texels)[vertices + 2 * v + 1] =
+                    texel(_model.normals()[v], word(_texels->size()));
+                addLinks(chains[g], ratios);
+                if (!_correctives.empty()) addCorrectives(v);
+            }
+        }
+        return _texels;
+    }
+
+private:
+    static unsigned int word(std::size_t number) { return static_cast<unsigned int>(number); }
+
+    void addJoints() {
+        _texels->push_back({});
+        for (const BoundJoint& joint : _model.joints()) {
+            _texels->push_back(texel(joint.centre, static_cast<unsigned int>(joint.parent)));
+            _texels->push_back(texel(joint.twistAxis, 0));
+        }
+    }
+
+    void addChain(const PackedChain& chain) {
+        _texels->push_back(
+            {chain.anchor, word(chain.links.size()), _correctives.empty() ? 0u : 1u, 0});
+        for (const PackedChain::Link& link : chain.links)
+            _texels->push_back({link.joint, bits(0.0f), bits(0.0f), 0});
+    }
+
+    void addLinks(const PackedChain& chain, const SkinModel::Ratio* ratios) {
+        for (const PackedChain::Link& link : chain.links) {
+            const SkinModel::Ratio ratio = link.ratio == PackedChain::kFull
+                                               ? SkinModel::Ratio{1.0f, 1.0f}
+                                               : ratios[link.ratio];
+            _texels->push_back({bits(ratio.bend), bits(ratio.twist), 0, 0});
+        }
+    }
+
+    void addCorrectives(std::uint32_t vertex) {
+        const std::uint32_t first = _correctives.firstEntry[vertex];
+        const std::uint32_t end = _correctives.firstEntry[vertex + 1];
+        _texels->push_back({end - first, 0, 0, 0});
+        for (std::uint32_t i = first; i < end; ++i) {
+            const Correctives::Entry& entry = _correctives.entries[i];
+            const std::size_t modes = _correctives.joints[entry.joint].modes;
+            _texels->push_back({_weights[entry.joint], word(modes), 0, 0});
+            for (std::size_t k = 0; k < modes; ++k) {
+                const std::size_t at = entry.firstShare + 3 * k;
+                const std::int16_t* p = &_correctives.shares[at];
+                osg::Vec4ui packed(halves(p[0], p[1]), halves(p[2], 0), 0, 0);
+                if (_correctives.hasNormals()) {
+                    const std::int16_t* n = &_correctives.normalShares[at];
+                    packed[2] = halves(n[0], n[1]);
+                    packed[3] = halves(n[2], 0);
+                }
+                _texels->push_back(packed);
+            }
+        }
+    }
+
+    const SkinModel& _model;
+    const Correctives& _correctives;
+    std::vector<unsigned int> _weights;
+    osg::ref_ptr<osg::Vec4uiArray> _texels;
+};
+
+} // namespace
+
+std::vector<unsigned int> weightTexels(const SkinModel& model,
+                                       const std::vector<CorrectiveJoint>& joints) {
+    std::vector<unsigned int> texels = {static_cast<unsigned int>(4 * model.joints().size())};
+    for (const CorrectiveJoint& joint : joints)
+        texels.push_back(texels.back() + static_cast<unsigned int>((joint.modes + 1) / 2));
+    return texels;
+}
+
+osg::ref_ptr<osg::Vec4uiArray> packModel(const SkinModel& model, const Correctives& correctives) {
+    return Packer(model, correctives).pack();
+}
+
+} // namespace osgSkin

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// What compute shaders make of skins, beside what the processor does.
+#include "GpuSubject.h"
+
+#include <osgSkinGpu/GpuSkin>
+
+#include <osgDB/ReadFile>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <sstream>
+
+namespace {
+
+using test::GpuStage;
+using test::GpuSubject;
+
+class GpuSkin : public testing::TestWithParam<std::string> {};
+
+/// OSGSKIN_GPU_SUBJECTS names others, with commas between them.
+std::vector<std::string> subjects() {
+    const char* named = std::getenv("OSGSKIN_GPU_SUBJECTS");
+    std::istringstream list(named ? named : "tube,thrower");
+    std::vector<std::string> names;
+    for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+    return names;
+}
+
+} // namespace
+
+TEST_P(GpuSkin, PositionsNormalsAndTangentsAreTheProcessors) {
+    GpuSubject subject(GetParam());
+    if (!subject.reason.empty()) GTEST_SKIP() << subject.reason;
+    osgSkin::setGpu(*subject.scene, true);
+    GpuStage stage(subject.scene);
+    test::Difference most;
+    for (int pose = 0; pose < subject.poses; ++pose) {
+        const double time = subject.timeOf(pose);
+        stage.draw(time);
+        for (const auto& skin : subject.skins) {
+            // Only by the comparisons so far, not to be drawn.
+            EXPECT_EQ(skin->getDeformCount(), static_cast<unsigned int>(pose));
+            most.take(test::difference(*skin, stage.computed(*skin)));
+        }
+    }
+    EXPECT_LE(most.positions, 1e-6) << "of the extent";
+    EXPECT_LE(most.normals, 3e-6);
+    EXPECT_LE(most.tangents, 3e-6);
+    std::cout << GetParam() << ": positions " << most.positions << " of the extent, normals "
+              << most.normals << ", tangents " << most.tangents << std::endl;
+}
+
+TEST(GpuOption, SwitchesTheReadersSkins) {
+    const std::string file = std::string(OSGSKIN_DATA) + "/thrower.skin";
+    for (const char* option : {"gpu=on", "gpu=off"}) {
+        const osg::ref_ptr<osg::Node> scene =
+            osgDB::readRefNodeFile(file, new osgDB::Options(option));
+        ASSERT_TRUE(scene);
+        ASSERT_FALSE(test::skinsIn(*scene).empty());
+        for (const auto& skin : test::skinsIn(*scene)) {
+            EXPECT_EQ(skin->getDrawer() != nullptr, std::string(option) == "gpu=on");
+            const osg::ref_ptr<osgSkin::DeformableSkin> copy =
+                osg::clone(skin.get(), osg::CopyOp::SHALLOW_COPY);
+            EXPECT_EQ(copy->getDrawer() != nullptr, skin->getDrawer() != nullptr);
+            EXPECT_TRUE(!copy->getDrawer() || copy->getDrawer() != skin->getDrawer());
+        }
+    }
+    EXPECT_FALSE(osgDB::readRefNodeFile(file, new osgDB::Options("gpu=perhaps")));
+}
+
+TEST_P(GpuSkin, TheSameBitsTwice) {
+    GpuSubject subject(GetParam());
+    if (!subject.reason.empty()) GTEST_SKIP() << subject.reason;
+    osgSkin::setGpu(*subject.scene, true);
+    std::vector<osg::Vec3> before;
+    for (int run = 0; run < 2; ++run) {
+        GpuStage stage(subject.scene);
+        stage.draw(subject.timeOf(1));
+        const GpuStage::Posed posed = stage.computed(*subject.skins.front());
+        if (run == 0) before = posed.positions;
+        EXPECT_EQ(posed.positions, before);
+        subject.scene->releaseGLObjects(nullptr);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Subjects, GpuSkin, testing::ValuesIn(subjects()),
+                         [](const auto& subject) { return subject.param; });

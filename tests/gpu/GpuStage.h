@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "EglWindow.h"
+
+#include <osgSkin/DeformableSkin>
+
+#include <osg/Image>
+#include <osgViewer/CompositeViewer>
+
+#include <vector>
+
+namespace test {
+
+/// Views of one scene, each in a context of its own, without a display.
+class GpuStage {
+public:
+    static constexpr int kSize = 400;
+
+    /// \param scene seen whole
+    GpuStage(osg::Node* scene, EglWindow::Profile profile = EglWindow::Profile::Compatibility,
+             unsigned int contexts = 1,
+             osgViewer::ViewerBase::ThreadingModel model = osgViewer::ViewerBase::SingleThreaded);
+    ~GpuStage();
+
+    /// Two frames of one time: before its first draw a context does not know what it can do.
+    void draw(double time = 0.0);
+    void frame(double time) { viewer.frame(time); }
+
+    /// The first view's picture, as the last frame has left it.
+    const osg::Image& picture() const { return *_image; }
+
+    void look(const osg::Vec3d& direction, double distance = 3.0);
+
+    void lookAway();
+
+    /// What the first context's shaders made of a skin.
+    struct Posed {
+        std::vector<osg::Vec3> positions, normals;
+        std::vector<osg::Vec4> tangents;
+    };
+    Posed computed(const osgSkin::DeformableSkin& skin);
+
+    osgViewer::CompositeViewer viewer;
+
+private:
+    osg::ref_ptr<osg::Image> _image;
+    std::vector<osg::ref_ptr<EglWindow>> _windows;
+    osg::BoundingSphere _sphere;
+};
+
+/// Pixels in which two pictures differ by more than a little.
+unsigned int unlikePixels(const osg::Image& a, const osg::Image& b);
+
+/// Pixels that are not the background.
+unsigned int seenPixels(const osg::Image& image);
+
+} // namespace test

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "GpuSubject.h"
+
+#include "SomeCorrectives.h"
+#include "TubeSkin.h"
+
+#include <osg/NodeVisitor>
+#include <osgDB/ReadFile>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace test {
+namespace {
+
+class FindSkins : public osg::NodeVisitor {
+public:
+    FindSkins() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Drawable& drawable) override {
+        if (auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&drawable))
+            found.emplace_back(skin);
+    }
+    std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> found;
+};
+
+/// Each time has a pose of its own, far from rest.
+class TurnTube : public osg::DrawableUpdateCallback {
+public:
+    void update(osg::NodeVisitor* nv, osg::Drawable* drawable) override {
+        auto& skin = static_cast<osgSkin::DeformableSkin&>(*drawable);
+        const double time = nv->getFrameStamp()->getSimulationTime();
+        std::mt19937_64 random(static_cast<std::uint64_t>(1e4 * time));
+        std::vector<glm::dquat> turns;
+        for (std::size_t j = 0; j < skin.getModel()->joints().size(); ++j)
+            turns.push_back(randomRotation(random));
+        auto skinning = skinningFrom(skin.getModel()->joints(), turns, glm::dvec3(0.3, -0.2, 0.5));
+        // The last joint moves and grows.
+        skinning.back() = glm::translate(skinning.back(), glm::dvec3(0.1, 0.2, -0.1));
+        skinning.back() = glm::scale(skinning.back(), glm::dvec3(1.2));
+        skin.setPose(skinning.data(), skinning.size());
+        skin.setActivation("breath", 0.6f);
+    }
+};
+
+osg::ref_ptr<osgSkin::DeformableSkin> movingTube() {
+    Tube tube;
+    tube.binding.correctives = someCorrectives(tube.binding, 0.05, 7);
+    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(tube);
+    const osg::ref_ptr<osg::Vec4Array> tangents = new osg::Vec4Array(osg::Array::BIND_PER_VERTEX);
+    for (std::size_t v = 0; v < tube.positions.size(); ++v)
+        tangents->push_back(osg::Vec4(0, 1, 0, v % 2 == 0 ? 1.0f : -1.0f));
+    geometry->setVertexAttribArray(6, tangents);
+    osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    skin->setTangentAttribute(6);
+    skin->setSkin(geometry, tube.model());
+    skin->setUpdateCallback(new TurnTube);
+    return skin;
+}
+
+osg::ref_ptr<osg::Node> readBody(std::string& reason) {
+    const std::string shared = OSGSKIN_SHARED_DATA;
+    if (!std::filesystem::exists(shared + "/makehuman")) {
+        reason = "third-party data is not here: " + shared + "/makehuman";
+        return nullptr;
+    }
+    const std::string file = std::string(OSGSKIN_TEST_OUTPUT) + "/body4k.skin";
+    std::ofstream(file) << "{ \"osgskin\": 1, \"shapes\": \"fast\", \"mesh\": \"" << shared
+                        << "/makehuman/body/body4k_neutral.obj\", \"skeleton\": \"" << shared
+                        << "/makehuman/rig/cmu_mb_neutral.bvh\", \"motions\": [ { \"file\": \""
+                        << shared << "/cmu/mb/01_01.bvh\", \"name\": \"climb\" } ] }";
+    return osgDB::readRefNodeFile(file);
+}
+
+osg::ref_ptr<osg::Node> readPainted(std::string& reason) {
+    const std::string file = std::string(OSGSKIN_SHARED_DATA) + "/characters/Knight.glb";
+    if (!std::filesystem::exists(file)) {
+        reason = "third-party data is not here: " + file;
+        return nullptr;
+    }
+    return osgDB::readRefNodeFile(file + ".skin");
+}
+
+double angle(const osg::Vec3d& a, const osg::Vec3d& b) {
+    return std::atan2((a ^ b).length(), a * b);
+}
+
+} // namespace
+
+GpuSubject::GpuSubject(const std::string& name) {
+    osg::ref_ptr<osg::Node> node;
+    if (name == "tube") node = movingTube();
+    if (name == "thrower")
+        node = osgDB::readRefNodeFile(std::string(OSGSKIN_DATA) + "/thrower.skin");
+    if (name == "body") node = readBody(reason);
+    if (name == "painted") node = readPainted(reason);
+    if (!node) {
+        if (reason.empty()) reason = name + " cannot be read";
+        return;
+    }
+    if (const char* named = std::getenv("OSGSKIN_GPU_POSES")) poses = std::atoi(named);
+    scene->addChild(node);
+    skins = skinsIn(*node);
+}
+
+std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skinsIn(osg::Node& scene) {
+    FindSkins visitor;
+    scene.accept(visitor);
+    return visitor.found;
+}
+
+void Difference::take(const Difference& other) {
+    positions = std::max(positions, other.positions);
+    normals = std::max(normals, other.normals);
+    tangents = std::max(tangents, other.tangents);
+}
+
+Difference difference(const osgSkin::DeformableSkin& skin, const GpuStage::Posed& computed) {
+    const osg::Geometry& expected = *skin.getDeformedGeometry();
+    const auto& positions = static_cast<const osg::Vec3Array&>(*expected.getVertexArray());
+    const auto& normals = static_cast<const osg::Vec3Array&>(*expected.getNormalArray());
+    osg::BoundingBox box;
+    for (const osg::Vec3& p : positions) box.expandBy(p);
+    const double extent = 2.0 * static_cast<double>(box.radius());
+    Difference most;
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        const osg::Vec3d apart = osg::Vec3d(computed.positions[v]) - osg::Vec3d(positions[v]);
+        most.take({apart.length() / extent, angle(computed.normals[v], normals[v]), 0.0});
+    }
+    if (computed.tangents.empty()) return most;
+    const auto& tangents = static_cast<const osg::Vec4Array&>(
+        *expected.getVertexAttribArray(static_cast<unsigned int>(skin.getTangentAttribute())));
+    const auto direction = [](const osg::Vec4& t) { return osg::Vec3d(t.x(), t.y(), t.z()); };
+    for (std::size_t v = 0; v < tangents.size(); ++v) {
+        const double hand = std::abs(double(computed.tangents[v].w()) - double(tangents[v].w()));
+        most.take(
+            {0.0, 0.0, angle(direction(computed.tangents[v]), direction(tangents[v])) + hand});
+    }
+    return most;
+}
+
+} // namespace test

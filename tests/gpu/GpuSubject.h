@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "GpuStage.h"
+
+#include <osg/Group>
+
+#include <string>
+#include <vector>
+
+namespace test {
+
+/// A scene with skins that move with the simulation time.
+struct GpuSubject {
+    /// \param name tube (random turns, correctives, tangents, a moved and scaled joint), thrower,
+    ///        body (MakeHuman's, with shapes) or painted (a rig with painted weights)
+    explicit GpuSubject(const std::string& name);
+
+    double timeOf(int pose) const { return seconds * pose / poses; }
+
+    std::string reason; ///< why there is none here
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins;
+    int poses = 4;
+    double seconds = 1.6; ///< over which the poses are spread
+};
+
+/// The skins below a node.
+std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skinsIn(osg::Node& scene);
+
+/// The largest differences of vertices.
+struct Difference {
+    double positions = 0.0; ///< of the extent of the posed skin
+    double normals = 0.0;   ///< radians
+    double tangents = 0.0;  ///< the same; and of the handedness
+
+    void take(const Difference& other);
+};
+
+/// Between what shaders computed and what the processor deforms.
+Difference difference(const osgSkin::DeformableSkin& skin, const GpuStage::Posed& computed);
+
+} // namespace test
