@@ -14,7 +14,8 @@ void ReferenceCorrections::apply(std::size_t group, std::uint32_t row, glm::vec3
         for (std::size_t k = 0; k < _blocks.joints[range.joint].modes; ++k)
             for (int axis = 0; axis < 3; ++axis, ++from)
                 position[axis] += weights->positions[k] * float(from->lane[row % kBlock]);
-        if (!_blocks.hasNormals) continue;
+        from = _blocks.normalBlockOf(range, row);
+        if (!from) continue;
         for (std::size_t k = 0; k < _blocks.joints[range.joint].modes; ++k)
             for (int axis = 0; axis < 3; ++axis, ++from)
                 tilt[axis] += weights->normals[k] * float(from->lane[row % kBlock]);

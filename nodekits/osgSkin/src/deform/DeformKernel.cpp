@@ -224,7 +224,8 @@ void deformByVectors(const KernelCall& call) {
     const std::size_t gradientRows = GradientBlocks::rowsPerBlock(call.linkCount);
     const BlockRow* rows = call.rows;
     for (std::size_t first = 0; first < call.vertexCount; first += kBlock, rows += blockRows) {
-        for (std::size_t i = 0; i < blockRows; ++i) hwy::Prefetch(rows + kRowsAhead + i);
+        for (std::size_t i = 0; i < blockRows; ++i)
+            if (kNormals || i < 3 || i >= 6) hwy::Prefetch(rows + kRowsAhead + i);
         if (kSurface) {
             const std::int16_t* ahead = gradientLanes(call, first + kGradientsAhead);
             for (std::size_t i = 0; i < gradientRows; i += 2) hwy::Prefetch(ahead + i * kBlock);

@@ -78,13 +78,14 @@ struct KernelSlope {
 /// The correctives of one joint on a range of a group's blocks, see Correctives.
 struct KernelCorrection {
     const std::int16_t* shares; ///< of the range's first block: x, y, z of the block's vertices for
-                                ///< each mode; behind them those of normals, where there are any
-    std::size_t blockShares;    ///< from a block's shares to the next one's
-    std::size_t firstBlock;     ///< of the call's
+                                ///< each mode
+    const std::int16_t* normalShares; ///< the same of normals; null where they have none
+    std::size_t blockShares;          ///< from a block's shares to the next one's
+    std::size_t firstBlock;           ///< of the call's
     std::size_t blockCount;
     std::size_t modes;
     const float* weights;       ///< of each mode, for its shares
-    const float* normalWeights; ///< the same of normals; null where they have none
+    const float* normalWeights; ///< for its shares of normals
 };
 
 /// All vertices of one group, with the constants that they have in common.
@@ -105,13 +106,13 @@ struct KernelCall {
     /// GradientBlocks' rows, for normals and tangents of the deformed surface; null: they turn as
     /// their vertices do.
     const std::int16_t* gradients;
-    const BlockRow* directions; ///< GradientBlocks'; where gradients is not null
-    const KernelSlope* slopes;  ///< of each of `links`
-    std::size_t lastSlope;      ///< of the outermost link that tilts normals
-    float* positions;           ///< x, y, z of the group's first vertex
-    float* normals;             ///< may be null
-    float* tangents;            ///< x, y, z, w; may be null; null where normals is
-    std::size_t room;           ///< vertices from there on that may be overwritten, >= vertexCount
+    const BlockAcross* across; ///< GradientBlocks'; where gradients is not null
+    const KernelSlope* slopes; ///< of each of `links`
+    std::size_t lastSlope;     ///< of the outermost link that tilts normals
+    float* positions;          ///< x, y, z of the group's first vertex
+    float* normals;            ///< may be null
+    float* tangents;           ///< x, y, z, w; may be null; null where normals is
+    std::size_t room;          ///< vertices from there on that may be overwritten, >= vertexCount
     const std::uint32_t* scatter; ///< vertex of each row, where output is not in order; else null
 };
 

@@ -8,7 +8,6 @@
 #define OSGSKIN_KERNELCORRECT_INL_H
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "deform/DeformKernel.h"
@@ -24,14 +23,11 @@ HWY_INLINE V sharesAt(const std::int16_t* HWY_RESTRICT from) {
     return hn::ConvertTo(D(), hn::PromoteTo(d32, hn::Load(d16, from)));
 }
 
-/// How far ahead shares are asked for: the next ones lie behind, also those of other vertices.
-constexpr std::size_t kSharesAhead = 1024;
-
-/// Adds weight k times the k-th mode's shares for all modes; a block's rows lie side by side.
+/// Adds weight k times the k-th mode's shares for all modes; a block's rows lie side by side, also
+/// those of other vertices: the processor sees by itself what comes next.
 HWY_INLINE void addModes(const float* HWY_RESTRICT weights, std::size_t modes,
                          const std::int16_t* HWY_RESTRICT shares, V& x, V& y, V& z) {
     for (std::size_t k = 0; k < modes; ++k, shares += 3 * kBlock) {
-        for (std::size_t i = 0; i < 3 * kBlock; i += 32) hwy::Prefetch(shares + kSharesAhead + i);
         const V weight = hn::Set(D(), weights[k]);
         x = hn::MulAdd(weight, sharesAt(shares), x);
         y = hn::MulAdd(weight, sharesAt(shares + kBlock), y);
@@ -51,11 +47,11 @@ HWY_INLINE bool corrections(const KernelCall& call, std::size_t first, V& dx, V&
         const KernelCorrection& of = call.corrections[i];
         const std::size_t at = block - of.firstBlock; // large where the block comes before
         if (at >= of.blockCount) continue;
-        if (kOfNormals && !of.normalWeights) continue;
+        const std::int16_t* shares = kOfNormals ? of.normalShares : of.shares;
+        if (kOfNormals && !shares) continue;
         any = true;
-        const std::int16_t* shares = of.shares + at * of.blockShares + first % kBlock;
         addModes(kOfNormals ? of.normalWeights : of.weights, of.modes,
-                 kOfNormals ? shares + 3 * of.modes * kBlock : shares, dx, dy, dz);
+                 shares + at * of.blockShares + first % kBlock, dx, dy, dz);
     }
     if (any && call.correctionFrame) turn(*call.correctionFrame, dx, dy, dz);
     return any;

@@ -19,11 +19,14 @@ void KernelCorrections::prepare(std::size_t group, std::size_t firstBlock,
             firstBlock > range.firstBlock ? firstBlock - range.firstBlock : 0;
         to.blockShares = blocks.rowsPerBlock(range.joint) * kBlock;
         to.shares = blocks.rows[range.firstRow].lane + skipped * to.blockShares;
+        to.normalShares = blocks.hasNormals
+                              ? blocks.normalRows[range.firstRow].lane + skipped * to.blockShares
+                              : nullptr;
         to.firstBlock = range.firstBlock + skipped - firstBlock;
         to.blockCount = range.blockCount - skipped;
         to.modes = blocks.joints[range.joint].modes;
         to.weights = weights->positions.data();
-        to.normalWeights = blocks.hasNormals ? weights->normals.data() : nullptr;
+        to.normalWeights = weights->normals.data();
     }
     call.corrections = _corrections.data();
     call.correctionFrame = nullptr;

@@ -26,7 +26,7 @@ void KernelSlopes::prepare(std::size_t group, std::size_t firstBlock, KernelCall
     }
     call.slopes = _slopes.data();
     const std::size_t block = SkinModelAccess::blocks(_model).firstBlock[group] + firstBlock;
-    call.directions = &blocks.directions[block * GradientBlocks::kDirectionRows];
+    call.across = &blocks.across[block];
 }
 
 } // namespace osgSkin

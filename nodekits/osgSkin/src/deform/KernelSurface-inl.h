@@ -61,17 +61,15 @@ HWY_INLINE void cross(V ax, V ay, V az, V bx, V by, V bz, V& x, V& y, V& z) {
 }
 
 /// The directions u and v along the skin, as correctives tilt it at rest: u - (d . u) n and the
-/// same of v, where d is what they add to the normal; their cross product is n + d then, but for
-/// what d has along n.
+/// same of v, where d is what they add to the normal; their cross product is along n + d then,
+/// but for what d has along n.
 HWY_INLINE void skinDirections(const KernelCall& call, std::size_t first, V nx, V ny, V nz, V& ux,
                                V& uy, V& uz, V& vx, V& vy, V& vz) {
     const D d;
-    const float* HWY_RESTRICT from =
-        call.directions[first / kBlock * GradientBlocks::kDirectionRows].lane + first % kBlock;
-    ux = hn::Load(d, from);
-    uy = hn::Load(d, from + kBlock);
-    uz = hn::Load(d, from + 2 * kBlock);
-    cross(nx, ny, nz, ux, uy, uz, vx, vy, vz);
+    const float* across = call.across[first / kBlock].across;
+    cross(nx, ny, nz, hn::Set(d, across[0]), hn::Set(d, across[1]), hn::Set(d, across[2]), vx, vy,
+          vz);
+    cross(vx, vy, vz, nx, ny, nz, ux, uy, uz);
     if (HWY_LIKELY(call.correctionCount == 0)) return;
     V dx, dy, dz;
     if (!corrections<true>(call, first, dx, dy, dz)) return;

@@ -24,7 +24,7 @@ glm::dvec3 scaledTo(const glm::dvec3& direction, double length) noexcept {
 } // namespace
 
 SurfaceChain::SurfaceChain(const SkinModel& model, std::size_t group, const Pose& pose) noexcept
-    : _model(model), _group(group), _pose(pose) {
+    : _model(model), _group(group), _pose(pose), _frame(restFrame(model, model.groups()[group])) {
     const GradientBlocks& blocks = *SkinModelAccess::gradients(model);
     const SkinModel::Group& of = model.groups()[group];
     const GradientBlocks::Reach* reach = blocks.reach.data() + blocks.firstReach[group];
@@ -45,7 +45,8 @@ void SurfaceChain::apply(std::uint32_t row, const SkinModel::Ratio* ratios,
     const SkinModel::Group& group = _model.groups()[_group];
     const GradientRow* gradients = blocks.blockOf(_model, _group, row);
     const auto gradient = [&]() { return blocks.unit * double((gradients++)->lane[row % kBlock]); };
-    const SkinDirections rest = skinDirections(normal);
+    const SkinDirections rest =
+        skinDirections(normal, _frame, blocks.acrossOf(_model, _group, row));
     glm::dvec3 x(position);
     glm::dvec3 u = rest.u - glm::dot(glm::dvec3(tilt), rest.u) * glm::dvec3(normal);
     glm::dvec3 v = rest.v - glm::dot(glm::dvec3(tilt), rest.v) * glm::dvec3(normal);

@@ -6,6 +6,7 @@
 #include <osgSkin/Pose>
 #include <osgSkin/SkinModel>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -45,6 +46,7 @@ private:
     const Pose& _pose;
     std::array<LinkTilt, SkinModel::kMaxPartialInfluences> _links;
     bool _tilts = false;
+    glm::dmat3 _frame; ///< of the group's blocks
 };
 
 /// Adds what correctives add to a rest normal, which keeps its length, and keeps its tangent

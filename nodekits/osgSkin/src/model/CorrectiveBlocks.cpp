@@ -16,6 +16,19 @@ const Correctives::Entry* entryOf(const Correctives& correctives, std::uint32_t 
     return nullptr;
 }
 
+/// Writes shares into one lane of the last `count` rows of `rows`, `end` of which there are then.
+void writeLane(const std::int16_t* shares, std::size_t count, std::size_t lane, std::size_t end,
+               std::vector<CorrectiveRow>& rows) {
+    rows.resize(end, CorrectiveRow{});
+    for (std::size_t i = 0; i < count; ++i) rows[end - count + i].lane[lane] = shares[i];
+}
+
+/// Whether nothing is in one lane of `count` rows; null: there are none.
+bool isEmpty(const CorrectiveRow* rows, std::size_t count, std::size_t lane) {
+    return !rows || std::all_of(rows, rows + count,
+                                [lane](const CorrectiveRow& row) { return row.lane[lane] == 0; });
+}
+
 /// Appends the shares in one lane of `count` rows.
 void readLane(const CorrectiveRow* rows, std::size_t count, std::size_t lane,
               std::vector<std::int16_t>& shares) {
@@ -50,15 +63,12 @@ CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& bindin
                 const auto block = static_cast<std::uint32_t>(row / kBlock);
                 if (range.blockCount == 0) range.firstBlock = block;
                 range.blockCount = block - range.firstBlock + 1;
-                rows.resize(range.firstRow + range.blockCount * rowsPerBlock(joint),
-                            CorrectiveRow{});
-                CorrectiveRow* to = &rows[rows.size() - rowsPerBlock(joint)];
-                const std::size_t count = from.sharesOf(joint);
-                for (std::size_t i = 0; i < count; ++i) {
-                    to[i].lane[row % kBlock] = from.shares[entry->firstShare + i];
-                    if (hasNormals)
-                        to[count + i].lane[row % kBlock] = from.normalShares[entry->firstShare + i];
-                }
+                const std::size_t end = range.firstRow + range.blockCount * rowsPerBlock(joint);
+                writeLane(&from.shares[entry->firstShare], rowsPerBlock(joint), row % kBlock, end,
+                          rows);
+                if (hasNormals)
+                    writeLane(&from.normalShares[entry->firstShare], rowsPerBlock(joint),
+                              row % kBlock, end, normalRows);
             }
             if (range.blockCount > 0) ranges.push_back(range);
         }
@@ -87,16 +97,14 @@ Correctives correctivesOf(const SkinModel& model) {
             const CorrectiveBlocks::Range& range = blocks->ranges[i];
             const CorrectiveRow* block = blocks->blockOf(range, place.row);
             if (!block) continue;
-            const std::size_t rows = blocks->rowsPerBlock(range.joint);
+            const CorrectiveRow* normals = blocks->normalBlockOf(range, place.row);
+            const std::size_t count = blocks->rowsPerBlock(range.joint);
             const std::size_t lane = place.row % kBlock;
-            if (std::all_of(block, block + rows,
-                            [lane](const CorrectiveRow& row) { return row.lane[lane] == 0; }))
-                continue;
+            if (isEmpty(block, count, lane) && isEmpty(normals, count, lane)) continue;
             result.entries.push_back(
                 {range.joint, static_cast<std::uint32_t>(result.shares.size())});
-            const std::size_t count = result.sharesOf(range.joint);
             readLane(block, count, lane, result.shares);
-            if (blocks->hasNormals) readLane(block + count, count, lane, result.normalShares);
+            if (normals) readLane(normals, count, lane, result.normalShares);
         }
         result.firstEntry.push_back(static_cast<std::uint32_t>(result.entries.size()));
     }

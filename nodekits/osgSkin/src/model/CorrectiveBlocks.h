@@ -22,8 +22,8 @@ struct alignas(32) CorrectiveRow {
 ///
 /// Vertices of a group stand sorted by the joints whose correctives they follow, so that those of
 /// one joint are a range of the group's blocks; of a block's lanes that do not, the shares are 0. A
-/// block has three rows (x, y, z; rest space) for each mode, and behind them, where there are
-/// normal correctives, three for each mode's.
+/// block has three rows (x, y, z; rest space) for each mode. Normal correctives have the same
+/// apart, so that who deforms positions alone has no gaps to read over.
 struct CorrectiveBlocks {
     struct Range {
         std::uint32_t joint;      ///< in `joints`
@@ -42,18 +42,27 @@ struct CorrectiveBlocks {
     std::vector<Range> ranges;
     std::vector<std::uint32_t> firstRange; ///< groups + 1, into `ranges`
     std::vector<CorrectiveRow> rows;
+    std::vector<CorrectiveRow> normalRows; ///< as `rows`; empty without normal correctives
 
-    std::size_t rowsPerBlock(std::uint32_t joint) const {
-        return (hasNormals ? 6 : 3) * joints[joint].modes;
-    }
+    std::size_t rowsPerBlock(std::uint32_t joint) const { return 3 * joints[joint].modes; }
 
     /// The first row of the block in a range that a vertex stands in, null where it stands in none.
     /// \param row of the group's vertices
     const CorrectiveRow* blockOf(const Range& range, std::uint32_t row) const noexcept {
+        return rowOf(rows, range, row);
+    }
+    /// The same of its normal correctives, null without them.
+    const CorrectiveRow* normalBlockOf(const Range& range, std::uint32_t row) const noexcept {
+        return hasNormals ? rowOf(normalRows, range, row) : nullptr;
+    }
+
+private:
+    const CorrectiveRow* rowOf(const std::vector<CorrectiveRow>& of, const Range& range,
+                               std::uint32_t row) const noexcept {
         const std::size_t block = row / kBlock;
         if (block < range.firstBlock || block - range.firstBlock >= range.blockCount)
             return nullptr;
-        return &rows[range.firstRow + (block - range.firstBlock) * rowsPerBlock(range.joint)];
+        return &of[range.firstRow + (block - range.firstBlock) * rowsPerBlock(range.joint)];
     }
 };
 

@@ -3,15 +3,17 @@
 
 #include "model/SkinModelAccess.h"
 
-#include <osgSkin/GlmTypes>
-
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace osgSkin {
 namespace {
+
+/// Of a vertex without a normal there is nothing.
+constexpr double kLeastLength = 1e-9;
 
 /// A ratio's gradient along a vertex's u and v.
 struct Components {
@@ -57,42 +59,103 @@ std::int16_t rounded(double value) {
     return static_cast<std::int16_t>(std::lrint(std::clamp(value, -kMost, kMost)));
 }
 
+glm::dvec3 inFrame(const glm::vec3& normal, const glm::dmat3& frame) {
+    return glm::dvec3(glm::vec3(glm::dvec3(normal) * frame)); // as SkinBlocks has it
+}
+
+/// The i-th of some directions all over half a sphere: a sunflower's spiral.
+constexpr int kDirections = 24;
+BlockAcross directionAt(int i) {
+    const double z = (i + 0.5) / kDirections, r = std::sqrt(1.0 - z * z);
+    const double turn = i * glm::pi<double>() * (3.0 - std::sqrt(5.0));
+    return {{static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)),
+             static_cast<float>(z)}};
+}
+
+glm::dvec3 vectorOf(const BlockAcross& across) {
+    return {across.across[0], across.across[1], across.across[2]};
+}
+
+/// The direction that is farthest from being along any of the normals.
+BlockAcross acrossAll(const std::vector<glm::dvec3>& normals) {
+    BlockAcross best{};
+    double bestLeast = -1.0;
+    for (int i = 0; i < kDirections; ++i) {
+        const BlockAcross candidate = directionAt(i);
+        double least = 1.0;
+        for (const glm::dvec3& n : normals) {
+            const glm::dvec3 v = glm::cross(n, vectorOf(candidate));
+            if (n != glm::dvec3(0.0)) least = std::min(least, glm::dot(v, v));
+        }
+        if (least <= bestLeast) continue;
+        bestLeast = least;
+        best = candidate;
+    }
+    return best;
+}
+
+std::vector<BlockAcross> acrossOfBlocks(const SkinModel& model) {
+    std::vector<BlockAcross> result;
+    std::vector<glm::dvec3> normals; // of a block
+    for (const SkinModel::Group& group : model.groups()) {
+        const glm::dmat3 frame = restFrame(model, group);
+        for (std::uint32_t row = 0; row < group.vertexCount; ++row) {
+            normals.push_back(
+                inFrame(model.normals()[model.order()[group.firstVertex + row]], frame));
+            if (normals.size() < kBlock && row + 1 < group.vertexCount) continue;
+            result.push_back(acrossAll(normals));
+            normals.clear();
+        }
+    }
+    return result;
+}
+
 } // namespace
 
-SkinDirections skinDirections(const glm::vec3& normal) {
-    const glm::dvec3 n(normal);
-    const double length = glm::length(n);
-    const glm::dvec3 unit = length > 0.0 ? n / length : glm::dvec3(0.0, 0.0, 1.0);
-    const glm::dvec3 u = anyPerpendicular(unit);
-    return {u, glm::cross(unit, u)};
+SkinDirections skinDirections(const glm::vec3& normal, const glm::dmat3& frame,
+                              const BlockAcross& across) {
+    const glm::dvec3 n = inFrame(normal, frame);
+    const glm::dvec3 v = glm::cross(n, vectorOf(across));
+    return {frame * glm::cross(v, n), frame * v};
+}
+
+const BlockAcross& GradientBlocks::acrossOf(const SkinModel& model, std::size_t group,
+                                            std::uint32_t row) const noexcept {
+    return across[SkinModelAccess::blocks(model).firstBlock[group] + row / kBlock];
 }
 
 GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
-                               const std::vector<std::uint32_t>& source) {
+                               const std::vector<std::uint32_t>& source)
+    : across(acrossOfBlocks(model)) {
     double largest = 0.0;
-    for (std::uint32_t v = 0; v < source.size(); ++v)
-        for (const LinkComponents& link :
-             componentsOf(binding, source[v], skinDirections(model.normals()[v])))
-            largest = std::max(largest, largestOf(link));
+    for (std::size_t g = 0; g < model.groups().size(); ++g) {
+        const SkinModel::Group& group = model.groups()[g];
+        const glm::dmat3 frame = restFrame(model, group);
+        for (std::uint32_t row = 0; row < group.vertexCount; ++row) {
+            const std::uint32_t v = model.order()[group.firstVertex + row];
+            const SkinDirections at =
+                skinDirections(model.normals()[v], frame, acrossOf(model, g, row));
+            for (const LinkComponents& link : componentsOf(binding, source[v], at))
+                largest = std::max(largest, largestOf(link));
+        }
+    }
     unit = unitFor(largest);
 
-    for (const SkinModel::Group& group : model.groups()) {
+    for (std::size_t g = 0; g < model.groups().size(); ++g) {
+        const SkinModel::Group& group = model.groups()[g];
         const std::size_t blockRows = rowsPerBlock(group.partialCount);
         const std::size_t blocks = (group.vertexCount + kBlock - 1) / kBlock;
-        const std::size_t firstDirection = directions.size();
         const glm::dmat3 frame = restFrame(model, group);
         firstRow.push_back(rows.size());
         firstReach.push_back(reach.size());
-        directions.resize(firstDirection + blocks * kDirectionRows, BlockRow{});
         rows.resize(rows.size() + blocks * blockRows, GradientRow{});
         reach.resize(reach.size() + group.partialCount, Reach{});
         for (std::uint32_t row = 0; row < group.vertexCount; ++row) {
             const std::uint32_t v = model.order()[group.firstVertex + row];
-            const SkinDirections at = skinDirections(model.normals()[v]);
-            const glm::dvec3 u = at.u * frame; // transposed: into the frame
-            BlockRow* direction = &directions[firstDirection + row / kBlock * kDirectionRows];
-            for (int axis = 0; axis < 3; ++axis)
-                direction[axis].lane[row % kBlock] = static_cast<float>(u[axis]);
+            const SkinDirections at =
+                skinDirections(model.normals()[v], frame, acrossOf(model, g, row));
+            const double sizeU = std::max(glm::length(at.u), kLeastLength);
+            const double sizeV = std::max(glm::length(at.v), kLeastLength);
             GradientRow* to = rows.data() + firstRow.back() + row / kBlock * blockRows;
             const auto put = [&](double number) { (to++)->lane[row % kBlock] = rounded(number); };
             const std::vector<LinkComponents> links = componentsOf(binding, source[v], at);
@@ -109,8 +172,8 @@ GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
                 const auto take = [&](const Components& c, float& farthest) {
                     put(c.u / unit);
                     put(c.v / unit);
-                    farthest =
-                        std::max(farthest, static_cast<float>(distance * std::hypot(c.u, c.v)));
+                    const double slope = std::hypot(c.u / sizeU, c.v / sizeV);
+                    farthest = std::max(farthest, static_cast<float>(distance * slope));
                 };
                 take(links[k].bend, most.bend);
                 take(links[k].twist, most.twist);
@@ -125,9 +188,14 @@ std::vector<RatioGradient> gradientsOf(const SkinModel& model) {
     if (!blocks) return result;
     for (std::size_t g = 0; g < model.groups().size(); ++g) {
         const SkinModel::Group& group = model.groups()[g];
+        const glm::dmat3 frame = restFrame(model, group);
         for (std::uint32_t row = 0; row < group.vertexCount; ++row) {
             const SkinDirections at =
-                skinDirections(model.normals()[model.order()[group.firstVertex + row]]);
+                skinDirections(model.normals()[model.order()[group.firstVertex + row]], frame,
+                               blocks->acrossOf(model, g, row));
+            constexpr double kLeastSquare = kLeastLength * kLeastLength;
+            const glm::dvec3 u = at.u / std::max(glm::dot(at.u, at.u), kLeastSquare);
+            const glm::dvec3 v = at.v / std::max(glm::dot(at.v, at.v), kLeastSquare);
             const GradientRow* from =
                 blocks->blockOf(model, g, row) + GradientBlocks::rowsPerBlock(group.partialCount);
             for (std::uint32_t i = 0; i < group.linkCount; ++i) {
@@ -135,8 +203,8 @@ std::vector<RatioGradient> gradientsOf(const SkinModel& model) {
                 if (!model.links()[group.firstLink + i].partial) continue;
                 from -= 4;
                 const auto vector = [&](const GradientRow* rows) {
-                    return glm::vec3(blocks->unit * (double(rows[0].lane[row % kBlock]) * at.u +
-                                                     double(rows[1].lane[row % kBlock]) * at.v));
+                    return glm::vec3(blocks->unit * (double(rows[0].lane[row % kBlock]) * u +
+                                                     double(rows[1].lane[row % kBlock]) * v));
                 };
                 to = {vector(from), vector(from + 2)};
             }

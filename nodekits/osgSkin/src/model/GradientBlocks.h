@@ -19,23 +19,32 @@ struct alignas(32) GradientRow {
     std::int16_t lane[kBlock];
 };
 
-/// Two directions along the skin at a vertex, u and v = n x u, that its gradients are held by.
+/// A direction that is not along the normal of any vertex of a block; unit.
+struct BlockAcross {
+    float across[3];
+};
+
+/// Two directions along the skin at a vertex that its gradients are held by: v = n x across and
+/// u = v x n, perpendicular and of one length.
 struct SkinDirections {
     glm::dvec3 u, v;
 };
 
-/// Always the same ones for a normal, which is of unit length; rest space.
-SkinDirections skinDirections(const glm::vec3& normal);
+/// \param normal unit, or 0; rest space
+/// \param frame restFrame() of the vertex's group, in which `across` is
+/// \param across of the vertex's block
+/// \return rest space
+SkinDirections skinDirections(const glm::vec3& normal, const glm::dmat3& frame,
+                              const BlockAcross& across);
 
 /// A SkinModel's ratio gradients as the kernel reads them, and the only place that a model has them
 /// in.
 ///
-/// Block by block as SkinBlocks; a block is three rows of u in the blocks' frame, and
+/// Block by block as SkinBlocks; a block is what is across its skin, in the blocks' frame, and
 /// rowsPerBlock(n) rows for n partial links, of each, innermost first: the bend ratio's gradient
-/// along u and along v, the twist ratio's along u and along v. Gradients of links that are followed
+/// times u and times v, the twist ratio's times u and times v. Gradients of links that are followed
 /// wholly are left out.
 struct GradientBlocks {
-
     /// A bound of how far a turn by one radian can tilt a normal of the group, in radians: the
     /// longest product of a gradient and the distance from what the link turns about.
     struct Reach {
@@ -47,12 +56,11 @@ struct GradientBlocks {
                    const std::vector<std::uint32_t>& source);
 
     static std::size_t rowsPerBlock(std::size_t partialCount) { return 4 * partialCount; }
-    static constexpr std::size_t kDirectionRows = 3;
 
     /// What 1 in `rows` is, per rest unit. A power of two: what is read from a model gives the same
     /// model again.
     double unit = 1.0;
-    std::vector<BlockRow> directions; ///< u of SkinBlocks::firstBlock's blocks
+    std::vector<BlockAcross> across; ///< of SkinBlocks::firstBlock's blocks
     std::vector<GradientRow> rows;
     std::vector<std::size_t> firstRow;   ///< of each group
     std::vector<Reach> reach;            ///< of each group's partial links, outermost first
@@ -64,6 +72,10 @@ struct GradientBlocks {
         return &rows[firstRow[group] +
                      row / kBlock * rowsPerBlock(model.groups()[group].partialCount)];
     }
+
+    /// Of the block in which a vertex stands.
+    const BlockAcross& acrossOf(const SkinModel& model, std::size_t group,
+                                std::uint32_t row) const noexcept;
 };
 
 /// The gradients of each vertex's links, a group's one after the other: as
