@@ -29,7 +29,7 @@ osg::ref_ptr<GpuCrowd> crowdOf(CrowdCharacter* character,
     return crowd;
 }
 
-osg::ref_ptr<osg::Group> shaded(osg::Node* node) {
+osg::ref_ptr<osg::Group> inProgram(osg::Node* node) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(node);
     root->getOrCreateStateSet()->setAttribute(
@@ -58,10 +58,10 @@ protected:
 } // namespace
 
 TEST_F(Crowd, IsThePictureOfItsSkins) {
-    const auto expected = pictureOf(shaded(subject.skins(kTime)));
-    const auto other = pictureOf(shaded(subject.skins(0.0)));
+    const auto expected = pictureOf(inProgram(subject.skins(kTime)));
+    const auto other = pictureOf(inProgram(subject.skins(0.0)));
     const auto character = subject.character();
-    const auto is = pictureOf(shaded(crowdOf(character, subject.members)));
+    const auto is = pictureOf(inProgram(crowdOf(character, subject.members)));
     EXPECT_GT(test::seenPixels(*expected), 10000u);
     EXPECT_GT(test::unlikePixels(*other, *expected), 1000u) << "another pose would be seen";
     const unsigned int unlike = test::unlikePixels(*is, *expected);
