@@ -3,7 +3,6 @@
 
 #include <osg/DisplaySettings>
 #include <osg/GLExtensions>
-#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <cstdlib>
@@ -97,9 +96,9 @@ void GpuStage::draw(double time) {
     viewer.frame(time);
 }
 
-GpuStage::Posed GpuStage::computed(const osgSkin::DeformableSkin& skin) {
+osg::ref_ptr<osgUtil::CullVisitor> GpuStage::cullVisitor() {
     EglWindow& window = *_windows.front();
-    const osg::ref_ptr<osgUtil::CullVisitor> cv = new osgUtil::CullVisitor;
+    osg::ref_ptr<osgUtil::CullVisitor> cv = new osgUtil::CullVisitor;
     cv->setStateGraph(new osgUtil::StateGraph);
     cv->setRenderStage(new osgUtil::RenderStage);
     osg::RenderInfo info(window.getState(), nullptr);
@@ -107,6 +106,12 @@ GpuStage::Posed GpuStage::computed(const osgSkin::DeformableSkin& skin) {
     cv->pushViewport(new osg::Viewport(0, 0, kSize, kSize));
     cv->pushProjectionMatrix(new osg::RefMatrix);
     cv->pushModelViewMatrix(new osg::RefMatrix, osg::Transform::ABSOLUTE_RF);
+    return cv;
+}
+
+GpuStage::Posed GpuStage::computed(const osgSkin::DeformableSkin& skin) {
+    EglWindow& window = *_windows.front();
+    const osg::ref_ptr<osgUtil::CullVisitor> cv = cullVisitor();
     const osg::Geometry* drawn = skin.getDrawer() ? skin.getDrawer()->cull(skin, *cv) : nullptr;
     if (!drawn) throw std::runtime_error("the context does not compute skins");
     if (!window.makeCurrent()) throw std::runtime_error("the context cannot be made current");

@@ -6,6 +6,7 @@
 #include <osgSkin/DeformableSkin>
 
 #include <osg/Image>
+#include <osgUtil/CullVisitor>
 #include <osgViewer/CompositeViewer>
 
 #include <vector>
@@ -30,6 +31,8 @@ public:
     /// The first view's picture, as the last frame has left it.
     const osg::Image& picture() const { return *_image; }
 
+    /// What is looked at; the scene's bounds at first.
+    void setSphere(const osg::BoundingSphere& sphere) { _sphere = sphere; }
     void look(const osg::Vec3d& direction, double distance = 3.0);
 
     void lookAway();
@@ -40,6 +43,9 @@ public:
         std::vector<osg::Vec4> tangents;
     };
     Posed computed(const osgSkin::DeformableSkin& skin);
+
+    /// A cull traversal's of the first context, that sees everything and draws nothing.
+    osg::ref_ptr<osgUtil::CullVisitor> cullVisitor();
 
     osgViewer::CompositeViewer viewer;
 

@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "model/PackModel.h"
 
+#include "model/PackTexels.h"
+
 #include <algorithm>
-#include <cstring>
 
 namespace osgSkin {
 namespace {
 
 constexpr unsigned int kNone = ~0u;
 
-unsigned int bits(float x) {
-    unsigned int word;
-    std::memcpy(&word, &x, sizeof word);
-    return word;
-}
-
 unsigned int halves(int low, int high) {
     return (static_cast<unsigned int>(low) & 0xffffu) | static_cast<unsigned int>(high) << 16;
-}
-
-osg::Vec4ui texel(const glm::vec3& v, unsigned int word) {
-    return {bits(v.x), bits(v.y), bits(v.z), word};
 }
 
 /// A group's chain: the joint whose G comes last, and the links before that, innermost first.
@@ -59,7 +50,7 @@ public:
           _weights(weightTexels(model, correctives.joints)), _texels(new osg::Vec4uiArray) {}
 
     osg::ref_ptr<osg::Vec4uiArray> pack() {
-        addJoints();
+        packJoints(_model.joints(), *_texels);
         std::vector<PackedChain> chains;
         std::vector<std::size_t> chainTexels;
         for (const SkinModel::Group& group : _model.groups()) {
@@ -69,7 +60,8 @@ public:
         }
         const std::size_t vertices = _texels->size();
         const std::size_t count = _model.vertexCount();
-        (*_texels)[0] = {word(_model.joints().size()), word(vertices), word(count), bits(1.0f)};
+        (*_texels)[0] = {word(_model.joints().size()), word(vertices), word(count),
+                         floatBits(1.0f)};
         _texels->resize(vertices + 2 * count);
         for (std::size_t g = 0; g < chains.size(); ++g) {
             const SkinModel::Group& group = _model.groups()[g];
@@ -77,9 +69,10 @@ public:
             for (std::uint32_t row = 0; row < group.vertexCount;
                  ++row, ratios += group.partialCount) {
                 const std::uint32_t v = _model.order()[group.firstVertex + row];
-                (*_texels)[vertices + 2 * v] = texel(_model.positions()[v], word(chainTexels[g]));
+                (*_texels)[vertices + 2 * v] =
+                    packedTexel(_model.positions()[v], word(chainTexels[g]));
                 (*_texels)[vertices + 2 * v + 1] =
-                    texel(_model.normals()[v], word(_texels->size()));
+                    packedTexel(_model.normals()[v], word(_texels->size()));
                 addLinks(chains[g], ratios);
                 if (!_correctives.empty()) addCorrectives(v);
             }
@@ -90,19 +83,11 @@ public:
 private:
     static unsigned int word(std::size_t number) { return static_cast<unsigned int>(number); }
 
-    void addJoints() {
-        _texels->push_back({});
-        for (const BoundJoint& joint : _model.joints()) {
-            _texels->push_back(texel(joint.centre, static_cast<unsigned int>(joint.parent)));
-            _texels->push_back(texel(joint.twistAxis, 0));
-        }
-    }
-
     void addChain(const PackedChain& chain) {
         _texels->push_back(
             {chain.anchor, word(chain.links.size()), _correctives.empty() ? 0u : 1u, 0});
         for (const PackedChain::Link& link : chain.links)
-            _texels->push_back({link.joint, bits(0.0f), bits(0.0f), 0});
+            _texels->push_back({link.joint, floatBits(0.0f), floatBits(0.0f), 0});
     }
 
     void addLinks(const PackedChain& chain, const SkinModel::Ratio* ratios) {
@@ -110,7 +95,7 @@ private:
             const SkinModel::Ratio ratio = link.ratio == PackedChain::kFull
                                                ? SkinModel::Ratio{1.0f, 1.0f}
                                                : ratios[link.ratio];
-            _texels->push_back({bits(ratio.bend), bits(ratio.twist), 0, 0});
+            _texels->push_back({floatBits(ratio.bend), floatBits(ratio.twist), 0, 0});
         }
     }
 

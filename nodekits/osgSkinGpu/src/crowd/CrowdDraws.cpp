@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "crowd/CrowdDraws.h"
+
+#include "shader/CrowdText.h"
+
+#include <osg/BufferObject>
+#include <osg/Uniform>
+
+#ifndef GL_R32UI
+#define GL_R32UI 0x8236
+#endif
+
+namespace osgSkin {
+
+CrowdDraws::CrowdDraws(const CrowdCharacter& character, std::size_t capacity, Count count)
+    : _capacity(capacity),
+      _list(new osg::UIntArray(static_cast<unsigned int>(capacity * character.levelCount()))) {
+    _list->setVertexBufferObject(new osg::VertexBufferObject);
+    _visible = new osg::TextureBuffer(_list);
+    _visible->setInternalFormat(GL_R32UI);
+    if (count == Count::Indirect) _commands = new osg::DefaultIndirectCommandDrawElements;
+    for (std::size_t level = 0; level < character.levelCount(); ++level)
+        for (const CrowdCharacter::Part& part : character.parts())
+            _draws.push_back(makeDraw(character, part, level, count));
+}
+
+CrowdDraws::Draw CrowdDraws::makeDraw(const CrowdCharacter& character,
+                                      const CrowdCharacter::Part& part, std::size_t level,
+                                      Count count) {
+    const CrowdCharacter::Skin& skin = character.skins()[part.skin];
+    const std::vector<GLuint>& indices = part.indices[level];
+    const osg::ref_ptr<osg::Geometry> geometry =
+        new osg::Geometry(*part.rest, osg::CopyOp::SHALLOW_COPY);
+    geometry->removePrimitiveSet(0, geometry->getNumPrimitiveSets());
+    const auto size = static_cast<unsigned int>(indices.size());
+    if (count == Count::Indirect) {
+        const osg::ref_ptr<osg::DrawElementsIndirectUInt> elements =
+            new osg::DrawElementsIndirectUInt(GL_TRIANGLES, size, indices.data());
+        elements->setIndirectCommandArray(_commands);
+        elements->setFirstCommandToDraw(static_cast<unsigned int>(_commands->size()));
+        _commands->push_back(osg::DrawElementsIndirectCommand(size, 0, 0, 0, 0));
+        geometry->addPrimitiveSet(elements);
+    } else {
+        geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, size, indices.data(), 1));
+    }
+    geometry->setUseDisplayList(false);
+    geometry->setSupportsDisplayList(false);
+    geometry->setUseVertexBufferObjects(true);
+    geometry->setUpdateCallback(nullptr);
+    geometry->setCullCallback(nullptr);
+    geometry->setCullingActive(false);
+    geometry->setComputeBoundingBoxCallback(new osg::Drawable::ComputeBoundingBoxCallback);
+
+    const osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+    state->setTextureAttribute(kCrowdModelUnit, part.model);
+    state->setTextureAttribute(kCrowdClipUnit, skin.clips);
+    state->setTextureAttribute(kCrowdVisibleUnit, _visible);
+    state->addUniform(new osg::Uniform("osgSkinFirstVisible", static_cast<int>(level * _capacity)));
+    state->addUniform(
+        new osg::Uniform("osgSkinPaletteSize", static_cast<int>(skin.model->paletteSize())));
+    state->addUniform(new osg::Uniform("osgSkinStand", osg::Matrixf(skin.toCharacter)));
+    if (part.state && part.state->getTextureAttribute(0, osg::StateAttribute::TEXTURE))
+        state->setDefine("OSGSKIN_TEXTURE");
+    geometry->setStateSet(state);
+    return {part.state, geometry, level, indices.empty() || count == Count::Direct};
+}
+
+void CrowdDraws::setCount(std::size_t level, std::size_t members) {
+    for (Draw& draw : _draws) {
+        if (draw.level != level) continue;
+        osg::PrimitiveSet& elements = *draw.geometry->getPrimitiveSet(0);
+        elements.setNumInstances(static_cast<int>(members)); // 0 would be one, without instances
+        draw.isEmpty = members == 0 || elements.getNumIndices() == 0;
+    }
+}
+
+void CrowdDraws::setBound(const osg::BoundingBox& box) {
+    for (const Draw& draw : _draws) {
+        draw.geometry->setInitialBound(box);
+        draw.geometry->getBound();
+    }
+}
+
+void CrowdDraws::cull(osgUtil::CullVisitor& cv) const {
+    for (const Draw& draw : _draws) {
+        if (draw.isEmpty) continue;
+        if (draw.material) cv.pushStateSet(draw.material);
+        draw.geometry->accept(cv);
+        if (draw.material) cv.popStateSet();
+    }
+}
+
+void CrowdDraws::resizeGLObjectBuffers(unsigned int maxSize) {
+    for (const Draw& draw : _draws) draw.geometry->resizeGLObjectBuffers(maxSize);
+}
+
+void CrowdDraws::releaseGLObjects(osg::State* state) const {
+    for (const Draw& draw : _draws) draw.geometry->releaseGLObjects(state);
+}
+
+} // namespace osgSkin

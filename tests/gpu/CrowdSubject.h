@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgSkinGpu/GpuCrowd>
+
+#include <osg/Group>
+#include <osg/Program>
+
+#include <vector>
+
+namespace test {
+
+/// Bending tubes with correctives and a rigid knob at their ends, in rows: as a crowd, and as skins
+/// of their own.
+struct CrowdSubject {
+    static constexpr std::size_t kSamples = 8;
+    static constexpr double kSamplesPerSecond = 10.0;
+
+    explicit CrowdSubject(std::size_t count);
+
+    /// A character with two clips, and a third with a sample for each member, as it is at `time`.
+    osg::ref_ptr<osgSkin::CrowdCharacter> character(double time = 0.0) const;
+    /// The members, each in its own phase of one of the clips, all on samples at whole times.
+    std::vector<osgSkin::CrowdInstance> members;
+    /// The same, each in its own sample of the third clip.
+    std::vector<osgSkin::CrowdInstance> posedMembers() const;
+
+    /// The members at a time as skins that the processor deforms.
+    osg::ref_ptr<osg::Group> skins(double time) const;
+
+    /// One program for crowds and everything else; the colour is that of the normal.
+    static osg::ref_ptr<osg::Program> program();
+
+private:
+    std::vector<glm::dmat4> skinning(unsigned int clip, std::size_t sample) const;
+    std::size_t sampleOf(const osgSkin::CrowdInstance& member, double time) const;
+
+    osg::ref_ptr<osgSkin::DeformableSkin> _skin;
+    osg::ref_ptr<osg::Geometry> _knob;
+    osg::Matrixd _upright = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
+};
+
+} // namespace test
