@@ -4,13 +4,20 @@
 #include "correctives/CorrectiveWeights.h"
 #include "model/BoundsProxy.h"
 
-#include <cstdint>
-
 namespace osgSkin {
 
-/// Adds to `stray` how far they take them in a pose, for the run's patches `from` on: turns keep
-/// that distance, whatever the vertex's ratios.
-void addCorrectiveStray(const BoundsProxy& skin, const BoundsProxy::Run& run, std::uint32_t from,
-                        std::uint32_t count, CorrectiveWeights& weights, float* stray) noexcept;
+/// How far correctives take the vertices of pieces in a pose: turns keep that distance, whatever
+/// the vertex's ratios.
+class CorrectiveStray {
+public:
+    CorrectiveStray(const BoundsProxy& proxy, const SkinModel& model, const Pose& pose) noexcept
+        : _proxy(proxy), _weights(model, pose) {}
+
+    float of(const BoundsProxy::Piece& piece) noexcept;
+
+private:
+    const BoundsProxy& _proxy;
+    CorrectiveWeights _weights;
+};
 
 } // namespace osgSkin

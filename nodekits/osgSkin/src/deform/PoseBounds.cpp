@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/PoseBounds>
 
-#include <osgSkin/DeformJob>
-
 #include "correctives/CorrectiveStray.h"
+#include "deform/JointMotions.h"
 #include "model/BoundsProxy.h"
 #include "model/SkinModelAccess.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -21,103 +16,145 @@
 namespace osgSkin {
 namespace {
 
-constexpr std::uint32_t kChunk = 256; ///< patches that are worked on at a time
-constexpr float kRounding = 1e-6f;    ///< of a coordinate: several roundings
-using Floats = std::array<float, kChunk>;
+constexpr float kRounding = 1e-6f; ///< of a coordinate: several roundings
 
-/// How far the joints, the root aside, are translated in all.
-float travelOf(const Pose& pose) {
-    double travel = 0.0;
-    for (std::size_t j = 1; j < pose.size(); ++j)
-        travel += glm::length(pose.transform(j).translation);
-    return static_cast<float>(travel);
-}
+/// A cylinder on its way into the pose.
+struct PosedPiece {
+    Four centre, axes[3];
 
-/// By how much the joints that a group follows scale its vertices at most.
-float scaleOf(const SkinModel& model, const SkinModel::Group& group, const Pose& pose) {
-    double scale = 1.0;
-    for (std::uint32_t i = group.firstLink; i < group.firstLink + group.linkCount; ++i)
-        scale *= std::max(1.0, pose.transform(model.links()[i].joint).scale);
-    return static_cast<float>(scale);
-}
-
-/// How far vertices may stray from each patch of a run, which has the mean ratios.
-void straysOf(const BoundsProxy& skin, const BoundsProxy::Run& run, std::uint32_t from,
-              std::uint32_t count, const Pose& pose, float travel, Floats& stray) {
-    std::fill_n(stray.begin(), count, skin.rounding);
-    for (std::uint32_t k = 0; k < run.jointCount; ++k) {
-        const JointTransform turn = pose.transform(skin.joints[run.firstJoint + k]);
-        // A share of the scale comes in with the bend, and takes a vertex as far as it reaches.
-        const float bend = static_cast<float>(turn.split.bendAngle + std::abs(turn.scale - 1.0));
-        const float twist = static_cast<float>(std::abs(turn.split.twistAngle));
-        const float* slack = skin.slack.data() + run.firstSlack + from +
-                             std::size_t(k) * BoundsProxy::SlackKinds * run.patchCount;
-        const float* bendReach = slack + std::size_t(BoundsProxy::BendReach) * run.patchCount;
-        const float* twistReach = slack + std::size_t(BoundsProxy::TwistReach) * run.patchCount;
-        for (std::uint32_t i = 0; i < count; ++i)
-            stray[i] += bend * bendReach[i] + twist * twistReach[i];
-        if (travel <= skin.rounding) continue;
-        const float* bendSpread = slack + std::size_t(BoundsProxy::BendSpread) * run.patchCount;
-        const float* twistSpread = slack + std::size_t(BoundsProxy::TwistSpread) * run.patchCount;
-        for (std::uint32_t i = 0; i < count; ++i)
-            stray[i] += travel * ((1.0f + bend) * bendSpread[i] + twist * twistSpread[i]);
+    explicit PosedPiece(const EllipticCylinder& rest) noexcept : centre(four(rest.centre)) {
+        for (int i = 0; i < 3; ++i) axes[i] = four(rest.axes[i]);
     }
+    void move(const FourMap& map) noexcept {
+        centre = map * centre;
+        for (Four& axis : axes) axis = map.turn(axis);
+    }
+    Four half() const noexcept {
+        return sqrt(axes[0] * axes[0] + axes[1] * axes[1]) + abs(axes[2]);
+    }
+};
+
+/// The map of a joint's turn by ratios.
+FourMap partialTurn(const BoundsProxy::Term& term, const JointMotion& motion) noexcept {
+    const float a = 0.5f * term.bend * motion.bend, b = 0.5f * term.twist * motion.twist;
+    const float sa = std::sin(a), ca = std::cos(a), sb = std::sin(b), cb = std::cos(b);
+    const Four u =
+        (sa * cb) * motion.bendAxis + (ca * sb) * motion.twistAxis + (sa * sb) * motion.crossAxis;
+    const float s = ca * cb, x = u.lane[0], y = u.lane[1], z = u.lane[2];
+    FourMap map{
+        {{{s * s + x * x - y * y - z * z, 2.0f * (x * y + s * z), 2.0f * (x * z - s * y), 0.0f}},
+         {{2.0f * (x * y - s * z), s * s - x * x + y * y - z * z, 2.0f * (y * z + s * x), 0.0f}},
+         {{2.0f * (x * z + s * y), 2.0f * (y * z - s * x), s * s - x * x - y * y + z * z, 0.0f}},
+         {}}};
+    if (motion.scaled != 0.0f)
+        for (int i = 0; i < 3; ++i)
+            map.column[i] = (1.0f + term.bend * motion.scaled) * map.column[i];
+    map.column[3] = motion.centre + term.bend * motion.translation - map.turn(motion.centre);
+    return map;
 }
 
-/// Adds patches `first` to `first + count` of the posed `centres` and `normals` to `box`.
-void addPatches(const BoundsProxy& skin, std::uint32_t first, std::uint32_t count,
-                const glm::vec3* centres, const glm::vec3* normals, const Floats& stray,
-                float scale, PoseBounds& box) {
-    glm::vec3 low = box.low, high = box.high;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec3 centre = centres[i];
-        const glm::vec3 tilt = glm::min(glm::abs(normals[i]), 1.0f);
-        const glm::vec3 half = scale * (skin.across[first + i] * glm::sqrt(1.0f - tilt * tilt) +
-                                        skin.along[first + i] * tilt + stray[i]) +
-                               kRounding * glm::abs(centre);
-        low = glm::min(low, centre - half);
-        high = glm::max(high, centre + half);
+/// Adds pieces to a box, but for those that cannot reach out of it.
+class BoxOfPieces {
+public:
+    BoxOfPieces(const BoundsProxy& proxy, const JointMotions& motions) noexcept
+        : _proxy(proxy), _motions(motions) {}
+
+    void add(const BoundsProxy::Piece& piece, CorrectiveStray* corrections) noexcept {
+        const JointMotion& anchor = _motions.joints[piece.anchor];
+        const Strays strays = straysOf(piece);
+        if (_motions.plain && (strays.turns || piece.correctionCount > 0)) {
+            const JointMotion& home = _motions.joints[piece.home];
+            if (holds(home.map * four(piece.rest.centre),
+                      home.growthHere * (piece.radius + piece.corrected + strays.fromHome) +
+                          _proxy.rounding))
+                return;
+        }
+        const float corrected = corrections ? corrections->of(piece) : 0.0f;
+        PosedPiece posed(piece.rest);
+        const BoundsProxy::Term* term = _proxy.terms.data() + piece.firstTerm;
+        for (const auto* end = term + piece.termCount; strays.turns && term != end; ++term)
+            if (term->turns) posed.move(partialTurn(*term, _motions.joints[term->joint]));
+        posed.move(anchor.map);
+        Four half = posed.half();
+        half += anchor.growthHere * (strays.free + strays.grown * corrected) + strays.anchored +
+                _proxy.rounding;
+        half = half + kRounding * abs(posed.centre);
+        low = min(low, posed.centre - half);
+        high = max(high, posed.centre + half);
     }
-    box.low = low;
-    box.high = high;
-}
+
+    Four low = all(std::numeric_limits<float>::max());
+    Four high = all(-std::numeric_limits<float>::max());
+
+private:
+    struct Strays {
+        float free = 0.0f;     ///< how far vertices stray before the anchor moves them
+        float anchored = 0.0f; ///< how much more by what they have less of the anchor
+        float fromHome = 0.0f; ///< how far they can be from where the home joint alone takes them
+        float grown = 1.0f;    ///< the scale of those, at least 1
+        bool turns = false;
+    };
+
+    Strays straysOf(const BoundsProxy::Piece& piece) const noexcept {
+        Strays result;
+        float before = 0.0f;
+        const BoundsProxy::Term* term = _proxy.terms.data() + piece.firstTerm;
+        for (const auto* end = term + piece.termCount; term != end; ++term) {
+            const JointMotion& motion = _motions.joints[term->joint];
+            const float bend = motion.growth * motion.bend + motion.scaling;
+            const float twist = motion.growth * std::fabs(motion.twist);
+            float stray = bend * (term->bendReach + term->bendSpread * before) +
+                          twist * (term->twistReach + term->twistSpread * before) +
+                          term->bendSpread * motion.travel;
+            float moved = bend * (term->bendMove + term->mostBend * before) +
+                          twist * (term->twistMove + term->mostTwist * before) +
+                          term->mostBend * motion.travel;
+            if (_motions.plain) {
+                stray = std::min(stray, term->mostHigh *
+                                            (bend * term->bendSpread + twist * term->twistSpread));
+                moved = std::min(moved, 2.0f * term->mostHigh);
+            }
+            result.fromHome += bend * (term->homeBendReach + term->homeBendSpread * before) +
+                               twist * (term->homeTwistReach + term->homeTwistSpread * before);
+            before += moved;
+            if (!term->turns && term->bend == 1.0f) {
+                result.anchored += stray;
+                continue;
+            }
+            result.turns = result.turns || term->turns;
+            result.free = motion.growth * result.free + stray;
+            result.grown *= motion.growth;
+        }
+        result.anchored *= _motions.joints[piece.anchor].growthHere;
+        return result;
+    }
+
+    bool holds(const Four& centre, float radius) const noexcept {
+        bool inside = true;
+        for (int i = 0; i < 3; ++i)
+            inside = inside && centre.lane[i] - radius >= low.lane[i] &&
+                     centre.lane[i] + radius <= high.lane[i];
+        return inside;
+    }
+
+    const BoundsProxy& _proxy;
+    const JointMotions& _motions;
+};
 
 } // namespace
 
 PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept {
-    const BoundsProxy* skin = SkinModelAccess::boundsProxy(model);
-    if (!skin) return {glm::vec3(1.0f), glm::vec3(-1.0f)};
-    const std::size_t patches = skin->across.size();
-    std::array<glm::vec3, 2 * BoundsProxy::kMost> few;
-    std::vector<glm::vec3> many(patches > BoundsProxy::kMost ? 2 * patches : 0);
-    DeformJob job;
-    job.model = skin->centres.get();
-    job.pose = &pose;
-    job.positions = many.empty() ? few.data() : many.data();
-    job.normals = job.positions + patches;
-    job.positionCount = job.normalCount = patches;
-    job.run();
-
-    PoseBounds box{glm::vec3(std::numeric_limits<float>::max()),
-                   glm::vec3(-std::numeric_limits<float>::max())};
-    const float travel = travelOf(pose);
-    Floats stray;
-    std::optional<CorrectiveWeights> corrections;
-    if (SkinModelAccess::correctives(model)) corrections.emplace(model, pose);
-    for (std::size_t r = 0; r < skin->runs.size(); ++r) { // one a group
-        const BoundsProxy::Run& run = skin->runs[r];
-        const float scale = scaleOf(model, model.groups()[r], pose);
-        for (std::uint32_t from = 0; from < run.patchCount; from += kChunk) {
-            const std::uint32_t count = std::min<std::uint32_t>(run.patchCount - from, kChunk);
-            const std::uint32_t first = run.firstPatch + from;
-            straysOf(*skin, run, from, count, pose, travel, stray);
-            if (corrections)
-                addCorrectiveStray(*skin, run, from, count, *corrections, stray.data());
-            addPatches(*skin, first, count, job.positions + first, job.normals + first, stray,
-                       scale, box);
-        }
-    }
-    return box;
+    const BoundsProxy* proxy = SkinModelAccess::boundsProxy(model);
+    if (!proxy) return {glm::vec3(1.0f), glm::vec3(-1.0f)};
+    std::array<JointMotion, 128> few;
+    std::vector<JointMotion> many(pose.size() > few.size() ? pose.size() : 0);
+    const JointMotions motions(model, pose, many.empty() ? few.data() : many.data());
+    std::optional<CorrectiveStray> corrections;
+    if (SkinModelAccess::correctives(model)) corrections.emplace(*proxy, model, pose);
+    BoxOfPieces box(*proxy, motions);
+    for (const BoundsProxy::Piece& piece : proxy->pieces)
+        box.add(piece, corrections ? &*corrections : nullptr);
+    return {box.low.xyz(), box.high.xyz()};
 }
 
 } // namespace osgSkin

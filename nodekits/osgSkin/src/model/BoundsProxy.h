@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "points/EllipticCylinder.h"
+
 #include <osgSkin/SkinModel>
 
 #include <cstddef>
@@ -10,54 +12,61 @@
 
 namespace osgSkin {
 
-/// Patches of skin that stand for their vertices when a pose's bounds are computed.
+/// Pieces of skin that stand for their vertices when a pose's bounds are computed.
 ///
-/// A patch is a flat cylinder about its centre and normal, in rest space, with the mean ratios of
-/// its vertices: with those it moves rigidly. A vertex whose ratio of some joint differs by d from
-/// the mean turns by up to d times that joint's angle more, at no more than its reach from the
-/// joint's centre.
+/// A piece is a cylinder that holds its rest vertices, and moves rigidly: wholly with one joint
+/// (its anchor) and all above it, then by fixed ratios with some more. A vertex x of it goes
+/// through P_1(r_1) ... P_n(r_n) x, a cylinder's point through the same with the piece's ratios s.
+/// With z the vertex before joint k turns it, at most `high` from the joint's centre and `wide`
+/// from its twist axis, it strays by at most
+///
+///   |P_k(r) z - P_k(s) z| <= |bend of r - s| psi high + |twist of r - s| |phi| wide
+///
+/// for each joint, since all that follow are turns, which keep distances. The joints applied before
+/// k move z from x by at most as much as they turn times how far it is from them.
 struct BoundsProxy {
-    /// Patches side by side whose vertices follow the same joints.
-    struct Run {
-        std::uint32_t firstPatch;
-        std::uint32_t patchCount;
-        std::uint32_t firstJoint; ///< in `joints`
-        std::uint32_t jointCount; ///< those followed in part
-        std::size_t firstSlack;   ///< in `slack`: for each joint, patchCount floats of each kind
-        std::uint32_t firstCorrection; ///< in `corrections`
-        std::uint32_t correctionCount;
+    /// One joint that a piece's vertices follow, from where they all follow them wholly on.
+    struct Term {
+        std::uint32_t joint;
+        bool turns;        ///< the piece, by ratios of its own; else not, or with its anchor
+        float bend, twist; ///< ratios of the piece; where it turns
+        float bendSpread;  ///< the largest difference of a vertex's ratio from the piece's
+        float twistSpread;
+        float mostBend; ///< of the vertices
+        float mostTwist;
+        // The same times `high` and `wide` as they are where joints applied before do not turn.
+        float bendReach, twistReach;
+        float bendMove, twistMove;
+        // The differences from a piece that moves wholly with its home joint.
+        float homeBendSpread, homeTwistSpread, homeBendReach, homeTwistReach;
+        float mostHigh; ///< the largest `high` whatever they do, but move and scale
     };
-
-    /// That vertices of a run follow the correctives of a joint.
+    /// That vertices of a piece follow the correctives of a joint.
     struct Correction {
-        std::uint32_t joint;    ///< of the correctives'
-        std::size_t firstReach; ///< in `reach`: patchCount floats for each mode
+        std::uint32_t joint;      ///< of the correctives'
+        std::uint32_t firstReach; ///< in `reach`: one for each mode
+    };
+    struct Piece {
+        EllipticCylinder rest;
+        float radius;    ///< of the ball about its centre
+        float corrected; ///< how far correctives can take a vertex in any pose, or more
+        std::uint32_t anchor;
+        std::uint32_t home; ///< the last joint, from the anchor on, that it mostly moves with
+        std::uint32_t firstTerm, termCount; ///< innermost (applied first) first
+        std::uint32_t firstCorrection, correctionCount;
     };
 
-    /// What one partial joint adds to a patch's size: the largest deviations from the mean ratios.
-    enum Slack {
-        BendReach,  ///< times the reach: per radian of bend
-        TwistReach, ///< times the reach: per radian of twist
-        BendSpread, ///< per unit of translation, and per radian and unit of reach that it adds
-        TwistSpread,
-        SlackKinds
-    };
+    /// Pieces that a skin is cut into at most.
+    static constexpr std::size_t kMost = 128;
 
-    /// Patches that a skin is cut into, unless it has more groups than that.
-    static constexpr std::size_t kMost = 1536;
-
-    osg::ref_ptr<const SkinModel> centres; ///< centre and normal of each patch, its mean ratios
-    std::vector<float> across;             ///< of each patch: the cylinder's radius
-    std::vector<float> along;              ///< half its height
-    std::vector<Run> runs;
-    std::vector<std::uint32_t> joints;
-    std::vector<float> slack;
+    std::vector<Piece> pieces; ///< those that no term turns stand first
+    std::vector<Term> terms;
     std::vector<Correction> corrections;
-    std::vector<float> reach; ///< length of a patch's largest shares, as they are held
+    std::vector<float> reach; ///< length of a piece's largest shares, as they are held
     float rounding;           ///< what single precision may put a vertex off by, near the origin
 };
 
-/// Cuts a model's groups into patches; null for a model without vertices.
+/// Cuts a model's vertices into pieces; null for a model without vertices.
 std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model);
 
 } // namespace osgSkin
