@@ -9,25 +9,35 @@
 #include <algorithm>
 #include <cmath>
 
-Crowd::Crowd(const std::vector<SampledCharacter>& characters, std::size_t count,
+Crowd::Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
              osgSkin::DeformPool* pool)
     : _scene(new osg::Group), _pool(pool) {
     float width = 0.0f;
-    for (const SampledCharacter& c : characters)
-        width = std::max({width, c.box.xMax() - c.box.xMin(), c.box.yMax() - c.box.yMin()});
+    for (const CrowdCharacter& c : characters) {
+        const osg::BoundingBox& box = c.character->bakedBounds();
+        width = std::max({width, box.xMax() - box.xMin(), box.yMax() - box.yMin()});
+    }
     width *= 0.7f; // they may reach between each other
     const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
     _radius = 0.5f * width * static_cast<float>(side);
-    std::size_t phase = 0;
+    std::size_t phase = 0; // in samples
     for (std::size_t i = 0; i < count; ++i) {
         // Rows stand half a place apart, and phases differ from one neighbour to the next.
         const std::size_t line = i / side;
         const double row = static_cast<double>(line);
         const double column = static_cast<double>(i % side) + (line % 2 == 0 ? 0.0 : 0.5);
-        const osg::Matrix transform = osg::Matrix::translate(
-            static_cast<double>(width) * (column - 0.5 * static_cast<double>(side)),
-            static_cast<double>(width) * (row - 0.5 * static_cast<double>(side)), 0.0);
-        _members.push_back(makeMember(characters[i % characters.size()], transform, phase));
+        const CrowdCharacter& source = characters[i % characters.size()];
+        const osgSkin::ClipCharacter::Instance copy = source.character->makeInstance(false);
+        copy.player->setInterpolated(false);
+        copy.player->setTrack(0, {source.clip, static_cast<double>(phase) * source.clip->step()});
+        const osg::ref_ptr<osg::MatrixTransform> stand =
+            new osg::MatrixTransform(osg::Matrix::translate(
+                static_cast<double>(width) * (column - 0.5 * static_cast<double>(side)),
+                static_cast<double>(width) * (row - 0.5 * static_cast<double>(side)), 0.0));
+        stand->addChild(copy.node);
+        _scene->addChild(stand);
+        _players.push_back(copy.player);
+        _vertices += source.vertices;
         phase += 37;
     }
     _scene->setUpdateCallback(this);
@@ -35,51 +45,17 @@ Crowd::Crowd(const std::vector<SampledCharacter>& characters, std::size_t count,
     _scene->addUpdateCallback(new osgSkin::ParallelDeformCallback(pool));
 }
 
-Crowd::Member Crowd::makeMember(const SampledCharacter& character, const osg::Matrix& transform,
-                                std::size_t phase) {
-    Member member{&character, phase, {}, {}};
-    const osg::ref_ptr<osg::MatrixTransform> stand = new osg::MatrixTransform(transform);
-    for (const SampledCharacter::Skin& source : character.skins) {
-        const osg::ref_ptr<osgSkin::DeformableSkin> skin =
-            osg::clone(source.skin.get(), osg::CopyOp::SHALLOW_COPY);
-        skin->setUpdateCallback(nullptr); // the crowd sets its pose
-        const osg::ref_ptr<osg::MatrixTransform> upright =
-            new osg::MatrixTransform(source.toCharacter);
-        upright->addChild(skin);
-        stand->addChild(upright);
-        member.skins.push_back(skin);
-        _vertices += skin->getModel()->vertexCount();
-    }
-    for (const SampledCharacter::Rigid& source : character.rigids) {
-        const osg::ref_ptr<osg::MatrixTransform> rigid = new osg::MatrixTransform;
-        for (const osg::ref_ptr<osg::Node>& part : source.parts) rigid->addChild(part);
-        stand->addChild(rigid);
-        member.rigids.push_back(rigid);
-    }
-    _scene->addChild(stand);
-    return member;
-}
-
-void Crowd::pose(const Member& member, double time) {
-    const SampledCharacter& character = *member.character;
-    const auto now =
-        static_cast<std::size_t>(std::max(0.0, time) * SampledCharacter::kSamplesPerSecond);
-    const std::size_t sample = (now + member.phase) % character.sampleCount;
-    for (std::size_t i = 0; i < member.skins.size(); ++i) {
-        const std::vector<glm::dmat4>& skinning = character.skins[i].samples[sample];
-        member.skins[i]->setPose(skinning.data(), skinning.size());
-    }
-    for (std::size_t i = 0; i < member.rigids.size(); ++i)
-        member.rigids[i]->setMatrix(character.rigids[i].samples[sample]);
-}
-
 void Crowd::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     const double time = nv && nv->getFrameStamp() ? nv->getFrameStamp()->getSimulationTime() : 0.0;
+    const double passed = _time < 0.0 ? 0.0 : time - _time;
     const osg::Timer_t start = osg::Timer::instance()->tick();
     // What the members have in common is marked here; each thread then marks only what is its
     // member's own.
     _scene->dirtyBound();
-    _pool->forEach(_members.size(), [&](std::size_t i) { pose(_members[i], time); });
+    _pool->forEach(_players.size(), [&](std::size_t i) {
+        _players[i]->advance(passed);
+        _players[i]->pose();
+    });
     const osg::Timer_t posed = osg::Timer::instance()->tick();
     traverse(node, nv);
     const osg::Timer_t end = osg::Timer::instance()->tick();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "SampledCharacter.h"
+#include "CrowdCharacter.h"
 
 #include <osgSkin/DeformPool>
 
@@ -15,12 +15,12 @@
 /// Characters side by side, each in its own phase of its clip; all that come from one file share
 /// its skin models.
 ///
-/// The update callback of its own scene: it sets the poses on the pool's threads, and with the same
-/// threads an osgSkin::ParallelDeformCallback deforms the skins that are in view.
+/// The update callback of its own scene: it has the players pose on the pool's threads, and with
+/// the same threads an osgSkin::ParallelDeformCallback deforms the skins that are in view.
 class Crowd : public osg::NodeCallback {
 public:
-    /// \param characters at least one; they take turns. They must outlive the crowd.
-    Crowd(const std::vector<SampledCharacter>& characters, std::size_t count,
+    /// \param characters at least one; they take turns
+    Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
           osgSkin::DeformPool* pool);
 
     osg::Group* getScene() const { return _scene.get(); }
@@ -34,19 +34,9 @@ public:
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
 private:
-    struct Member {
-        const SampledCharacter* character;
-        std::size_t phase; ///< in samples
-        std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins;
-        std::vector<osg::ref_ptr<osg::MatrixTransform>> rigids;
-    };
-    Member makeMember(const SampledCharacter& character, const osg::Matrix& transform,
-                      std::size_t phase);
-    static void pose(const Member& member, double time);
-
     osg::ref_ptr<osg::Group> _scene;
     osg::ref_ptr<osgSkin::DeformPool> _pool;
-    std::vector<Member> _members;
+    std::vector<osg::ref_ptr<osgSkin::ClipPlayer>> _players;
     float _radius = 0.0f;
     std::size_t _vertices = 0;
     double _time = -1.0, _poseTime = 0.0, _deformTime = 0.0;

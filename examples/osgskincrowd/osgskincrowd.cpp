@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Crowd.h"
+#include "FrameBench.h"
 #include "FrameTime.h"
 #include "Ground.h"
 #include "Snapshots.h"
@@ -58,25 +59,32 @@ int main(int argc, char** argv) {
     std::size_t count = 1000;
     unsigned int threads = 0;
     unsigned int frames = 12;
+    unsigned int timed = 0;
     app.add_option("characters", files,
                    ".skin or any file with a deformable skin; they take turns");
     app.add_option("--count", count, "how many characters")->check(CLI::Range(1, 100000));
     app.add_option("--threads", threads, "most threads that pose and deform; 0: all processors");
     app.add_option("--pictures", pictures, "write pictures to this folder; no window to look at");
     app.add_option("--frames", frames, "how many pictures")->check(CLI::Range(1u, 99u));
+    app.add_option("--time", timed, "time so many frames without drawing; no window")
+        ->check(CLI::Range(1u, 10000u));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        std::vector<SampledCharacter> characters;
+        std::vector<CrowdCharacter> characters;
         characters.reserve(files.size());
         for (const std::string& file : files) characters.emplace_back(file);
         const osg::ref_ptr<osgSkin::DeformPool> pool = new osgSkin::DeformPool(threads);
         const osg::ref_ptr<Crowd> crowd = new Crowd(characters, count, pool);
         std::cout << count << " characters, " << crowd->getVertexCount() << " skin vertices, "
                   << pool->getThreadCount() << " threads" << std::endl;
+        if (timed > 0) {
+            benchFrames(*crowd, crowd->getScene(), timed, pool->getThreadCount());
+            return 0;
+        }
         const osg::ref_ptr<osg::Group> scene = new osg::Group;
         scene->addChild(crowd->getScene());
         scene->addChild(example::makeFloor(std::ceil(1.5f * crowd->getRadius())));

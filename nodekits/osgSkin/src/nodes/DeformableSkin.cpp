@@ -158,6 +158,20 @@ bool DeformableSkin::setPose(const osg::Matrixd* skinning, std::size_t count, Po
     return setPose(asGlm(skinning), count, twist);
 }
 
+bool DeformableSkin::setPose(const JointMap* own, std::size_t count, Pose::Twist twist) {
+    bool changed = false;
+    if (!_model || !_pose.set(own, count, twist, &changed)) return false;
+    if (changed) poseChanged();
+    return true;
+}
+
+bool DeformableSkin::setPose(const Pose& pose, const osg::BoundingBox& bounds) {
+    bool changed = false;
+    if (!_model || !_pose.setJoints(pose, &changed)) return false;
+    if (changed) poseChanged(bounds);
+    return true;
+}
+
 bool DeformableSkin::setActivation(const std::string& input, float activation) {
     if (!_model) return false;
     const std::size_t index = indexOf(input, _model->inputs());
@@ -182,9 +196,13 @@ void DeformableSkin::applyDrawSettings() {
 }
 
 void DeformableSkin::poseChanged() {
+    poseChanged(_model ? toOsg(computePoseBounds(*_model, _pose)) : osg::BoundingBox());
+}
+
+void DeformableSkin::poseChanged(const osg::BoundingBox& bounds) {
     _dirty = true;
     if (!_model) return;
-    _box = toOsg(computePoseBounds(*_model, _pose));
+    _box = bounds;
     applyDrawSettings();
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
         buffer->setInitialBound(_box);

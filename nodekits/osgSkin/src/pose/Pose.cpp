@@ -13,6 +13,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgSkin {
@@ -88,10 +89,7 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool*
     for (std::size_t j = 0; j < count; ++j) {
         // D_j = G_parent^-1 G_j; the root has no parent.
         const Rest& rest = (*_rest)[j];
-        Split now;
-        now.rotation = frames[j].rotation;
-        now.offset = frames[j].offset;
-        now.scale = frames[j].scale;
+        JointMap now{frames[j].rotation, frames[j].offset, frames[j].scale};
         if (rest.parent >= 0) {
             const Frame& parent = frames[static_cast<std::size_t>(rest.parent)];
             const glm::dquat back = glm::conjugate(parent.rotation);
@@ -103,19 +101,56 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool*
                 if (std::abs(now.scale - 1.0) < 1e-6) now.scale = 1.0;
             }
         }
-        const BendTwist split = splitUnit(now.rotation, rest.twistAxis);
-        now.azimuthCosine = inSteps(glm::dot(split.bendAxis, rest.e1));
-        now.azimuthSine = inSteps(glm::dot(split.bendAxis, rest.e2));
-        now.bendAngle = split.bendAngle;
-        now.twistAngle = split.twistAngle;
-        Split& before = _splits[j];
-        if (twist == Twist::Continued)
-            now.twistAngle = continued(before.twistAngle, now.twistAngle);
-        other = other || now.rotation != before.rotation || now.offset != before.offset ||
-                now.scale != before.scale || now.twistAngle != before.twistAngle;
-        before = now;
+        other = take(j, now, twist) || other;
     }
     if (changed) *changed = other;
+    return true;
+}
+
+bool Pose::take(std::size_t joint, const JointMap& own, Twist twist) noexcept {
+    const Rest& rest = (*_rest)[joint];
+    Split now;
+    now.rotation = own.rotation;
+    now.offset = own.offset;
+    now.scale = own.scale;
+    const BendTwist split = splitUnit(now.rotation, rest.twistAxis);
+    now.azimuthCosine = inSteps(glm::dot(split.bendAxis, rest.e1));
+    now.azimuthSine = inSteps(glm::dot(split.bendAxis, rest.e2));
+    now.bendAngle = split.bendAngle;
+    now.twistAngle = split.twistAngle;
+    Split& before = _splits[joint];
+    if (twist == Twist::Continued) now.twistAngle = continued(before.twistAngle, now.twistAngle);
+    const bool other = !isSame(now, before);
+    before = now;
+    return other;
+}
+
+bool Pose::isSame(const Split& a, const Split& b) noexcept {
+    return a.rotation == b.rotation && a.offset == b.offset && a.scale == b.scale &&
+           a.twistAngle == b.twistAngle;
+}
+
+bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* changed) noexcept {
+    if (count != _splits.size()) return false;
+    for (std::size_t j = 0; j < count; ++j) {
+        const JointMap& map = own[j];
+        // Written so that NaN is refused.
+        const glm::dquat& q = map.rotation;
+        if (!(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < 1e-6) ||
+            !isFinite(map.offset) || !(map.scale > 0.0) || !std::isfinite(map.scale))
+            return false;
+    }
+    bool other = false;
+    for (std::size_t j = 0; j < count; ++j) other = take(j, own[j], twist) || other;
+    if (changed) *changed = other;
+    return true;
+}
+
+bool Pose::setJoints(const Pose& other, bool* changed) noexcept {
+    if (other._splits.size() != _splits.size()) return false;
+    const bool differs = !std::equal(_splits.begin(), _splits.end(), other._splits.begin(), isSame);
+    if (differs) std::copy(other._splits.begin(), other._splits.end(), _splits.begin());
+    if (changed) *changed = differs;
     return true;
 }
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "CrowdCharacter.h"
+
+#include "ProgressLine.h"
+
+#include <osgSkinCharacter/ProgressOption>
+
+#include <osg/NodeVisitor>
+#include <osgDB/ReadFile>
+
+#include <stdexcept>
+
+namespace {
+
+class CountVertices : public osg::NodeVisitor {
+public:
+    CountVertices() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Drawable& drawable) override {
+        if (auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&drawable))
+            if (skin->getModel()) vertices += skin->getModel()->vertexCount();
+    }
+    std::size_t vertices = 0;
+};
+
+/// By osgDB, which also reads characters that were saved.
+osg::ref_ptr<osg::Node> readScene(const std::string& file) {
+    example::ProgressLine line(file);
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    osgSkin::setProgress(*options, line.progress());
+    return osgDB::readRefNodeFile(file, options);
+}
+
+} // namespace
+
+CrowdCharacter::CrowdCharacter(const std::string& file) {
+    const osg::ref_ptr<osg::Node> scene = readScene(file);
+    if (!scene) throw std::runtime_error(file + " cannot be read");
+    character = osgSkin::ClipCharacter::create(*scene);
+    // One without a clip stands as it does.
+    const osg::ref_ptr<osgAnimation::Animation> animation = character->animations().empty()
+                                                                ? new osgAnimation::Animation
+                                                                : character->animations().front();
+    clip = character->sample(*animation);
+    character->bake(clip);
+    CountVertices count;
+    scene->accept(count);
+    vertices = count.vertices;
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "FrameBench.h"
+
+#include <osgSkin/DeformableSkin>
+
+#include <osg/Timer>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/UpdateVisitor>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace {
+
+class CountDeformed : public osg::NodeVisitor {
+public:
+    explicit CountDeformed(osg::Node& scene) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {
+        scene.accept(*this);
+    }
+    void apply(osg::Drawable& drawable) override {
+        if (auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&drawable))
+            count += skin->getDeformCount();
+    }
+    std::size_t count = 0;
+};
+
+/// A cull traversal of the whole scene, seen from above.
+class Cull {
+public:
+    explicit Cull(const osg::BoundingSphere& bound) {
+        const double r = 1.1 * static_cast<double>(bound.radius());
+        _view = new osg::RefMatrix(osg::Matrix::lookAt(bound.center() + osg::Vec3d(0.0, -r, r),
+                                                       bound.center(), osg::Vec3d(0, 0, 1)));
+        _projection = new osg::RefMatrix(osg::Matrix::ortho(-r, r, -r, r, 0.0, 4.0 * r));
+    }
+    void run(osg::Node& scene, osg::FrameStamp* stamp) {
+        _graph->clean();
+        _stage->reset();
+        _visitor->reset();
+        _visitor->setFrameStamp(stamp);
+        _visitor->setTraversalNumber(stamp->getFrameNumber());
+        _visitor->setStateGraph(_graph);
+        _visitor->setRenderStage(_stage);
+        _visitor->pushViewport(_viewport);
+        _visitor->pushProjectionMatrix(_projection);
+        _visitor->pushModelViewMatrix(_view, osg::Transform::ABSOLUTE_RF);
+        scene.accept(*_visitor);
+        _visitor->popModelViewMatrix();
+        _visitor->popProjectionMatrix();
+        _visitor->popViewport();
+    }
+
+private:
+    osg::ref_ptr<osgUtil::CullVisitor> _visitor = new osgUtil::CullVisitor;
+    osg::ref_ptr<osgUtil::StateGraph> _graph = new osgUtil::StateGraph;
+    osg::ref_ptr<osgUtil::RenderStage> _stage = new osgUtil::RenderStage;
+    osg::ref_ptr<osg::Viewport> _viewport = new osg::Viewport(0, 0, 1000, 800);
+    osg::ref_ptr<osg::RefMatrix> _view, _projection;
+};
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+} // namespace
+
+void benchFrames(const Crowd& crowd, osg::Node* scene, unsigned int frames, unsigned int threads) {
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
+    Cull cull(scene->getBound());
+    std::vector<double> whole, pose, deform, culled;
+    std::size_t before = 0;
+    constexpr unsigned int kFirst = 3; // frames that still make things
+    for (unsigned int i = 0; i < frames + kFirst; ++i) {
+        if (i == kFirst) before = CountDeformed(*scene).count;
+        stamp->setFrameNumber(i + 1);
+        stamp->setSimulationTime(i / 60.0);
+        update->reset();
+        update->setFrameStamp(stamp);
+        update->setTraversalNumber(i + 1);
+        const osg::Timer_t start = osg::Timer::instance()->tick();
+        scene->accept(*update);
+        scene->getBound();
+        const osg::Timer_t updated = osg::Timer::instance()->tick();
+        cull.run(*scene, stamp);
+        const osg::Timer_t end = osg::Timer::instance()->tick();
+        if (i < kFirst) continue;
+        whole.push_back(osg::Timer::instance()->delta_m(start, end));
+        pose.push_back(crowd.getPoseTime());
+        deform.push_back(crowd.getDeformTime());
+        culled.push_back(osg::Timer::instance()->delta_m(updated, end));
+    }
+    const std::size_t deformed = CountDeformed(*scene).count - before;
+    std::printf("%u frames on %u threads, medians: %.2f ms, of which poses and bounds %.2f, "
+                "deformation %.2f, cull traversal %.2f; %.0f skins deformed a frame\n",
+                frames, threads, median(whole), median(pose), median(deform), median(culled),
+                static_cast<double>(deformed) / frames);
+}

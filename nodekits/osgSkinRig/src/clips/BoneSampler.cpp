@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "clips/BoneSampler.h"
+
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+
+#include <osg/NodeVisitor>
+#include <osgAnimation/LinkVisitor>
+#include <osgAnimation/UpdateBone>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+class BonesInOrder : public osg::NodeVisitor {
+public:
+    BonesInOrder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Transform& node) override {
+        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) bones.emplace_back(bone);
+        traverse(node);
+    }
+
+    std::vector<osg::ref_ptr<osgAnimation::Bone>> bones;
+};
+
+osg::Matrixd matrixOf(osgAnimation::Bone& bone) {
+    auto* update = dynamic_cast<osgAnimation::UpdateBone*>(bone.getUpdateCallback());
+    if (!update) return bone.getMatrix();
+    update->getStackedTransforms().update(0.0f);
+    return update->getStackedTransforms().getMatrix();
+}
+
+} // namespace
+
+BoneSampler::BoneSampler(const osgAnimation::Animation& animation, osgAnimation::Skeleton& skeleton)
+    : _animation(osg::clone(&animation, osg::CopyOp::DEEP_COPY_ALL)) {
+    BonesInOrder found;
+    skeleton.accept(found);
+    _bones = found.bones;
+    if (_bones.empty())
+        throw Error("sampled clip: the skeleton \"" + skeleton.getName() + "\" has no bone");
+    osgAnimation::LinkVisitor link;
+    link.getAnimationList().push_back(_animation);
+    skeleton.accept(link);
+    _animation->computeDuration();
+    // One root above all bones that have no bone above them, at rest: a pose has one root.
+    const glm::dvec3 up(0.0, 0.0, 1.0);
+    _joints.push_back({"", -1, glm::dvec3(0.0), up, up});
+    for (const osg::ref_ptr<osgAnimation::Bone>& bone : _bones) {
+        const auto above = std::find(_bones.begin(), _bones.end(), bone->getBoneParent());
+        const osg::Matrixd bind = osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace());
+        _joints.push_back({bone->getName(),
+                           above == _bones.end() ? 0 : static_cast<int>(above - _bones.begin()) + 1,
+                           toGlm(bind.getTrans()), up, up});
+    }
+    _pose = Pose(_joints);
+}
+
+std::vector<SampledClip::Joint> BoneSampler::joints() const {
+    std::vector<SampledClip::Joint> result;
+    for (std::size_t j = 1; j < _joints.size(); ++j)
+        result.push_back({_joints[j].name, _joints[j].parent - 1, _joints[j].centre});
+    return result;
+}
+
+void BoneSampler::append(double time, std::vector<JointSample>& samples) {
+    for (const osg::ref_ptr<osgAnimation::Channel>& channel : _animation->getChannels())
+        if (channel->getTarget()) channel->getTarget()->reset();
+    for (const osg::ref_ptr<osgAnimation::Channel>& channel : _animation->getChannels())
+        channel->update(time, 1.0f, 0);
+    std::vector<osg::Matrixd> inSkeleton(_joints.size());
+    std::vector<glm::dmat4> skinning = {glm::dmat4(1.0)};
+    for (std::size_t j = 1; j < _joints.size(); ++j) {
+        osgAnimation::Bone& bone = *_bones[j - 1];
+        inSkeleton[j] = matrixOf(bone) * inSkeleton[static_cast<std::size_t>(_joints[j].parent)];
+        skinning.push_back(toGlm(bone.getInvBindMatrixInSkeletonSpace() * inSkeleton[j]));
+    }
+    if (!_pose.set(skinning.data(), skinning.size()))
+        throw Error("sampled clip: animation \"" + _animation->getName() +
+                    "\" makes a bone's matrix singular or not finite");
+    for (std::size_t j = 1; j < _joints.size(); ++j) {
+        const JointTransform own = _pose.transform(j);
+        samples.push_back({own.rotation, own.translation, own.scale});
+    }
+}
+
+} // namespace osgSkin

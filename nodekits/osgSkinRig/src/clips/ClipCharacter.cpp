@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinRig/ClipCharacter>
+
+#include "clips/BakedClip.h"
+
+#include <osgSkin/DeformJob>
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/RigidPart>
+
+#include <osg/NodeVisitor>
+#include <osgAnimation/BasicAnimationManager>
+
+namespace osgSkin {
+namespace {
+
+/// Everything below a node that plays, each with the path to it.
+class CharacterParts : public osg::NodeVisitor {
+public:
+    CharacterParts() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Node& node) override {
+        for (osg::Callback* c = node.getUpdateCallback(); c; c = c->getNestedCallback())
+            if (auto* manager = dynamic_cast<osgAnimation::AnimationManagerBase*>(c))
+                animations.insert(animations.end(), manager->getAnimationList().begin(),
+                                  manager->getAnimationList().end());
+        if (dynamic_cast<RigidPart*>(&node))
+            rigids.push_back(getNodePath());
+        else
+            traverse(node);
+    }
+    void apply(osg::Drawable& drawable) override {
+        if (dynamic_cast<DeformableSkin*>(&drawable)) skins.push_back(getNodePath());
+    }
+
+    osgAnimation::AnimationList animations;
+    std::vector<osg::NodePath> skins, rigids;
+};
+
+/// The part of a path that ends with the nearest skeleton; empty where there is none.
+osg::NodePath toSkeleton(osg::NodePath path) {
+    while (!path.empty() && !dynamic_cast<osgAnimation::Skeleton*>(path.back())) path.pop_back();
+    return path;
+}
+
+osg::BoundingBox boundsOf(const SkinModel& model, const Pose& pose) {
+    std::vector<glm::vec3> positions(model.vertexCount());
+    DeformJob job;
+    job.model = &model;
+    job.pose = &pose;
+    job.positions = positions.data();
+    job.positionCount = positions.size();
+    job.run();
+    osg::BoundingBox box;
+    for (const glm::vec3& p : positions) box.expandBy(p.x, p.y, p.z);
+    return box;
+}
+
+} // namespace
+
+osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
+    CharacterParts found;
+    character.accept(found);
+    const osg::ref_ptr<ClipCharacter> result = new ClipCharacter;
+    result->_character = &character;
+    result->_animations = found.animations;
+    for (const osg::NodePath& path : found.skins) {
+        auto* skin = static_cast<DeformableSkin*>(path.back());
+        if (!skin->getModel()) continue;
+        const osg::NodePath above = toSkeleton(path);
+        if (above.empty() || (result->_skeleton && result->_skeleton != above.back()))
+            throw Error("clip character: the skin \"" + skin->getName() +
+                        "\" does not stand under the character's skeleton");
+        result->_skeleton = static_cast<osgAnimation::Skeleton*>(above.back());
+        result->_skeletonToCharacter = osg::computeLocalToWorld(above);
+        result->_skins.push_back({skin, osg::computeLocalToWorld(path)});
+    }
+    if (result->_skins.empty()) throw Error("clip character: no skin, expected a DeformableSkin");
+    for (const osg::NodePath& path : found.rigids) {
+        osg::Group& part = *path.back()->asGroup();
+        Rigid rigid{{}, part.getName()};
+        if (path.size() > 1) rigid.joint = path[path.size() - 2]->getName(); // its bone
+        for (unsigned int i = 0; i < part.getNumChildren(); ++i)
+            rigid.parts.emplace_back(part.getChild(i));
+        result->_rigids.push_back(rigid);
+    }
+    return result;
+}
+
+osg::ref_ptr<const SampledClip> ClipCharacter::sample(const osgAnimation::Animation& animation,
+                                                      double samplesPerSecond) const {
+    return SampledClip::create(animation, *_skeleton, samplesPerSecond);
+}
+
+void ClipCharacter::bake(const SampledClip* clip) {
+    if (!clip) throw Error("clip character: no clip to bake");
+    for (const Skin& skin : _skins)
+        for (const std::string& input : skin.skin->getModel()->inputs())
+            if (skin.skin->getActivation(input) != 0.0f)
+                throw Error("clip character: the skin \"" + skin.skin->getName() +
+                            "\" has an activation, expected none in what is baked");
+    const Instance model = makeInstance(false);
+    ClipPlayer& player = *model.player;
+    player.setInterpolated(false);
+    const osg::ref_ptr<BakedClip> baked = new BakedClip;
+    baked->clip = clip;
+    baked->skins.resize(_skins.size());
+    baked->rigids.resize(_rigids.size());
+    player._baked.clear();
+    for (std::size_t sample = 0; sample < clip->sampleCount(); ++sample) {
+        player.setTrack(0, {clip, static_cast<double>(sample) * clip->step(), 0.0, true});
+        if (!player.pose())
+            throw Error("clip character: the clip \"" + clip->name() + "\" cannot pose its skins");
+        for (std::size_t i = 0; i < _skins.size(); ++i) {
+            const DeformableSkin& skin = *player._skins[i].skin;
+            baked->skins[i].poses.push_back(skin.getPose());
+            baked->skins[i].bounds.push_back(boundsOf(*skin.getModel(), skin.getPose()));
+            const osg::BoundingBox& box = baked->skins[i].bounds.back();
+            for (unsigned int corner = 0; corner < 8; ++corner)
+                _bakedBounds.expandBy(box.corner(corner) * _skins[i].toCharacter);
+        }
+        for (std::size_t i = 0; i < _rigids.size(); ++i)
+            baked->rigids[i].push_back(player._rigids[i].transform->getMatrix());
+    }
+    _baked.push_back(baked);
+}
+
+ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
+    Instance result{new osg::Group, new ClipPlayer};
+    result.node->setName(_character->getName());
+    for (const Skin& source : _skins) {
+        const osg::ref_ptr<DeformableSkin> skin =
+            osg::clone(source.skin.get(), osg::CopyOp::SHALLOW_COPY);
+        skin->setUpdateCallback(nullptr); // the player sets its pose
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(source.toCharacter);
+        place->addChild(skin);
+        result.node->addChild(place);
+        result.player->addSkin(skin);
+    }
+    for (const Rigid& source : _rigids) {
+        const osg::ref_ptr<osg::MatrixTransform> rigid =
+            new osg::MatrixTransform(_skeletonToCharacter);
+        rigid->setDataVariance(osg::Object::DYNAMIC);
+        for (const osg::ref_ptr<osg::Node>& part : source.parts) rigid->addChild(part);
+        result.node->addChild(rigid);
+        result.player->addRigid(rigid, source.joint, _skeletonToCharacter);
+    }
+    result.player->_baked = _baked;
+    if (updates) result.node->setUpdateCallback(result.player);
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinRig/ClipPlayer>
+
+#include "clips/BakedClip.h"
+
+#include <osgSkin/GlmOsg>
+
+#include <osg/FrameStamp>
+#include <osg/NodeVisitor>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+double finite(double number) {
+    return std::isfinite(number) ? number : 0.0;
+}
+
+JointMap mapOf(const JointSample& joint, const glm::dvec3& centre) {
+    return {joint.rotation, centre + joint.translation - joint.scale * (joint.rotation * centre),
+            joint.scale};
+}
+
+JointMap operator*(const JointMap& a, const JointMap& b) {
+    return {a.rotation * b.rotation, a.offset + a.scale * (a.rotation * b.offset),
+            a.scale * b.scale};
+}
+
+JointMap inverse(const JointMap& a) {
+    const glm::dquat back = glm::conjugate(a.rotation);
+    return {back, -(back * a.offset) / a.scale, 1.0 / a.scale};
+}
+
+osg::Matrixd toMatrix(const JointMap& map) {
+    osg::Matrixd result = osg::Matrixd::rotate(toOsg(map.rotation));
+    if (map.scale != 1.0) result = osg::Matrixd::scale(map.scale, map.scale, map.scale) * result;
+    result.setTrans(toOsg(map.offset));
+    return result;
+}
+
+int jointOf(const SampledClip& clip, int joint) {
+    return joint < 0 ? -1 : clip.joints()[static_cast<std::size_t>(joint)].parent;
+}
+
+} // namespace
+
+ClipPlayer::~ClipPlayer() = default;
+
+void ClipPlayer::setTrack(std::size_t index, const Track& track) {
+    if (index >= _tracks.size()) return;
+    _tracks[index] = track;
+    _tracks[index].time = finite(track.time);
+    _tracks[index].speed = finite(track.speed);
+}
+
+void ClipPlayer::setWeight(double weight) {
+    if (std::isfinite(weight)) _weight = std::clamp(weight, 0.0, 1.0);
+}
+
+void ClipPlayer::setRoot(Root root, const osg::Vec3d& up) {
+    _root = root;
+    _up = up;
+    _up.normalize();
+    _motion.set(0.0, 0.0, 0.0);
+}
+
+osg::Vec3d ClipPlayer::takeRootMotion() {
+    const osg::Vec3d result = _motion;
+    _motion.set(0.0, 0.0, 0.0);
+    return result;
+}
+
+void ClipPlayer::addSkin(DeformableSkin* skin) {
+    _skins.push_back({skin, {}, false});
+    _found[0] = nullptr;
+}
+
+void ClipPlayer::addRigid(osg::MatrixTransform* transform, const std::string& joint,
+                          const osg::Matrixd& toParent) {
+    _rigids.push_back({transform, joint, toParent, -1});
+    _found[0] = nullptr;
+}
+
+osg::Vec3d ClipPlayer::rootAt(const Track& track) const {
+    if (!track.clip) return {};
+    const SampledClip& clip = *track.clip;
+    const std::size_t root = clip.rootJoint(), last = clip.sampleCount() - 1;
+    const auto along = [&](std::size_t sample) {
+        const osg::Vec3d at = toOsg(clip.sample(sample)[root].translation);
+        return at - _up * (at * _up);
+    };
+    const SampledClip::Place at = clip.place(track.time, track.loop);
+    osg::Vec3d to = along(at.to);
+    osg::Vec3d way;
+    if (track.loop && last > 0) {
+        // The step from the last sample to the first one goes on as those beside it.
+        const osg::Vec3d loop =
+            along(last) - along(0) + (along(last) - along(last - 1) + along(1) - along(0)) * 0.5;
+        const double start = static_cast<double>(at.from) + at.share;
+        way = loop * std::round((track.time / clip.step() - start) /
+                                static_cast<double>(clip.sampleCount()));
+        if (at.to < at.from) to += loop;
+    }
+    return way + along(at.from) * (1.0 - at.share) + to * at.share;
+}
+
+void ClipPlayer::advance(double seconds) {
+    if (!std::isfinite(seconds)) return;
+    for (std::size_t i = 0; i < _tracks.size(); ++i) {
+        Track& track = _tracks[i];
+        const bool follows = _root == Root::Extracted && track.clip;
+        const osg::Vec3d before = follows ? rootAt(track) : osg::Vec3d();
+        track.time = finite(track.time + track.speed * seconds);
+        const double share = i == 1 ? _weight : _tracks[1].clip ? 1.0 - _weight : 1.0;
+        if (follows) _motion += (rootAt(track) - before) * share;
+    }
+}
+
+void ClipPlayer::findJoints() {
+    const SampledClip& clip = *_tracks[0].clip;
+    _needsWhole = !_rigids.empty();
+    for (Skin& skin : _skins) {
+        skin.joints.clear();
+        skin.direct = true;
+        if (!skin.skin->getModel()) continue;
+        for (const BoundJoint& joint : skin.skin->getModel()->joints()) {
+            const int found = clip.find(joint.name);
+            const int above =
+                joint.parent < 0 ? -1 : skin.joints[static_cast<std::size_t>(joint.parent)];
+            if (found >= 0 && jointOf(clip, found) != above) skin.direct = false;
+            // One that is missing moves with its parent, and so do those below it with that.
+            if (found < 0 && above >= 0) skin.direct = false;
+            skin.joints.push_back(found >= 0 ? found : above);
+        }
+        _needsWhole = _needsWhole || !skin.direct;
+    }
+    for (Rigid& rigid : _rigids) rigid.joint = clip.find(rigid.name);
+    _others.clear();
+    if (_tracks[1].clip)
+        for (const SampledClip::Joint& joint : clip.joints())
+            _others.push_back(_tracks[1].clip->find(joint.name));
+    _found = {_tracks[0].clip.get(), _tracks[1].clip.get()};
+}
+
+void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
+    static thread_local std::vector<JointSample> others;
+    const auto take = [&](const Track& track, std::vector<JointSample>& to) {
+        to.resize(track.clip->joints().size());
+        SampledClip::Place at = track.clip->place(track.time, track.loop);
+        if (!_interpolated) at.share = 0.0;
+        const JointSample* from = track.clip->sample(at.from);
+        const JointSample* next = track.clip->sample(at.to);
+        for (std::size_t j = 0; j < to.size(); ++j) to[j] = blend(from[j], next[j], at.share);
+        if (_root == Root::Moving) return;
+        const std::size_t root = track.clip->rootJoint();
+        const glm::dvec3 gone = to[root].translation - track.clip->sample(0)[root].translation;
+        const glm::dvec3 up = toGlm(_up);
+        to[root].translation -= gone - up * glm::dot(gone, up);
+    };
+    take(_tracks[0], joints);
+    if (!_tracks[1].clip || _weight == 0.0) return;
+    take(_tracks[1], others);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (_others[j] >= 0)
+            joints[j] = blend(joints[j], others[static_cast<std::size_t>(_others[j])], _weight);
+}
+
+bool ClipPlayer::poseSkin(const Skin& skin, const std::vector<JointMap>& own,
+                          const std::vector<JointMap>& whole) const {
+    static thread_local std::vector<JointMap> maps;
+    if (!skin.skin->getModel()) return false;
+    const std::vector<BoundJoint>& joints = skin.skin->getModel()->joints();
+    if (joints.size() != skin.joints.size()) return false;
+    maps.assign(joints.size(), JointMap());
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        const int found = skin.joints[j];
+        if (found < 0) continue;
+        const auto at = static_cast<std::size_t>(found);
+        if (skin.direct) {
+            maps[j] = own[at];
+            continue;
+        }
+        const int above =
+            joints[j].parent < 0 ? -1 : skin.joints[static_cast<std::size_t>(joints[j].parent)];
+        if (above == found) continue;
+        maps[j] =
+            above < 0 ? whole[at] : inverse(whole[static_cast<std::size_t>(above)]) * whole[at];
+    }
+    return skin.skin->setPose(maps.data(), maps.size());
+}
+
+bool ClipPlayer::poseBaked() {
+    if (_baked.empty() || _interpolated || _root != Root::Moving) return false;
+    const bool second = _tracks[1].clip && _weight == 1.0;
+    if (_tracks[1].clip && !second && _weight != 0.0) return false;
+    const Track& track = _tracks[second ? 1 : 0];
+    const auto baked = std::find_if(_baked.begin(), _baked.end(),
+                                    [&](const auto& b) { return b->clip == track.clip; });
+    if (baked == _baked.end() || (*baked)->skins.size() != _skins.size() ||
+        (*baked)->rigids.size() != _rigids.size())
+        return false;
+    const std::size_t sample = track.clip->place(track.time, track.loop).from;
+    bool good = true;
+    for (std::size_t i = 0; i < _skins.size(); ++i) {
+        const BakedClip::Skin& skin = (*baked)->skins[i];
+        good = _skins[i].skin->setPose(skin.poses[sample], skin.bounds[sample]) && good;
+    }
+    for (std::size_t i = 0; i < _rigids.size(); ++i)
+        _rigids[i].transform->setMatrix((*baked)->rigids[i][sample]);
+    return good;
+}
+
+bool ClipPlayer::pose() {
+    if (!_tracks[0].clip) return false;
+    if (poseBaked()) return true;
+    if (_found[0] != _tracks[0].clip.get() || _found[1] != _tracks[1].clip.get()) findJoints();
+    static thread_local std::vector<JointSample> samples;
+    static thread_local std::vector<JointMap> own, whole;
+    sampleJoints(samples);
+    const std::vector<SampledClip::Joint>& joints = _tracks[0].clip->joints();
+    own.resize(samples.size());
+    whole.resize(samples.size());
+    for (std::size_t j = 0; j < samples.size(); ++j) {
+        own[j] = mapOf(samples[j], joints[j].centre);
+        if (_needsWhole)
+            whole[j] = joints[j].parent < 0
+                           ? own[j]
+                           : whole[static_cast<std::size_t>(joints[j].parent)] * own[j];
+    }
+    bool good = true;
+    for (const Skin& skin : _skins) good = poseSkin(skin, own, whole) && good;
+    for (const Rigid& rigid : _rigids)
+        rigid.transform->setMatrix(rigid.joint < 0
+                                       ? rigid.toParent
+                                       : toMatrix(whole[static_cast<std::size_t>(rigid.joint)]) *
+                                             rigid.toParent);
+    return good;
+}
+
+void ClipPlayer::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (nv && nv->getFrameStamp()) {
+        const double now = nv->getFrameStamp()->getSimulationTime();
+        if (_started) advance(now - _last);
+        _last = now;
+        _started = true;
+    }
+    pose();
+    traverse(node, nv);
+}
+
+} // namespace osgSkin

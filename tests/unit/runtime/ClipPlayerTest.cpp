@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+//
+// Clips played without bones, beside the same clips on an osgAnimation skeleton.
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/RigidPart>
+#include <osgSkin/UpdateDeformableSkin>
+#include <osgSkinRig/ClipCharacter>
+#include <osgSkinRig/MakeAnimation>
+#include <osgSkinRig/MakeSkeleton>
+
+#include "Tube.h"
+
+#include <osg/FrameStamp>
+#include <osg/Geometry>
+#include <osgAnimation/BasicAnimationManager>
+#include <osgUtil/UpdateVisitor>
+
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using osgSkin::ClipPlayer;
+using osgSkin::SampledClip;
+
+constexpr double kFrame = 1.0 / 30.0;
+
+osgSkin::RestSkeleton tubeRig() {
+    osgSkin::RestSkeleton rig;
+    rig.add("root", -1, glm::dvec3(0, 0, 0));
+    rig.add("middle", 0, glm::dvec3(0, 2, 0));
+    rig.add("end", 1, glm::dvec3(0, 4, 0));
+    return rig;
+}
+
+/// Turns of all joints, and a walk along x with steps up and down.
+osgSkin::Clip someClip(std::size_t frames, double speed) {
+    osgSkin::Clip clip;
+    clip.name = "some";
+    clip.frameTime = kFrame;
+    clip.frames = frames;
+    clip.joints = 3;
+    for (std::size_t f = 0; f < frames; ++f) {
+        const double phase = 2.0 * glm::pi<double>() * double(f) / double(frames);
+        for (std::size_t j = 0; j < 3; ++j)
+            clip.rotations.push_back(
+                glm::angleAxis(speed * std::sin(phase + double(j)),
+                               glm::normalize(glm::dvec3(1.0, 0.4 * double(j), 0.3))));
+        clip.rootPositions.emplace_back(0.1 * speed * double(f), 1.0 + 0.1 * std::sin(phase), 0.0);
+    }
+    return clip;
+}
+
+/// A character as binding makes them: a skin under a skeleton that a manager animates, and a rigid
+/// part.
+struct Character {
+    osgSkin::RestSkeleton rig = tubeRig();
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(rig);
+    osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    osg::ref_ptr<osgSkin::RigidPart> rigid;
+    osg::ref_ptr<osgAnimation::Animation> animation;
+
+    explicit Character(const osgSkin::Clip& clip) {
+        const test::Tube tube(41, 12);
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        const osg::ref_ptr<osg::Vec3Array> vertices =
+            new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+        const osg::ref_ptr<osg::Vec3Array> normals =
+            new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+        for (const glm::vec3& p : tube.positions) vertices->push_back({p.x, p.y, p.z});
+        for (const glm::vec3& n : tube.normals) normals->push_back({n.x, n.y, n.z});
+        geometry->setVertexArray(vertices);
+        geometry->setNormalArray(normals);
+        skin->setSkin(geometry, tube.model());
+        skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
+        osgAnimation::Bone* bone = findBone(*skeleton, "end");
+        rigid = new osgSkin::RigidPart(new osg::Geometry, *bone);
+        skeleton->addChild(skin);
+        animation = osgSkin::makeAnimation(clip, rig);
+        const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
+            new osgAnimation::BasicAnimationManager;
+        manager->registerAnimation(animation);
+        scene->addUpdateCallback(manager);
+        const osg::ref_ptr<osg::MatrixTransform> upright =
+            new osg::MatrixTransform(osg::Matrix::rotate(1.0, osg::Vec3d(1, 0, 0)));
+        upright->addChild(skeleton);
+        scene->addChild(upright);
+        manager->buildTargetReference();
+        update(0.0);
+        manager->playAnimation(animation);
+    }
+    static osgAnimation::Bone* findBone(osg::Group& below, const std::string& name) {
+        for (unsigned int i = 0; i < below.getNumChildren(); ++i) {
+            auto* bone = dynamic_cast<osgAnimation::Bone*>(below.getChild(i));
+            if (!bone) continue;
+            if (bone->getName() == name) return bone;
+            if (auto* found = findBone(*bone, name)) return found;
+        }
+        return nullptr;
+    }
+    void update(double time) const {
+        const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+        stamp->setSimulationTime(time);
+        stamp->setFrameNumber(static_cast<unsigned int>(1000.0 * time));
+        osgUtil::UpdateVisitor visitor;
+        visitor.setFrameStamp(stamp);
+        scene->accept(visitor);
+    }
+};
+
+/// The only skin below a node.
+osgSkin::DeformableSkin& skinOf(osg::Node& node) {
+    struct Find : osg::NodeVisitor {
+        Find() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+        void apply(osg::Drawable& drawable) override {
+            if (auto* found = dynamic_cast<osgSkin::DeformableSkin*>(&drawable)) skin = found;
+        }
+        osgSkin::DeformableSkin* skin = nullptr;
+    } find;
+    node.accept(find);
+    return *find.skin;
+}
+
+const osg::Vec3Array& verticesOf(const osgSkin::DeformableSkin& skin) {
+    return static_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray());
+}
+
+double difference(const osg::Vec3Array& a, const osg::Vec3Array& b) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        largest = std::max(largest, double((a[i] - b[i]).length()));
+    return largest;
+}
+
+osg::Vec3Array posed(ClipPlayer& player, osgSkin::DeformableSkin& skin) {
+    EXPECT_TRUE(player.pose());
+    return verticesOf(skin);
+}
+
+constexpr double kSize = 6.0;
+
+} // namespace
+
+TEST(SampledClip, PlacesTimes) {
+    const auto clip = SampledClip::create(someClip(10, 0.3), tubeRig());
+    ASSERT_EQ(clip->sampleCount(), 10u);
+    EXPECT_NEAR(clip->duration(), 10.0 * kFrame, 1e-12);
+    const auto expectPlace = [&](double time, bool loop, std::size_t from, std::size_t to,
+                                 double share) {
+        SCOPED_TRACE(time);
+        const SampledClip::Place place = clip->place(time, loop);
+        EXPECT_EQ(place.from, from);
+        EXPECT_EQ(place.to, to);
+        EXPECT_NEAR(place.share, share, 1e-6);
+    };
+    for (std::size_t i = 0; i < 10; ++i)
+        for (const double loops : {-3.0, 0.0, 1000.0}) {
+            const SampledClip::Place place =
+                clip->place(loops * clip->duration() + double(i) * kFrame, true);
+            EXPECT_EQ(place.from, i);
+            EXPECT_EQ(place.share, 0.0);
+        }
+    expectPlace(9.5 * kFrame, true, 9, 0, 0.5);
+    expectPlace(-0.25 * kFrame, true, 9, 0, 0.75);
+    expectPlace(9.5 * kFrame, false, 9, 9, 0.0);
+    expectPlace(-1.0, false, 0, 0, 0.0);
+    expectPlace(std::numeric_limits<double>::quiet_NaN(), true, 0, 0, 0.0);
+    expectPlace(std::numeric_limits<double>::infinity(), false, 0, 0, 0.0);
+    const auto single = SampledClip::create(someClip(1, 0.3), tubeRig());
+    EXPECT_EQ(single->place(17.3, true).from, 0u);
+    EXPECT_EQ(single->place(-17.3, true).to, 0u);
+}
+
+TEST(SampledClip, RefusesWhatCannotBeSampled) {
+    EXPECT_THROW(SampledClip::create(osgSkin::Clip(), tubeRig()), osgSkin::Error);
+    osgAnimation::Animation animation;
+    osgAnimation::Skeleton empty;
+    EXPECT_THROW(SampledClip::create(animation, empty), osgSkin::Error);
+    const auto skeleton = osgSkin::makeSkeleton(tubeRig());
+    for (const double rate : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THROW(SampledClip::create(animation, *skeleton, rate), osgSkin::Error);
+    EXPECT_EQ(SampledClip::create(animation, *skeleton)->sampleCount(), 1u);
+    osg::ref_ptr<osg::Group> nothing = new osg::Group;
+    EXPECT_THROW(osgSkin::ClipCharacter::create(*nothing), osgSkin::Error);
+}
+
+TEST(ClipPlayer, PosesAsTheSkeletonDoes) {
+    const osgSkin::Clip clip = someClip(12, 0.8);
+    Character character(clip);
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    ASSERT_EQ(copies->animations().size(), 1u);
+    const auto own = SampledClip::create(clip, character.rig);
+    const auto sampled = copies->sample(*copies->animations().front(), 30.0);
+    ASSERT_EQ(own->sampleCount(), 12u);
+    for (const auto& played : {own, sampled}) {
+        copies->bake(played);
+        const auto copy = copies->makeInstance();
+        osgSkin::DeformableSkin& skin = skinOf(*copy.node);
+        for (std::size_t f = 1; f < played->sampleCount(); ++f) {
+            character.update(1.0 + double(f) * kFrame); // the manager starts at its first update
+            character.update(double(f) * kFrame);
+            for (const bool interpolated : {true, false}) {
+                copy.player->setInterpolated(interpolated);
+                copy.player->setTrack(0, {played, double(f) * kFrame});
+                const osg::Vec3Array here = posed(*copy.player, skin);
+                ASSERT_LE(difference(here, verticesOf(*character.skin)), 1e-6 * kSize) << f;
+                for (const osg::Vec3& p : here)
+                    ASSERT_TRUE(skin.getBoundingBox().contains(p, 1e-5f)) << interpolated;
+            }
+        }
+        // The rigid part is where it is below its bone.
+        auto* rigid = dynamic_cast<osg::MatrixTransform*>(copy.node->getChild(1));
+        ASSERT_TRUE(rigid);
+        osg::NodePath path = character.rigid->getParentalNodePaths(character.scene).front();
+        const osg::Matrix expected = osg::computeLocalToWorld(path);
+        for (int i = 0; i < 16; ++i)
+            EXPECT_NEAR(rigid->getMatrix().ptr()[i], expected.ptr()[i], 1e-6) << i;
+    }
+}
+
+TEST(ClipPlayer, LoopsWithoutASeam) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto clip = SampledClip::create(someClip(12, 0.8), character.rig);
+    const auto copy = copies->makeInstance();
+    osgSkin::DeformableSkin& skin = skinOf(*copy.node);
+    copy.player->setRoot(ClipPlayer::Root::InPlace);
+    for (const double seam :
+         {0.0, clip->duration(), -clip->duration(), clip->duration() - kFrame}) {
+        copy.player->setTrack(0, {clip, seam - 1e-6});
+        const osg::Vec3Array before = posed(*copy.player, skin);
+        copy.player->setTrack(0, {clip, seam + 1e-6});
+        EXPECT_LE(difference(posed(*copy.player, skin), before), 1e-3);
+        EXPECT_GT(difference(verticesOf(skin), *static_cast<const osg::Vec3Array*>(
+                                                   skin.getRestGeometry()->getVertexArray())),
+                  0.1);
+    }
+}
+
+TEST(ClipPlayer, GoesForwardBackwardAndStands) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto clip = SampledClip::create(someClip(12, 0.8), character.rig);
+    const auto copy = copies->makeInstance();
+    osgSkin::DeformableSkin& skin = skinOf(*copy.node);
+    copy.player->setTrack(0, {clip, 3.0 * kFrame});
+    const osg::Vec3Array third = posed(*copy.player, skin);
+    copy.player->setTrack(0, {clip, 5.0 * kFrame, -2.0});
+    copy.player->advance(kFrame);
+    EXPECT_LE(difference(posed(*copy.player, skin), third), 1e-6);
+    copy.player->setTrack(0, {clip, 3.0 * kFrame, 0.0});
+    copy.player->advance(17.0);
+    EXPECT_LE(difference(posed(*copy.player, skin), third), 1e-6);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    copy.player->advance(nan);
+    EXPECT_LE(difference(posed(*copy.player, skin), third), 1e-6);
+    copy.player->setTrack(0, {clip, nan, nan});
+    EXPECT_EQ(copy.player->getTrack(0).time, 0.0);
+    EXPECT_EQ(copy.player->getTrack(0).speed, 0.0);
+    EXPECT_TRUE(copy.player->pose());
+    copy.player->setTrack(0, {});
+    EXPECT_FALSE(copy.player->pose());
+}
+
+TEST(ClipPlayer, BlendsExactlyAtBothEnds) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto first = SampledClip::create(someClip(12, 0.8), character.rig);
+    const auto second = SampledClip::create(someClip(7, -0.5), character.rig);
+    const auto copy = copies->makeInstance();
+    osgSkin::DeformableSkin& skin = skinOf(*copy.node);
+    copy.player->setTrack(0, {second, 0.1});
+    const osg::Vec3Array b = posed(*copy.player, skin);
+    copy.player->setTrack(0, {first, 0.1});
+    const osg::Vec3Array a = posed(*copy.player, skin);
+    ASSERT_GT(difference(a, b), 0.1);
+    copy.player->setTrack(1, {second, 0.1});
+    copy.player->setWeight(0.0);
+    EXPECT_EQ(difference(posed(*copy.player, skin), a), 0.0);
+    copy.player->setWeight(1.0);
+    EXPECT_EQ(difference(posed(*copy.player, skin), b), 0.0);
+    copy.player->setWeight(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(copy.player->getWeight(), 1.0);
+    copy.player->setWeight(0.5);
+    const osg::Vec3Array half = posed(*copy.player, skin);
+    EXPECT_GT(difference(half, a), 0.01);
+    EXPECT_GT(difference(half, b), 0.01);
+    EXPECT_LT(difference(half, a), difference(a, b));
+}
+
+TEST(ClipPlayer, TellsTheRootsWay) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto clip = SampledClip::create(someClip(12, 1.0), character.rig);
+    const auto copy = copies->makeInstance();
+    osgSkin::DeformableSkin& skin = skinOf(*copy.node);
+    const auto middle = [&] { return skin.getBoundingBox().center().x(); };
+    copy.player->setTrack(0, {clip, 0.0});
+    copy.player->pose();
+    const float start = middle();
+    copy.player->setTrack(0, {clip, 11.0 * kFrame});
+    copy.player->pose();
+    EXPECT_NEAR(middle() - start, 1.1, 0.4);
+    // 0.1 a frame, over the seam, too; steps up and down stay in the pose.
+    copy.player->setRoot(ClipPlayer::Root::Extracted);
+    copy.player->setTrack(0, {clip, 0.0});
+    for (int i = 0; i < 36; ++i) {
+        copy.player->advance(kFrame);
+        const osg::Vec3d way = copy.player->takeRootMotion();
+        EXPECT_NEAR(way.x(), 0.1, 1e-6) << i;
+        EXPECT_NEAR(way.y(), 0.0, 1e-9);
+    }
+    copy.player->pose();
+    EXPECT_NEAR(middle() - start, 0.0, 0.01);
+    copy.player->advance(-25.0 * kFrame);
+    EXPECT_NEAR(copy.player->takeRootMotion().x(), -2.5, 1e-6);
+    EXPECT_EQ(copy.player->takeRootMotion().x(), 0.0);
+}
+
+TEST(ClipPlayer, IsAnUpdateCallback) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto clip = SampledClip::create(someClip(12, 0.8), character.rig);
+    const auto copy = copies->makeInstance();
+    copy.player->setTrack(0, {clip, 0.0, 2.0});
+    osgUtil::UpdateVisitor visitor;
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    visitor.setFrameStamp(stamp);
+    for (const double time : {100.0, 100.1}) {
+        stamp->setSimulationTime(time);
+        copy.node->accept(visitor);
+    }
+    EXPECT_NEAR(copy.player->getTrack(0).time, 0.2, 1e-9);
+    EXPECT_EQ(skinOf(*copy.node).getDeformCount(), 0u); // nobody has seen it yet
+}
