@@ -37,9 +37,8 @@ CrowdCharacter::CrowdCharacter(const std::string& file) {
     if (!scene) throw std::runtime_error(file + " cannot be read");
     character = osgSkin::ClipCharacter::create(*scene);
     // One without a clip stands as it does.
-    const osg::ref_ptr<osgAnimation::Animation> animation = character->animations().empty()
-                                                                ? new osgAnimation::Animation
-                                                                : character->animations().front();
+    osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+    if (!character->animations().empty()) animation = character->animations().front();
     clip = character->sample(*animation);
     character->bake(clip);
     CountVertices count;

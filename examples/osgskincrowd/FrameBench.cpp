@@ -30,8 +30,9 @@ class Cull {
 public:
     explicit Cull(const osg::BoundingSphere& bound) {
         const double r = 1.1 * static_cast<double>(bound.radius());
-        _view = new osg::RefMatrix(osg::Matrix::lookAt(bound.center() + osg::Vec3d(0.0, -r, r),
-                                                       bound.center(), osg::Vec3d(0, 0, 1)));
+        const osg::Vec3d centre = bound.center();
+        _view = new osg::RefMatrix(osg::Matrix::lookAt(centre + osg::Vec3d(0.0, -r, r), centre,
+                                                       osg::Vec3d(0.0, 0.0, 1.0)));
         _projection = new osg::RefMatrix(osg::Matrix::ortho(-r, r, -r, r, 0.0, 4.0 * r));
     }
     void run(osg::Node& scene, osg::FrameStamp* stamp) {

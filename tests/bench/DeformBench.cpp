@@ -2,6 +2,7 @@
 //
 // What one frame of a skin costs: ours, osgAnimation's software rig, and a plain copy, in one run.
 #include "BenchBody.h"
+#include "CharacterBench.h"
 #include "CrowdBench.h"
 #include "OsgRig.h"
 #include "RatioTable.h"
@@ -171,6 +172,16 @@ int main(int argc, char** argv) {
                                      bench::crowd, threads)
             ->Unit(benchmark::kMillisecond)
             ->UseRealTime();
+    const auto addCharacters = [](const char* name, bench::Player player) {
+        benchmark::RegisterBenchmark(name, bench::characters, player)
+            ->Unit(benchmark::kMicrosecond);
+    };
+    benchmark::RegisterBenchmark("frame, deformation alone/20", bench::deformationAlone)
+        ->Unit(benchmark::kMicrosecond);
+    addCharacters("frame, clip baked/20", bench::Player::Baked);
+    addCharacters("frame, clip sampled/20", bench::Player::Sampled);
+    addCharacters("frame, skeleton/20", bench::Player::Skeleton);
+    addCharacters("frame, osgAnimation/20", bench::Player::OsgAnimation);
     bench::RatioTable table;
     benchmark::RunSpecifiedBenchmarks(&table);
     return 0;

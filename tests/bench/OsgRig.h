@@ -16,6 +16,8 @@ public:
 
     /// Puts the bones into a sample of the clip; not part of what is measured.
     void pose(std::size_t frame);
+    /// The rig stands below it.
+    osgAnimation::Skeleton* skeleton() const { return _skeleton.get(); }
     /// Skins the vertices and normals.
     void update() { _rig->update(); }
 

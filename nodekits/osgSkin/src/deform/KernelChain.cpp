@@ -38,32 +38,62 @@ std::size_t KernelChain::sharedLinks(const SkinModel::Group& group) const noexce
     return shared;
 }
 
+KernelChain::KernelChain(const SkinModel& model, const Pose& pose) noexcept
+    : _model(model), _pose(pose) {}
+
+void KernelChain::workOut(std::uint32_t index, Joint& joint) const noexcept {
+    const JointTransform turn = _pose.transform(index);
+    const BoundJoint& rest = _model.joints()[index];
+    joint.full = {glm::mat3_cast(turn.rotation), turn.offset, turn.scale};
+    const glm::dvec3& v = turn.split.bendAxis;
+    joint.frame = glm::dmat3(v, glm::cross(rest.twistAxis, v), rest.twistAxis);
+    joint.intoFrame = {glm::transpose(joint.frame), -(rest.centre * joint.frame), 1.0};
+    joint.bend = flushTiny(turn.split.bendAngle);
+    joint.twist = flushTiny(turn.split.twistAngle);
+    const SkinBlocks& blocks = SkinModelAccess::blocks(_model);
+    const glm::dmat3& fixed = blocks.jointFrames[index];
+    joint.azimuthCosine = glm::dot(v, fixed[0]);
+    joint.azimuthSine = glm::dot(v, fixed[1]);
+    const glm::dvec3 move = turn.translation * joint.frame; // transposed: into the frame
+    for (int axis = 0; axis < 3; ++axis) joint.move[axis] = move[axis];
+    joint.growth = turn.scale - 1.0;
+    joint.adjusted =
+        glm::dot(move, move) > blocks.smallMove * blocks.smallMove || turn.scale != 1.0;
+}
+
+const KernelChain::Joint& KernelChain::joint(std::uint32_t index) noexcept {
+    if (index >= kMostJoints) {
+        workOut(index, _joints[kMostJoints]);
+        return _joints[kMostJoints];
+    }
+    if (!_known[index]) {
+        workOut(index, _joints[index]);
+        _known.set(index);
+    }
+    return _joints[index];
+}
+
 void KernelChain::append(const SkinModel::Link& link, State& state) noexcept {
-    const JointTransform turn = _pose.transform(link.joint);
+    const Joint& turn = joint(link.joint);
     if (!link.partial) {
-        state.map.move += state.map.scale * (state.map.turn * turn.offset);
-        state.map.turn = state.map.turn * glm::mat3_cast(turn.rotation);
-        state.map.scale *= turn.scale;
+        state.map.move += state.map.scale * (state.map.turn * turn.full.move);
+        state.map.turn = state.map.turn * turn.full.turn;
+        state.map.scale *= turn.full.scale;
         return;
     }
-    const BoundJoint& joint = _model.joints()[link.joint];
-    const glm::dvec3& v = turn.split.bendAxis;
-    const glm::dmat3 frame(v, glm::cross(joint.twistAxis, v), joint.twistAxis);
     KernelLink& out = _links[state.partialCount++];
-    out.bend = flushTiny(turn.split.bendAngle);
-    out.twist = flushTiny(turn.split.twistAngle);
-    const glm::dvec3 move = turn.translation * frame; // transposed: into the frame
-    const double smallMove = SkinModelAccess::blocks(_model).smallMove;
-    out.adjusted =
-        glm::dot(move, move) > smallMove * smallMove || turn.scale != 1.0 || state.map.scale != 1.0;
+    out.bend = turn.bend;
+    out.twist = turn.twist;
+    out.adjusted = turn.adjusted || state.map.scale != 1.0;
     if (out.adjusted) {
-        for (int axis = 0; axis < 3; ++axis) out.move[axis] = move[axis];
-        out.growth = turn.scale - 1.0;
+        for (int axis = 0; axis < 3; ++axis) out.move[axis] = turn.move[axis];
+        out.growth = turn.growth;
         out.outScale = state.map.scale;
     }
-    write(state.map.turn * frame,
-          state.map.scale * (state.map.turn * joint.centre) + state.map.move, out.out);
-    state.map = {glm::transpose(frame), -(joint.centre * frame), 1.0};
+    write(state.map.turn * turn.frame,
+          state.map.scale * (state.map.turn * _model.joints()[link.joint].centre) + state.map.move,
+          out.out);
+    state.map = turn.intoFrame;
 }
 
 void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexcept {
@@ -85,11 +115,9 @@ void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexc
         call.lead = &_lead;
         return;
     }
-    const std::uint32_t joint = _model.links()[group.firstLink + group.linkCount - 1].joint;
-    const glm::dvec3 v = _pose.transform(joint).split.bendAxis;
-    const glm::dmat3& frame = SkinModelAccess::blocks(_model).jointFrames[joint];
-    call.azimuthCosine = glm::dot(v, frame[0]);
-    call.azimuthSine = glm::dot(v, frame[1]);
+    const Joint& innermost = joint(_model.links()[group.firstLink + group.linkCount - 1].joint);
+    call.azimuthCosine = innermost.azimuthCosine;
+    call.azimuthSine = innermost.azimuthSine;
 }
 
 } // namespace osgSkin

@@ -2,9 +2,9 @@
 #include <osgSkin/PoseBounds>
 
 #include "correctives/CorrectiveStray.h"
-#include "deform/JointMotions.h"
 #include "model/BoundsProxy.h"
 #include "model/SkinModelAccess.h"
+#include "pose/JointMotions.h"
 
 #include <algorithm>
 #include <array>

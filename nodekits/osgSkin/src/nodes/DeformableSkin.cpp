@@ -33,8 +33,9 @@ DeformableSkin::DeformableSkin() {
 
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
-      _eager(other._eager), _pool(other._pool), _tangentAttribute(other._tangentAttribute),
-      _tangents(other._tangents), _drawer(other._drawer ? other._drawer->clone() : nullptr) {
+      _pool(other._pool), _tangents(other._tangents),
+      _drawer(other._drawer ? other._drawer->clone() : nullptr),
+      _tangentAttribute(other._tangentAttribute), _eager(other._eager) {
     makeBuffers();
     poseChanged();
 }
@@ -132,7 +133,6 @@ osg::ref_ptr<osg::Geometry> DeformableSkin::makeDrawnGeometry() const {
 void DeformableSkin::makeBuffers() {
     releaseGLObjects();
     _buffers = {};
-    _box.init();
     _current = 0;
     _handedOut = false;
     if (!_rest) return;
@@ -202,10 +202,9 @@ void DeformableSkin::poseChanged() {
 void DeformableSkin::poseChanged(const osg::BoundingBox& bounds) {
     _dirty = true;
     if (!_model) return;
-    _box = bounds;
     applyDrawSettings();
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
-        buffer->setInitialBound(_box);
+        buffer->setInitialBound(bounds);
         buffer->getBound(); // now: several cull threads may ask for it at once
     }
     dirtyBound();
@@ -310,7 +309,7 @@ void DeformableSkin::setUseVertexBufferObjects(bool flag) {
 }
 
 osg::BoundingBox DeformableSkin::computeBoundingBox() const {
-    return _model ? _box : osg::BoundingBox();
+    return _model ? _buffers[0]->getInitialBound() : osg::BoundingBox();
 }
 
 void DeformableSkin::drawImplementation(osg::RenderInfo& renderInfo) const {

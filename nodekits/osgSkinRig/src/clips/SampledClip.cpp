@@ -78,8 +78,9 @@ SampledClip::Place SampledClip::place(double time, bool loop) const noexcept {
     const std::size_t count = sampleCount();
     double at = time / _step;
     if (!std::isfinite(at)) at = 0.0;
-    // A sample's own time is that sample, whatever the division rounds to.
-    if (std::abs(at - std::round(at)) < 1e-9 * std::max(1.0, std::abs(at))) at = std::round(at);
+    // A sample's own time is that sample, whatever rounding did to it: osgAnimation's keys have
+    // their times in single precision.
+    if (std::abs(at - std::round(at)) < 1e-5) at = std::round(at);
     const auto whole = static_cast<double>(count);
     if (!loop) {
         at = std::clamp(at, 0.0, whole - 1.0);

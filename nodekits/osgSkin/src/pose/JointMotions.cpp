@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "deform/JointMotions.h"
+#include "pose/JointMotions.h"
 
 #include "model/SkinModelAccess.h"
 
