@@ -34,8 +34,8 @@ DeformableSkin::DeformableSkin() {
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
       _pool(other._pool), _tangents(other._tangents),
-      _drawer(other._drawer ? other._drawer->clone() : nullptr),
-      _tangentAttribute(other._tangentAttribute), _eager(other._eager) {
+      _drawer(other._drawer ? other._drawer->clone() : nullptr), _eager(other._eager),
+      _tangentAttribute(other._tangentAttribute) {
     makeBuffers();
     poseChanged();
 }
