@@ -23,7 +23,7 @@
 namespace bench {
 namespace {
 
-constexpr unsigned int kCharacters = 20;
+constexpr unsigned int kInScene = 20;
 constexpr double kPhase = 0.37; // seconds from one to the next
 
 osg::ref_ptr<osgSkin::DeformableSkin>
@@ -83,7 +83,7 @@ public:
             clip = copies->sample(*copies->animations().front());
             if (player == Player::Baked) copies->bake(clip);
         }
-        for (unsigned int i = 0; i < kCharacters; ++i) {
+        for (unsigned int i = 0; i < kInScene; ++i) {
             const double phase = kPhase * i;
             if (copies) {
                 const auto copy = copies->makeInstance();
@@ -146,19 +146,19 @@ void characters(benchmark::State& state, Player player) {
     Scene scene(player);
     for ([[maybe_unused]] auto iteration : state) scene.frame();
     state.counters["vertices"] =
-        static_cast<double>(kCharacters) * static_cast<double>(bench::body(1).positions.size());
+        static_cast<double>(kInScene) * static_cast<double>(bench::body(1).positions.size());
 }
 
 void deformationAlone(benchmark::State& state) {
     const Body& body = bench::body(1);
     const auto model = body.model();
-    std::vector<osgSkin::Pose> poses(kCharacters, osgSkin::Pose(model->joints()));
-    for (std::size_t i = 0; i < kCharacters; ++i) {
+    std::vector<osgSkin::Pose> poses(kInScene, osgSkin::Pose(model->joints()));
+    for (std::size_t i = 0; i < kInScene; ++i) {
         const auto& skinning = body.skinning[37 * i % body.skinning.size()];
         poses[i].set(skinning.data(), skinning.size());
     }
     // Two buffers each, in turn, as a DeformableSkin has.
-    std::vector<std::vector<glm::vec3>> outputs(2 * kCharacters);
+    std::vector<std::vector<glm::vec3>> outputs(2 * kInScene);
     for (auto& output : outputs) output.resize(2 * model->vertexCount());
     std::size_t frame = 0;
     osgSkin::DeformJob job;
@@ -166,7 +166,7 @@ void deformationAlone(benchmark::State& state) {
     job.positionCount = job.normalCount = model->vertexCount();
     for ([[maybe_unused]] auto iteration : state) {
         ++frame;
-        for (std::size_t i = 0; i < kCharacters; ++i) {
+        for (std::size_t i = 0; i < kInScene; ++i) {
             job.pose = &poses[i];
             job.positions = outputs[2 * i + frame % 2].data();
             job.normals = job.positions + model->vertexCount();
@@ -174,7 +174,7 @@ void deformationAlone(benchmark::State& state) {
         }
     }
     state.counters["vertices"] =
-        static_cast<double>(kCharacters) * static_cast<double>(model->vertexCount());
+        static_cast<double>(kInScene) * static_cast<double>(model->vertexCount());
 }
 
 } // namespace bench

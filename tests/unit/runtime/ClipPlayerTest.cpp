@@ -142,7 +142,7 @@ double difference(const Vertices& a, const Vertices& b) {
     return largest;
 }
 
-Vertices posed(ClipPlayer& player, osgSkin::DeformableSkin& skin) {
+Vertices posedBy(ClipPlayer& player, osgSkin::DeformableSkin& skin) {
     EXPECT_TRUE(player.pose());
     return verticesOf(skin);
 }
@@ -213,7 +213,7 @@ TEST(ClipPlayer, PosesAsTheSkeletonDoes) {
             for (const bool interpolated : {true, false}) {
                 copy.player->setInterpolated(interpolated);
                 copy.player->setTrack(0, {played, double(f) * kFrame});
-                const Vertices here = posed(*copy.player, skin);
+                const Vertices here = posedBy(*copy.player, skin);
                 ASSERT_LE(difference(here, verticesOf(*character.skin)), 1e-6 * kSize) << f;
                 for (const osg::Vec3& p : here)
                     ASSERT_TRUE(skin.getBoundingBox().contains(p, 1e-5f)) << interpolated;
@@ -239,9 +239,9 @@ TEST(ClipPlayer, LoopsWithoutASeam) {
     for (const double seam :
          {0.0, clip->duration(), -clip->duration(), clip->duration() - kFrame}) {
         copy.player->setTrack(0, {clip, seam - 1e-6});
-        const Vertices before = posed(*copy.player, skin);
+        const Vertices before = posedBy(*copy.player, skin);
         copy.player->setTrack(0, {clip, seam + 1e-6});
-        EXPECT_LE(difference(posed(*copy.player, skin), before), 1e-3);
+        EXPECT_LE(difference(posedBy(*copy.player, skin), before), 1e-3);
         EXPECT_GT(difference(verticesOf(skin), verticesOf(skin.getRestGeometry())), 0.1);
     }
 }
@@ -253,16 +253,16 @@ TEST(ClipPlayer, GoesForwardBackwardAndStands) {
     const auto copy = copies->makeInstance();
     osgSkin::DeformableSkin& skin = skinOf(*copy.node);
     copy.player->setTrack(0, {clip, 3.0 * kFrame});
-    const Vertices third = posed(*copy.player, skin);
+    const Vertices third = posedBy(*copy.player, skin);
     copy.player->setTrack(0, {clip, 5.0 * kFrame, -2.0});
     copy.player->advance(kFrame);
-    EXPECT_LE(difference(posed(*copy.player, skin), third), 1e-6);
+    EXPECT_LE(difference(posedBy(*copy.player, skin), third), 1e-6);
     copy.player->setTrack(0, {clip, 3.0 * kFrame, 0.0});
     copy.player->advance(17.0);
-    EXPECT_LE(difference(posed(*copy.player, skin), third), 1e-6);
+    EXPECT_LE(difference(posedBy(*copy.player, skin), third), 1e-6);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     copy.player->advance(nan);
-    EXPECT_LE(difference(posed(*copy.player, skin), third), 1e-6);
+    EXPECT_LE(difference(posedBy(*copy.player, skin), third), 1e-6);
     copy.player->setTrack(0, {clip, nan, nan});
     EXPECT_EQ(copy.player->getTrack(0).time, 0.0);
     EXPECT_EQ(copy.player->getTrack(0).speed, 0.0);
@@ -279,19 +279,19 @@ TEST(ClipPlayer, BlendsExactlyAtBothEnds) {
     const auto copy = copies->makeInstance();
     osgSkin::DeformableSkin& skin = skinOf(*copy.node);
     copy.player->setTrack(0, {second, 0.1});
-    const Vertices b = posed(*copy.player, skin);
+    const Vertices b = posedBy(*copy.player, skin);
     copy.player->setTrack(0, {first, 0.1});
-    const Vertices a = posed(*copy.player, skin);
+    const Vertices a = posedBy(*copy.player, skin);
     ASSERT_GT(difference(a, b), 0.1);
     copy.player->setTrack(1, {second, 0.1});
     copy.player->setWeight(0.0);
-    EXPECT_EQ(difference(posed(*copy.player, skin), a), 0.0);
+    EXPECT_EQ(difference(posedBy(*copy.player, skin), a), 0.0);
     copy.player->setWeight(1.0);
-    EXPECT_EQ(difference(posed(*copy.player, skin), b), 0.0);
+    EXPECT_EQ(difference(posedBy(*copy.player, skin), b), 0.0);
     copy.player->setWeight(std::numeric_limits<double>::quiet_NaN());
     EXPECT_EQ(copy.player->getWeight(), 1.0);
     copy.player->setWeight(0.5);
-    const Vertices half = posed(*copy.player, skin);
+    const Vertices half = posedBy(*copy.player, skin);
     EXPECT_GT(difference(half, a), 0.01);
     EXPECT_GT(difference(half, b), 0.01);
     EXPECT_LT(difference(half, a), difference(a, b));

@@ -38,7 +38,7 @@ glm::mat3 covariance(const std::vector<glm::vec3>& points) {
 }
 
 /// The one whose straight axis is axes[2].
-EllipticCylinder along(const glm::mat3& axes, const std::vector<glm::vec3>& points) {
+EllipticCylinder cylinderAlong(const glm::mat3& axes, const std::vector<glm::vec3>& points) {
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& p : points) {
         low = glm::min(low, p * axes);
@@ -80,11 +80,11 @@ float EllipticCylinder::radius() const {
 
 EllipticCylinder cylinderAround(const std::vector<glm::vec3>& points) {
     const glm::mat3 axes = principalAxes(covariance(points));
-    EllipticCylinder best = along(axes, points);
+    EllipticCylinder best = cylinderAlong(axes, points);
     const float least = 0.1f * best.radius();
     for (int turn = 1; turn < 3; ++turn) {
         const EllipticCylinder other =
-            along({axes[turn % 3], axes[(turn + 1) % 3], axes[(turn + 2) % 3]}, points);
+            cylinderAlong({axes[turn % 3], axes[(turn + 1) % 3], axes[(turn + 2) % 3]}, points);
         if (sizeOf(other, least) < sizeOf(best, least)) best = other;
     }
     return best;

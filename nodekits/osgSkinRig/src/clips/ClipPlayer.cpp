@@ -40,7 +40,7 @@ osg::Matrixd toMatrix(const JointMap& map) {
     return result;
 }
 
-int jointOf(const SampledClip& clip, int joint) {
+int parentJoint(const SampledClip& clip, int joint) {
     return joint < 0 ? -1 : clip.joints()[static_cast<std::size_t>(joint)].parent;
 }
 
@@ -129,7 +129,7 @@ void ClipPlayer::findJoints() {
             const int found = clip.find(joint.name);
             const int above =
                 joint.parent < 0 ? -1 : skin.joints[static_cast<std::size_t>(joint.parent)];
-            if (found >= 0 && jointOf(clip, found) != above) skin.direct = false;
+            if (found >= 0 && parentJoint(clip, found) != above) skin.direct = false;
             // One that is missing moves with its parent, and so do those below it with that.
             if (found < 0 && above >= 0) skin.direct = false;
             skin.joints.push_back(found >= 0 ? found : above);
