@@ -7,8 +7,12 @@
 #include "SampledMotion.h"
 #include "Writers.h"
 
+#include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
+#include <osgSkin/RigidPart>
 #include <osgSkinCharacter/LoadCharacter>
+
+#include <osg/NodeVisitor>
 
 #include <algorithm>
 #include <exception>
@@ -86,6 +90,34 @@ void bakeFrames(const Arguments& arguments, Character& character) {
                   << motion.notes << std::flush;
 }
 
+/// Finds what a character's scene shows beside its body: props, scenery, things that no rig moves.
+class OtherThings : public osg::NodeVisitor {
+public:
+    std::size_t count = 0;
+    std::string first; ///< name
+
+    OtherThings() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Drawable& drawable) override {
+        if (dynamic_cast<osgSkin::DeformableSkin*>(&drawable) != nullptr) return;
+        std::string name = drawable.getName();
+        for (const osg::Node* node : getNodePath()) {
+            if (dynamic_cast<const osgSkin::RigidPart*>(node) != nullptr) return;
+            if (drawable.getName().empty() && !node->getName().empty()) name = node->getName();
+        }
+        if (count++ == 0) first = name;
+    }
+};
+
+void tellOtherThings(const Character& character) {
+    OtherThings others;
+    character.root->accept(others);
+    if (others.count > 0)
+        std::cerr << character.file << ": " << others.count
+                  << (others.count == 1 ? " geometry" : " geometries")
+                  << " beside the body left out: \"" << others.first
+                  << (others.count == 1 ? "\"\n" : "\", ...\n") << std::flush;
+}
+
 /// Reads a `.skin` file, or a rigged model, with or without `.skin` after its name.
 Character load(const Arguments& arguments) {
     const std::string& file = arguments.character;
@@ -121,6 +153,7 @@ int run(const Arguments& arguments) {
         bake::ObjWriter(character, arguments.rest)
             .write(arguments.rest, bake::PosedMesh::rest(character));
     if (!arguments.out.empty() || !arguments.pose.empty()) bakeFrames(arguments, character);
+    if (!arguments.quiet) tellOtherThings(character);
     return 0;
 }
 

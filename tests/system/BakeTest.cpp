@@ -178,3 +178,13 @@ TEST(Bake, UnwritableOutputIsBadInput) {
     EXPECT_EQ(result.status, 1);
     EXPECT_NE(result.err.find("nowhere/at/all.obj"), std::string::npos) << result.err;
 }
+
+TEST(Bake, TellsWhatItLeavesOut) {
+    const std::string folder = test::makeTestFolder();
+    const auto told = runBake("'" OSGSKIN_DATA "/thrower.skin' --rest rest.obj", folder);
+    EXPECT_EQ(told.status, 0);
+    EXPECT_NE(told.err.find("1 geometry beside the body left out: \"prop:throw"), std::string::npos)
+        << told.err;
+    const auto quiet = runBake("'" OSGSKIN_DATA "/thrower.skin' --rest rest.obj --quiet", folder);
+    EXPECT_EQ(quiet.err, "");
+}

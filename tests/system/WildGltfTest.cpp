@@ -310,6 +310,44 @@ TEST(WildGltf, VrmIsGltf) {
     EXPECT_LT((osg::Vec3d(0, 1, 0) * turned.toWorld - osg::Vec3d(0, 0, 1)).length(), 1e-6);
 }
 
+TEST(WildGltf, MorphTargetsAreAppliedAsTheyRest) {
+    GltfColumn column;
+    column.bend();
+    const std::vector<osg::Vec3d> plain = [&] {
+        std::vector<osg::Vec3d> result;
+        for (const glm::dvec3& p : loadCharacter(column.save("plain.gltf")).body.mesh.positions)
+            result.emplace_back(p.x, p.y, p.z);
+        return result;
+    }();
+    std::vector<double> moves(column.places.size(), 0.0);
+    for (std::size_t i = 0; i < moves.size(); i += 3) moves[i] = 0.4;
+    column.json.erase("buffers");
+    const std::size_t target = column.accessor("VEC3", moves);
+    auto& mesh = column.json["meshes"][0];
+    mesh["primitives"][0]["targets"] = {{{"POSITION", target}}};
+    mesh["weights"] = {0.25};
+    const auto expectMoved = [&](const std::string& file, double by) {
+        const Character moved = loadCharacter(file);
+        ASSERT_EQ(moved.body.mesh.positions.size(), plain.size());
+        for (std::size_t v = 0; v < plain.size(); ++v)
+            EXPECT_NEAR(moved.body.mesh.positions[v].x, plain[v].x() + by, 1e-6) << v;
+    };
+    expectMoved(column.save("by_mesh.gltf"), 0.1);
+    column.json["nodes"][column.meshNode]["weights"] = {0.5}; // goes before the mesh's
+    const test::Notices notices;
+    expectMoved(column.save("by_node.gltf"), 0.2);
+    EXPECT_EQ(notices.lines(), 0u) << notices.text();
+    column.json["animations"][0]["samplers"].push_back(
+        {{"input", column.accessor("SCALAR", {0, 1})},
+         {"output", column.accessor("SCALAR", {0, 1})},
+         {"interpolation", "LINEAR"}});
+    column.json["animations"][0]["channels"].push_back(
+        {{"sampler", 2}, {"target", {{"node", column.meshNode}, {"path", "weights"}}}});
+    column.json.erase("buffers");
+    expectMoved(column.save("moving.gltf"), 0.2);
+    EXPECT_TRUE(notices.say("clips change the shape of 1 mesh")) << notices.text();
+}
+
 TEST(WildGltf, FilesMayHaveSpacesInTheirNames) {
     GltfColumn column;
     column.bend();

@@ -114,3 +114,18 @@ TEST(ClipChoice, ByNameOrNumber) {
     EXPECT_EQ(importMotion(bvh, 0, "0").frames, importMotion(bvh).frames);
     expectError([&] { importMotion(bvh, 0, "run"); }, R"(expected one of 0 "two_joints")");
 }
+
+TEST(ClipSampling, BonesMayHaveTheirLengthsInTracksOnly) {
+    GltfColumn column;
+    column.json.erase("skins");
+    column.json["nodes"][column.meshNode] = {{"name", "nothing"}};
+    column.bend();
+    for (const std::size_t joint : {column.joints[1], column.joints[2]}) {
+        column.json["nodes"][joint].erase("translation");
+        column.animate("bend", joint, "translation", {0.0, 1.0}, {0, 1, 0, 0, 1, 0});
+    }
+    const Motion motion = importMotion(column.save("lengths_in_tracks.gltf"));
+    const auto& joints = motion.skeleton.joints;
+    ASSERT_EQ(joints.size(), 3u);
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(joints[j].centre.y, double(j), 1e-6) << j;
+}

@@ -3,11 +3,13 @@
 
 #include "load/BonesFirst.h"
 #include "load/SceneMotions.h"
+#include "scene/FaceViewer.h"
 #include "source/CacheFolder.h"
 
 #include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
 
+#include <osg/MatrixTransform>
 #include <osg/StateSet>
 #include <osg/Transform>
 #include <osgDB/Registry>
@@ -76,6 +78,19 @@ void takeBody(ConvertedBody& body, const BindOptions& options, Character& charac
     if (!paths.empty()) character.toWorld = osg::computeLocalToWorld(paths.front());
 }
 
+/// Turns the whole scene; the author's own nodes stay as they are.
+void faceViewer(Character& character) {
+    const osg::Matrixd turn =
+        turnToViewer(recogniseJoints(character.rest), boneCentres(character.rest, *character.root));
+    if (turn.isIdentity()) return;
+    const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(turn);
+    placed->setName(character.root->getName());
+    placed->setDataVariance(osg::Object::DYNAMIC);
+    placed->addChild(character.root);
+    character.root = placed;
+    character.toWorld = character.toWorld * turn;
+}
+
 } // namespace
 
 Character convertScene(const std::string& file, const LoadOptions& options, LoadStages& stages) {
@@ -98,7 +113,10 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     character.notes = report.notes;
     for (const auto& skin : report.skins) character.skin.skins.push_back({skin, {}});
     character.root = asGroup(scene);
-    if (report.bodies.size() == 1) takeBody(report.bodies.front(), convert.bind, character);
+    if (report.bodies.size() == 1) {
+        takeBody(report.bodies.front(), convert.bind, character);
+        faceViewer(character);
+    }
     takeSceneMotions(options, character);
     stages.finish();
     return character;

@@ -3,6 +3,7 @@
 
 #include "report/TakeNote.h"
 #include "scene/ClipBounds.h"
+#include "scene/FaceViewer.h"
 #include "scene/PlayedBounds.h"
 #include "scene/Props.h"
 
@@ -64,6 +65,10 @@ void play(Character& character) {
 void buildScene(const CharacterSource& source, const LoadOptions& options, Character& character) {
     if (options.showRegions) showRegions(character.body.parts, character.binding);
     attach(source, character);
+    const JointRoles roles = recogniseJoints(character.rest, source.bind.names);
+    if (!source.skeleton)
+        character.toWorld =
+            character.toWorld * turnToViewer(roles, restCentres(character.rest, character.toWorld));
     const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character.toWorld);
     upright->addChild(character.skeleton);
     for (const CharacterMotion& motion : character.motions)
@@ -73,7 +78,14 @@ void buildScene(const CharacterSource& source, const LoadOptions& options, Chara
     character.root->addChild(upright);
     if (source.skeleton) {
         takeAnimations(source, character);
-        character.root->setInitialBound(playedBounds(*character.root, source.animations));
+        const JointCentres atRest = boneCentres(character.rest, *character.root);
+        osg::BoundingSphere bound = playedBounds(*character.root, source.animations);
+        const JointCentres played = boneCentres(character.rest, *character.root);
+        const osg::Matrixd turn = turnToViewer(roles, atRest, played);
+        character.toWorld = character.toWorld * turn;
+        upright->setMatrix(character.toWorld);
+        bound.center() = bound.center() * turn;
+        character.root->setInitialBound(bound);
     } else if (!character.motions.empty()) {
         // A viewer places its camera before the first frame: tell it where the figure will get to.
         character.root->setInitialBound(clipBounds(character.motions.front().clip, character.rest,

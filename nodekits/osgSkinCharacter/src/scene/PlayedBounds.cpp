@@ -35,7 +35,7 @@ osg::BoundingSphere playedBounds(osg::Group& root, const osgAnimation::Animation
     osg::BoundingBox box;
     for (int k = kSamples - 1; k >= 0; --k) { // the first pose last
         update(root, duration * k / kSamples);
-        osg::ComputeBoundsVisitor bounds;
+        osg::ComputeBoundsVisitor bounds(osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN);
         root.accept(bounds);
         box.expandBy(bounds.getBoundingBox());
         if (duration <= 0.0) break;

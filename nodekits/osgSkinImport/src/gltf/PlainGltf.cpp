@@ -4,6 +4,7 @@
 #include "gltf/GltfAccessors.h"
 #include "gltf/GltfExtensions.h"
 #include "gltf/GltfFile.h"
+#include "gltf/GltfMorphs.h"
 #include "gltf/GltfNames.h"
 #include "gltf/GltfTracks.h"
 #include "text/FileText.h"
@@ -32,14 +33,11 @@ public:
     void run() {
         checkExtensions(_file);
         separateMeshes();
+        applyMorphs(_file, _accessors);
         nameNodes(_file);
         for (json& skin : list("skins")) addBindMatrices(skin);
         for (json& mesh : list("meshes"))
-            for (json& primitive : mesh.at("primitives")) {
-                makeFloats(primitive.at("attributes"));
-                if (primitive.contains("targets"))
-                    for (json& target : primitive.at("targets")) makeFloats(target);
-            }
+            for (json& primitive : mesh.at("primitives")) makeFloats(primitive.at("attributes"));
         makeTracksLinear(_file, _accessors);
         for (const char* files : {"buffers", "images"})
             for (json& named : list(files)) decodeUri(named);
@@ -51,19 +49,28 @@ private:
         return _file.json.at(key);
     }
 
-    /// A mesh that nodes show with different skins becomes one for each: Assimp keeps bones by
-    /// mesh.
+    /// A mesh that nodes show with different skins, or weights of morph targets, becomes one for
+    /// each: Assimp keeps both by mesh.
     void separateMeshes() {
-        std::map<std::size_t, json> skinOf; // mesh -> the skin of its first node
+        std::map<std::size_t, json> useOf;   // mesh -> what its first node shows it with
+        std::map<std::size_t, json> weights; // mesh -> its own
         for (json& node : list("nodes")) {
             if (!node.contains("mesh")) continue;
             const auto mesh = node.at("mesh").get<std::size_t>();
-            const json skin = node.value("skin", json());
-            if (skinOf.emplace(mesh, skin).first->second == skin) continue;
             json& meshes = _file.json.at("meshes");
-            const json copy = meshes.at(mesh);
-            meshes.push_back(copy);
-            node["mesh"] = meshes.size() - 1;
+            weights.emplace(mesh, meshes.at(mesh).value("weights", json()));
+            const json shown = node.value("weights", weights.at(mesh));
+            node.erase("weights");
+            const json use = json::array({node.value("skin", json()), shown});
+            const bool isFirst = useOf.count(mesh) == 0;
+            if (!isFirst && useOf.at(mesh) == use) continue;
+            if (!isFirst) {
+                const json copy = meshes.at(mesh);
+                meshes.push_back(copy);
+                node["mesh"] = meshes.size() - 1;
+            }
+            useOf.emplace(mesh, use);
+            if (!shown.is_null()) meshes.at(node.at("mesh").get<std::size_t>())["weights"] = shown;
         }
     }
 

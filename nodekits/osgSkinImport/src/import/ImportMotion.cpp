@@ -7,6 +7,7 @@
 #include "bvh/BvhMotion.h"
 #include "rig/ClipNames.h"
 #include "rig/SampleTracks.h"
+#include "rig/TrackOffsets.h"
 #include "text/FileText.h"
 
 #include <osgSkin/GlmTypes>
@@ -50,6 +51,8 @@ Motion readAssimpMotion(const std::string& path, const std::string& clip) {
         OSG_NOTICE << path << ": " << names.size() << " animations, of which the first, \""
                    << names[0] << "\", is read" << std::endl;
     const std::size_t chosen = clip.empty() ? 0 : findClip(names, clip, path);
+    auto& owned = const_cast<aiScene&>(scene); // the importer's, which nobody else sees
+    takeTrackOffsets(*scene.mAnimations[chosen], *owned.mRootNode);
     Motion motion = sampleTracks(*scene.mAnimations[chosen], readSceneSkeleton(scene, path), path);
     validate(motion, path);
     motion.name = names[chosen];

@@ -188,6 +188,7 @@ std::vector<ClosedShell> closedShells(const WeldedMesh& mesh, const std::vector<
     std::vector<std::vector<Triangle>> sorted(pieces);
     for (std::size_t t = 0; t < triangles.size(); ++t) sorted[pieceOf[t]].push_back(triangles[t]);
     std::vector<ClosedShell> shells;
+    shells.reserve(pieces);
     for (const std::vector<Triangle>& piece : sorted) shells.push_back(Fans(mesh, piece).close());
     return shells;
 }

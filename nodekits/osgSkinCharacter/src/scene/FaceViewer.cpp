@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene/FaceViewer.h"
+
+#include <osgSkin/GlmOsg>
+
+#include <osg/Math>
+#include <osg/NodeVisitor>
+#include <osg/Quat>
+#include <osg/Transform>
+#include <osgAnimation/Bone>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace osgSkin {
+namespace {
+
+/// How much of a direction must lie along an axis to be that axis.
+constexpr double kAlong = 0.8;
+
+class Figure {
+public:
+    Figure(const JointRoles& roles, const JointCentres& centres)
+        : _roles(roles), _centres(centres) {}
+
+    /// From one part to another, unit; zero where either is not there.
+    osg::Vec3d way(const std::string& from, const std::string& to) const {
+        const auto a = centre(from), b = centre(to);
+        osg::Vec3d result = a && b ? *b - *a : osg::Vec3d();
+        result.normalize();
+        return result;
+    }
+
+private:
+    std::optional<osg::Vec3d> centre(const std::string& role) const {
+        const auto found = _roles.joints.find(role);
+        if (found == _roles.joints.end() || found->second.empty()) return std::nullopt;
+        return _centres[static_cast<std::size_t>(found->second.front())];
+    }
+
+    const JointRoles& _roles;
+    const JointCentres& _centres;
+};
+
+/// Brings the axis along which the legs stand to +Z.
+osg::Matrixd standUp(const Figure& figure) {
+    osg::Vec3d up =
+        figure.way("LeftLowerLeg", "LeftUpperLeg") + figure.way("RightLowerLeg", "RightUpperLeg");
+    up.normalize();
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(up[axis]) > kAlong) {
+            osg::Vec3d along;
+            along[axis] = up[axis] > 0.0 ? 1.0 : -1.0;
+            osg::Quat turn;
+            turn.makeRotate(along, osg::Vec3d(0, 0, 1));
+            return axis == 2 && up.z() > 0.0 ? osg::Matrixd() : osg::Matrixd::rotate(turn);
+        }
+    return {};
+}
+
+/// Brings the left side of a figure that stands to +X.
+osg::Matrixd faceAhead(const Figure& figure, const osg::Matrixd& stand) {
+    osg::Vec3d left =
+        figure.way("RightUpperLeg", "LeftUpperLeg") + figure.way("RightUpperArm", "LeftUpperArm");
+    left = osg::Matrixd::transform3x3(left, stand);
+    // Both pairs, or else the one that there is, level.
+    if (std::hypot(left.x(), left.y()) < kAlong) return {};
+    const double quarters = std::round(std::atan2(left.y(), left.x()) / osg::PI_2);
+    if (quarters == 0.0) return {};
+    return osg::Matrixd::rotate(-quarters * osg::PI_2, osg::Vec3d(0, 0, 1));
+}
+
+class Bones : public osg::NodeVisitor {
+public:
+    std::map<std::string, osg::Vec3d> centres;
+
+    Bones() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Transform& node) override {
+        if (dynamic_cast<osgAnimation::Bone*>(&node) != nullptr)
+            centres.emplace(node.getName(), osg::computeLocalToWorld(getNodePath()).getTrans());
+        traverse(node);
+    }
+};
+
+} // namespace
+
+osg::Matrixd turnToViewer(const JointRoles& roles, const JointCentres& centres,
+                          const JointCentres& played) {
+    if (!roles.known() || roles.family == kToldByShape) return {};
+    const Figure resting(roles, centres);
+    const osg::Matrixd stand = standUp(resting);
+    if (played.empty() || stand.isIdentity()) return stand * faceAhead(resting, stand);
+    const Figure moving(roles, played);
+    const osg::Matrixd other = standUp(moving);
+    if (other.isIdentity()) return faceAhead(moving, other);
+    if (stand.compare(other) != 0) return {};
+    return stand * faceAhead(resting, stand);
+}
+
+JointCentres restCentres(const RestSkeleton& rest, const osg::Matrixd& toWorld) {
+    JointCentres result;
+    for (const RestJoint& joint : rest.joints) result.emplace_back(toOsg(joint.centre) * toWorld);
+    return result;
+}
+
+JointCentres boneCentres(const RestSkeleton& rest, osg::Node& scene) {
+    Bones bones;
+    scene.accept(bones);
+    JointCentres result;
+    for (const RestJoint& joint : rest.joints) {
+        const auto found = bones.centres.find(joint.name);
+        result.push_back(found == bones.centres.end() ? std::nullopt
+                                                      : std::optional(found->second));
+    }
+    return result;
+}
+
+} // namespace osgSkin
