@@ -158,7 +158,7 @@ void deformationAlone(benchmark::State& state) {
         poses[i].set(skinning.data(), skinning.size());
     }
     // Two buffers each, in turn, as a DeformableSkin has.
-    std::vector<std::vector<glm::vec3>> outputs(2 * kInScene);
+    std::vector<std::vector<glm::vec3>> outputs(std::size_t{2} * kInScene);
     for (auto& output : outputs) output.resize(2 * model->vertexCount());
     std::size_t frame = 0;
     osgSkin::DeformJob job;

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace {
 
@@ -65,7 +67,76 @@ double checkBounds(double grown) {
     return worst;
 }
 
+/// Legs that part from a trunk: vertices follow both in part, in front of a knee and a moved,
+/// scaled foot.
+osgSkin::Binding forkedBinding(const std::vector<glm::vec3>& positions) {
+    const glm::dvec3 down(0, -1, 0);
+    osgSkin::Binding binding;
+    binding.joints = {{"root", -1, {0, 0, 0}, down, down},
+                      {"left", 0, {1, -1, 0}, down, down},
+                      {"knee", 1, {1, -3, 0}, down, down},
+                      {"right", 0, {-1, -1, 0}, down, down}};
+    binding.firstInfluence.push_back(0);
+    const auto ratio = [](float x) { return std::min(1.0f, std::max(0.0f, x)); };
+    for (const glm::vec3& p : positions) {
+        binding.influences.push_back({0, 1.0f, 1.0f});
+        const float left = ratio(0.5f + 0.4f * p.x - 0.3f * p.y);
+        const float right = ratio(0.4f - 0.5f * p.x - 0.2f * p.y);
+        const float knee = ratio(-p.y - 2.5f), kneeTwist = ratio(-0.5f * p.y - 0.5f);
+        if (left > 0.0f) binding.influences.push_back({1, left, ratio(1.3f * left)});
+        if (knee > 0.0f || kneeTwist > 0.0f) binding.influences.push_back({2, knee, kneeTwist});
+        if (right > 0.0f) binding.influences.push_back({3, right, right});
+        binding.regions.push_back(0);
+        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+    return binding;
+}
+
 } // namespace
+
+TEST(PoseBounds, ContainVerticesOfTwoBranches) {
+    std::mt19937_64 random(9);
+    std::uniform_real_distribution<float> x(-2.0f, 2.0f), y(-4.0f, 1.0f);
+    std::vector<glm::vec3> positions, normals;
+    std::vector<std::uint32_t> source;
+    for (std::uint32_t v = 0; v < 1500; ++v) {
+        positions.emplace_back(x(random), y(random), 0.3f * x(random));
+        normals.emplace_back(test::randomUnit(random));
+        source.push_back(v);
+    }
+    const osgSkin::Binding binding = forkedBinding(positions);
+    const auto model = osgSkin::SkinModel::create(binding, positions, normals, source);
+    osgSkin::Pose pose(model->joints());
+    osgSkin::DeformJob job;
+    job.model = model.get();
+    job.pose = &pose;
+    job.positions = positions.data();
+    job.positionCount = positions.size();
+    std::uniform_real_distribution<double> growth(0.5, 2.0), way(-1.0, 1.0), share(0.0, 1.0);
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(i);
+        std::vector<osgSkin::JointMap> own;
+        for (const osgSkin::BoundJoint& joint : model->joints()) {
+            osgSkin::JointMap map;
+            map.rotation = glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), test::randomRotation(random),
+                                      share(random));
+            if (i % 4 == 1) map.scale = growth(random);
+            map.offset = joint.centre - map.scale * (map.rotation * joint.centre);
+            if (i % 4 >= 2) map.offset += glm::dvec3(way(random), way(random), way(random));
+            own.push_back(map);
+        }
+        const auto twist =
+            i % 2 == 0 ? osgSkin::Pose::Twist::Shortest : osgSkin::Pose::Twist::Continued;
+        ASSERT_TRUE(pose.set(own.data(), own.size(), twist));
+        ASSERT_TRUE(job.run());
+        const osgSkin::PoseBounds bounds = osgSkin::computePoseBounds(*model, pose);
+        for (const glm::vec3& p : positions)
+            for (int axis = 0; axis < 3; ++axis) {
+                ASSERT_GE(p[axis], bounds.low[axis] - 1e-4f);
+                ASSERT_LE(p[axis], bounds.high[axis] + 1e-4f);
+            }
+    }
+}
 
 TEST(PoseBounds, ContainEveryVertexAndStayClose) {
     EXPECT_LE(checkBounds(1.0), 1.35);
