@@ -9,7 +9,7 @@
 namespace osgSkin {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoGroup = 0xffffffffu;
 
 /// Edges longer than this many times the mean don't join vertices to a group.
 constexpr double kLongest = 2.0;
@@ -49,7 +49,7 @@ CoarseGraph::CoarseGraph(const HeatGraph& fine) : _fine(fine) {
 
 void CoarseGraph::gatherGroups() {
     const double longest = kLongest * _fine.meanEdge;
-    _groupOf.assign(_fine.vertexCount(), kNone);
+    _groupOf.assign(_fine.vertexCount(), kNoGroup);
     std::uint32_t groups = 0;
     const auto near = [&](std::uint32_t v, auto&& visit) {
         for (std::uint32_t i = _fine.firstNeighbour[v]; i < _fine.firstNeighbour[v + 1]; ++i)
@@ -57,8 +57,8 @@ void CoarseGraph::gatherGroups() {
     };
     // First every vertex with none but free neighbours founds a group with them, ...
     for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v) {
-        bool free = _groupOf[v] == kNone;
-        near(v, [&](std::uint32_t u) { free = free && _groupOf[u] == kNone; });
+        bool free = _groupOf[v] == kNoGroup;
+        near(v, [&](std::uint32_t u) { free = free && _groupOf[u] == kNoGroup; });
         if (!free) continue;
         _groupOf[v] = groups;
         near(v, [&](std::uint32_t u) { _groupOf[u] = groups; });
@@ -67,11 +67,12 @@ void CoarseGraph::gatherGroups() {
     // ... then what is left joins a group beside it.
     const std::vector<std::uint32_t> founded = _groupOf;
     for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v)
-        if (founded[v] == kNone) {
+        if (founded[v] == kNoGroup) {
             double shortest = 0.0;
             near(v, [&](std::uint32_t u) {
                 const double length = _fine.edgeLength(v, u);
-                if (founded[u] == kNone || (_groupOf[v] != kNone && length >= shortest)) return;
+                if (founded[u] == kNoGroup || (_groupOf[v] != kNoGroup && length >= shortest))
+                    return;
                 shortest = length;
                 _groupOf[v] = founded[u];
             });

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "names/BodyParts.h"
-#include "retarget/JointMap.h"
+#include "retarget/JointPairs.h"
 #include "skeleton/SkeletonTree.h"
 
 #include <vector>
@@ -16,7 +16,7 @@ struct DrivenRig {
     /// \param uprightMotion must outlive this
     /// \param joints which joint drives which, and what the joints are; must outlive this
     DrivenRig(const RestSkeleton& uprightRig, const RestSkeleton& uprightMotion,
-              const JointMap& joints)
+              const JointPairs& joints)
         : rig(uprightRig), motion(uprightMotion), map(joints),
           rigParts(findBodyParts(rig, map.rig)), motionParts(findBodyParts(motion, map.motion)) {}
 
@@ -24,7 +24,7 @@ struct DrivenRig {
     int driver(int j) const { return map.motionJoint[static_cast<std::size_t>(j)]; }
 
     SkeletonTree rig, motion;
-    const JointMap& map;
+    const JointPairs& map;
     BodyParts rigParts, motionParts;
 };
 

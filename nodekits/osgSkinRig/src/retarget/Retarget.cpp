@@ -7,7 +7,7 @@
 #include "retarget/Alignment.h"
 #include "retarget/DrivenRig.h"
 #include "retarget/FootRoll.h"
-#include "retarget/JointMap.h"
+#include "retarget/JointPairs.h"
 #include "retarget/MeasureFeet.h"
 #include "retarget/RetargetNotes.h"
 #include "retarget/RootMotion.h"
@@ -80,7 +80,7 @@ void addLocal(const RestSkeleton& rig, const std::vector<glm::dquat>& world, Cli
 }
 
 /// The rotations go over as they are: nothing is aligned, nor set on a floor.
-Clip copied(const Motion& motion, const RestSkeleton& rig, const JointMap& map,
+Clip copied(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
             const SameSkeleton& same, RetargetReport* report) {
     glm::dvec3 offset;
     Clip clip = copyRotations(motion, rig, map.motionJoint, same, offset);
@@ -97,7 +97,7 @@ Clip copied(const Motion& motion, const RestSkeleton& rig, const JointMap& map,
 }
 
 /// \param motion counted from a pose in which the actor stands
-Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointMap& map,
+Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
              RetargetReport* report) {
     const std::vector<int>& motionJoint = map.motionJoint;
     const UprightFrames frames =
@@ -158,7 +158,7 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
               RetargetReport* report) {
     rig.validate();
     motion.skeleton.validate();
-    const JointMap map = mapJoints(rig, motion.skeleton, options);
+    const JointPairs map = mapJoints(rig, motion.skeleton, options);
     const StandingPose pose = findStandingPose(motion, rig, map.motionJoint, map.rig, map.motion);
     Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, report)
                             : aligned(pose.counted ? *pose.counted : motion, rig, map, report);

@@ -49,7 +49,7 @@ void noteShape(const JointRoles& roles, const RestSkeleton& skeleton, const std:
 
 } // namespace
 
-std::vector<std::string> notesOf(const JointMap& map, const RestSkeleton& rig,
+std::vector<std::string> notesOf(const JointPairs& map, const RestSkeleton& rig,
                                  const RestSkeleton& motion, const RetargetOptions& options) {
     const std::vector<int>& drivers = map.motionJoint;
     const std::string expected =

@@ -89,7 +89,7 @@ std::vector<int> inverse(const std::vector<int>& motionJoint, std::size_t motion
 } // namespace
 
 UprightFrames findUprightFrames(const SkeletonTree& rig, const SkeletonTree& motion,
-                                const JointMap& map) {
+                                const JointPairs& map) {
     std::vector<std::string> rigRoles = map.rig.roles, motionRoles = map.motion.roles;
     if (!map.rig.known()) rigRoles = completed(rigRoles, map.motionJoint, motionRoles);
     if (!map.motion.known())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "retarget/JointMap.h"
+#include "retarget/JointPairs.h"
 #include "skeleton/SkeletonTree.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -22,7 +22,7 @@ struct UprightFrames {
 
 /// Finds them. A skeleton without roles of its own has those of the joints that it is mapped to.
 UprightFrames findUprightFrames(const SkeletonTree& rig, const SkeletonTree& motion,
-                                const JointMap& map);
+                                const JointPairs& map);
 
 /// The skeleton in a space that `rotation` takes its own to.
 RestSkeleton rotated(const RestSkeleton& skeleton, const glm::dquat& rotation);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "retarget/JointMap.h"
+#include "retarget/JointPairs.h"
 
 #include <osgSkin/Error>
 
@@ -32,7 +32,7 @@ std::vector<std::string> substitutes(const std::string& role) {
 }
 
 /// The motion joint with the part that rig joint `j` has in its body.
-int byRole(const JointMap& map, std::size_t j) {
+int byRole(const JointPairs& map, std::size_t j) {
     const std::string& role = map.rig.roles[j];
     if (role.empty() || !map.motion.known()) return -1;
     auto found = map.motion.joints.find(role);
@@ -50,7 +50,7 @@ int byRole(const JointMap& map, std::size_t j) {
 }
 
 /// The motion joint of the same name, unless it is another part of the body.
-int byName(const JointMap& map, const RestSkeleton& motion, const std::string& name,
+int byName(const JointPairs& map, const RestSkeleton& motion, const std::string& name,
            std::size_t j) {
     const int found = motion.find(name);
     if (found < 0) return -1;
@@ -62,10 +62,10 @@ int byName(const JointMap& map, const RestSkeleton& motion, const std::string& n
 
 } // namespace
 
-JointMap mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
-                   const RetargetOptions& options) {
+JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
+                     const RetargetOptions& options) {
     checkNames(rig, motion, options.joints);
-    JointMap map;
+    JointPairs map;
     map.rig = recogniseJoints(rig, options.names);
     map.motion = recogniseJoints(motion, options.names);
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {

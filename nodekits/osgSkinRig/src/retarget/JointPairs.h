@@ -10,7 +10,7 @@
 namespace osgSkin {
 
 /// Which motion joint drives which rig joint.
-struct JointMap {
+struct JointPairs {
     std::vector<int> motionJoint; ///< [rig joint], -1 for none
     JointRoles rig, motion;
 };
@@ -20,7 +20,7 @@ struct JointMap {
 /// it is known to be another part of the body. Spines and necks of different length are stretched
 /// over each other, end to end.
 /// \throw osgSkin::Error where the map names a joint that is not there, or no joint matches.
-JointMap mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
-                   const RetargetOptions& options);
+JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
+                     const RetargetOptions& options);
 
 } // namespace osgSkin
