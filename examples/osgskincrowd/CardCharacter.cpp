@@ -28,7 +28,7 @@ public:
                 manager = found;
         traverse(node);
     }
-    void apply(osg::Geometry& geometry) override {
+    void apply(osg::Geometry&) override {
         const osg::NodePath& path = getNodePath();
         if (std::any_of(path.begin(), path.end(), [](const osg::Node* node) {
                 return dynamic_cast<const osgSkin::RigidPart*>(node) != nullptr;

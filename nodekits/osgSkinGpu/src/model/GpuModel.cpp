@@ -19,8 +19,9 @@ struct Known {
     std::map<const SkinModel*, osg::observer_ptr<GpuModel>> models;
 };
 
+/// Never destroyed: models of an application's own statics outlive ours.
 Known& known() {
-    static Known instance;
+    static Known& instance = *new Known;
     return instance;
 }
 

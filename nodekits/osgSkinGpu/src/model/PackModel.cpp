@@ -60,8 +60,7 @@ public:
         }
         const std::size_t vertices = _texels->size();
         const std::size_t count = _model.vertexCount();
-        (*_texels)[0] = {word(_model.joints().size()), word(vertices), word(count),
-                         floatBits(1.0f)};
+        (*_texels)[0] = {word(_model.joints().size()), word(vertices), word(count), 0u};
         _texels->resize(vertices + 2 * count);
         for (std::size_t g = 0; g < chains.size(); ++g) {
             const SkinModel::Group& group = _model.groups()[g];

@@ -15,7 +15,7 @@ osg::ref_ptr<osg::Vec4uiArray> packRigid(const std::vector<BoundJoint>& joints, 
     const auto chain = static_cast<unsigned int>(texels->size());
     texels->push_back(osg::Vec4ui(joint, 0, 0, 0));
     texels->front() = osg::Vec4ui(static_cast<unsigned int>(joints.size()), chain + 1,
-                                  static_cast<unsigned int>(positions.size()), floatBits(1.0f));
+                                  static_cast<unsigned int>(positions.size()), 0u);
     for (std::size_t v = 0; v < positions.size(); ++v) {
         texels->push_back(packedTexel(*asGlm(&positions[v]), chain));
         texels->push_back(packedTexel(*asGlm(&normals[v]), 0));

@@ -69,6 +69,15 @@ void osgSkin_follow(int joint, inout vec3 x, inout vec3 n, inout vec3 t) {
   t = osgSkin_rotate(q, t);
 }
 
+/// Two directions along the skin, of which the model has the gradients' parts.
+void osgSkin_directions(vec3 n, out vec3 u, out vec3 v) {
+  float s = n.z >= 0.0 ? 1.0 : -1.0;
+  float a = -1.0 / (s + n.z);
+  float b = n.x * n.y * a;
+  u = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+  v = vec3(b, s + n.y * n.y * a, -n.y);
+}
+
 vec2 osgSkin_shorts(uint word) {
   return vec2(float(int(word << 16u) >> 16), float(int(word) >> 16));
 }
@@ -100,22 +109,22 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
   vec3 t = tangent;
   float tangentLength = length(t);
   vec3 tilt = vec3(0.0);
-  if ((chain.z & 1u) != 0u) osgSkin_correct(int(b.w) + links, x, tilt);
+  bool hasGradients = (chain.z & 2u) != 0u;
+  if ((chain.z & 1u) != 0u)
+    osgSkin_correct(int(b.w) + (hasGradients ? 2 * links : links), x, tilt);
 
   bool tilts = false;
-  if ((chain.z & 2u) != 0u)
+  if (hasGradients)
     for (int i = 0; i < links; ++i) {
       uvec4 link = osgSkin_words(int(a.w) + 1 + i);
       vec4 turn = osgSkin_palette(4 * int(link.x) + 2);
       vec2 reach = uintBitsToFloat(link.yz);
       tilts = tilts || length(turn.xyz) * reach.x > 1e-3 || abs(turn.w) * reach.y > 1e-3 ||
-              (reach != vec2(0.0) && osgSkin_palette(4 * int(link.x) + 3) != vec4(0.0));
+              (reach.x >= 0.0 && osgSkin_palette(4 * int(link.x) + 3) != vec4(0.0));
     }
   vec3 u = vec3(0.0), v = vec3(0.0);
   if (tilts) {
-    vec3 unit = osgSkin_scaledTo(n, 1.0);
-    u = normalize(cross(unit, abs(unit.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
-    v = cross(unit, u);
+    osgSkin_directions(n, u, v);
     vec2 along = vec2(dot(t, u), dot(t, v));
     u -= dot(tilt, u) * n;
     v -= dot(tilt, v) * n;
@@ -125,7 +134,6 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
     t = osgSkin_scaledTo(t - dot(t, n) * n, tangentLength);
   }
 
-  float unitOfSlopes = uintBitsToFloat(head.w);
   for (int i = 0; i < links; ++i) { // innermost first
     uvec4 link = osgSkin_words(int(a.w) + 1 + i);
     uvec4 own = osgSkin_words(int(b.w) + i);
@@ -146,10 +154,10 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
       if (abs(turn.w) * reach.y > 1e-3)
         byTwist = turn.w * cross(osgSkin_rotate(bent, pole), from);
       byBend += move.w * from + move.xyz;
-      vec2 bend = unitOfSlopes * osgSkin_shorts(own.z);
-      vec2 twist = unitOfSlopes * osgSkin_shorts(own.w);
-      u = factor * (osgSkin_rotate(q, u) + twist.x * byTwist) + bend.x * byBend;
-      v = factor * (osgSkin_rotate(q, v) + twist.y * byTwist) + bend.y * byBend;
+      // Of the bend ratio along u and along v, of the twist ratio the same.
+      vec4 slope = uintBitsToFloat(osgSkin_words(int(b.w) + links + i));
+      u = factor * (osgSkin_rotate(q, u) + slope.z * byTwist) + slope.x * byBend;
+      v = factor * (osgSkin_rotate(q, v) + slope.w * byTwist) + slope.y * byBend;
     } else {
       n = osgSkin_rotate(q, n);
       t = osgSkin_rotate(q, t);
