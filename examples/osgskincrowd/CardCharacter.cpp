@@ -50,7 +50,7 @@ Node* nearest(const osg::NodePath& path) {
     return nullptr;
 }
 
-void updateTo(osg::Node& scene, double time, unsigned int frame) {
+void runTo(osg::Node& scene, double time, unsigned int frame) {
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     stamp->setSimulationTime(time);
     stamp->setFrameNumber(frame);
@@ -93,7 +93,7 @@ osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file,
         std::max<std::size_t>(1, std::size_t(std::lround(seconds * kSamplesASecond)));
     osgSkin::CrowdCharacter::Samples samples(readers.size());
     for (std::size_t i = 0; i < count; ++i) {
-        updateTo(*scene, double(i) / kSamplesASecond, static_cast<unsigned int>(i + 1));
+        runTo(*scene, double(i) / kSamplesASecond, static_cast<unsigned int>(i + 1));
         for (std::size_t s = 0; s < readers.size(); ++s) samples[s].push_back(readers[s].read());
     }
     character->addClip(samples, kSamplesASecond, true);

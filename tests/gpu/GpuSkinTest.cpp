@@ -21,7 +21,7 @@ class GpuSkin : public testing::TestWithParam<std::string> {};
 /// OSGSKIN_GPU_SUBJECTS names others, with commas between them.
 std::vector<std::string> subjects() {
     const char* named = std::getenv("OSGSKIN_GPU_SUBJECTS");
-    std::istringstream list(named ? named : "tube,thrower");
+    std::istringstream list(named ? named : "tube,thrower,surface");
     std::vector<std::string> names;
     for (std::string name; std::getline(list, name, ',');) names.push_back(name);
     return names;

@@ -93,8 +93,12 @@ GpuSubject::GpuSubject(const std::string& name) {
     if (name == "tube") node = movingTube();
     if (name == "thrower")
         node = osgDB::readRefNodeFile(std::string(OSGSKIN_DATA) + "/thrower.skin");
+    if (name == "surface")
+        node = osgDB::readRefNodeFile(std::string(OSGSKIN_DATA) + "/thrower.skin",
+                                      new osgDB::Options("normals=surface shapes=fast"));
     if (name == "body") node = readBody(reason);
     if (name == "painted") node = readPainted(reason);
+    if (std::filesystem::exists(name)) node = osgDB::readRefNodeFile(name);
     if (!node) {
         if (reason.empty()) reason = name + " cannot be read";
         return;

@@ -13,7 +13,8 @@ namespace test {
 /// A scene with skins that move with the simulation time.
 struct GpuSubject {
     /// \param name tube (random turns, correctives, tangents, a moved and scaled joint), thrower,
-    ///        body (MakeHuman's, with shapes) or painted (a rig with painted weights)
+    ///        surface (the thrower with normals of the deformed surface), body (MakeHuman's, with
+    ///        shapes) or painted (a rig with painted weights), or a file
     explicit GpuSubject(const std::string& name);
 
     double timeOf(int pose) const { return seconds * pose / poses; }

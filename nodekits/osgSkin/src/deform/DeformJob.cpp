@@ -155,4 +155,24 @@ bool DeformJob::runReference() const noexcept {
     return true;
 }
 
+SurfaceSlopes surfaceSlopesOf(const SkinModel& model) {
+    SurfaceSlopes result;
+    const GradientBlocks* blocks = SkinModelAccess::gradients(model);
+    if (!blocks) return result;
+    const std::vector<RatioGradient> all = gradientsOf(model); // of full links, too
+    std::size_t at = 0, reach = 0;
+    for (const SkinModel::Group& group : model.groups()) {
+        const SkinModel::Link* links = model.links().data() + group.firstLink;
+        for (std::uint32_t row = 0; row < group.vertexCount; ++row)
+            for (std::uint32_t i = 0; i < group.linkCount; ++i, ++at)
+                if (links[i].partial) result.gradients.push_back(all[at]);
+        for (std::uint32_t i = 0; i < group.linkCount; ++i) {
+            const GradientBlocks::Reach most =
+                links[i].partial ? blocks->reach[reach++] : GradientBlocks::Reach{};
+            result.reach.emplace_back(most.bend, most.twist);
+        }
+    }
+    return result;
+}
+
 } // namespace osgSkin

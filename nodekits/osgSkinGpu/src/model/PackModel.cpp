@@ -3,6 +3,8 @@
 
 #include "model/PackTexels.h"
 
+#include <osgSkin/DeformJob>
+
 #include <algorithm>
 
 namespace osgSkin {
@@ -14,11 +16,24 @@ unsigned int halves(int low, int high) {
     return (static_cast<unsigned int>(low) & 0xffffu) | static_cast<unsigned int>(high) << 16;
 }
 
+/// Two directions along the skin, as the shader finds them of the same normal.
+struct SkinDirections {
+    glm::dvec3 u, v;
+};
+
+SkinDirections skinDirections(const glm::dvec3& n) {
+    const double s = n.z >= 0.0 ? 1.0 : -1.0;
+    const double a = -1.0 / (s + n.z);
+    const double b = n.x * n.y * a;
+    return {{1.0 + s * n.x * n.x * a, s * b, -s * n.x}, {b, s + n.y * n.y * a, -n.y}};
+}
+
 /// A group's chain: the joint whose G comes last, and the links before that, innermost first.
 struct PackedChain {
     struct Link {
         unsigned int joint;
-        std::size_t ratio; ///< among the vertex's partial ratios; kFull: 1, 1
+        std::uint32_t link; ///< in SkinModel::links()
+        std::size_t ratio;  ///< among the vertex's partial ratios; kFull: 1, 1
     };
     static constexpr std::size_t kFull = ~std::size_t(0);
 
@@ -36,7 +51,8 @@ PackedChain chainOf(const SkinModel& model, const SkinModel::Group& group) {
         if (!link.partial && chain.links.empty() && model.joints()[link.joint].parent == above)
             chain.anchor = link.joint;
         else
-            chain.links.push_back({link.joint, link.partial ? partial : PackedChain::kFull});
+            chain.links.push_back(
+                {link.joint, group.firstLink + i, link.partial ? partial : PackedChain::kFull});
         partial += link.partial ? 1 : 0;
     }
     std::reverse(chain.links.begin(), chain.links.end());
@@ -46,7 +62,7 @@ PackedChain chainOf(const SkinModel& model, const SkinModel::Group& group) {
 class Packer {
 public:
     Packer(const SkinModel& model, const Correctives& correctives)
-        : _model(model), _correctives(correctives),
+        : _model(model), _correctives(correctives), _slopes(surfaceSlopesOf(model)),
           _weights(weightTexels(model, correctives.joints)), _texels(new osg::Vec4uiArray) {}
 
     osg::ref_ptr<osg::Vec4uiArray> pack() {
@@ -73,6 +89,7 @@ public:
                 (*_texels)[vertices + 2 * v + 1] =
                     packedTexel(_model.normals()[v], word(_texels->size()));
                 addLinks(chains[g], ratios);
+                if (_model.hasSurfaceNormals()) addGradients(chains[g], ratios, v);
                 if (!_correctives.empty()) addCorrectives(v);
             }
         }
@@ -84,9 +101,15 @@ private:
 
     void addChain(const PackedChain& chain) {
         _texels->push_back(
-            {chain.anchor, word(chain.links.size()), _correctives.empty() ? 0u : 1u, 0});
-        for (const PackedChain::Link& link : chain.links)
-            _texels->push_back({link.joint, floatBits(0.0f), floatBits(0.0f), 0});
+            {chain.anchor, word(chain.links.size()),
+             (_correctives.empty() ? 0u : 1u) | (_model.hasSurfaceNormals() ? 2u : 0u), 0});
+        for (const PackedChain::Link& link : chain.links) {
+            // A full link has no gradients, and what it moves by tilts nothing.
+            glm::vec2 reach(-1.0f);
+            if (_model.hasSurfaceNormals() && link.ratio != PackedChain::kFull)
+                reach = _slopes.reach[link.link];
+            _texels->push_back({link.joint, floatBits(reach.x), floatBits(reach.y), 0});
+        }
     }
 
     void addLinks(const PackedChain& chain, const SkinModel::Ratio* ratios) {
@@ -95,6 +118,23 @@ private:
                                                ? SkinModel::Ratio{1.0f, 1.0f}
                                                : ratios[link.ratio];
             _texels->push_back({floatBits(ratio.bend), floatBits(ratio.twist), 0, 0});
+        }
+    }
+
+    /// Of each link the bend ratio's along u and along v, and the twist ratio's.
+    void addGradients(const PackedChain& chain, const SkinModel::Ratio* ratios,
+                      std::uint32_t vertex) {
+        const SkinDirections at = skinDirections(_model.normals()[vertex]);
+        const auto along = [](const glm::vec3& gradient, const glm::dvec3& direction) {
+            return floatBits(static_cast<float>(glm::dot(glm::dvec3(gradient), direction)));
+        };
+        const auto first = static_cast<std::size_t>(ratios - _model.ratios().data());
+        for (const PackedChain::Link& link : chain.links) {
+            const RatioGradient own = link.ratio == PackedChain::kFull
+                                          ? RatioGradient{}
+                                          : _slopes.gradients[first + link.ratio];
+            _texels->push_back({along(own.bend, at.u), along(own.bend, at.v),
+                                along(own.twist, at.u), along(own.twist, at.v)});
         }
     }
 
@@ -122,6 +162,7 @@ private:
 
     const SkinModel& _model;
     const Correctives& _correctives;
+    SurfaceSlopes _slopes;
     std::vector<unsigned int> _weights;
     osg::ref_ptr<osg::Vec4uiArray> _texels;
 };
