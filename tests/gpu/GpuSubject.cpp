@@ -4,6 +4,9 @@
 #include "SomeCorrectives.h"
 #include "TubeSkin.h"
 
+#include <osgSkin/DeformJob>
+#include <osgSkin/GlmOsg>
+
 #include <osg/NodeVisitor>
 #include <osgDB/ReadFile>
 
@@ -118,6 +121,21 @@ void Difference::take(const Difference& other) {
     positions = std::max(positions, other.positions);
     normals = std::max(normals, other.normals);
     tangents = std::max(tangents, other.tangents);
+    computedError = std::max(computedError, other.computedError);
+    deformedError = std::max(deformedError, other.deformedError);
+}
+
+/// In double precision, by the processor's plain way.
+std::vector<glm::vec3> referenceNormals(const osgSkin::DeformableSkin& skin) {
+    std::vector<glm::vec3> positions(skin.getModel()->vertexCount()), normals(positions.size());
+    osgSkin::DeformJob job;
+    job.model = skin.getModel();
+    job.pose = &skin.getPose();
+    job.positions = positions.data();
+    job.normals = normals.data();
+    job.positionCount = job.normalCount = positions.size();
+    job.runReference();
+    return normals;
 }
 
 Difference difference(const osgSkin::DeformableSkin& skin, const GpuStage::Posed& computed) {
@@ -131,6 +149,11 @@ Difference difference(const osgSkin::DeformableSkin& skin, const GpuStage::Posed
     for (std::size_t v = 0; v < positions.size(); ++v) {
         const osg::Vec3d apart = osg::Vec3d(computed.positions[v]) - osg::Vec3d(positions[v]);
         most.take({apart.length() / extent, angle(computed.normals[v], normals[v]), 0.0});
+    }
+    const std::vector<glm::vec3> reference = referenceNormals(skin);
+    for (std::size_t v = 0; v < normals.size(); ++v) {
+        const osg::Vec3d exact = osgSkin::toOsg(glm::dvec3(reference[v]));
+        most.take({0.0, 0.0, 0.0, angle(computed.normals[v], exact), angle(normals[v], exact)});
     }
     if (computed.tangents.empty()) return most;
     const auto& tangents = static_cast<const osg::Vec4Array&>(

@@ -34,6 +34,9 @@ struct Difference {
     double positions = 0.0; ///< of the extent of the posed skin
     double normals = 0.0;   ///< radians
     double tangents = 0.0;  ///< the same; and of the handedness
+    double computedError =
+        0.0; ///< of what shaders computed: normals, from the reference's, radians
+    double deformedError = 0.0; ///< of what the processor deforms: the same
 
     void take(const Difference& other);
 };
