@@ -142,6 +142,8 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         throw UsageError{error.what()};
     }
+    if (arguments.rate && !std::isfinite(*arguments.rate)) // passes for being in any range
+        throw UsageError{"--rate: expected a number from 0.001 to 1000000"};
     if (!frames.empty()) arguments.frames = parseRange(frames);
     for (const std::string& word : tensed) arguments.activations.push_back(parseActivation(word));
     checkPattern(arguments.out);

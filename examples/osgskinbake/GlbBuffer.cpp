@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "GlbBuffer.h"
 
+#include <osgSkin/Error>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -113,7 +115,10 @@ void GlbBuffer::write(const std::string& file, nlohmann::json root) const {
     out.add(std::uint32_t(2));
     std::string binary = _bytes.data;
     pad(binary, '\0');
-    out.add(static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + binary.size()));
+    const std::size_t total = 12 + 8 + json.size() + 8 + binary.size();
+    if (total > std::numeric_limits<std::uint32_t>::max())
+        throw osgSkin::Error(file + ": too large for a .glb file, expected fewer frames");
+    out.add(static_cast<std::uint32_t>(total));
     out.add(static_cast<std::uint32_t>(json.size()));
     out.data += "JSON" + json;
     out.add(static_cast<std::uint32_t>(binary.size()));

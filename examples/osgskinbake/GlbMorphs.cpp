@@ -13,6 +13,8 @@
 namespace bake {
 namespace {
 
+constexpr std::size_t kMostFrames = 4096; ///< a weight of each in each: 64 MB
+
 std::vector<glm::dvec3> gather(const std::vector<glm::dvec3>& of,
                                const std::vector<std::uint32_t>& indices) {
     std::vector<glm::dvec3> result;
@@ -34,6 +36,11 @@ std::vector<glm::dvec3> differences(const std::vector<glm::dvec3>& a,
 GlbMorphs::GlbMorphs(std::string file, const FrameSeries& series)
     : _file(std::move(file)), _series(series),
       _materials(_buffer, osgDB::getFilePath(series.character->meshFile)) {
+    if (series.count > kMostFrames)
+        throw osgSkin::Error(_file + ": " + std::to_string(series.count) +
+                             " frames, expected at most " + std::to_string(kMostFrames) +
+                             " in a .glb file, where weights grow with their square; bake fewer "
+                             "(--frames A:B:STEP), or a .pc2 file");
     for (Surface& surface : surfacesOf(*series.character)) {
         Primitive primitive;
         primitive.surface = std::move(surface);

@@ -2,13 +2,11 @@
 #include "ObjWriter.h"
 
 #include "MaterialLibrary.h"
-
-#include <osgDB/FileNameUtils>
-#include <osgSkin/Error>
+#include "WholeFile.h"
 
 #include <cinttypes>
 #include <cstdio>
-#include <memory>
+#include <osgDB/FileNameUtils>
 
 namespace bake {
 
@@ -41,27 +39,23 @@ void ObjWriter::addSurface(const Surface& surface, std::uint32_t material) {
 }
 
 void ObjWriter::write(const std::string& file, const PosedMesh& posed) {
-    const auto fail = [&file] {
-        throw osgSkin::Error(file + ": cannot be written, expected a writable file");
-    };
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(file.c_str(), "wb"),
-                                                              std::fclose);
-    if (!out) fail();
-    std::fprintf(out.get(), "mtllib %s\n", _library.c_str());
+    WholeFile whole(file);
+    std::FILE* const out = whole.stream();
+    std::fprintf(out, "mtllib %s\n", _library.c_str());
     for (std::size_t v = 0; v < posed.positions.size(); ++v) {
         const glm::dvec3& p = posed.positions[v];
-        std::fprintf(out.get(), "v %.9g %.9g %.9g", p.x, p.y, p.z);
+        std::fprintf(out, "v %.9g %.9g %.9g", p.x, p.y, p.z);
         if (!_colours.empty())
-            std::fprintf(out.get(), " %.4f %.4f %.4f", double(_colours[v].r()),
-                         double(_colours[v].g()), double(_colours[v].b()));
-        std::fputc('\n', out.get());
+            std::fprintf(out, " %.4f %.4f %.4f", double(_colours[v].r()), double(_colours[v].g()),
+                         double(_colours[v].b()));
+        std::fputc('\n', out);
     }
     for (const osg::Vec2& t : _texCoords)
-        std::fprintf(out.get(), "vt %.9g %.9g\n", double(t.x()), double(t.y()));
+        std::fprintf(out, "vt %.9g %.9g\n", double(t.x()), double(t.y()));
     for (const glm::dvec3& n : posed.normals)
-        std::fprintf(out.get(), "vn %.5f %.5f %.5f\n", n.x, n.y, n.z);
-    writeFaces(out.get());
-    if (std::ferror(out.get()) || std::fflush(out.get()) != 0) fail();
+        std::fprintf(out, "vn %.5f %.5f %.5f\n", n.x, n.y, n.z);
+    writeFaces(out);
+    whole.finish();
     const std::string library = osgDB::concatPaths(osgDB::getFilePath(file), _library);
     if (_libraries.insert(library).second)
         writeLibrary(library, _surfaces, osgDB::getFilePath(_character.meshFile));

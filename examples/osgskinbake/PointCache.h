@@ -2,8 +2,9 @@
 #pragma once
 
 #include "FrameWriter.h"
+#include "WholeFile.h"
 
-#include <fstream>
+#include <string>
 
 namespace bake {
 
@@ -16,10 +17,7 @@ public:
     void finish() override;
 
 private:
-    void write(const std::string& data);
-
-    std::string _file;
-    std::ofstream _out;
+    WholeFile _out;
 };
 
 } // namespace bake

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "SampledMotion.h"
 
+#include <osgSkin/Error>
+
 #include <cmath>
 
 namespace bake {
 namespace {
+
+constexpr double kMostFrames = 1e9;
 
 using osgSkin::Character;
 using osgSkin::CharacterMotion;
@@ -16,6 +20,9 @@ SampledMotion ownSamples(Character& character, const CharacterMotion& motion) {
 
 SampledMotion samplesAt(Character& character, const CharacterMotion& motion, double rate) {
     const double last = std::floor(motion.animation->getDuration() * rate + 1e-6);
+    if (!(last < kMostFrames))
+        throw osgSkin::Error(character.file + ": motion \"" + motion.name() + "\" has " +
+                             std::to_string(last) + " frames, expected less than 1e9");
     return {motion.name(),
             static_cast<std::size_t>(last) + 1,
             1.0 / rate,

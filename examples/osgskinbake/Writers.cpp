@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Writers.h"
 
-#include <osgSkin/Error>
-
-#include <fstream>
+#include "Bytes.h"
 
 namespace bake {
 namespace {
 
 nlohmann::json array(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
-}
-
-[[noreturn]] void failToWrite(const std::string& file) {
-    throw osgSkin::Error(file + ": cannot be written, expected a writable file");
 }
 
 const char* nameOf(osgSkin::CorrectiveJoint::Basis basis) {
@@ -122,9 +116,7 @@ nlohmann::json poseJson(std::size_t frame, const osgSkin::Binding& binding,
 }
 
 void writeJson(const std::string& file, const nlohmann::json& json) {
-    std::ofstream out(file, std::ios::binary);
-    out << json << '\n';
-    if (!out.flush()) failToWrite(file);
+    writeBytes(file, json.dump() + '\n');
 }
 
 } // namespace bake

@@ -5,6 +5,7 @@
 #include "PosedMesh.h"
 #include "ProgressLine.h"
 #include "SampledMotion.h"
+#include "WholeFile.h"
 #include "Writers.h"
 
 #include <osgSkin/DeformableSkin>
@@ -68,10 +69,10 @@ void bakeFrames(const Arguments& arguments, Character& character) {
     std::unique_ptr<bake::FrameWriter> writer;
     if (!arguments.out.empty()) writer = bake::FrameWriter::make(arguments.out, series);
     example::ProgressLine line("frames", arguments.quiet);
-    std::size_t done = 0;
     nlohmann::json poses = nlohmann::json::array();
     double seamGap = 0.0;
-    for (std::size_t frame = range.first; frame <= range.last; frame += range.step) {
+    for (std::size_t done = 0; done < total; ++done) {
+        const std::size_t frame = range.first + done * range.step;
         line.show({std::to_string(done) + " of " + std::to_string(total),
                    static_cast<double>(done) / static_cast<double>(total)});
         motion.pose(frame);
@@ -80,7 +81,6 @@ void bakeFrames(const Arguments& arguments, Character& character) {
         if (writer) writer->add(frame, posed);
         if (!arguments.pose.empty())
             poses.push_back(bake::poseJson(frame, character.binding, bake::currentPose(character)));
-        ++done;
     }
     if (writer) writer->finish();
     if (!arguments.pose.empty()) bake::writeJson(arguments.pose, poses);
@@ -162,6 +162,7 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
     try {
         const auto arguments = bake::parseArguments(argc, argv);
+        bake::removeUnfinishedOnSignals();
         return arguments ? run(*arguments) : 0;
     } catch (const UsageError& error) {
         std::cerr << "osgskinbake: " << error.message << "\nTry osgskinbake --help." << std::endl;

@@ -3,6 +3,7 @@
 
 #include "correctives/CorrectiveStray.h"
 #include "model/BoundsProxy.h"
+#include "model/Reach.h"
 #include "model/SkinModelAccess.h"
 #include "pose/JointMotions.h"
 
@@ -141,6 +142,11 @@ private:
     const JointMotions& _motions;
 };
 
+/// A side of the box where it is a number, else as far out as poses may reach.
+float bounded(float side, float otherwise) {
+    return std::abs(side) <= static_cast<float>(kReach) ? side : otherwise; // NaN too
+}
+
 } // namespace
 
 PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept {
@@ -154,7 +160,12 @@ PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept 
     BoxOfPieces box(*proxy, motions);
     for (const BoundsProxy::Piece& piece : proxy->pieces)
         box.add(piece, corrections ? &*corrections : nullptr);
-    return {box.low.xyz(), box.high.xyz()};
+    PoseBounds bounds{box.low.xyz(), box.high.xyz()};
+    for (int axis = 0; axis < 3; ++axis) {
+        bounds.low[axis] = bounded(bounds.low[axis], -static_cast<float>(kReach));
+        bounds.high[axis] = bounded(bounds.high[axis], static_cast<float>(kReach));
+    }
+    return bounds;
 }
 
 } // namespace osgSkin

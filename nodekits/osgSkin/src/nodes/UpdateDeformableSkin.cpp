@@ -43,7 +43,7 @@ void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable)
 bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
     const SkinModel* model = skin.getModel();
     if (!model) return false;
-    if (_skeleton.get() != &skeleton || _model != model) {
+    if (_skeleton.get() != &skeleton || _model.get() != model) {
         _reader = BoneReader(model->joints(), skeleton);
         _skeleton = &skeleton;
         _model = model;
@@ -56,7 +56,16 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
                          << "\"; the joint moves with its parent" << std::endl;
     }
     const std::vector<glm::dmat4>& skinning = _reader.read();
-    if (!skin.setPose(skinning.data(), skinning.size(), _twist)) return false;
+    if (!skin.setPose(skinning.data(), skinning.size(), _twist)) {
+        if (!_warned)
+            OSG_WARN << "osgSkin: skin \"" << skin.getName() << "\": skeleton \""
+                     << skeleton.getName()
+                     << "\" has a bone whose matrix is singular, not finite or out of range; the "
+                        "last pose stays"
+                     << std::endl;
+        _warned = true;
+        return false;
+    }
     _twist = _unwrapTwist ? Pose::Twist::Continued : Pose::Twist::Shortest;
     return true;
 }

@@ -3,6 +3,7 @@
 
 #include <osgSkin/GlmOsg>
 
+#include "model/Reach.h"
 #include "model/SkinBlocks.h"
 #include "pose/SplitUnit.h"
 
@@ -19,6 +20,9 @@
 namespace osgSkin {
 namespace {
 
+/// Of what a matrix makes of a cube: scales from 1e-9 to 1e9.
+constexpr double kSmallestVolume = 1e-27;
+
 /// The rotation in a 3 x 3 matrix that may also scale, and the uniform part of that scale; false
 /// where there is none to be found.
 bool rotationOf(const glm::dmat3& m, glm::dquat& rotation, double& scale) noexcept {
@@ -30,13 +34,20 @@ bool rotationOf(const glm::dmat3& m, glm::dquat& rotation, double& scale) noexce
     const double yy = glm::dot(y, y);
     if (!std::isfinite(yy) || !(yy > 1e-24 * xx)) return false;
     const double volume = std::abs(glm::dot(glm::cross(x, y), glm::dvec3(m[2])));
-    if (!std::isfinite(volume) || !(volume > 0.0)) return false;
+    if (!(volume >= kSmallestVolume && volume <= 1.0 / kSmallestVolume)) return false; // NaN too
     // What numbers of a file or rotation are rounded by is no scale; and a root takes its time.
     scale = std::abs(volume - 1.0) < 3e-6 ? 1.0 : std::cbrt(volume);
     x *= 1.0 / std::sqrt(xx);
     y *= 1.0 / std::sqrt(yy);
     rotation = glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)));
     return true;
+}
+
+/// Whether a matrix maps places to places, near enough.
+bool isAffine(const glm::dmat4& m) noexcept {
+    constexpr double rounding = 1e-3;
+    return std::abs(m[0][3]) < rounding && std::abs(m[1][3]) < rounding &&
+           std::abs(m[2][3]) < rounding && std::abs(m[3][3] - 1.0) < rounding; // false for NaN
 }
 
 /// A sine or cosine as a whole number of steps of 2^-30: as good as the kernel's floats, in half of
@@ -83,7 +94,7 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool*
         const glm::dvec3& centre = (*_rest)[j].centre;
         frame.offset = glm::dvec3(skinning[j] * glm::dvec4(centre, 1.0)) -
                        frame.scale * (frame.rotation * centre);
-        if (!isFinite(frame.offset)) return false;
+        if (!isWithinReach(frame.offset) || !isAffine(skinning[j])) return false;
     }
     bool other = false;
     for (std::size_t j = 0; j < count; ++j) {

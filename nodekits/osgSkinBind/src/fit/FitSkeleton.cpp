@@ -16,6 +16,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <osgSkinRig/InRange>
 #include <osgSkinRig/JointRoles>
 
 #include <algorithm>
@@ -39,7 +40,7 @@ constexpr double kPerson = 0.10;
 constexpr double kHardlyAll = 0.6;
 
 bool isDirection(const glm::dvec3& d) {
-    return isFinite(d) && glm::length(d) > 0.0;
+    return isInRange(d) && glm::length(d) > 1.0 / kLargestCoordinate;
 }
 
 /// The landmarks by the names that a fitted skeleton has; those that are not known stay.
@@ -58,7 +59,18 @@ std::map<std::string, glm::dvec3> renamed(const std::map<std::string, glm::dvec3
     return result;
 }
 
-void check(const FitOptions& options) {
+/// How far a point lies outside the box around a mesh.
+double outside(const glm::dvec3& point, const SkinMesh& mesh) {
+    glm::dvec3 low = mesh.positions.front(), high = low;
+    for (const glm::dvec3& p : mesh.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::dvec3 beyond = glm::max(glm::max(low - point, point - high), glm::dvec3(0.0));
+    return glm::length(beyond);
+}
+
+void check(const FitOptions& options, const SkinMesh& mesh) {
     if (!isDirection(options.up))
         throw Error("cannot fit a skeleton: expected an up axis with a length");
     if (options.facing && !isDirection(*options.facing))
@@ -71,6 +83,10 @@ void check(const FitOptions& options) {
         if (!isFinite(centre))
             throw Error("cannot fit a skeleton: landmark " + name +
                         ": expected finite coordinates");
+        if (!(outside(centre, mesh) <= mesh.size()))
+            throw Error(
+                "cannot fit a skeleton: landmark " + name +
+                ": expected a place in the body, found one further from it than it is long");
     }
 }
 
@@ -227,7 +243,7 @@ RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& given, FitRepor
     mesh.validate();
     FitOptions options = given;
     options.landmarks = renamed(given.landmarks);
-    check(options);
+    check(options, mesh);
     Fitted found = fitBest(WeldedMesh(mesh), options);
     found.report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

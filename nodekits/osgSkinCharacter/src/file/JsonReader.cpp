@@ -6,38 +6,52 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 
 namespace osgSkin {
 namespace {
 
-/// A character's description is a page of text and a body's weights a few megabytes; anything far
-/// larger is neither.
-constexpr std::streamoff kLargestFile = 16 << 20;
+/// How deep lists and objects may stand in each other; a description has 4 levels.
+constexpr int kDeepest = 64;
+
+/// "line 3, column 7", from 1, of a byte.
+std::string placeOf(const std::string& text, std::size_t byte) {
+    const std::size_t end = std::min(byte, text.size());
+    const auto at = text.begin() + static_cast<std::ptrdiff_t>(end);
+    const auto line = 1 + std::count(text.begin(), at, '\n');
+    const std::size_t start = text.substr(0, end).rfind('\n');
+    const std::size_t column = end - (start == std::string::npos ? 0 : start + 1) + 1;
+    return "line " + std::to_string(line) + ", column " + std::to_string(column);
+}
 
 } // namespace
 
-nlohmann::json JsonReader::parseFile(const std::string& file) {
-    std::ifstream in(file, std::ios::binary | std::ios::ate);
-    const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
-    if (size < 0) throw Error(file + ": cannot be opened, expected a readable file");
-    if (size > kLargestFile)
-        throw Error(file + ": larger than 16 MiB, expected a character's description");
-    in.seekg(0);
-    std::string text(static_cast<std::size_t>(size), '\0');
-    in.read(text.data(), size);
-    if (in.gcount() != size) throw Error(file + ": cannot be read, expected a readable file");
+nlohmann::json JsonReader::parseFile(const std::string& file, const ReadLimits& limits) {
+    const std::string text = readWholeFile(file, limits.textMegabytes, "maxTextMB");
+    bool tooDeep = false;
+    const auto onEvent = [&tooDeep](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+        tooDeep = tooDeep || depth > kDeepest;
+        return !tooDeep; // what lies deeper is not kept
+    };
     try {
-        return nlohmann::json::parse(text);
+        nlohmann::json json = nlohmann::json::parse(text, onEvent);
+        if (tooDeep)
+            throw Error(file + ": lists and objects stand in each other more than " +
+                        std::to_string(kDeepest) + " deep");
+        return json;
     } catch (const nlohmann::json::parse_error& error) {
-        const std::size_t end = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
-        const auto at = text.begin() + static_cast<std::ptrdiff_t>(end);
-        const auto line = 1 + std::count(text.begin(), at, '\n');
-        const std::size_t start = text.substr(0, end).rfind('\n');
-        const std::size_t column = end - (start == std::string::npos ? 0 : start + 1) + 1;
-        throw Error(file + ": line " + std::to_string(line) + ", column " + std::to_string(column) +
+        throw Error(file + ": " + placeOf(text, error.byte > 0 ? error.byte - 1 : 0) +
                     ": malformed JSON");
+    } catch (const nlohmann::json::exception& error) {
+        // A number beyond any double; the message ends with it, in quotes.
+        const std::string what = error.what();
+        const std::size_t end = what.rfind('\''), begin = what.rfind('\'', end - 1);
+        const std::string number = end == std::string::npos || begin == std::string::npos
+                                       ? ""
+                                       : what.substr(begin + 1, end - begin - 1);
+        throw Error(file + ": " + placeOf(text, text.find(number)) + ": " +
+                    (number.size() > 40 ? number.substr(0, 40) + "..." : number) +
+                    ", expected a finite number");
     }
 }
 
@@ -45,7 +59,10 @@ JsonReader::JsonReader(const nlohmann::json& value, std::string file, std::strin
     : _value(value), _file(std::move(file)), _path(std::move(path)) {}
 
 void JsonReader::failWith(const std::string& message) const {
-    throw Error(_file + ": " + (_path.empty() ? "" : _path + ": ") + message);
+    std::string text = _file + ": " + (_path.empty() ? "" : _path + ": ") + message;
+    for (char& c : text) // keys may hold a terminal's commands
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    throw Error(text);
 }
 
 void JsonReader::failExpected(const std::string& expected) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgSkin/GlmTypes>
+#include <osgSkinImport/ReadLimits>
 
 #include <nlohmann/json.hpp>
 
@@ -17,8 +18,8 @@ namespace osgSkin {
 class JsonReader {
 public:
     /// Parses the whole file.
-    /// \throw Error where it cannot be read or is not JSON
-    static nlohmann::json parseFile(const std::string& file);
+    /// \throw Error where it cannot be read, is larger than allowed or is not JSON
+    static nlohmann::json parseFile(const std::string& file, const ReadLimits& limits);
 
     JsonReader(const nlohmann::json& value, std::string file, std::string path = "");
 

@@ -123,6 +123,10 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
         {"muscles=<on|off>",
          "biceps, triceps, quadriceps, hamstrings and calves that swell; off by default"},
         {"gpu=<on|off>", "on: skins are deformed on the graphics card where it has OpenGL 4.3"},
+        {"formats=<extension,extension>",
+         "what may be read at all, as skin,obj,bvh,ply,gltf,glb; everything by default"},
+        {"maxFileMB=, maxTextMB=, maxJoints=, maxDepth=, maxSamples=<number>",
+         "raises a limit of what files may ask for; errors say which"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };
     return words;

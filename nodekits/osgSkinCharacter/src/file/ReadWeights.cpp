@@ -24,8 +24,8 @@ void readPair(const JsonReader& reader, std::uint32_t joint, VertexWeights& weig
 } // namespace
 
 VertexWeights readWeights(const std::string& file, const RestSkeleton& skeleton,
-                          std::size_t vertices) {
-    const nlohmann::json json = JsonReader::parseFile(file);
+                          std::size_t vertices, const ReadLimits& limits) {
+    const nlohmann::json json = JsonReader::parseFile(file, limits);
     const JsonReader root(json, file);
     VertexWeights weights(vertices);
     root.require("weights", "each joint's list of vertices and weights")

@@ -156,8 +156,9 @@ void readBinding(const JsonReader& root, BindOptions& bind) {
 
 } // namespace
 
-SkinFile SkinFile::read(const std::string& file) {
-    const nlohmann::json json = JsonReader::parseFile(file);
+SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
+    limits.checkFormat(file);
+    const nlohmann::json json = JsonReader::parseFile(file, limits);
     const JsonReader root(json, file);
     const std::string folder = osgDB::getFilePath(file);
     checkVersion(root);

@@ -3,6 +3,7 @@
 
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/FitSkeleton>
+#include <osgSkinImport/ReadLimits>
 
 #include <cstddef>
 #include <map>
@@ -47,7 +48,7 @@ struct SkinFile {
 
     /// Reads and checks a file.
     /// \throw Error with file, JSON path and what was expected
-    static SkinFile read(const std::string& file);
+    static SkinFile read(const std::string& file, const ReadLimits& limits);
 };
 
 } // namespace osgSkin

@@ -20,7 +20,8 @@ using Painted = CharacterSource::Painted;
 
 VertexWeights paintedWeights(const CharacterSource& source) {
     if (source.weightsFile.empty()) return meshWeights(source.meshFile, source.body, source.rest);
-    return readWeights(source.weightsFile, source.rest, source.body.mesh.positions.size());
+    return readWeights(source.weightsFile, source.rest, source.body.mesh.positions.size(),
+                       source.limits);
 }
 
 /// Whether the mesh has weights for joints of the skeleton, which may be another file's.

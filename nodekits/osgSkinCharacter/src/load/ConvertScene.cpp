@@ -8,12 +8,14 @@
 
 #include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
+#include <osgSkinImport/ReadLimits>
 
 #include <osg/MatrixTransform>
 #include <osg/StateSet>
 #include <osg/Transform>
 #include <osgDB/Registry>
 
+#include <filesystem>
 #include <utility>
 
 namespace osgSkin {
@@ -99,6 +101,10 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
         LoadStages::shapesSize(options.shapes.value_or(BindOptions::Shapes::None));
     stages.plan(LoadStages::kModel + binding);
     stages.begin("model", LoadStages::kModel);
+    const ReadLimits limits = ReadLimits::of(options.readOptions.get());
+    limits.checkFormat(file);
+    if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file))
+        throw Error(file + ": no regular file, expected neither pipe nor device");
     const osg::ref_ptr<osg::Node> scene = readScene(file, options.readOptions.get());
     putBonesFirst(*scene);
     ConvertOptions convert = convertOptionsOf(options);

@@ -3,6 +3,7 @@
 
 #include "load/BindSource.h"
 #include "load/ConvertScene.h"
+#include "load/OpenFile.h"
 #include "load/RetargetMotions.h"
 #include "report/NamingFile.h"
 #include "scene/BuildScene.h"
@@ -25,7 +26,7 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     Character character;
     const Progress binding = stages.begin("binding", source.bindingSize());
     character.binding = bindSource(source, binding, character.bindReport);
-    character.motions = retargetMotions(source, stages);
+    character.motions = retargetMotions(source, options.readOptions.get(), stages);
     stages.begin("scene", source.sceneSize());
     character.file = source.file;
     character.meshFile = source.meshFile;
@@ -43,6 +44,7 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
 Character loadFrom(const std::string& path, const LoadOptions& options) {
     const std::string found = osgDB::findDataFile(path, options.readOptions.get());
     const std::string& file = found.empty() ? path : found;
+    const OpenFile open(file);
     LoadStages stages(options.progress);
     if (osgDB::getLowerCaseFileExtension(path) == "skin") {
         const std::string model = osgDB::getNameLessExtension(path);

@@ -16,6 +16,7 @@ namespace osgSkin {
 /// \param stages are told of each file
 /// \return one motion for each file, in order
 /// \throw Error with the motion file and the reason
-std::vector<CharacterMotion> retargetMotions(CharacterSource& source, LoadStages& stages);
+std::vector<CharacterMotion> retargetMotions(CharacterSource& source,
+                                             const osgDB::Options* options, LoadStages& stages);
 
 } // namespace osgSkin

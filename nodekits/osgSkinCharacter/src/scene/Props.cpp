@@ -18,7 +18,7 @@ void addProps(const CharacterSource& source, const CharacterMotion& motion, osg:
         // Bones and props share one table of animation targets, so the name must not be a joint's.
         const std::string name = "prop:" + prop.motion + ":" + std::to_string(i);
         const ImportedMesh mesh = importMesh(prop.mesh, options);
-        const Motion path = importMotion(prop.file, skip);
+        const Motion path = importMotion(prop.file, skip, {}, options);
         parent.addChild(makeProp(name, mesh.parts, path, motion.report, *motion.animation));
     }
 }

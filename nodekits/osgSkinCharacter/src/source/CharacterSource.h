@@ -7,6 +7,7 @@
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/FitReport>
 #include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ReadLimits>
 #include <osgSkinRig/RestSkeleton>
 
 #include <osg/Matrixd>
@@ -47,6 +48,8 @@ struct CharacterSource {
 
     std::vector<SkinFile::MotionEntry> motions; ///< files to retarget
     std::vector<SkinFile::Prop> props;
+
+    ReadLimits limits; ///< for all files
 
     std::vector<std::string> notes; ///< what was unusual so far
 

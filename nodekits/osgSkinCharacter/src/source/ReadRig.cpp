@@ -13,6 +13,7 @@ CharacterSource readRig(const std::string& file, const LoadOptions& options, Loa
     stages.begin("model", LoadStages::kModel);
     ImportedRig rig = importRig(file, options.readOptions.get());
     CharacterSource source;
+    source.limits = ReadLimits::of(options.readOptions.get());
     source.file = source.meshFile = file;
     source.body = std::move(rig.body);
     source.rest = std::move(rig.rest);

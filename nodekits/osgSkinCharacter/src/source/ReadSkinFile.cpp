@@ -31,8 +31,10 @@ void fitRest(CharacterSource& source, FitOptions fit, const Progress& progress) 
 
 CharacterSource readSkinFile(const std::string& file, const LoadOptions& options,
                              LoadStages& stages) {
-    const SkinFile skin = SkinFile::read(file);
+    const ReadLimits limits = ReadLimits::of(options.readOptions.get());
+    const SkinFile skin = SkinFile::read(file, limits);
     CharacterSource source;
+    source.limits = limits;
     source.file = file;
     source.meshFile = skin.mesh;
     source.toWorld = toWorldOf(skin);
@@ -51,7 +53,7 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
         fitRest(source, *skin.fit, stages.begin("skeleton", LoadStages::kFit));
     } else {
         stages.begin("skeleton", LoadStages::kSkeleton);
-        source.rest = importSkeleton(skin.skeleton);
+        source.rest = importSkeleton(skin.skeleton, options.readOptions.get());
     }
     return source;
 }

@@ -95,7 +95,7 @@ std::set<const aiNode*> jointsOfSkins(const aiScene& scene, const SceneBind& bin
 
 CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options) {
     Assimp::Importer importer;
-    return readSceneMesh(readAssimpScene(importer, path), path, options);
+    return readSceneMesh(readAssimpScene(importer, path, ReadLimits::of(options)), path, options);
 }
 
 CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,

@@ -7,7 +7,6 @@
 #include "gltf/PlainGltf.h"
 #include "text/FileText.h"
 #include "text/OffCheck.h"
-#include "text/PlyCheck.h"
 
 #include <osgDB/FileNameUtils>
 
@@ -24,23 +23,29 @@ namespace osgSkin {
 namespace {
 
 /// Refuses what Assimp would hang on.
-void checkBefore(const std::string& path) {
+void checkBefore(const std::string& path, const ReadLimits& limits) {
+    requireReadable(path, limits);
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     // Read by readBvh(): Assimp believes any number of frames.
     if (extension == "bvh")
         failFile(path, "no face in a BVH file: it holds a skeleton and no mesh with bones");
-    if (extension == "ply") checkPly(path, readText(path));
-    if (extension == "off") checkOff(path, readText(path));
+    // Read by readPlyMesh(), which Assimp would read out of bounds.
+    if (extension == "ply") failFile(path, "no mesh with bones: a PLY file holds none");
+    if (extension == "off") checkOff(path, readText(path, limits));
 }
 
 /// Makes a scene safe to walk: some readers of Assimp's leave null among a node's children.
-void checkAfter(aiScene& scene, const std::string& path) {
+void checkAfter(aiScene& scene, const std::string& path, const ReadLimits& limits) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         if (scene.mMeshes[m] == nullptr) failFile(path, "Assimp reads a mesh that is not there");
-    std::vector<aiNode*> open{scene.mRootNode};
+    std::vector<std::pair<aiNode*, std::size_t>> open{{scene.mRootNode, 1}};
     while (!open.empty()) {
-        aiNode& node = *open.back();
+        const auto [above, depth] = open.back();
+        aiNode& node = *above;
         open.pop_back();
+        if (depth > limits.depth)
+            failFile(path, "node " + inQuotes(node.mName.C_Str()) + " is nested more than " +
+                               std::to_string(limits.depth) + " deep (option maxDepth)");
         for (unsigned m = 0; m < node.mNumMeshes; ++m)
             if (node.mMeshes[m] >= scene.mNumMeshes)
                 failFile(path, "node " + inQuotes(node.mName.C_Str()) + " names mesh " +
@@ -50,26 +55,29 @@ void checkAfter(aiScene& scene, const std::string& path) {
         aiNode** const end = node.mChildren + node.mNumChildren;
         aiNode** const kept = std::remove(node.mChildren, end, nullptr);
         node.mNumChildren = static_cast<unsigned>(kept - node.mChildren);
-        open.insert(open.end(), node.mChildren, kept);
+        for (aiNode** child = node.mChildren; child != kept; ++child)
+            open.emplace_back(*child, depth + 1);
     }
 }
 
 } // namespace
 
-const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path) {
+const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path,
+                               const ReadLimits& limits) {
     // Assimp would add a mesh of its own to a file that holds a skeleton only.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-    checkBefore(path);
+    checkBefore(path, limits);
     std::string name = path;
     bool facesBackwards = false;
-    if (isGltfName(path))
-        if (std::optional<PlainGltf> plain = plainGltf(path)) {
-            // Assimp goes by the extension, and knows no .vrm; text and binary get mixed up, too.
-            name += plain->bytes.compare(0, 4, "glTF") == 0 ? ".glb" : ".gltf";
-            facesBackwards = plain->facesBackwards;
-            importer.SetIOHandler(new SceneFile(name, std::move(plain->bytes))); // takes it over
-        }
+    if (isGltfName(path)) {
+        std::optional<PlainGltf> plain = plainGltf(path, limits);
+        if (!plain) failFile(path, "no glTF 2 file, or broken as a whole");
+        // Assimp goes by the extension, and knows no .vrm; text and binary get mixed up, too.
+        name += plain->bytes.compare(0, 4, "glTF") == 0 ? ".glb" : ".gltf";
+        facesBackwards = plain->facesBackwards;
+        importer.SetIOHandler(new SceneFile(name, std::move(plain->bytes))); // takes it over
+    }
     const aiScene* scene = nullptr;
     std::string reason;
     try {
@@ -81,7 +89,7 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
     if (scene == nullptr || scene->mRootNode == nullptr)
         failFile(path, reason.empty() ? "cannot be read" : reason);
     auto& owned = const_cast<aiScene&>(*scene); // the importer's, which nobody else sees
-    checkAfter(owned, path);
+    checkAfter(owned, path, limits);
     if (facesBackwards) {
         if (owned.mMetaData == nullptr) owned.mMetaData = new aiMetadata; // the scene's
         owned.mMetaData->Add(kFacesBackwards, true);

@@ -2,6 +2,8 @@
 #ifndef OSGSKINIMPORT_ASSIMPSCENE_H
 #define OSGSKINIMPORT_ASSIMPSCENE_H 1
 
+#include <osgSkinImport/ReadLimits>
+
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 
@@ -20,7 +22,8 @@ bool assimpReads(const std::string& path);
 
 /// Reads a file as it is: nothing triangulated, joined or reordered. The importer owns the scene.
 /// \throw osgSkin::Error with the file and Assimp's reason.
-const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path);
+const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path,
+                               const ReadLimits& limits);
 
 glm::dvec3 toGlm(const aiVector3D& v);
 glm::dquat toGlm(const aiQuaternion& q);

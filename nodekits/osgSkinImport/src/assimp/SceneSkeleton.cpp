@@ -136,11 +136,15 @@ glm::dquat rotationOf(const glm::dmat4& matrix) {
     return glm::normalize(glm::quat_cast(axes));
 }
 
-SceneSkeleton readSceneSkeleton(const aiScene& scene, const std::string& path) {
+SceneSkeleton readSceneSkeleton(const aiScene& scene, const std::string& path,
+                                const ReadLimits& limits) {
     Builder builder(scene);
     if (builder.empty())
         failFile(path, "no skeleton, expected joints that an animation or a skin names");
     SceneSkeleton result = builder.build();
+    if (result.rest.joints.size() > limits.joints)
+        failFile(path, std::to_string(result.rest.joints.size()) + " joints, expected at most " +
+                           std::to_string(limits.joints) + " (option maxJoints)");
     try {
         result.rest.validate();
     } catch (const Error& error) {

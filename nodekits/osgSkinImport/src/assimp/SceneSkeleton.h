@@ -2,6 +2,7 @@
 #ifndef OSGSKINIMPORT_SCENESKELETON_H
 #define OSGSKINIMPORT_SCENESKELETON_H 1
 
+#include <osgSkinImport/ReadLimits>
 #include <osgSkinRig/RestSkeleton>
 
 #include <assimp/scene.h>
@@ -32,8 +33,10 @@ struct SceneSkeleton {
 std::set<const aiNode*> jointNodes(const aiScene& scene, const SceneBind& bind);
 
 /// Reads the joints, in the bind pose.
-/// \throw osgSkin::Error with `path` where the scene has no joint, or joints of one name.
-SceneSkeleton readSceneSkeleton(const aiScene& scene, const std::string& path);
+/// \throw osgSkin::Error with `path` where the scene has no joint, more than are allowed, or
+///        joints of one name.
+SceneSkeleton readSceneSkeleton(const aiScene& scene, const std::string& path,
+                                const ReadLimits& limits);
 
 /// The rotation of a matrix, without its scale; none where it mirrors or is flat.
 glm::dquat rotationOf(const glm::dmat4& matrix);

@@ -2,6 +2,8 @@
 #ifndef OSGSKINIMPORT_BVHFILE_H
 #define OSGSKINIMPORT_BVHFILE_H 1
 
+#include <osgSkinImport/ReadLimits>
+
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -49,7 +51,7 @@ struct BvhFile {
 /// in any order. Frames beyond the declared number are passed over, with a notice.
 ///
 /// \throw osgSkin::Error "PATH: line N: what was found, what was expected".
-BvhFile readBvh(const std::string& path);
+BvhFile readBvh(const std::string& path, const ReadLimits& limits);
 
 } // namespace osgSkin
 

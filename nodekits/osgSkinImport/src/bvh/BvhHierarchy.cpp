@@ -9,11 +9,10 @@
 namespace osgSkin {
 namespace {
 
-constexpr std::size_t deepest = 1000; // scene graphs are traversed by recursion
-
 class Reader {
 public:
-    Reader(BvhTokens& words, BvhFile& file) : _words(words), _file(file) {}
+    Reader(BvhTokens& words, const ReadLimits& limits, BvhFile& file)
+        : _words(words), _limits(limits), _file(file) {}
 
     void run() {
         _words.expect("HIERARCHY");
@@ -61,9 +60,12 @@ private:
         joint.parent = _open.empty() ? -1 : _open.back().joint;
         if (!_names.insert(joint.name).second)
             _words.fail("second joint called " + inQuotes(joint.name) + ", expected unique names");
-        if (_open.size() >= deepest)
+        if (_open.size() >= _limits.depth) // scene graphs are traversed by recursion
             _words.fail("joint " + inQuotes(joint.name) + " is nested more than " +
-                        std::to_string(deepest) + " deep");
+                        std::to_string(_limits.depth) + " deep (option maxDepth)");
+        if (_file.joints.size() >= _limits.joints)
+            _words.fail("joint " + inQuotes(joint.name) + " is one of more than " +
+                        std::to_string(_limits.joints) + " (option maxJoints)");
         _words.expect("{");
         _open.push_back({static_cast<int>(_file.joints.size())});
         _file.joints.push_back(std::move(joint));
@@ -114,6 +116,7 @@ private:
     }
 
     BvhTokens& _words;
+    const ReadLimits& _limits;
     BvhFile& _file;
     std::vector<Open> _open;
     std::set<std::string> _names;
@@ -121,8 +124,8 @@ private:
 
 } // namespace
 
-void readBvhHierarchy(BvhTokens& words, BvhFile& file) {
-    Reader(words, file).run();
+void readBvhHierarchy(BvhTokens& words, const ReadLimits& limits, BvhFile& file) {
+    Reader(words, limits, file).run();
 }
 
 } // namespace osgSkin

@@ -9,7 +9,7 @@ namespace osgSkin {
 
 /// Reads the HIERARCHY, up to the brace that closes the ROOT, into `file`: joints and channels.
 /// \throw osgSkin::Error with the line
-void readBvhHierarchy(BvhTokens& words, BvhFile& file);
+void readBvhHierarchy(BvhTokens& words, const ReadLimits& limits, BvhFile& file);
 
 } // namespace osgSkin
 

@@ -3,9 +3,10 @@
 
 #include "text/FileText.h"
 
+#include <osgSkinRig/InRange>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace osgSkin {
 namespace {
@@ -36,8 +37,7 @@ bool isSameWord(std::string_view a, std::string_view b) {
 
 const char* parseFinite(std::string_view word, double& value) {
     if (!parseNumber(word, value) || !std::isfinite(value)) return "a finite number";
-    constexpr double largest = std::numeric_limits<float>::max();
-    return std::abs(value) <= largest ? nullptr : "a number that single precision holds";
+    return std::abs(value) <= kLargestCoordinate ? nullptr : "a number from -1e18 to 1e18";
 }
 
 BvhTokens::BvhTokens(const std::string& path, std::string_view text) : _path(path), _rest(text) {

@@ -126,7 +126,8 @@ const std::string& GltfAccessors::buffer(std::size_t index) {
     if (uri.rfind("data:", 0) == 0)
         content = fromBase64(std::string_view(uri).substr(std::min(uri.find(',') + 1, uri.size())));
     else
-        content = readText(osgDB::concatPaths(osgDB::getFilePath(_file.path), decodedUri(uri)));
+        content = readText(osgDB::concatPaths(osgDB::getFilePath(_file.path), decodedUri(uri)),
+                           _file.limits);
     return content;
 }
 

@@ -56,10 +56,12 @@ bool isSecond(const nlohmann::json& json) {
 
 } // namespace
 
-std::optional<GltfFile> GltfFile::read(const std::string& path) {
+std::optional<GltfFile> GltfFile::read(const std::string& path, const ReadLimits& limits) {
     GltfFile file;
     file.path = path;
-    std::string all = readText(path);
+    file.limits = limits;
+    std::string all = readText(path, limits);
+    file.size = all.size();
     file.isBinary = all.size() > kHeader && all.compare(0, 4, "glTF") == 0;
     if (file.isBinary) {
         std::string text;

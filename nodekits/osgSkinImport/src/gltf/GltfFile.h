@@ -2,6 +2,8 @@
 #ifndef OSGSKINIMPORT_GLTFFILE_H
 #define OSGSKINIMPORT_GLTFFILE_H 1
 
+#include <osgSkinImport/ReadLimits>
+
 #include <nlohmann/json.hpp>
 
 #include <optional>
@@ -16,10 +18,12 @@ struct GltfFile {
     std::optional<std::string> binary; ///< of a binary file: what buffer 0 holds, where it has one
 
     bool isBinary = false;
+    ReadLimits limits; ///< for the other files
+    std::size_t size = 0; ///< in bytes
 
     /// Reads a file. None where it is no glTF 2, or broken as a whole.
     /// \throw osgSkin::Error where the file cannot be opened
-    static std::optional<GltfFile> read(const std::string& path);
+    static std::optional<GltfFile> read(const std::string& path, const ReadLimits& limits);
 
     /// The whole file again, of the kind that it was.
     std::string bytes() const;

@@ -2,6 +2,7 @@
 #include "gltf/PlainGltf.h"
 
 #include "gltf/GltfAccessors.h"
+#include "gltf/GltfCheck.h"
 #include "gltf/GltfExtensions.h"
 #include "gltf/GltfFile.h"
 #include "gltf/GltfMorphs.h"
@@ -31,7 +32,6 @@ public:
     explicit Plainer(GltfFile& file) : _file(file), _accessors(file) {}
 
     void run() {
-        checkExtensions(_file);
         separateMeshes();
         applyMorphs(_file, _accessors);
         nameNodes(_file);
@@ -129,12 +129,15 @@ bool isGltfName(const std::string& path) {
     return extension == "gltf" || extension == "glb" || extension == "vrm";
 }
 
-std::optional<PlainGltf> plainGltf(const std::string& path) {
-    std::optional<GltfFile> file = GltfFile::read(path);
+std::optional<PlainGltf> plainGltf(const std::string& path, const ReadLimits& limits) {
+    std::optional<GltfFile> file = GltfFile::read(path, limits);
     if (!file) return std::nullopt;
     try {
+        const bool backwards = facesBackwards(*file);
+        checkExtensions(*file);
+        file->json = checkedGltf(*file);
         Plainer(*file).run();
-        return PlainGltf{file->bytes(), facesBackwards(*file)};
+        return PlainGltf{file->bytes(), backwards};
     } catch (const json::exception& error) {
         failFile(path, std::string("malformed glTF: ") + error.what());
     }

@@ -2,6 +2,8 @@
 #ifndef OSGSKINIMPORT_PLAINGLTF_H
 #define OSGSKINIMPORT_PLAINGLTF_H 1
 
+#include <osgSkinImport/ReadLimits>
+
 #include <optional>
 #include <string>
 
@@ -21,7 +23,7 @@ bool isGltfName(const std::string& path);
 /// say so.
 /// \throw osgSkin::Error with the file and the place in it where it breaks the specification, or
 ///        is compressed in a way that is not read
-std::optional<PlainGltf> plainGltf(const std::string& path);
+std::optional<PlainGltf> plainGltf(const std::string& path, const ReadLimits& limits);
 
 } // namespace osgSkin
 

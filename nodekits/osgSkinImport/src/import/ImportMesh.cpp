@@ -5,6 +5,7 @@
 #include "assimp/AssimpScene.h"
 #include "mesh/FinishMesh.h"
 #include "mesh/ObjMesh.h"
+#include "mesh/PlyMesh.h"
 #include "osg/OsgMesh.h"
 #include "text/FileText.h"
 
@@ -14,10 +15,12 @@ namespace osgSkin {
 namespace {
 
 CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
+    const ReadLimits limits = ReadLimits::of(options);
+    limits.checkFormat(path);
     // Assimp's and OSG's OBJ readers reorder the vertices.
     if (osgDB::getLowerCaseFileExtension(path) == "obj") return readObjMesh(path, options);
+    if (osgDB::getLowerCaseFileExtension(path) == "ply") return readPlyMesh(path, options);
     if (!assimpReads(path)) return readOsgMesh(path, options);
-    requireReadable(path);
     return readAssimpMesh(path, options);
 }
 

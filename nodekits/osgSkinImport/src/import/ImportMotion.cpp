@@ -11,6 +11,7 @@
 #include "text/FileText.h"
 
 #include <osgSkin/GlmTypes>
+#include <osgSkinRig/InRange>
 
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
@@ -25,8 +26,8 @@ void validate(const Motion& motion, const std::string& path) {
     const std::size_t joints = motion.skeleton.joints.size();
     for (std::size_t f = 0; f < motion.frames; ++f) {
         const std::string where = "frame " + std::to_string(f) + ": ";
-        if (!isFinite(motion.rootPositions[f]))
-            failFile(path, where + "the root's position is not finite");
+        if (!isInRange(motion.rootPositions[f]))
+            failFile(path, where + "the root's position is not finite, or beyond -1e18 to 1e18");
         for (std::size_t j = 0; j < joints; ++j)
             if (!isFinite(motion.rotation(f, j)))
                 failFile(path, where + "joint " + inQuotes(motion.skeleton.joints[j].name) +
@@ -34,17 +35,18 @@ void validate(const Motion& motion, const std::string& path) {
     }
 }
 
-Motion readBvhMotion(const std::string& path, const std::string& clip) {
+Motion readBvhMotion(const std::string& path, const std::string& clip, const ReadLimits& limits) {
     if (!clip.empty()) findClip({osgDB::getStrippedName(path)}, clip, path); // one, called so
-    const BvhFile file = readBvh(path);
+    const BvhFile file = readBvh(path, limits);
     if (file.frames == 0) failFile(path, "no frame, expected at least one");
     return makeMotion(file, path);
 }
 
-Motion readAssimpMotion(const std::string& path, const std::string& clip) {
-    requireReadable(path);
+Motion readAssimpMotion(const std::string& path, const std::string& clip,
+                        const ReadLimits& limits) {
+    const std::size_t bytes = requireReadable(path, limits);
     Assimp::Importer importer;
-    const aiScene& scene = readAssimpScene(importer, path);
+    const aiScene& scene = readAssimpScene(importer, path, limits);
     if (scene.mNumAnimations == 0) failFile(path, "no animation, expected at least one");
     const std::vector<std::string> names = clipNames(scene);
     if (clip.empty() && names.size() > 1)
@@ -53,7 +55,8 @@ Motion readAssimpMotion(const std::string& path, const std::string& clip) {
     const std::size_t chosen = clip.empty() ? 0 : findClip(names, clip, path);
     auto& owned = const_cast<aiScene&>(scene); // the importer's, which nobody else sees
     takeTrackOffsets(*scene.mAnimations[chosen], *owned.mRootNode);
-    Motion motion = sampleTracks(*scene.mAnimations[chosen], readSceneSkeleton(scene, path), path);
+    Motion motion = sampleTracks(*scene.mAnimations[chosen], readSceneSkeleton(scene, path, limits),
+                                 limits.samplesOf(bytes), path);
     validate(motion, path);
     motion.name = names[chosen];
     return motion;
@@ -69,9 +72,12 @@ void dropFirst(Motion& motion, std::size_t count) {
 
 } // namespace
 
-Motion importMotion(const std::string& path, std::size_t skipFrames, const std::string& clip) {
+Motion importMotion(const std::string& path, std::size_t skipFrames, const std::string& clip,
+                    const osgDB::Options* options) {
+    const ReadLimits limits = ReadLimits::of(options);
+    limits.checkFormat(path);
     const bool isBvh = osgDB::getLowerCaseFileExtension(path) == "bvh";
-    Motion motion = isBvh ? readBvhMotion(path, clip) : readAssimpMotion(path, clip);
+    Motion motion = isBvh ? readBvhMotion(path, clip, limits) : readAssimpMotion(path, clip, limits);
     if (isBvh || clip.empty()) motion.name = osgDB::getStrippedName(path);
     if (skipFrames >= motion.frames)
         failFile(path, std::to_string(motion.frames) + " frame(s), expected more than the " +

@@ -52,18 +52,20 @@ bool isReadByAssimp(const std::string& path) {
 }
 
 ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
-    requireReadable(path);
+    const ReadLimits limits = ReadLimits::of(options);
+    limits.checkFormat(path);
+    const std::size_t bytes = requireReadable(path, limits);
     if (!assimpReads(path)) failFile(path, "Assimp reads no files of this kind");
     Assimp::Importer importer;
-    const aiScene& scene = readAssimpScene(importer, path);
+    const aiScene& scene = readAssimpScene(importer, path, limits);
     if (!isRigged(scene)) failFile(path, "no mesh with bones, expected a rigged character");
 
     ImportedRig result;
     result.body = finishMesh(readSceneMesh(scene, path, options), path);
-    const SceneSkeleton joints = readSceneSkeleton(scene, path);
+    const SceneSkeleton joints = readSceneSkeleton(scene, path, limits);
     result.rest = joints.rest;
     result.skeleton = makeBones(joints, movedJoints(scene, joints));
-    result.animations = makeClips(scene, joints, path);
+    result.animations = makeClips(scene, joints, limits.samplesOf(bytes), path);
     result.toWorld = toWorld(scene, path);
     result.metresPerUnit = metresPerUnit(scene, path);
     return result;

@@ -13,11 +13,13 @@
 namespace osgSkin {
 
 RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* options) {
-    if (osgDB::getLowerCaseFileExtension(path) == "bvh") return makeRestSkeleton(readBvh(path));
+    const ReadLimits limits = ReadLimits::of(options);
+    limits.checkFormat(path);
+    if (osgDB::getLowerCaseFileExtension(path) == "bvh")
+        return makeRestSkeleton(readBvh(path, limits));
     if (!assimpReads(path)) return readOsgSkeleton(*readOsgScene(path, options), path);
-    requireReadable(path);
     Assimp::Importer importer;
-    return readSceneSkeleton(readAssimpScene(importer, path), path).rest;
+    return readSceneSkeleton(readAssimpScene(importer, path, limits), path, limits).rest;
 }
 
 } // namespace osgSkin

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/Material.h"
 
+#include "text/FileText.h"
+
 #include <osg/AlphaFunc>
 #include <osg/CullFace>
 #include <osg/LightModel>
@@ -8,6 +10,7 @@
 #include <osg/Texture2D>
 
 #include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
 #include <algorithm>
@@ -68,6 +71,12 @@ osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string&
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
     const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
+    // Nothing is fetched from a network, and what is no regular file may never end.
+    if (osgDB::containsServerAddress(fileName) ||
+        !isRegularFile(osgDB::findDataFile(fileName, local))) {
+        missing.add(name);
+        return nullptr;
+    }
     // osgDB::readImageFile() would warn of each by itself.
     osg::ref_ptr<osg::Image> image =
         osgDB::Registry::instance()->readImage(fileName, local).getImage();

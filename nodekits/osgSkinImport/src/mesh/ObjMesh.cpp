@@ -5,6 +5,8 @@
 #include "text/FileText.h"
 #include "text/ObjCheck.h"
 
+#include <osgSkin/Error>
+
 #include <osg/Notify>
 
 #include <osgDB/FileNameUtils>
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -67,6 +70,33 @@ private:
     MissingTextures _missing;
 };
 
+/// Reads a material library as it is when checked.
+class CheckedMaterials : public tinyobj::MaterialReader {
+public:
+    CheckedMaterials(std::string folder, const ReadLimits& limits)
+        : _folder(std::move(folder)), _limits(limits) {}
+
+    bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                    std::map<std::string, int>* numbers, std::string* warning,
+                    std::string* error) override {
+        const std::string path = _folder.empty() || osgDB::isAbsolutePath(name)
+                                     ? name
+                                     : osgDB::concatPaths(_folder, name);
+        try {
+            std::istringstream lines(checkMtl(readText(path, _limits)));
+            tinyobj::LoadMtl(numbers, materials, &lines, warning, error);
+            return true;
+        } catch (const Error& failure) {
+            *warning += std::string(failure.what()) + '\n';
+            return false;
+        }
+    }
+
+private:
+    const std::string _folder;
+    const ReadLimits& _limits;
+};
+
 glm::vec3 normalAt(const tinyobj::attrib_t& attributes, int index) {
     if (index < 0) return glm::vec3(0.0f);
     const tinyobj::real_t* n = &attributes.normals[3 * static_cast<std::size_t>(index)];
@@ -101,17 +131,15 @@ void addShape(const tinyobj::mesh_t& shape, const tinyobj::attrib_t& attributes,
 } // namespace
 
 CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
-    const std::string text = readText(path);
-    checkObj(path, text);
+    const ReadLimits limits = ReadLimits::of(options);
+    const std::string text = checkObj(path, readText(path, limits));
 
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warning;
     std::string error;
-    std::string folder = osgDB::getFilePath(path);
-    if (!folder.empty()) folder += '/';
-    tinyobj::MaterialFileReader materialReader(folder);
+    CheckedMaterials materialReader(osgDB::getFilePath(path), limits);
     std::istringstream stream(text);
     const bool read = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
                                        &materialReader, false, false);

@@ -8,12 +8,14 @@
 
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkinRig/InRange>
 
 #include <osgAnimation/Channel>
 #include <osgAnimation/Sampler>
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -31,7 +33,7 @@ Tracks tracksOf(const aiAnimation& animation) {
 }
 
 bool isValid(const glm::dvec3& v) {
-    return isFinite(v);
+    return isInRange(v);
 }
 
 bool isValid(const glm::dquat& q) {
@@ -79,7 +81,7 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
         if (!isValid(value) || !std::isfinite(keys[k].mTime))
             failFile(path, "animation " + inQuotes(animation.getName()) + ": joint " +
                                inQuotes(joint) + ": key " + std::to_string(k) + " of its " +
-                               element + " is not finite");
+                               element + " is not finite, or beyond -1e18 to 1e18");
         const double time = count > 1 ? clock.seconds(keys[k].mTime) : 0.0;
         if (!(time > last)) continue; // interpolation needs keys in order
         container->push_back(Keyframe(time, stored(value)));
@@ -147,8 +149,14 @@ std::vector<bool> movedJoints(const aiScene& scene, const SceneSkeleton& joints)
 }
 
 osgAnimation::AnimationList makeClips(const aiScene& scene, const SceneSkeleton& joints,
-                                      const std::string& path) {
+                                      std::size_t mostSamples, const std::string& path) {
     const std::vector<bool> moves = movedJoints(scene, joints);
+    const auto moved = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), true));
+    // Every clip has channels for all joints that any clip moves.
+    if (moved * scene.mNumAnimations > mostSamples / 8)
+        failFile(path, std::to_string(scene.mNumAnimations) + " animations of " +
+                           std::to_string(moved) + " joints, expected at most " +
+                           std::to_string(mostSamples / 8) + " tracks (option maxSamples)");
     osgAnimation::AnimationList result;
     const std::vector<std::string> names = clipNames(scene);
     for (unsigned a = 0; a < scene.mNumAnimations; ++a)

@@ -17,7 +17,7 @@ std::vector<bool> movedJoints(const aiScene& scene, const SceneSkeleton& joints)
 /// The scene's clips for the bones of makeBones(); clips that move no joint are left out.
 /// \throw osgSkin::Error where a key is not finite
 osgAnimation::AnimationList makeClips(const aiScene& scene, const SceneSkeleton& joints,
-                                      const std::string& path);
+                                      std::size_t mostSamples, const std::string& path);
 
 } // namespace osgSkin
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLeastRate = 29.9; ///< 30, and NTSC's 29.97
 constexpr int kMostRate = 240, kFreeRate = 120;
+constexpr double kMostSteps = 1e15; ///< far more than anybody allows
 constexpr double kOff = 0.05; ///< of a step: times are rounded to milliseconds in some formats
 
 /// Whether all keys stand on samples, seconds after the first.
@@ -41,7 +42,7 @@ SampleGrid::SampleGrid(std::vector<double> times) {
                             [same](double a, double b) { return b - a <= same; }),
                 times.end());
     times.back() = span;
-    const double steps = std::max(1.0, std::ceil(span * rateOf(times) - kOff));
+    const double steps = std::max(1.0, std::ceil(std::min(span * rateOf(times), kMostSteps) - kOff));
     _samples = static_cast<std::size_t>(steps) + 1;
     _step = span / steps;
 }

@@ -17,8 +17,6 @@
 namespace osgSkin {
 namespace {
 
-constexpr double kMostRotations = 1e8; ///< more is a mistake in the file, and fills the memory
-
 /// The times of a track's keys, in seconds. A single key holds its value at all times, and Assimp
 /// adds some at 0.
 template <typename Key>
@@ -107,7 +105,7 @@ glm::dmat4 localMatrix(const aiNodeAnim* track, const aiNode& node, const Moment
 } // namespace
 
 Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
-                    const std::string& path) {
+                    std::size_t mostSamples, const std::string& path) {
     const std::vector<const aiNodeAnim*> tracks = tracksOf(animation, skeleton);
     const double rate = animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : 25.0;
     std::vector<double> times;
@@ -121,11 +119,13 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
     if (times.empty() && any) times.push_back(0.0); // a pose
     if (times.empty()) failFile(path, "no key in its animation, expected at least one");
     const SampleGrid grid(std::move(times));
-    if (!(static_cast<double>(grid.samples()) * static_cast<double>(tracks.size()) <
-          kMostRotations))
+    if (!(static_cast<double>(grid.samples()) * static_cast<double>(tracks.size()) <=
+          static_cast<double>(mostSamples)))
         failFile(path, "its animation lasts " +
-                           std::to_string(grid.step() * double(grid.samples())) +
-                           " s, expected some minutes");
+                           std::to_string(grid.step() * double(grid.samples())) + " s, " +
+                           std::to_string(grid.samples()) + " frames of " +
+                           std::to_string(tracks.size()) + " joints, expected at most " +
+                           std::to_string(mostSamples) + " rotations (option maxSamples)");
 
     Motion motion;
     const std::vector<bool> moved = findMovedJoints(tracks, skeleton);

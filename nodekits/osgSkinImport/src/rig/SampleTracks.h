@@ -17,9 +17,10 @@ namespace osgSkin {
 ///
 /// Of positions, those of the root are used, or of the joint that rootMotionJoint() finds; moves of
 /// others are left out, with a notice.
-/// \throw osgSkin::Error with `path` where no track has a key, or the keys' times make no sense.
+/// \throw osgSkin::Error with `path` where no track has a key, the keys' times make no sense, or
+///        joints times frames are more than `mostSamples`.
 Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
-                    const std::string& path);
+                    std::size_t mostSamples, const std::string& path);
 
 } // namespace osgSkin
 

@@ -9,24 +9,29 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 namespace osgSkin {
 namespace {
 
-std::string onOneLine(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' '))
-        text.pop_back();
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    return text;
-}
+constexpr std::size_t kMegabyte = 1 << 20;
 
-std::ifstream open(const std::string& path) {
-    std::error_code ignored;
-    // A directory opens as a stream on Linux and only fails once it is read.
-    if (std::filesystem::is_directory(path, ignored))
+/// Opens a regular file and tells its size.
+std::ifstream open(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
+                   std::size_t& size) {
+    std::error_code failure;
+    const std::filesystem::file_status status = std::filesystem::status(path, failure);
+    if (status.type() == std::filesystem::file_type::directory)
         failFile(path, "cannot open: it is a directory");
+    if (failure || status.type() == std::filesystem::file_type::not_found)
+        failFile(path, "cannot open: " +
+                           (failure ? failure.message() : std::string(std::strerror(ENOENT))));
+    if (status.type() != std::filesystem::file_type::regular)
+        failFile(path, "cannot open: it is no regular file, expected neither pipe nor device");
+    size = static_cast<std::size_t>(std::filesystem::file_size(path, failure));
+    if (failure) failFile(path, "cannot open: " + failure.message());
+    if (size / kMegabyte >= mostMegabytes)
+        failFile(path, std::to_string(size) + " bytes, expected less than " +
+                           std::to_string(mostMegabytes) + " MB (option " + raisedBy + ")");
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     if (!stream)
@@ -37,6 +42,14 @@ std::ifstream open(const std::string& path) {
 
 } // namespace
 
+std::string onOneLine(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' '))
+        text.pop_back();
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    return text;
+}
+
 void failFile(const std::string& path, const std::string& message) {
     throw Error(onOneLine(path + ": " + message));
 }
@@ -45,16 +58,30 @@ void failLine(const std::string& path, std::size_t line, const std::string& mess
     failFile(path, "line " + std::to_string(line) + ": " + message);
 }
 
-void requireReadable(const std::string& path) {
-    open(path);
+std::size_t requireReadable(const std::string& path, const ReadLimits& limits) {
+    std::size_t size = 0;
+    open(path, limits.fileMegabytes, "maxFileMB", size);
+    return size;
 }
 
-std::string readText(const std::string& path) {
-    std::ifstream stream = open(path);
-    std::ostringstream content;
-    if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
-    if (stream.bad()) failFile(path, "cannot be read to its end");
-    return std::move(content).str();
+bool isRegularFile(const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+}
+
+std::string readText(const std::string& path, const ReadLimits& limits) {
+    return readWholeFile(path, limits.fileMegabytes, "maxFileMB");
+}
+
+std::string readWholeFile(const std::string& path, std::size_t mostMegabytes,
+                          const char* raisedBy) {
+    std::size_t size = 0;
+    std::ifstream stream = open(path, mostMegabytes, raisedBy, size);
+    std::string text(size, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(size));
+    if (static_cast<std::size_t>(stream.gcount()) != size)
+        failFile(path, "cannot be read to its end");
+    return text;
 }
 
 bool parseNumber(std::string_view token, double& value) {

@@ -2,6 +2,8 @@
 #ifndef OSGSKINIMPORT_FILETEXT_H
 #define OSGSKINIMPORT_FILETEXT_H 1
 
+#include <osgSkinImport/ReadLimits>
+
 #include <string>
 #include <string_view>
 
@@ -13,15 +15,23 @@ namespace osgSkin {
 /// Throws osgSkin::Error "PATH: line N: MESSAGE".
 [[noreturn]] void failLine(const std::string& path, std::size_t line, const std::string& message);
 
-/// The whole content of a file; throws osgSkin::Error with the reason where it cannot be read.
-std::string readText(const std::string& path);
+/// The whole content of a file, for any reader; throws osgSkin::Error with the reason where it
+/// cannot be read or is larger than allowed.
+std::string readText(const std::string& path, const ReadLimits& limits);
 
-/// Throws osgSkin::Error where the file cannot be opened for reading.
-void requireReadable(const std::string& path);
+/// Throws osgSkin::Error unless `path` is a regular file that can be opened and is no larger than
+/// allowed; returns its size.
+std::size_t requireReadable(const std::string& path, const ReadLimits& limits);
+
+/// Whether `path` is a regular file: opening anything else may take for ever.
+bool isRegularFile(const std::string& path);
 
 /// Reads all of `token` as a decimal number, in any locale; false where it is none. May give NaN
 /// or infinity.
 bool parseNumber(std::string_view token, double& value);
+
+/// All of a text on one line, control characters replaced.
+std::string onOneLine(std::string text);
 
 /// `token` in quotes, cut short and with control characters replaced, for an error message.
 std::string inQuotes(std::string_view token);

@@ -3,25 +3,38 @@
 
 #include "text/FileText.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <string_view>
+#include <utility>
 
 namespace osgSkin {
 namespace {
 
+constexpr std::string_view kLineEnds("\n\r\0", 3);
+constexpr std::size_t kLongestName = 4000;
+constexpr std::size_t kMostNumbers = 7;  // a place and a colour, or with a weight
 constexpr std::size_t mostCorners = 255; // tinyobjloader counts them in a byte
 
 /// Takes the next word off `line`; empty at its end.
 std::string_view takeWord(std::string_view& line) {
-    const std::size_t start = line.find_first_not_of(" \t\r");
+    const std::size_t start = line.find_first_not_of(" \t");
     if (start == std::string_view::npos) return line = {};
     line.remove_prefix(start);
-    const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
     line.remove_prefix(word.size());
     return word;
+}
+
+/// Adds a number as it stands; one that tinyobjloader would overflow at as 0.
+void addNumber(std::string_view word, double value, std::string& out) {
+    const double size = std::abs(value);
+    out += ' ';
+    out += size > 1e-300 && size < 1e300 && word.size() < 400 ? word : std::string_view("0");
 }
 
 /// What an OBJ face refers to, in the order of a corner's v/vt/vn.
@@ -33,9 +46,14 @@ constexpr std::array<const char*, 3> kinds{"vertex", "texture coordinate", "norm
 /// Calls `use(keyword, rest of the line, line number)` for each line that has a keyword.
 template <typename Use>
 void forEachLine(std::string_view text, const Use& use) {
+    const std::string_view byteOrderMark = "\xef\xbb\xbf";
+    if (text.substr(0, byteOrderMark.size()) == byteOrderMark)
+        text.remove_prefix(byteOrderMark.size());
     for (std::size_t number = 1; !text.empty(); ++number) {
-        std::string_view line = text.substr(0, text.find('\n'));
-        text.remove_prefix(std::min(text.size(), line.size() + 1));
+        // What C takes for the end of a text ends a line here.
+        std::string_view line = text.substr(0, text.find_first_of(kLineEnds));
+        text.remove_prefix(line.size());
+        text.remove_prefix(text.substr(0, 2) == "\r\n" ? 2 : std::min<std::size_t>(1, text.size()));
         const std::string_view keyword = takeWord(line);
         if (!keyword.empty()) use(keyword, line, number);
     }
@@ -57,23 +75,38 @@ public:
             numbers(keyword, rest);
         } else if (keyword == "f") {
             face(rest);
+            keep(keyword, rest);
+        } else if (keyword == "usemtl" ||
+                   (keyword == "mtllib" && _libraries.emplace(rest).second)) {
+            keep(keyword, rest);
         }
     }
 
+    std::string take() { return std::move(_checked); }
+
 private:
-    void numbers(std::string_view keyword, std::string_view rest) const {
+    void keep(std::string_view keyword, std::string_view rest) {
+        _checked.append(keyword).append(rest) += '\n';
+    }
+
+    void numbers(std::string_view keyword, std::string_view rest) {
         const std::size_t expected = keyword == "vt" ? 1 : 3;
-        for (std::size_t k = 0; k < expected; ++k) {
+        _checked.append(keyword);
+        for (std::size_t k = 0; k < kMostNumbers; ++k) {
             const std::string_view word = takeWord(rest);
             double value = 0.0;
             const bool isNumber = parseNumber(word, value);
             // A body is drawn well enough without a broken normal: all are computed then.
-            if (isNumber && (std::isfinite(value) || keyword == "vn")) continue;
+            const bool isFine = isNumber && (std::isfinite(value) || keyword == "vn");
+            if (isFine) addNumber(word, value, _checked);
+            if (!isFine && k >= expected) break;
+            if (isFine) continue;
             failLine(_path, _line,
                      (word.empty() ? "nothing" : inQuotes(word)) + std::string(" in a \"") +
                          std::string(keyword) + "\" line, expected " + std::to_string(expected) +
                          " finite numbers");
         }
+        _checked += '\n';
     }
 
     void face(std::string_view rest) const {
@@ -118,12 +151,53 @@ private:
     const std::string& _path;
     const Counts& _total;
     Counts _soFar;
+    std::set<std::string_view> _libraries; ///< of materials: each is read once
+    std::string _checked;
     std::size_t _line = 0;
 };
 
+/// Whether an option among the words is a number that tinyobjloader would overflow at.
+bool hasOverflow(std::string_view words) {
+    for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words)) {
+        double value = 0.0;
+        std::string text;
+        if (!parseNumber(word, value)) continue;
+        addNumber(word, value, text);
+        if (value != 0.0 && text == " 0") return true;
+    }
+    return false;
+}
+
+/// Keywords of material libraries that are used, and how many numbers follow; 0: a file's name.
+struct MtlKeyword {
+    const char* name;
+    std::size_t numbers;
+};
+constexpr MtlKeyword kMtlKeywords[] = {{"newmtl", 0}, {"Kd", 3}, {"Ks", 3}, {"Ke", 3},
+                                       {"Ns", 1},     {"d", 1},  {"Tr", 1}, {"map_Kd", 0}};
+
 } // namespace
 
-void checkObj(const std::string& path, const std::string& text) {
+std::string checkMtl(std::string_view text) {
+    std::string checked;
+    forEachLine(text, [&](std::string_view keyword, std::string_view rest, std::size_t) {
+        for (const MtlKeyword& known : kMtlKeywords) {
+            if (keyword != known.name) continue;
+            std::string line(keyword);
+            for (std::size_t k = 0; k < known.numbers; ++k) {
+                const std::string_view word = takeWord(rest);
+                double value = 0.0;
+                if (!parseNumber(word, value) || !std::isfinite(value)) value = 0.0;
+                addNumber(word, value, line);
+            }
+            if (known.numbers == 0) line += rest.substr(0, kLongestName);
+            if (known.numbers > 0 || !hasOverflow(rest)) checked += line + '\n';
+        }
+    });
+    return checked;
+}
+
+std::string checkObj(const std::string& path, std::string_view text) {
     Counts total;
     forEachLine(text, [&](std::string_view keyword, std::string_view, std::size_t) {
         const int kind = kindOf(keyword);
@@ -134,6 +208,7 @@ void checkObj(const std::string& path, const std::string& text) {
     forEachLine(text, [&](std::string_view keyword, std::string_view rest, std::size_t number) {
         checker.line(keyword, rest, number);
     });
+    return checker.take();
 }
 
 } // namespace osgSkin

@@ -3,15 +3,22 @@
 #define OSGSKINIMPORT_OBJCHECK_H 1
 
 #include <string>
+#include <string_view>
 
 namespace osgSkin {
 
-/// Checks the vertices and faces of an OBJ file before tinyobjloader parses it.
+/// Checks the vertices, faces and materials of an OBJ file before tinyobjloader parses it.
 ///
 /// tinyobjloader reads what is no number as 0, reads "12abc" as 12, drops faces with too few
-/// corners and passes on indices beyond the vertices. None of that gets past here.
+/// corners, passes on indices beyond the vertices, and takes what memory tags ask for. None of that
+/// gets past here. A line ends with LF, CR or both.
+/// \return the lines that were checked, in their order and with their own digits, and no others
 /// \throw osgSkin::Error "PATH: line N: what was expected".
-void checkObj(const std::string& path, const std::string& text);
+std::string checkObj(const std::string& path, std::string_view text);
+
+/// The same of a library of materials, where nothing is refused: lines with a keyword that is used,
+/// and numbers that are some.
+std::string checkMtl(std::string_view text);
 
 } // namespace osgSkin
 

@@ -3,108 +3,123 @@
 
 #include "text/FileText.h"
 
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace osgSkin {
 namespace {
 
-[[noreturn]] void failList(const std::string& path, const PlyHeader::Element& element, double index,
-                           double length) {
-    failFile(path, "element \"" + element.name + "\" " + std::to_string(std::uint64_t(index)) +
-                       ": a list of " + std::to_string(std::int64_t(length)) +
-                       " entries, expected no more than the file has room for");
-}
-
-/// A body of bytes; leaves at its end.
-class BinaryBody {
+/// A body of bytes.
+class PlyBytes {
 public:
-    BinaryBody(std::string_view body, bool bigEndian) : _rest(body), _bigEndian(bigEndian) {}
+    PlyBytes(std::string_view body, bool bigEndian) : _rest(body), _bigEndian(bigEndian) {}
 
-    bool skip(double bytes) {
-        if (!(bytes >= 0.0 && bytes <= double(_rest.size()))) return false;
-        _rest.remove_prefix(std::size_t(bytes));
-        return true;
+    /// Null, or what is wrong.
+    const char* read(const PlyHeader::Type& type, double& number) {
+        if (_rest.size() < type.bytes) return "the file ends here";
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < type.bytes; ++i)
+            bits = bits << 8 | std::uint8_t(_rest[_bigEndian ? i : type.bytes - 1 - i]);
+        _rest.remove_prefix(type.bytes);
+        number = numberOf(bits, type);
+        return nullptr;
     }
 
-    bool readCount(const PlyHeader::Property& list, double& count) {
-        if (_rest.size() < list.countBytes) return false;
-        std::uint64_t value = 0;
-        for (std::size_t i = 0; i < list.countBytes; ++i) {
-            const std::size_t at = _bigEndian ? i : list.countBytes - 1 - i;
-            value = value << 8 | std::uint8_t(_rest[at]);
-        }
-        _rest.remove_prefix(list.countBytes);
-        count = double(value);
-        const double range = double(std::uint64_t(1) << (8 * list.countBytes));
-        if (list.countIsSigned && count >= range / 2.0) count -= range;
-        return true;
-    }
-
-    bool hasRoom(double entries, std::size_t bytes) const {
-        return entries >= 0.0 && entries * double(bytes) <= double(_rest.size());
+    bool hasRoom(double entries, const PlyHeader::Type& type) const {
+        return entries >= 0.0 && entries * double(type.bytes) <= double(_rest.size());
     }
 
 private:
+    static double numberOf(std::uint64_t bits, const PlyHeader::Type& type) {
+        if (type.kind == PlyHeader::Kind::Floating) {
+            if (type.bytes == 8) return as<double>(bits);
+            return double(as<float>(std::uint32_t(bits)));
+        }
+        const double range = std::ldexp(1.0, int(8 * type.bytes));
+        const bool negative = type.kind == PlyHeader::Kind::Signed && double(bits) >= range / 2.0;
+        return double(bits) - (negative ? range : 0.0);
+    }
+
+    template <typename Number, typename Bits>
+    static Number as(Bits bits) {
+        static_assert(sizeof(Number) == sizeof(Bits), "the same bytes");
+        Number number;
+        std::memcpy(&number, &bits, sizeof number);
+        return number;
+    }
+
     std::string_view _rest;
     bool _bigEndian;
 };
 
 /// A body of words; an entry takes two characters at least.
-class TextBody {
+class PlyWords {
 public:
-    explicit TextBody(std::string_view body) : _rest(body) {}
+    explicit PlyWords(std::string_view body) : _rest(body) {}
 
-    bool skip(double words) {
-        std::string_view word;
-        for (; words > 0.0; words -= 1.0)
-            if (!next(word)) return false;
-        return true;
+    const char* read(const PlyHeader::Type&, double& number) {
+        const char* const blank = " \t\r\n";
+        const std::size_t begin = _rest.find_first_not_of(blank);
+        if (begin == std::string_view::npos) return "the file ends here";
+        const std::size_t end = std::min(_rest.find_first_of(blank, begin), _rest.size());
+        const bool isNumber = parseNumber(_rest.substr(begin, end - begin), number);
+        _rest.remove_prefix(end);
+        return isNumber ? nullptr : "a word that is no number";
     }
 
-    bool readCount(const PlyHeader::Property&, double& count) {
-        std::string_view word;
-        return next(word) && parseNumber(word, count);
-    }
-
-    bool hasRoom(double entries, std::size_t) const {
+    bool hasRoom(double entries, const PlyHeader::Type&) const {
         return entries >= 0.0 && 2.0 * entries <= double(_rest.size()) + 1.0;
     }
 
 private:
-    bool next(std::string_view& word) {
-        const char* const blank = " \t\r\n";
-        const std::size_t begin = _rest.find_first_not_of(blank);
-        if (begin == std::string_view::npos) return false;
-        const std::size_t end = std::min(_rest.find_first_of(blank, begin), _rest.size());
-        word = _rest.substr(begin, end - begin);
-        _rest.remove_prefix(end);
-        return true;
-    }
-
     std::string_view _rest;
 };
 
+/// A list's length for a message: a whole number where it is one.
+std::string lengthText(double length) {
+    return std::abs(length) < 1e15 && length == std::floor(length)
+               ? std::to_string(static_cast<std::int64_t>(length))
+               : std::to_string(length);
+}
+
 template <typename Body>
-void walk(const std::string& path, const PlyHeader& header, Body body, bool binary) {
+void walk(const std::string& path, const PlyHeader& header, Body body, const TakePlyEntry& take) {
+    PlyValues values;
     for (const PlyHeader::Element& element : header.elements)
-        for (double i = 0.0; i < element.count; i += 1.0)
-            for (const PlyHeader::Property& property : element.properties) {
-                double entries = 1.0;
-                if (property.countBytes > 0) {
-                    if (!body.readCount(property, entries)) return;
-                    if (!body.hasRoom(entries, property.bytes)) failList(path, element, i, entries);
+        for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+            const auto fail = [&](const std::string& what) {
+                failFile(path,
+                         "element \"" + element.name + "\" " + std::to_string(i) + ": " + what);
+            };
+            values.resize(element.properties.size());
+            for (std::size_t p = 0; p < values.size(); ++p) {
+                const PlyHeader::Property& property = element.properties[p];
+                double entries = 1.0, number = 0.0;
+                if (property.count) {
+                    if (const char* wrong = body.read(*property.count, entries)) fail(wrong);
+                    if (!body.hasRoom(entries, property.type) || entries != std::floor(entries))
+                        fail("a list of " + lengthText(entries) +
+                             " entries, expected no more than the file has room for");
                 }
-                if (!body.skip(binary ? entries * double(property.bytes) : entries)) return;
+                values[p].clear();
+                for (double k = 0.0; k < entries; k += 1.0) {
+                    if (const char* wrong = body.read(property.type, number)) fail(wrong);
+                    values[p].push_back(number);
+                }
             }
+            take(element, i, values);
+        }
 }
 
 } // namespace
 
-void checkPlyLists(const std::string& path, const PlyHeader& header, std::string_view body) {
+void readPlyBody(const std::string& path, const PlyHeader& header, std::string_view body,
+                 const TakePlyEntry& take) {
     if (header.format == PlyHeader::Format::Text)
-        walk(path, header, TextBody(body), false);
+        walk(path, header, PlyWords(body), take);
     else
-        walk(path, header, BinaryBody(body, header.format == PlyHeader::Format::BigEndian), true);
+        walk(path, header, PlyBytes(body, header.format == PlyHeader::Format::BigEndian), take);
 }
 
 } // namespace osgSkin

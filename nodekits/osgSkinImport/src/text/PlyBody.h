@@ -2,34 +2,29 @@
 #ifndef OSGSKINIMPORT_PLYBODY_H
 #define OSGSKINIMPORT_PLYBODY_H 1
 
-#include <cstddef>
+#include "text/PlyHeader.h"
+
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace osgSkin {
 
-/// What a PLY file's header says about its content.
-struct PlyHeader {
-    struct Property {
-        std::size_t bytes = 0;      ///< of a value, or of a list's entries
-        std::size_t countBytes = 0; ///< of a list's length; 0: no list
-        bool countIsSigned = false;
-    };
-    struct Element {
-        std::string name;
-        double count = 0.0;
-        std::vector<Property> properties;
-    };
-    enum class Format { Text, LittleEndian, BigEndian };
-    Format format = Format::Text;
-    std::vector<Element> elements;
-};
+/// What one entry of an element holds: for each property its value, or a list's values.
+using PlyValues = std::vector<std::vector<double>>;
 
-/// Checks that each list is as long as it says: Assimp 5.2.5 asks for the memory first.
+/// Takes an entry: the element, its number in it, and its values.
+using TakePlyEntry =
+    std::function<void(const PlyHeader::Element&, std::size_t index, const PlyValues&)>;
+
+/// Reads all that comes after a PLY file's header. No more memory is taken than for one entry,
+/// whatever the file says.
 /// \param body all that comes after the header
-/// \throw osgSkin::Error naming the element. A body that is merely cut short is left to Assimp
-void checkPlyLists(const std::string& path, const PlyHeader& header, std::string_view body);
+/// \throw osgSkin::Error naming element and entry where a number is none, a list longer than the
+///        file, or the file at its end too soon
+void readPlyBody(const std::string& path, const PlyHeader& header, std::string_view body,
+                 const TakePlyEntry& take);
 
 } // namespace osgSkin
 

@@ -3,6 +3,7 @@
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
+#include <osgSkinRig/InRange>
 
 #include <glm/common.hpp>
 
@@ -15,9 +16,9 @@ void SkinMesh::validate() const {
     if (positions.empty()) throw Error("mesh: no vertex, expected at least 3");
     if (faceSizes.empty()) throw Error("mesh: no face, expected at least one");
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        if (!isFinite(positions[v]))
-            throw Error("mesh: vertex " + std::to_string(v) +
-                        " has a coordinate that is not finite");
+        if (isInRange(positions[v])) continue;
+        throw Error("mesh: vertex " + std::to_string(v) + " has a coordinate " +
+                    (isFinite(positions[v]) ? "beyond -1e18 to 1e18" : "that is not finite"));
     }
     std::size_t corner = 0;
     for (std::size_t f = 0; f < faceSizes.size(); ++f) {

@@ -14,8 +14,10 @@
 #include "retarget/UprightFrames.h"
 #include "skeleton/SkeletonTree.h"
 
+#include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
 #include <osgSkinRig/ForwardKinematics>
+#include <osgSkinRig/InRange>
 
 #include <glm/trigonometric.hpp>
 
@@ -162,6 +164,10 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     const StandingPose pose = findStandingPose(motion, rig, map.motionJoint, map.rig, map.motion);
     Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, report)
                             : aligned(pose.counted ? *pose.counted : motion, rig, map, report);
+    for (std::size_t f = 0; f < clip.frames; ++f)
+        if (!isInRange(clip.rootPositions[f]))
+            throw Error("retarget: frame " + std::to_string(f) +
+                        ": the root's position is not finite, or beyond -1e18 to 1e18");
     if (report != nullptr) {
         report->notes.insert(report->notes.begin(), pose.notes.begin(), pose.notes.end());
         for (std::string& note : notesOf(map, rig, motion.skeleton, options))

@@ -4,6 +4,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkinRig/InRange>
 
 #include <set>
 
@@ -51,6 +52,7 @@ void RestSkeleton::validate() const {
         if (!names.insert(joint.name).second)
             throw Error(label + " has the name of another joint, expected unique names");
         if (!isFinite(joint.centre)) throw Error(label + " has a centre that is not finite");
+        if (!isInRange(joint.centre)) throw Error(label + " has a centre beyond -1e18 to 1e18");
     }
 }
 

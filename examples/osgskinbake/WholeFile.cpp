@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "WholeFile.h"
+
+#include <osgSkin/Error>
+
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+
+#include <unistd.h>
+
+namespace bake {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The one file that is being written, for the handler: no more than one is at a time, and a handler
+// may not take memory.
+constexpr std::size_t kLongestPath = 4096;
+char unfinished[kLongestPath];
+volatile std::sig_atomic_t hasUnfinished = 0;
+
+void setUnfinished(const std::string& path) {
+    hasUnfinished = 0;
+    if (path.empty() || path.size() >= kLongestPath) return;
+    std::memcpy(unfinished, path.c_str(), path.size() + 1);
+    hasUnfinished = 1;
+}
+
+extern "C" void removeAndGo(int signal) {
+    if (hasUnfinished != 0) ::unlink(unfinished);
+    std::signal(signal, SIG_DFL);
+    std::raise(signal); // the shell sees what ended the program
+}
+
+} // namespace
+
+void removeUnfinishedOnSignals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const auto before = std::signal(signal, removeAndGo);
+        if (before == SIG_IGN) std::signal(signal, SIG_IGN); // as under nohup
+    }
+}
+
+WholeFile::WholeFile(const std::string& file) : _file(file), _target(file) {
+    std::error_code failure;
+    if (fs::exists(file, failure)) _target = fs::canonical(file, failure).string();
+    if (failure) _target = file;
+    if (!fs::exists(_target, failure) || fs::is_regular_file(_target, failure))
+        _written = _target + ".part" + std::to_string(::getpid());
+    // A file that may not be written is not replaced either.
+    if (fs::exists(_target, failure) && ::access(_target.c_str(), W_OK) != 0) fail();
+    _stream = std::fopen((_written.empty() ? _target : _written).c_str(), "wb");
+    if (_stream == nullptr) fail();
+    setUnfinished(_written);
+}
+
+WholeFile::~WholeFile() {
+    if (_stream == nullptr) return;
+    std::fclose(_stream);
+    if (!_written.empty()) std::remove(_written.c_str());
+    setUnfinished({});
+}
+
+void WholeFile::write(const std::string& data) {
+    if (std::fwrite(data.data(), 1, data.size(), _stream) != data.size()) fail();
+}
+
+void WholeFile::finish() {
+    if (std::ferror(_stream) != 0 || std::fflush(_stream) != 0) fail();
+    const bool closed = std::fclose(_stream) == 0;
+    _stream = nullptr;
+    const bool named =
+        closed && (_written.empty() || std::rename(_written.c_str(), _target.c_str()) == 0);
+    if (!named && !_written.empty()) std::remove(_written.c_str());
+    setUnfinished({});
+    if (!named) fail();
+}
+
+void WholeFile::fail() const {
+    throw osgSkin::Error(_file + ": cannot be written, expected a writable file");
+}
+
+} // namespace bake

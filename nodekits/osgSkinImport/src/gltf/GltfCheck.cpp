@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/GltfCheck.h"
+
+#include "gltf/Base64.h"
+#include "gltf/GltfParts.h"
+#include "text/FileText.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace osgSkin {
+namespace {
+
+using nlohmann::json;
+
+/// A kind of attribute, and what its accessor may be.
+struct AttributeKind {
+    const char* name; ///< or the start of it, before a number
+    int sets;         ///< 0: no number follows
+    const char* types[2];
+};
+constexpr AttributeKind kAttributes[] = {
+    {"POSITION", 0, {"VEC3", "VEC3"}},  {"NORMAL", 0, {"VEC3", "VEC3"}},
+    {"TEXCOORD_", 8, {"VEC2", "VEC2"}}, {"COLOR_", 1, {"VEC3", "VEC4"}},
+    {"JOINTS_", 2, {"VEC4", "VEC4"}},   {"WEIGHTS_", 2, {"VEC4", "VEC4"}},
+};
+
+const AttributeKind* kindOfAttribute(const std::string& name) {
+    for (const AttributeKind& kind : kAttributes) {
+        if (kind.sets == 0 && name == kind.name) return &kind;
+        for (int set = 0; set < kind.sets; ++set)
+            if (name == kind.name + std::to_string(set)) return &kind;
+    }
+    return nullptr;
+}
+
+class Checker {
+public:
+    explicit Checker(const GltfFile& file) : _parts(file) {}
+
+    json run() {
+        json result = {{"asset", {{"version", "2.0"}}}};
+        _parts.checkBuffers(result);
+        _parts.checkAccessors(result);
+        _parts.checkLooks(result);
+        addMeshes(result);
+        addSkins(result);
+        addNodes(result);
+        addScenes(result);
+        addAnimations(result);
+        _parts.checkEntries();
+        for (auto part = result.begin(); part != result.end();)
+            part = part->empty() ? result.erase(part) : std::next(part);
+        return result;
+    }
+
+private:
+    void addPrimitive(const json& from, const std::string& where, json& list) {
+        json primitive = {{"attributes", json::object()}};
+        const json& attributes = from.at("attributes");
+        if (!attributes.is_object()) _parts.fail(where + ".attributes", "an object");
+        if (!attributes.contains("POSITION")) return; // nothing to be drawn
+        const std::size_t vertices =
+            _parts.count(_parts.accessor(attributes.at("POSITION"), where + ".POSITION"));
+        for (const auto& [name, value] : attributes.items()) {
+            const AttributeKind* kind = kindOfAttribute(name);
+            if (kind == nullptr) continue;
+            const std::string place = where + "." + name;
+            const std::size_t accessor = _parts.accessor(value, place);
+            _parts.requireType(accessor, {kind->types[0], kind->types[1]}, place);
+            if (name.rfind("JOINTS_", 0) == 0) _parts.requireIndices(accessor, false, place);
+            if (_parts.count(accessor) != vertices)
+                _parts.fail(place, std::to_string(vertices) + " elements, as many as of POSITION");
+            primitive["attributes"][name] = accessor;
+        }
+        for (const char* set : {"0", "1"}) // one without the other means nothing
+            if (primitive["attributes"].contains(std::string("JOINTS_") + set) !=
+                primitive["attributes"].contains(std::string("WEIGHTS_") + set)) {
+                primitive["attributes"].erase(std::string("JOINTS_") + set);
+                primitive["attributes"].erase(std::string("WEIGHTS_") + set);
+            }
+        std::size_t corners = 0;
+        if (from.contains("indices")) {
+            const std::size_t accessor = _parts.accessor(from.at("indices"), where + ".indices");
+            _parts.requireType(accessor, {"SCALAR"}, where + ".indices");
+            _parts.requireIndices(accessor, true, where + ".indices");
+            corners = _parts.count(accessor);
+            primitive["indices"] = accessor;
+        }
+        const json mode = from.value("mode", json(4));
+        primitive["mode"] = _parts.index(mode, 7, where + ".mode");
+        if (from.contains("material"))
+            primitive["material"] = _parts.indexOf(from.at("material"), "materials", where);
+        _parts.addDraco(from, where, primitive);
+        _parts.take(vertices + corners, where);
+        _elements.back() += vertices + corners;
+        list.push_back(primitive);
+    }
+
+    void addMeshes(json& result) {
+        _parts.forEach("meshes", [&](const json& from, const std::string& where) {
+            json mesh = {{"primitives", json::array()}};
+            _parts.copyName(from, mesh);
+            _elements.push_back(0);
+            const json& primitives = from.at("primitives");
+            if (!primitives.is_array()) _parts.fail(where + ".primitives", "a list");
+            std::size_t number = 0;
+            for (const json& primitive : primitives)
+                addPrimitive(primitive, where + ".primitives[" + std::to_string(number++) + "]",
+                             mesh["primitives"]);
+            if (mesh["primitives"].empty())
+                _parts.fail(where + ".primitives", "at least one with positions");
+            _primitives.push_back(mesh["primitives"].size());
+            _parts.addEntries(mesh["primitives"].size());
+            result["meshes"].push_back(mesh);
+        });
+    }
+
+    void addSkins(json& result) {
+        _parts.forEach("skins", [&](const json& from, const std::string& where) {
+            json skin = {{"joints", json::array()}};
+            _parts.copyName(from, skin);
+            const json& joints = from.at("joints");
+            if (!joints.is_array() || joints.empty()) _parts.fail(where + ".joints", "a list");
+            for (const json& joint : joints)
+                skin["joints"].push_back(_parts.indexOf(joint, "nodes", where + ".joints"));
+            if (from.contains("inverseBindMatrices")) {
+                const std::string place = where + ".inverseBindMatrices";
+                const std::size_t accessor = _parts.accessor(from.at("inverseBindMatrices"), place);
+                _parts.requireType(accessor, {"MAT4"}, place);
+                skin["inverseBindMatrices"] = accessor;
+            }
+            _joints.push_back(joints.size());
+            _parts.addEntries(joints.size());
+            result["skins"].push_back(skin);
+        });
+    }
+
+    void addNodes(json& result) {
+        const std::size_t nodes = _parts.size("nodes");
+        _above.assign(nodes, -1);
+        _parts.forEach("nodes", [&](const json& from, const std::string& where) {
+            json node = json::object();
+            _parts.copyName(from, node);
+            _parts.copyNumbers(from, "matrix", 16, where, node);
+            _parts.copyNumbers(from, "translation", 3, where, node);
+            _parts.copyNumbers(from, "rotation", 4, where, node);
+            _parts.copyNumbers(from, "scale", 3, where, node);
+            if (from.contains("mesh"))
+                node["mesh"] = _parts.indexOf(from.at("mesh"), "meshes", where + ".mesh");
+            // Every node that shows a mesh makes a copy of it.
+            if (node.contains("mesh"))
+                _parts.take(_elements[node["mesh"].get<std::size_t>()], where + ".mesh");
+            if (from.contains("skin"))
+                node["skin"] = _parts.indexOf(from.at("skin"), "skins", where + ".skin");
+            // Assimp makes bones for each mesh, of each skin that it is shown with.
+            if (node.contains("mesh") && node.contains("skin"))
+                _parts.addEntries(_primitives[node["mesh"].get<std::size_t>()] *
+                                  _joints[node["skin"].get<std::size_t>()]);
+            if (from.contains("children")) {
+                const json& children = from.at("children");
+                if (!children.is_array()) _parts.fail(where + ".children", "a list");
+                for (const json& child : children) {
+                    const std::size_t below = _parts.indexOf(child, "nodes", where + ".children");
+                    if (_above[below] >= 0)
+                        _parts.fail(where + ".children",
+                                    "nodes without another parent, or recursive reference");
+                    _above[below] = static_cast<std::ptrdiff_t>(result["nodes"].size());
+                    node["children"].push_back(below);
+                }
+            }
+            _parts.addEntries(1);
+            result["nodes"].push_back(node);
+        });
+        checkDepths(nodes);
+    }
+
+    /// Every node has one parent at most, so that going up ends, but in a ring.
+    void checkDepths(std::size_t nodes) const {
+        std::vector<std::size_t> depths(nodes, 0); // 0: not known yet
+        std::vector<std::size_t> way;
+        for (std::size_t n = 0; n < nodes; ++n) {
+            way.clear();
+            std::ptrdiff_t at = static_cast<std::ptrdiff_t>(n);
+            while (at >= 0 && depths[std::size_t(at)] == 0 && way.size() <= nodes) {
+                way.push_back(std::size_t(at));
+                at = _above[std::size_t(at)];
+            }
+            const std::string where = "nodes[" + std::to_string(n) + "]";
+            if (way.size() > nodes) _parts.fail(where, "a tree, found a recursive reference");
+            std::size_t depth = at < 0 ? 0 : depths[std::size_t(at)];
+            while (!way.empty()) {
+                depths[way.back()] = ++depth;
+                way.pop_back();
+            }
+            if (depth > _parts.limits().depth)
+                _parts.fail(where, "a node nested at most " +
+                                       std::to_string(_parts.limits().depth) +
+                                       " deep (option maxDepth)");
+        }
+    }
+
+    void addScenes(json& result) {
+        std::vector<bool> shown(_above.size(), false);
+        _parts.forEach("scenes", [&](const json& from, const std::string& where) {
+            json scene = {{"nodes", json::array()}};
+            _parts.copyName(from, scene);
+            std::fill(shown.begin(), shown.end(), false);
+            for (const json& root : from.value("nodes", json::array())) {
+                const std::size_t node = _parts.indexOf(root, "nodes", where + ".nodes");
+                if (_above[node] >= 0 || shown[node])
+                    _parts.fail(where + ".nodes", "each a node without a parent, and once");
+                shown[node] = true;
+                scene["nodes"].push_back(node);
+            }
+            _parts.addEntries(scene["nodes"].size());
+            result["scenes"].push_back(scene);
+        });
+        if (_parts.has("scene"))
+            result["scene"] = _parts.indexOf(_parts.at("scene"), "scenes", "scene");
+    }
+
+    void addAnimations(json& result) {
+        _parts.forEach("animations", [&](const json& from, const std::string& where) {
+            json animation = {{"channels", json::array()}, {"samplers", json::array()}};
+            _parts.copyName(from, animation);
+            std::vector<std::size_t> keys;
+            for (const json& sampler : from.at("samplers")) {
+                const std::size_t input =
+                    _parts.accessor(sampler.at("input"), where + ".samplers.input");
+                const std::size_t output =
+                    _parts.accessor(sampler.at("output"), where + ".samplers.output");
+                _parts.requireType(input, {"SCALAR"}, where + ".samplers.input");
+                keys.push_back(_parts.count(input) + _parts.count(output));
+                animation["samplers"].push_back(
+                    {{"input", input},
+                     {"output", output},
+                     {"interpolation", sampler.value("interpolation", "LINEAR")}});
+            }
+            for (const json& channel : from.at("channels")) {
+                const std::size_t sampler =
+                    _parts.index(channel.at("sampler"), keys.size(), where + ".channels.sampler");
+                const json& target = channel.at("target");
+                json kept = {{"path", target.at("path").get<std::string>()}};
+                if (target.contains("node"))
+                    kept["node"] = _parts.indexOf(target.at("node"), "nodes", where + ".channels");
+                // Samplers may be shared: each channel's keys take memory.
+                _parts.take(keys[sampler], where + ".channels");
+                animation["channels"].push_back({{"sampler", sampler}, {"target", kept}});
+            }
+            _parts.addEntries(animation["channels"].size());
+            result["animations"].push_back(animation);
+        });
+    }
+
+    GltfParts _parts;
+    std::vector<std::size_t> _primitives, _elements; ///< of each mesh
+    std::vector<std::size_t> _joints;                ///< of each skin
+    std::vector<std::ptrdiff_t> _above;              ///< each node's parent
+};
+
+} // namespace
+
+json checkedGltf(const GltfFile& file) {
+    return Checker(file).run();
+}
+
+} // namespace osgSkin

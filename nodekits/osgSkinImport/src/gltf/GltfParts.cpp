@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/GltfParts.h"
+
+#include "gltf/Base64.h"
+#include "gltf/GltfAccessors.h"
+#include "text/FileText.h"
+
+#include <osgSkinRig/InRange>
+
+#include <osgDB/FileNameUtils>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kEntriesOf = 20;     ///< samples that an entry counts for: a kilobyte or two
+constexpr std::size_t kFarthest = 1 << 30; ///< offsets and sizes beyond are none
+
+std::size_t componentSize(int component) {
+    if (component == 5120 || component == 5121) return 1;
+    if (component == 5122 || component == 5123) return 2;
+    return component == 5125 || component == 5126 ? 4 : 0;
+}
+
+std::size_t typeWidth(const std::string& type) {
+    if (type == "SCALAR") return 1;
+    if (type == "VEC2") return 2;
+    if (type == "VEC3") return 3;
+    if (type == "VEC4" || type == "MAT2") return 4;
+    if (type == "MAT3") return 9;
+    return type == "MAT4" ? 16 : 0;
+}
+
+/// A size or an offset; 0 where there is none.
+std::size_t sizeOf(const json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end()) return 0;
+    const auto value = found->is_number_unsigned() ? found->get<std::size_t>() : ~std::size_t(0);
+    return std::min<std::size_t>(value, std::size_t(1) << 40); // far beyond any buffer
+}
+
+bool isWord(const std::string& text) {
+    return text.size() <= 40 && std::all_of(text.begin(), text.end(), [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '/' || c == '-' ||
+                      c == '+' || c == '.';
+           });
+}
+
+} // namespace
+
+GltfParts::GltfParts(const GltfFile& file) : _file(file) {}
+
+void GltfParts::fail(const std::string& where, const std::string& expected) const {
+    failFile(_file.path, "malformed glTF: " + where + ": expected " + expected);
+}
+
+std::size_t GltfParts::size(const char* list) const {
+    if (!has(list)) return 0;
+    if (!at(list).is_array()) fail(list, "a list");
+    return at(list).size();
+}
+
+void GltfParts::forEach(const char* list,
+                        const std::function<void(const json&, const std::string&)>& visit) const {
+    for (std::size_t i = 0; i < size(list); ++i) {
+        const std::string where = std::string(list) + "[" + std::to_string(i) + "]";
+        if (!at(list)[i].is_object()) fail(where, "an object");
+        visit(at(list)[i], where);
+    }
+}
+
+std::size_t GltfParts::index(const json& value, std::size_t size, const std::string& where) const {
+    if (!value.is_number_unsigned() || value.get<std::size_t>() >= size)
+        fail(where, "a whole number below " + std::to_string(size));
+    return value.get<std::size_t>();
+}
+
+std::size_t GltfParts::indexOf(const json& value, const char* list,
+                               const std::string& where) const {
+    return index(value, size(list), where + " (one of " + list + ")");
+}
+
+void GltfParts::copyName(const json& from, json& to) {
+    const auto name = from.find("name");
+    if (name != from.end() && name->is_string()) to["name"] = *name;
+}
+
+void GltfParts::copyNumbers(const json& from, const char* key, std::size_t count,
+                            const std::string& where, json& to) const {
+    const auto found = from.find(key);
+    if (found == from.end()) return;
+    bool fits = found->is_array() && found->size() == count;
+    for (std::size_t i = 0; fits && i < count; ++i)
+        fits = (*found)[i].is_number() &&
+               std::abs((*found)[i].get<double>()) <= kLargestCoordinate; // false for NaN
+    if (!fits) fail(where + "." + key, std::to_string(count) + " numbers from -1e18 to 1e18");
+    to[key] = *found;
+}
+
+void GltfParts::checkBuffers(json& result) {
+    _bytes = _file.size;
+    forEach("buffers", [&](const json& from, const std::string& where) {
+        const std::size_t number = _bufferSizes.size();
+        std::string content;
+        if (!from.contains("uri")) {
+            // A buffer that is no part of the file stands in for one that is compressed.
+            const std::size_t there = number == 0 && _file.binary ? _file.binary->size() : 0;
+            _bufferSizes.push_back(std::min(there, sizeOf(from, "byteLength")));
+            result["buffers"].push_back({{"byteLength", _bufferSizes.back()}});
+            return;
+        }
+        if (!from.at("uri").is_string()) fail(where + ".uri", "a string");
+        const std::string& uri = from.at("uri").get_ref<const std::string&>();
+        if (uri.rfind("data:", 0) == 0) {
+            content = fromBase64(std::string_view(uri).substr(std::min(uri.find(','), uri.size())));
+        } else {
+            if (osgDB::containsServerAddress(uri)) fail(where + ".uri", "a file");
+            content = readText(osgDB::concatPaths(osgDB::getFilePath(_file.path), decodedUri(uri)),
+                               _file.limits);
+            _bytes += content.size();
+        }
+        _bufferSizes.push_back(content.size());
+        result["buffers"].push_back(
+            {{"byteLength", content.size()},
+             {"uri", "data:application/octet-stream;base64," + toBase64(content)}});
+    });
+    forEach("bufferViews", [&](const json& from, const std::string& where) {
+        json view = {{"buffer", indexOf(from.at("buffer"), "buffers", where + ".buffer")},
+                     {"byteOffset", sizeOf(from, "byteOffset")},
+                     {"byteLength", sizeOf(from, "byteLength")}};
+        if (sizeOf(from, "byteStride") > 0) view["byteStride"] = sizeOf(from, "byteStride");
+        result["bufferViews"].push_back(view);
+    });
+}
+
+std::string GltfParts::beyondView(const json& view, std::size_t offset, std::size_t elements,
+                                  std::size_t bytes, bool packed) const {
+    if (!view.is_number_unsigned() || view.get<std::size_t>() >= size("bufferViews"))
+        return "a buffer view that is there";
+    const json& source = at("bufferViews")[view.get<std::size_t>()];
+    const std::size_t begin = sizeOf(source, "byteOffset"), length = sizeOf(source, "byteLength");
+    const std::size_t buffer = _bufferSizes[source.at("buffer").get<std::size_t>()];
+    if (begin > buffer || length > buffer - begin) return "a buffer view within its buffer";
+    const std::size_t given = packed ? 0 : sizeOf(source, "byteStride");
+    if (given != 0 && given < bytes) return "a stride of an element at least";
+    const std::size_t stride = given == 0 ? bytes : given;
+    if (elements == 0 || bytes == 0) return {};
+    if (offset > length || bytes > length - offset ||
+        (elements - 1) > (length - offset - bytes) / stride)
+        return "elements within the buffer view";
+    return {};
+}
+
+std::string GltfParts::wrongWith(const json& accessor, const Accessor& known) const {
+    const std::size_t component = componentSize(known.component), width = typeWidth(known.type);
+    if (component == 0) return "a component type of 5120 to 5126";
+    if (width == 0) return "a type SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4";
+    if ((known.type == "MAT2" || known.type == "MAT3") && component < 4)
+        return "matrices of floats";
+    if (accessor.contains("bufferView")) {
+        const std::string wrong =
+            beyondView(accessor.at("bufferView"), sizeOf(accessor, "byteOffset"), known.count,
+                       component * width, false);
+        if (!wrong.empty()) return wrong;
+    } else if (known.count > 2 * limits().samplesOf(_bytes)) {
+        return "no more zeros than the file has room for (option maxSamples)";
+    }
+    if (!known.sparse) return {};
+    const json& sparse = accessor.at("sparse");
+    const json &places = sparse.at("indices"), &values = sparse.at("values");
+    const std::size_t changes = sizeOf(sparse, "count");
+    const std::size_t place = componentSize(places.at("componentType").get<int>());
+    if (place == 0) return "a component type of 5121, 5123 or 5125";
+    const std::string wrong =
+        beyondView(places.at("bufferView"), sizeOf(places, "byteOffset"), changes, place, true);
+    if (!wrong.empty()) return wrong;
+    return beyondView(values.at("bufferView"), sizeOf(values, "byteOffset"), changes,
+                      component * width, true);
+}
+
+void GltfParts::checkAccessors(json& result) {
+    forEach("accessors", [&](const json& from, const std::string& where) {
+        Accessor known;
+        known.count = sizeOf(from, "count");
+        known.type = from.at("type").get<std::string>();
+        const json& component = from.at("componentType");
+        known.component = static_cast<int>(index(component, 5127, where + ".componentType"));
+        known.sparse = from.contains("sparse");
+        known.wrong = wrongWith(from, known);
+        _accessors.push_back(known);
+        json accessor = {{"count", known.count},
+                         {"type", known.type},
+                         {"componentType", known.component},
+                         {"normalized", from.value("normalized", false)}};
+        // What nothing names need not be right; what is wrong is refused where it is named.
+        if (known.wrong.empty()) {
+            if (from.contains("bufferView")) accessor["bufferView"] = from.at("bufferView");
+            if (sizeOf(from, "byteOffset") > 0) accessor["byteOffset"] = sizeOf(from, "byteOffset");
+            if (known.sparse) {
+                json& sparse = accessor["sparse"];
+                sparse["count"] = from.at("sparse").at("count");
+                for (const char* part : {"indices", "values"})
+                    for (const char* key : {"bufferView", "byteOffset", "componentType"})
+                        if (from.at("sparse").at(part).contains(key))
+                            sparse[part][key] = from.at("sparse").at(part).at(key);
+            }
+        }
+        result["accessors"].push_back(accessor);
+    });
+}
+
+std::size_t GltfParts::accessor(const json& value, const std::string& where) const {
+    const std::size_t index = indexOf(value, "accessors", where);
+    const std::string& wrong = _accessors[index].wrong;
+    if (!wrong.empty()) fail("accessors[" + std::to_string(index) + "], " + where, wrong);
+    return index;
+}
+
+void GltfParts::requireType(std::size_t accessor, std::initializer_list<const char*> types,
+                            const std::string& where) const {
+    for (const char* type : types)
+        if (_accessors[accessor].type == type) return;
+    fail(where, std::string("an accessor of ") + *types.begin());
+}
+
+void GltfParts::requireIndices(std::size_t accessor, bool wide, const std::string& where) const {
+    const Accessor& known = _accessors[accessor];
+    const bool fits =
+        known.component == 5121 || known.component == 5123 || (wide && known.component == 5125);
+    if (!fits || known.sparse) fail(where, "unsigned whole numbers, not sparse");
+}
+
+void GltfParts::take(std::size_t elements, const std::string& where) {
+    _elements += elements;
+    if (_elements > 2 * limits().samplesOf(_bytes))
+        fail(where, "no more vertices, corners and keys than " +
+                        std::to_string(2 * limits().samplesOf(_bytes)) +
+                        " in all (option maxSamples)");
+}
+
+void GltfParts::checkEntries() const {
+    const std::size_t most = limits().samplesOf(_bytes) / kEntriesOf;
+    const std::size_t all =
+        _entries + size("materials") + size("textures") + size("images") + size("samplers");
+    if (all > most)
+        fail("nodes, bones, materials and channels", "at most " + std::to_string(most) +
+                                                         ", found " + std::to_string(all) +
+                                                         " (option maxSamples)");
+}
+
+void GltfParts::addDraco(const json& from, const std::string& where, json& primitive) const {
+    const json none = json::object();
+    const json extensions = from.value("extensions", none);
+    const auto found = extensions.find("KHR_draco_mesh_compression");
+    if (found == extensions.end()) return;
+    json draco = {{"attributes", json::object()},
+                  {"bufferView", indexOf(found->at("bufferView"), "bufferViews", where)}};
+    const std::string wrong = beyondView(found->at("bufferView"), 0, 0, 0, true);
+    if (!wrong.empty()) fail(where + ".extensions", wrong);
+    for (const auto& [name, id] : found->at("attributes").items())
+        if (primitive.at("attributes").contains(name))
+            draco["attributes"][name] = index(id, kFarthest, where + ".extensions");
+    primitive["extensions"]["KHR_draco_mesh_compression"] = draco;
+}
+
+json GltfParts::textureInfo(const json& from, const std::string& where) const {
+    json info = {{"index", indexOf(from.at("index"), "textures", where)}};
+    if (from.contains("texCoord")) info["texCoord"] = index(from.at("texCoord"), 8, where);
+    return info;
+}
+
+json GltfParts::material(const json& from, const std::string& where) const {
+    json result = json::object();
+    copyName(from, result);
+    const auto copyFactor = [&](const json& object, const char* key, json& to) {
+        if (!object.contains(key)) return;
+        const json list = json::array({object.at(key)});
+        json checked;
+        copyNumbers({{key, list}}, key, 1, where, checked);
+        to[key] = object.at(key);
+    };
+    if (from.contains("pbrMetallicRoughness")) {
+        const json& pbr = from.at("pbrMetallicRoughness");
+        json& to = result["pbrMetallicRoughness"] = json::object();
+        copyNumbers(pbr, "baseColorFactor", 4, where, to);
+        copyFactor(pbr, "metallicFactor", to);
+        copyFactor(pbr, "roughnessFactor", to);
+        if (pbr.contains("baseColorTexture"))
+            to["baseColorTexture"] = textureInfo(pbr.at("baseColorTexture"), where);
+    }
+    copyNumbers(from, "emissiveFactor", 3, where, result);
+    if (from.contains("alphaMode") && isWord(osgDB::convertToLowerCase(from.at("alphaMode"))))
+        result["alphaMode"] = from.at("alphaMode");
+    copyFactor(from, "alphaCutoff", result);
+    if (from.contains("doubleSided")) result["doubleSided"] = from.at("doubleSided").get<bool>();
+    const json none = json::object();
+    const json extensions = from.value("extensions", none);
+    const auto glossy = extensions.find("KHR_materials_pbrSpecularGlossiness");
+    if (glossy != extensions.end()) {
+        json& to = result["extensions"]["KHR_materials_pbrSpecularGlossiness"] = json::object();
+        copyNumbers(*glossy, "diffuseFactor", 4, where, to);
+        copyNumbers(*glossy, "specularFactor", 3, where, to);
+        copyFactor(*glossy, "glossinessFactor", to);
+        if (glossy->contains("diffuseTexture"))
+            to["diffuseTexture"] = textureInfo(glossy->at("diffuseTexture"), where);
+    }
+    if (extensions.contains("KHR_materials_unlit"))
+        result["extensions"]["KHR_materials_unlit"] = json::object();
+    return result;
+}
+
+void GltfParts::checkLooks(json& result) {
+    forEach("images", [&](const json& from, const std::string& where) {
+        json image = json::object();
+        copyName(from, image);
+        const std::string mime = from.value("mimeType", "");
+        if (isWord(mime) && !mime.empty()) image["mimeType"] = mime;
+        if (from.contains("bufferView")) {
+            const std::string wrong = beyondView(from.at("bufferView"), 0, 0, 0, true);
+            if (!wrong.empty()) fail(where, wrong);
+            image["bufferView"] = from.at("bufferView");
+        } else {
+            const std::string uri = from.value("uri", "");
+            const std::size_t comma = uri.find(',');
+            const bool isData = uri.rfind("data:", 0) == 0;
+            const std::string kind =
+                isData ? uri.substr(5, std::min(uri.find(';'), comma) - 5) : "";
+            image["uri"] = !isData ? uri
+                                   : "data:" + (isWord(kind) ? kind : "") + ";base64," +
+                                         toBase64(fromBase64(std::string_view(uri).substr(
+                                             std::min(comma, uri.size()))));
+        }
+        result["images"].push_back(image);
+    });
+    forEach("samplers", [&](const json& from, const std::string& where) {
+        json sampler = json::object();
+        for (const char* key : {"magFilter", "minFilter", "wrapS", "wrapT"})
+            if (from.contains(key)) sampler[key] = index(from.at(key), 1 << 16, where);
+        result["samplers"].push_back(sampler);
+    });
+    forEach("textures", [&](const json& from, const std::string& where) {
+        json texture = json::object();
+        if (from.contains("source"))
+            texture["source"] = indexOf(from.at("source"), "images", where);
+        if (from.contains("sampler"))
+            texture["sampler"] = indexOf(from.at("sampler"), "samplers", where);
+        result["textures"].push_back(texture);
+    });
+    forEach("materials", [&](const json& from, const std::string& where) {
+        result["materials"].push_back(material(from, where));
+    });
+}
+
+} // namespace osgSkin

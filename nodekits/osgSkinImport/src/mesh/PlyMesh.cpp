@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/PlyMesh.h"
+
+#include "mesh/Material.h"
+#include "text/FileText.h"
+#include "text/PlyBody.h"
+#include "text/PlyHeader.h"
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace osgSkin {
+namespace {
+
+using Place = std::optional<std::size_t>;
+
+/// Collects vertices and faces from the entries of a file, in any order of the elements.
+class PlyCollector {
+public:
+    PlyCollector(const std::string& path, const PlyHeader& header) : _path(path) {
+        for (const PlyHeader::Element& element : header.elements) {
+            if (element.name == "vertex") placeVertex(element);
+            if (element.name == "face") {
+                _indices = element.find({"vertex_indices", "vertex_index"});
+                _cornerTexCoords = element.find({"texcoord"});
+            }
+            if (element.name == "tristrips")
+                _strips = element.find({"vertex_indices", "vertex_index"});
+        }
+    }
+
+    void take(const PlyHeader::Element& element, std::size_t index, const PlyValues& values) {
+        if (element.name == "vertex")
+            addVertex(values);
+        else if (element.name == "face" && _indices)
+            addFace(index, values[*_indices],
+                    _cornerTexCoords ? values[*_cornerTexCoords] : std::vector<double>());
+        else if (element.name == "tristrips" && _strips)
+            addStrips(values[*_strips]);
+    }
+
+    bool hasColours() const { return !_colours.empty(); }
+
+    CornerMesh finish() {
+        CornerMesh result;
+        result.mesh.positions = std::move(_positions);
+        const std::size_t vertices = result.mesh.positions.size();
+        std::size_t corner = 0;
+        for (const std::uint32_t size : _faceSizes) {
+            result.addFace(0);
+            for (std::uint32_t k = 0; k < size; ++k, ++corner) {
+                const std::uint32_t v = _corners[corner];
+                if (v >= vertices)
+                    failFile(_path, "face " + std::to_string(result.mesh.faceSizes.size() - 1) +
+                                        " names vertex " + std::to_string(v) +
+                                        ", expected less than " + std::to_string(vertices));
+                glm::vec2 texCoord(0.0f);
+                if (!_faceTexCoords.empty())
+                    texCoord = _faceTexCoords[corner];
+                else if (!_texCoords.empty())
+                    texCoord = _texCoords[v];
+                result.addCorner(v, _normals.empty() ? glm::vec3(0.0f) : _normals[v], texCoord);
+                if (!_colours.empty()) result.colours.push_back(_colours[v]);
+            }
+        }
+        result.hasTexCoords = !_faceTexCoords.empty() || !_texCoords.empty();
+        return result;
+    }
+
+private:
+    void placeVertex(const PlyHeader::Element& element) {
+        _x = {element.find({"x"}), element.find({"y"}), element.find({"z"})};
+        if (!_x[0] || !_x[1] || !_x[2]) failFile(_path, "its vertices have no x, y and z");
+        _n = {element.find({"nx"}), element.find({"ny"}), element.find({"nz"})};
+        _t = {element.find({"u", "s", "texture_u"}), element.find({"v", "t", "texture_v"})};
+        _c = {element.find({"red", "diffuse_red", "r"}),
+              element.find({"green", "diffuse_green", "g"}),
+              element.find({"blue", "diffuse_blue", "b"}),
+              element.find({"alpha", "diffuse_alpha", "a"})};
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (!_c[k]) continue;
+            const PlyHeader::Type& type = element.properties[*_c[k]].type;
+            if (type.kind != PlyHeader::Kind::Floating)
+                _full[k] = type.bytes == 1 ? 255.0 : type.bytes == 2 ? 65535.0 : 4294967295.0;
+        }
+    }
+
+    /// A vertex's number; a list gives its first.
+    static double at(const PlyValues& values, const Place& place) {
+        return values[*place].empty() ? 0.0 : values[*place].front();
+    }
+
+    void addVertex(const PlyValues& values) {
+        _positions.emplace_back(at(values, _x[0]), at(values, _x[1]), at(values, _x[2]));
+        if (_n[0] && _n[1] && _n[2])
+            _normals.emplace_back(at(values, _n[0]), at(values, _n[1]), at(values, _n[2]));
+        if (_t[0] && _t[1]) _texCoords.emplace_back(at(values, _t[0]), at(values, _t[1]));
+        if (!_c[0] || !_c[1] || !_c[2]) return;
+        glm::vec4 colour(1.0f);
+        for (std::size_t k = 0; k < 4; ++k)
+            if (_c[k]) colour[int(k)] = static_cast<float>(at(values, _c[k]) / _full[k]);
+        _colours.push_back(colour);
+    }
+
+    std::uint32_t indexOf(double number, const std::string& where) const {
+        if (!(number >= 0.0 && number < 4294967295.0))
+            failFile(_path, where + " names vertex " + std::to_string(number) +
+                                ", expected one of the file's");
+        return static_cast<std::uint32_t>(number);
+    }
+
+    void addFace(std::size_t index, const std::vector<double>& corners,
+                 const std::vector<double>& texCoords) {
+        if (corners.size() < 3) return; // points and lines
+        _faceSizes.push_back(static_cast<std::uint32_t>(corners.size()));
+        for (const double corner : corners)
+            _corners.push_back(indexOf(corner, "face " + std::to_string(index)));
+        if (!_cornerTexCoords) return;
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            _faceTexCoords.push_back(2 * k + 1 < texCoords.size()
+                                         ? glm::vec2(texCoords[2 * k], texCoords[2 * k + 1])
+                                         : glm::vec2(0.0f));
+    }
+
+    /// Strips one after the other, a negative number between them.
+    void addStrips(const std::vector<double>& strip) {
+        std::size_t begin = 0;
+        for (std::size_t k = 0; k < strip.size(); ++k) {
+            if (strip[k] < 0.0) begin = k + 1;
+            if (strip[k] < 0.0 || k < begin + 2) continue;
+            const bool odd = (k - begin) % 2 != 0;
+            _faceSizes.push_back(3);
+            for (const std::size_t c : {odd ? k - 1 : k - 2, odd ? k - 2 : k - 1, k})
+                _corners.push_back(indexOf(strip[c], "a strip"));
+        }
+    }
+
+    const std::string& _path;
+    std::array<Place, 3> _x, _n;
+    std::array<Place, 2> _t;
+    std::array<Place, 4> _c;
+    std::array<double, 4> _full{1.0, 1.0, 1.0, 1.0}; ///< what stands for a colour of 1
+    Place _indices, _cornerTexCoords, _strips;
+    std::vector<glm::dvec3> _positions;
+    std::vector<glm::vec3> _normals;
+    std::vector<glm::vec2> _texCoords, _faceTexCoords;
+    std::vector<glm::vec4> _colours;
+    std::vector<std::uint32_t> _faceSizes, _corners;
+};
+
+} // namespace
+
+CornerMesh readPlyMesh(const std::string& path, const osgDB::Options* options) {
+    const std::string text = readText(path, ReadLimits::of(options));
+    const PlyHeader header = readPlyHeader(path, text);
+    PlyCollector collector(path, header);
+    readPlyBody(path, header, std::string_view(text).substr(header.end),
+                [&](const PlyHeader::Element& element, std::size_t index, const PlyValues& values) {
+                    collector.take(element, index, values);
+                });
+    MissingTextures missing(path);
+    Material material;
+    material.vertexColours = collector.hasColours();
+    material.image = readTexture(header.texture, path, options, missing);
+    CornerMesh result = collector.finish();
+    result.stateSets.push_back(makeStateSet(material));
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_PLYMESH_H
+#define OSGSKINIMPORT_PLYMESH_H 1
+
+#include "mesh/CornerMesh.h"
+
+#include <osgDB/Options>
+
+#include <string>
+
+namespace osgSkin {
+
+/// Reads a PLY file, text or binary: polygons or triangle strips, normals, colours, texture
+/// coordinates, of vertices or of faces' corners, and the texture that a comment names.
+/// \throw osgSkin::Error with the file and the place in it
+CornerMesh readPlyMesh(const std::string& path, const osgDB::Options* options);
+
+} // namespace osgSkin
+
+#endif

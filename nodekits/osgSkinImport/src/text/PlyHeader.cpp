@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "text/PlyHeader.h"
+
+#include "text/FileText.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+
+namespace osgSkin {
+namespace {
+
+struct NamedType {
+    const char* name;
+    PlyHeader::Type type;
+};
+
+constexpr PlyHeader::Kind kSigned = PlyHeader::Kind::Signed;
+constexpr PlyHeader::Kind kUnsigned = PlyHeader::Kind::Unsigned;
+constexpr PlyHeader::Kind kFloating = PlyHeader::Kind::Floating;
+constexpr NamedType kTypes[] = {
+    {"char", {kSigned, 1}},      {"int8", {kSigned, 1}},      {"uchar", {kUnsigned, 1}},
+    {"uint8", {kUnsigned, 1}},   {"short", {kSigned, 2}},     {"int16", {kSigned, 2}},
+    {"ushort", {kUnsigned, 2}},  {"uint16", {kUnsigned, 2}},  {"int", {kSigned, 4}},
+    {"int32", {kSigned, 4}},     {"uint", {kUnsigned, 4}},    {"uint32", {kUnsigned, 4}},
+    {"float", {kFloating, 4}},   {"float32", {kFloating, 4}}, {"double", {kFloating, 8}},
+    {"float64", {kFloating, 8}},
+};
+
+/// Reads line by line; a line ends with LF, CR or both.
+class PlyHeaderReader {
+public:
+    PlyHeaderReader(const std::string& path, const std::string& text) : _path(path), _text(text) {}
+
+    PlyHeader run() {
+        if (nextLine() != "ply") failLine(_path, 1, "expected \"ply\"");
+        for (;;) {
+            if (_at >= _text.size())
+                failFile(_path, "the header has no end, expected a line \"end_header\"");
+            const std::string line = nextLine();
+            std::istringstream words(line);
+            std::string keyword;
+            words >> keyword;
+            if (keyword == "end_header") break;
+            if (keyword == "format")
+                readFormat(words);
+            else if (keyword == "element")
+                readElement(words);
+            else if (keyword == "property")
+                readProperty(words);
+            else if (keyword == "comment")
+                readComment(words);
+        }
+        if (!_hasFormat) failFile(_path, "the header has no line \"format\"");
+        _header.end = _at;
+        // Each entry takes a byte at least.
+        for (std::size_t e = 0; e < _header.elements.size(); ++e)
+            if (_header.elements[e].count > _text.size() - _at + 1)
+                failLine(_path, _elementLines[e],
+                         inQuotes(std::to_string(_header.elements[e].count)) +
+                             " elements, expected no more than the file has room for");
+        return std::move(_header);
+    }
+
+private:
+    std::string nextLine() {
+        ++_line;
+        const std::size_t end = std::min(_text.find_first_of("\r\n", _at), _text.size());
+        std::string line = _text.substr(_at, end - _at);
+        _at = end + (_text.compare(end, 2, "\r\n") == 0 ? 2 : end < _text.size() ? 1 : 0);
+        return line;
+    }
+
+    void readFormat(std::istream& words) {
+        std::string name, version;
+        words >> name >> version;
+        if (name == "ascii")
+            _header.format = PlyHeader::Format::Text;
+        else if (name == "binary_little_endian")
+            _header.format = PlyHeader::Format::LittleEndian;
+        else if (name == "binary_big_endian")
+            _header.format = PlyHeader::Format::BigEndian;
+        else
+            failLine(_path, _line,
+                     inQuotes(name) + " is no format, expected ascii, "
+                                      "binary_little_endian or binary_big_endian");
+        if (_hasFormat) failLine(_path, _line, "a second format");
+        _hasFormat = true;
+    }
+
+    void readElement(std::istream& words) {
+        PlyHeader::Element element;
+        std::string count;
+        words >> element.name >> count;
+        double number = 0.0;
+        if (!parseNumber(count, number) || !(number >= 0.0 && number <= double(_text.size())))
+            failLine(_path, _line,
+                     inQuotes(count) + " elements, expected no more than the file has room for");
+        element.count = static_cast<std::size_t>(number);
+        for (const PlyHeader::Element& known : _header.elements)
+            if (known.name == element.name)
+                failLine(_path, _line, "a second element " + inQuotes(element.name));
+        _header.elements.push_back(element);
+        _elementLines.push_back(_line);
+    }
+
+    PlyHeader::Type type(const std::string& name) {
+        for (const NamedType& known : kTypes)
+            if (name == known.name) return known.type;
+        failLine(_path, _line, inQuotes(name) + " is no type of a property");
+    }
+
+    void readProperty(std::istream& words) {
+        if (_header.elements.empty()) failLine(_path, _line, "a property of no element");
+        PlyHeader::Property property;
+        std::string name;
+        words >> name;
+        if (name == "list") {
+            words >> name;
+            property.count = type(name);
+            if (property.count->kind == kFloating)
+                failLine(_path, _line,
+                         inQuotes(name) + " counts no entries, expected a whole number");
+            words >> name;
+        }
+        property.type = type(name);
+        words >> property.name;
+        _header.elements.back().properties.push_back(property);
+    }
+
+    void readComment(std::istream& words) {
+        std::string keyword;
+        words >> keyword >> std::ws;
+        if (keyword == "TextureFile" && _header.texture.empty())
+            std::getline(words, _header.texture);
+    }
+
+    const std::string& _path;
+    const std::string& _text;
+    std::size_t _at = 0, _line = 0;
+    bool _hasFormat = false;
+    PlyHeader _header;
+    std::vector<std::size_t> _elementLines;
+};
+
+} // namespace
+
+std::optional<std::size_t> PlyHeader::Element::find(const std::vector<const char*>& names) const {
+    for (const char* wanted : names)
+        for (std::size_t p = 0; p < properties.size(); ++p)
+            if (properties[p].name == wanted) return p;
+    return std::nullopt;
+}
+
+PlyHeader readPlyHeader(const std::string& path, const std::string& text) {
+    return PlyHeaderReader(path, text).run();
+}
+
+} // namespace osgSkin

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinImport/ReadLimits>
+
+#include "text/FileText.h"
+
+#include <osgSkin/Error>
+
+#include <osgDB/FileNameUtils>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+namespace osgSkin {
+namespace {
+
+std::size_t countOf(const std::string& key, const std::string& value) {
+    std::size_t count = 0;
+    const char* const end = value.data() + value.size();
+    const auto [stop, status] = std::from_chars(value.data(), end, count);
+    // Below this no sum of limits overflows.
+    if (value.empty() || status != std::errc() || stop != end || count == 0 || count >> 40 != 0)
+        throw Error("option " + key + "=" + value + ": expected a whole number from 1 to 2^40");
+    return count;
+}
+
+std::vector<std::string> listOf(const std::string& value) {
+    std::vector<std::string> result;
+    std::istringstream list(value);
+    for (std::string name; std::getline(list, name, ',');)
+        if (!name.empty()) result.push_back(osgDB::convertToLowerCase(name));
+    if (result.empty()) throw Error("option formats: expected extensions with commas between them");
+    return result;
+}
+
+} // namespace
+
+ReadLimits ReadLimits::of(const osgDB::Options* options) {
+    ReadLimits limits;
+    if (options == nullptr) return limits;
+    const std::pair<const char*, std::size_t*> counts[] = {{"maxFileMB", &limits.fileMegabytes},
+                                                           {"maxTextMB", &limits.textMegabytes},
+                                                           {"maxJoints", &limits.joints},
+                                                           {"maxDepth", &limits.depth},
+                                                           {"maxSamples", &limits.samples}};
+    std::istringstream words(options->getOptionString());
+    for (std::string word; words >> word;) {
+        const std::size_t sign = word.find('=');
+        if (sign == std::string::npos) continue;
+        const std::string key = word.substr(0, sign), value = word.substr(sign + 1);
+        for (const auto& [name, count] : counts)
+            if (key == name) *count = countOf(key, value);
+        if (key == "formats") limits.formats = listOf(value);
+    }
+    return limits;
+}
+
+void ReadLimits::checkFormat(const std::string& path) const {
+    if (formats.empty()) return;
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    if (std::find(formats.begin(), formats.end(), extension) != formats.end()) return;
+    std::string allowed;
+    for (const std::string& format : formats) allowed += (allowed.empty() ? "" : ", ") + format;
+    failFile(path, "the format " + inQuotes(extension) + " is not allowed, expected one of " +
+                       allowed + " (option formats)");
+}
+
+} // namespace osgSkin

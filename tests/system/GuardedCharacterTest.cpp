@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Characters whose files name each other, ask for more than there is, or cannot be written whole.
+#include "Command.h"
+#include "GltfBuilder.h"
+
+#include <osgSkin/Error>
+#include <osgSkinCharacter/LoadCharacter>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <sys/stat.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kCharacter = OSGSKIN_TEST_DATA "/character/";
+
+/// The complaint about a character; "read" where there is none.
+std::string complaint(const std::string& file, const char* options = "") {
+    try {
+        osgSkin::LoadOptions load;
+        load.readOptions = new osgDB::Options(options);
+        osgSkin::loadCharacter(file, load);
+        return "read";
+    } catch (const osgSkin::Error& error) {
+        return error.what();
+    }
+}
+
+/// Writes a `.skin` file into `folder`; `members` stand after the version.
+std::string skin(const std::string& folder, const std::string& name, const std::string& members) {
+    std::string path = folder + "/" + name + ".skin";
+    std::ofstream(path) << "{\"osgskin\": 1, " << members << "}";
+    return path;
+}
+
+std::string parts(const std::string& mesh, const std::string& skeleton) {
+    return "\"mesh\": \"" + mesh + "\", \"skeleton\": \"" + skeleton + "\"";
+}
+
+void expectSays(const std::string& complaint, const std::string& part) {
+    EXPECT_NE(complaint.find(part), std::string::npos) << '"' << part << "\" in: " << complaint;
+}
+
+/// A rigged triangle that is read, to be broken.
+test::GltfBuilder triangle() {
+    test::GltfBuilder file;
+    const std::size_t joint = file.node({{"name", "joint"}});
+    const nlohmann::json attributes = {
+        {"POSITION", file.accessor("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0})},
+        {"JOINTS_0", file.accessor("VEC4", std::vector<double>(12, 0), 5121)},
+        {"WEIGHTS_0", file.accessor("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0})}};
+    const std::size_t indices = file.accessor("SCALAR", {0, 1, 2}, 5123);
+    file.json["meshes"] = {{{"primitives", {{{"attributes", attributes}, {"indices", indices}}}}}};
+    file.json["skins"] = {{{"joints", {joint}}}};
+    const std::size_t shown = file.node({{"mesh", 0}, {"skin", 0}});
+    file.json["scenes"][0]["nodes"] = {joint, shown};
+    return file;
+}
+
+} // namespace
+
+TEST(GuardedCharacter, FilesThatNameThemselvesAreRefused) {
+    const std::string folder = test::makeTestFolder();
+    const std::string rig = kCharacter + "rig.bvh", body = kCharacter + "body.obj";
+    const std::string itself = "is a part of itself";
+    expectSays(complaint(skin(folder, "mesh", parts("mesh.skin", rig))), itself);
+    expectSays(complaint(skin(folder, "bones", parts(body, "bones.skin"))), itself);
+    expectSays(complaint(skin(folder, "twice", parts("twice.skin.skin", rig))), itself);
+    expectSays(complaint(skin(folder, "scaled", parts("scaled.skin.2.scale", rig))), itself);
+    skin(folder, "b", parts("a.skin", rig));
+    expectSays(complaint(skin(folder, "a", parts("b.skin", rig))), itself);
+    expectSays(complaint(skin(folder, "prop",
+                              parts(body, rig) + ", \"motions\": [{\"file\": \"" + kCharacter +
+                                  "move.bvh\", \"name\": \"m\"}], \"props\": [{\"mesh\": "
+                                  "\"prop.skin\", \"motion\": \"m\", \"file\": \"" +
+                                  kCharacter + "move.bvh\"}]")),
+               itself);
+    for (int k = 0; k < 20; ++k)
+        skin(folder, "c" + std::to_string(k), parts("c" + std::to_string(k + 1) + ".skin", rig));
+    expectSays(complaint(folder + "/c0.skin"), "expected no more than 8");
+    // What was refused is not open any more.
+    EXPECT_EQ(complaint(kCharacter + "good.skin"), "read");
+    EXPECT_EQ(complaint(kCharacter + "good.skin"), "read");
+}
+
+TEST(GuardedCharacter, DescriptionsAreRefusedWithTheirPlace) {
+    const std::string folder = test::makeTestFolder();
+    const std::string whole = parts(kCharacter + "body.obj", kCharacter + "rig.bvh");
+    const auto written = [&](const std::string& text) {
+        std::ofstream(folder + "/x.skin") << text;
+        return complaint(folder + "/x.skin");
+    };
+    expectSays(written("{\"osgskin\": 1,\n \"up\": 1e999}"), "x.skin: line 2, column 8: 1e999");
+    expectSays(written("{\"mesh\": " + std::string(100'000, '[')), "x.skin: ");
+    expectSays(written("{\"mesh\": " + std::string(100, '[') + std::string(100, ']') + "}"),
+               "more than 64 deep");
+    EXPECT_EQ(
+        written("{\"osgskin\": 1, " + whole + ", \"joints\": {\"\\u001b[31m\": 3}}").find('\x1b'),
+        std::string::npos);
+    ASSERT_EQ(mkfifo((folder + "/pipe").c_str(), 0600), 0);
+    fs::create_symlink(folder + "/pipe", folder + "/linked.skin");
+    expectSays(complaint(folder + "/linked.skin"), "linked.skin: cannot open: it is no regular");
+    expectSays(
+        complaint(skin(folder, "w", whole + ", \"bind\": \"weights\", \"weights\": \"pipe\"")),
+        "pipe: cannot open: it is no regular");
+    expectSays(complaint(kCharacter + "good.skin", "formats=skin,glb"), "\"obj\" is not allowed");
+    expectSays(complaint(kCharacter + "good.skin", "formats=glb"), "\"skin\" is not allowed");
+    EXPECT_EQ(complaint(kCharacter + "good.skin", "formats=skin,obj,bvh"), "read");
+}
+
+TEST(GuardedCharacter, LandmarksAreInTheBody) {
+    const std::string folder = test::makeTestFolder();
+    for (const char* place : {"1e30", "-1e6", "-1e9"})
+        expectSays(complaint(skin(folder, "fit",
+                                  "\"mesh\": \"" OSGSKIN_DATA "/thrower.obj\", \"skeleton\": "
+                                  "{\"fit\": true, \"landmarks\": {\"LeftHand\": [" +
+                                      std::string(place) + ", 0, 0]}}")),
+                   "landmark LeftHand: expected a place in the body");
+}
+
+TEST(GuardedCharacter, MotionsOfWideRigsAreAsLargeAsTheirFiles) {
+    const std::string folder = test::makeTestFolder();
+    std::ofstream rig(folder + "/rig.bvh"), motion(folder + "/motion.bvh");
+    const std::string root = "HIERARCHY\nROOT r\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
+    rig << root;
+    for (int j = 0; j < 300; ++j) rig << "JOINT j" << j << "\n{\nOFFSET 0 1 0\n}\n";
+    rig << "}\nMOTION\nFrames: 1\nFrame Time: 1\n0\n";
+    motion << root << "}\nMOTION\nFrames: 3000\nFrame Time: 1\n";
+    for (int f = 0; f < 3000; ++f) motion << "0\n";
+    rig.close();
+    motion.close();
+    expectSays(complaint(skin(folder, "wide",
+                              parts(kCharacter + "body.obj", "rig.bvh") +
+                                  ", \"motions\": [{\"file\": \"motion.bvh\"}]")),
+               "3000 frames for 301 joints");
+}
+
+TEST(GuardedCharacter, GltfIsCheckedBeforeItIsRead) {
+    struct Case {
+        const char* place; ///< JSON pointer
+        nlohmann::json value;
+        const char* message;
+    };
+    const nlohmann::json huge = std::uint64_t(1) << 40;
+    const Case cases[] = {
+        {"/nodes/0/children", {0}, "recursive reference"},
+        {"/nodes/0/children",
+         {9},
+         "nodes[0].children (one of nodes): expected a whole number below 2"},
+        {"/nodes/1/mesh", 9, "nodes[1].mesh"},
+        {"/nodes/1/skin", -1, "nodes[1].skin"},
+        {"/nodes/0/translation", {1e39, 0, 0}, "nodes[0].translation: expected 3 numbers"},
+        {"/nodes/0/scale", {1}, "nodes[0].scale: expected 3 numbers"},
+        {"/skins/0/joints", {7}, "skins[0].joints"},
+        {"/skins/0/joints", nlohmann::json::array(), "skins[0].joints: expected a list"},
+        {"/meshes/0/primitives/0/attributes/POSITION", 9, "POSITION"},
+        {"/meshes/0/primitives/0/attributes/POSITION", "0", "POSITION"},
+        {"/meshes/0/primitives/0/indices", 0, "indices: expected an accessor of SCALAR"},
+        {"/meshes/0/primitives/0/mode", 77, "mode: expected a whole number below 7"},
+        {"/accessors/0/count", huge, "expected elements within the buffer view"},
+        {"/accessors/0/byteOffset", huge, "expected elements within the buffer view"},
+        {"/accessors/0/bufferView", 99, "expected a buffer view that is there"},
+        {"/accessors/0/type", "MAT4", "expected"},
+        {"/accessors/0/componentType", 1, "expected a component type"},
+        {"/accessors/2/count", 1, "expected 3 elements, as many as of POSITION"},
+        {"/accessors/1/componentType", 5126, "expected"},
+        {"/bufferViews/0/byteOffset", huge, "expected a buffer view within its buffer"},
+        {"/bufferViews/0/byteLength", huge, "expected a buffer view within its buffer"},
+        {"/bufferViews/0/byteStride", 1, "expected a stride of an element at least"},
+        {"/buffers/0/uri", "data:application/octet-stream;base64,AAAA", "within its buffer"},
+        {"/scenes/0/nodes", {0, 0}, "scenes[0].nodes"},
+        {"/scene", 5, "scene (one of scenes)"},
+        {"/animations",
+         {{{"channels", {{{"sampler", 7}, {"target", {{"path", "scale"}}}}}},
+           {"samplers", nlohmann::json::array()}}},
+         "animations[0].channels.sampler"},
+        {"/asset/version", "1.0", "no glTF 2 file"},
+    };
+    EXPECT_EQ(complaint(triangle().save("triangle.gltf")), "read") << "without inverseBindMatrices";
+    for (const Case& c : cases) {
+        test::GltfBuilder file = triangle();
+        file.save("broken.gltf"); // makes its buffer
+        file.json[nlohmann::json::json_pointer(c.place)] = c.value;
+        SCOPED_TRACE(c.place);
+        expectSays(complaint(file.save("broken.gltf")), c.message);
+    }
+    test::GltfBuilder deep = triangle();
+    for (std::size_t n = 0; n < 1200; ++n)
+        deep.node(n < 1199 ? nlohmann::json{{"children", {n + 3}}} : nlohmann::json::object());
+    deep.json["nodes"][0]["children"] = {2};
+    expectSays(complaint(deep.save("deep.gltf")), "nested at most 1000 deep (option maxDepth)");
+}
+
+TEST(GuardedCharacter, BakedFilesAreWholeOrAbsent) {
+    const std::string folder = test::makeTestFolder();
+    const std::string good = "'" + kCharacter + "good.skin' --quiet ";
+    const auto files = [&] {
+        return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+    };
+    // The shell's limit on a file's size stands for a full disk.
+    for (const char* out :
+         {"--rest r.obj", "--out o.glb", "--out o.pc2", "--out f%d.ply", "--pose p.json"}) {
+        const auto result =
+            test::runCommand("trap '' XFSZ; ulimit -f 1; '" OSGSKIN_BAKE "' " + good + out, folder);
+        if (result.status != 1) continue; // fits
+        EXPECT_NE(result.err.find("cannot be written"), std::string::npos) << result.err;
+        EXPECT_LE(files(), 1) << out; // a library of materials
+    }
+    EXPECT_EQ(test::runBake(good + "--rest /dev/full", folder).status, 1);
+    EXPECT_EQ(test::runBake(good + "--rate nan", folder).status, 2);
+    const auto frames =
+        test::runBake(good + "--frames 1:2:18446744073709551615 --out f%d.ply", folder);
+    EXPECT_EQ(frames.status, 0) << frames.err;
+    EXPECT_TRUE(fs::exists(folder + "/f1.ply"));
+    EXPECT_FALSE(fs::exists(folder + "/f2.ply"));
+    EXPECT_FALSE(fs::exists(folder + "/f0.ply"));
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Poses that cannot be followed, and those that may not be told apart.
+#include <osgSkin/DeformableSkin>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/UpdateDeformableSkin>
+
+#include "Notices.h"
+#include "TubeSkin.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+using test::makeBones;
+using test::makeSkin;
+
+namespace {
+
+using Matrices = std::vector<glm::dmat4>;
+
+std::vector<osg::Vec3> positionsOf(const osgSkin::DeformableSkin& skin) {
+    const auto& array =
+        dynamic_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray());
+    return array.asVector();
+}
+
+bool areFinite(const osgSkin::DeformableSkin& skin) {
+    for (const osg::Vec3& p : positionsOf(skin))
+        if (p.isNaN() || !std::isfinite(p.length2())) return false;
+    for (const osg::Vec3& n :
+         dynamic_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getNormalArray())
+             .asVector())
+        if (n.isNaN() || !std::isfinite(n.length2())) return false;
+    return skin.getBoundingBox().valid() && std::isfinite(skin.getBound().radius());
+}
+
+} // namespace
+
+TEST(PoseTrust, TheRestPoseIsTheRestToTheBit) {
+    const auto skin = makeSkin();
+    ASSERT_TRUE(skin->setPose(Matrices(3, glm::dmat4(1.0)).data(), 3));
+    const auto& rest =
+        dynamic_cast<const osg::Vec3Array&>(*skin->getRestGeometry()->getVertexArray());
+    const std::vector<osg::Vec3> posed = positionsOf(*skin);
+    ASSERT_EQ(posed.size(), rest.size());
+    EXPECT_EQ(std::memcmp(posed.data(), rest.asVector().data(), posed.size() * sizeof(osg::Vec3)),
+              0);
+}
+
+/// What cannot be followed is refused, and the last good pose stays; what can is finite.
+TEST(PoseTrust, NothingThatIsDrawnIsNoNumber) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    const auto scaled = [](double x, double y, double z) {
+        return glm::scale(glm::dmat4(1.0), glm::dvec3(x, y, z));
+    };
+    const auto moved = [](double x) {
+        return glm::translate(glm::dmat4(1.0), glm::dvec3(x, 0.0, 0.0));
+    };
+    glm::dmat4 lastRow(1.0), sheared(1.0), projection(1.0);
+    lastRow[1][3] = nan;
+    sheared[1][0] = 3.0;
+    projection[2][3] = -1.0;
+    const std::pair<glm::dmat4, bool> cases[] = {
+        {scaled(2, 2, 2), true},
+        {scaled(1e-4, 1e-4, 1e-4), true},
+        {scaled(1e4, 1e4, 1e4), true},
+        {scaled(1, 2, 0.5), true},
+        {sheared, true},
+        {scaled(-1, 1, 1), true},
+        {moved(1e5), true},
+        {moved(1e17), true},
+        {moved(1e39), false},
+        {moved(1e300), false},
+        {scaled(0, 0, 0), false},
+        {scaled(1, 1, 0), false},
+        {scaled(1e38, 1e38, 1e38), false},
+        {scaled(nan, 1, 1), false},
+        {moved(nan), false},
+        {moved(infinity), false},
+        {lastRow, false},
+        {projection, false},
+        {scaled(1e-300, 1e-300, 1e-300), false},
+    };
+    for (std::size_t joint = 0; joint < 3; ++joint)
+        for (const auto& [matrix, followed] : cases) {
+            const auto skin = makeSkin();
+            test::bend(*skin, 0.7);
+            const std::vector<osg::Vec3> before = positionsOf(*skin);
+            Matrices matrices(3, glm::dmat4(1.0));
+            matrices[joint] = matrix;
+            EXPECT_EQ(skin->setPose(matrices.data(), 3), followed) << joint << " " << matrix[0][0];
+            EXPECT_TRUE(areFinite(*skin)) << joint << " " << matrix[0][0] << " " << matrix[3][0];
+            if (!followed) EXPECT_EQ(positionsOf(*skin), before);
+        }
+}
+
+TEST(PoseTrust, ABoneThatCannotBeFollowedIsWarnedOfOnce) {
+    const auto skin = makeSkin();
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    const auto bones = makeBones();
+    EXPECT_TRUE(update->pose(*skin, *bones));
+    const std::vector<osg::Vec3> before = positionsOf(*skin);
+    auto& root = dynamic_cast<osgAnimation::Bone&>(*bones->getChild(0));
+    root.setMatrixInSkeletonSpace(osg::Matrix::scale(0, 0, 0));
+    const test::Notices notices;
+    for (int frame = 0; frame < 5; ++frame) EXPECT_FALSE(update->pose(*skin, *bones));
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
+    EXPECT_TRUE(notices.say("the last pose stays")) << notices.text();
+    EXPECT_EQ(positionsOf(*skin), before);
+}
+
+/// Memory is given out again: a new model may stand where another one stood.
+TEST(PoseTrust, AModelIsNotItsAddress) {
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    const auto bones = makeBones();
+    dynamic_cast<osgAnimation::Bone&>(*bones->getChild(0))
+        .setMatrixInSkeletonSpace(osg::Matrix::rotate(0.5, 0, 0, 1));
+    const test::Tube tube;
+    const auto skin = makeSkin();
+    ASSERT_TRUE(update->pose(*skin, *bones));
+    osgSkin::Binding renamed = tube.binding;
+    std::swap(renamed.joints[0].name, renamed.joints[1].name);
+    const void* before = skin->getModel();
+    bool again = false;
+    for (int attempt = 0; attempt < 100 && !again; ++attempt) {
+        osg::ref_ptr<osg::Geometry> geometry = test::makeGeometry(tube);
+        ASSERT_TRUE(update->pose(*skin, *bones)); // of the model that goes
+        before = skin->getModel();
+        std::vector<std::uint32_t> source(tube.positions.size());
+        for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
+        skin->setSkin(geometry, makeSkin()->getModel()); // frees the model
+        skin->setSkin(geometry,
+                      osgSkin::SkinModel::create(attempt % 2 == 0 ? renamed : tube.binding,
+                                                 tube.positions, tube.normals, source));
+        again = before == skin->getModel();
+        const auto fresh = makeSkin();
+        fresh->setSkin(geometry, skin->getModel());
+        const osg::ref_ptr<osgSkin::UpdateDeformableSkin> other = new osgSkin::UpdateDeformableSkin;
+        ASSERT_TRUE(other->pose(*fresh, *bones));
+        ASSERT_TRUE(update->pose(*skin, *bones));
+        ASSERT_EQ(positionsOf(*skin), positionsOf(*fresh)) << attempt;
+    }
+    if (!again) GTEST_SKIP() << "the memory was not given out again";
+}
