@@ -22,7 +22,8 @@ public:
     /// \throw osgSkin::Error where it cannot be written
     void write(const std::string& data);
 
-    /// Gives the file its name. \throw osgSkin::Error where not all has been written
+    /// Gives the file its name.
+    /// \throw osgSkin::Error where not all has been written
     void finish();
 
 private:

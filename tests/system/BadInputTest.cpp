@@ -58,7 +58,7 @@ const BadFile kBadFiles[] = {
     {"weights_not_named", "body.obj", "carries no weights", "expected bones"},
     {"mesh_weights_of_unknown_joint", "tube.gltf", "\"base\"", "expected the name of a joint"},
     {"weights_without_method", "weights_without_method.skin", "weights", "expected \"bind\""},
-    {"missing_weights", "nowhere.json", "", "cannot be opened"},
+    {"missing_weights", "nowhere.json", "", "cannot open"},
     {"weights_malformed", "weights_malformed.json", "line 1", "malformed JSON"},
     {"weights_without_member", "weights_without_member.json", "weights", "expected"},
     {"weights_as_list", "weights_as_list.json", "weights", "expected an object"},
@@ -88,7 +88,7 @@ const BadFile kBadFiles[] = {
     {"joints_as_list", "joints_as_list.skin", "joints", "expected an object"},
     {"rigid_as_text", "rigid_as_text.skin", "rigid", "expected a list"},
     {"skip_as_number", "skip_as_number.skin", "joints.arm.skip", "expected true or false"},
-    {"no_such_character", "no_such_character.skin", "", "cannot be opened"},
+    {"no_such_character", "no_such_character.skin", "", "cannot open"},
 };
 
 std::string path(const BadFile& bad) {

@@ -95,7 +95,9 @@ TEST(PoseTrust, NothingThatIsDrawnIsNoNumber) {
             matrices[joint] = matrix;
             EXPECT_EQ(skin->setPose(matrices.data(), 3), followed) << joint << " " << matrix[0][0];
             EXPECT_TRUE(areFinite(*skin)) << joint << " " << matrix[0][0] << " " << matrix[3][0];
-            if (!followed) EXPECT_EQ(positionsOf(*skin), before);
+            if (!followed) {
+                EXPECT_EQ(positionsOf(*skin), before);
+            }
         }
 }
 

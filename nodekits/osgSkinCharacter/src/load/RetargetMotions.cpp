@@ -28,14 +28,14 @@ void checkSize(const std::string& file, std::size_t frames, const CharacterSourc
 
 } // namespace
 
-std::vector<CharacterMotion> retargetMotions(CharacterSource& source,
-                                             const osgDB::Options* options, LoadStages& stages) {
+std::vector<CharacterMotion>
+retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, LoadStages& stages) {
     std::vector<CharacterMotion> motions;
     for (const SkinFile::MotionEntry& entry : source.motions) {
         stages.begin("motion " + entry.name, LoadStages::kMotion);
         CharacterMotion& made = motions.emplace_back();
         namingFile(entry.file, [&] {
-            Motion motion = importMotion(entry.file, entry.skipFrames, entry.clip, options);
+            Motion motion = importMotion(entry.file, entry.skipFrames, entry.clip, readOptions);
             checkSize(entry.file, motion.frames, source);
             motion.name = entry.name;
             RetargetOptions options;

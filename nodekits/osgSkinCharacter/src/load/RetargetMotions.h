@@ -13,10 +13,11 @@ namespace osgSkin {
 /// Reads the source's motion files and retargets them to its rest skeleton.
 ///
 /// \param source gets a note for what is likely not as wanted
+/// \param readOptions with words of ReadLimits; may be null
 /// \param stages are told of each file
 /// \return one motion for each file, in order
 /// \throw Error with the motion file and the reason
 std::vector<CharacterMotion> retargetMotions(CharacterSource& source,
-                                             const osgDB::Options* options, LoadStages& stages);
+                                             const osgDB::Options* readOptions, LoadStages& stages);
 
 } // namespace osgSkin

@@ -89,7 +89,7 @@ private:
             corners = _parts.count(accessor);
             primitive["indices"] = accessor;
         }
-        const json mode = from.value("mode", json(4));
+        const json mode = from.value("mode", json(4u));
         primitive["mode"] = _parts.index(mode, 7, where + ".mode");
         if (from.contains("material"))
             primitive["material"] = _parts.indexOf(from.at("material"), "materials", where);

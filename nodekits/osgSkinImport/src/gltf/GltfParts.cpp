@@ -5,6 +5,7 @@
 #include "gltf/GltfAccessors.h"
 #include "text/FileText.h"
 
+#include <osgSkin/Error>
 #include <osgSkinRig/InRange>
 
 #include <osgDB/FileNameUtils>
@@ -119,8 +120,13 @@ void GltfParts::checkBuffers(json& result) {
             content = fromBase64(std::string_view(uri).substr(std::min(uri.find(','), uri.size())));
         } else {
             if (osgDB::containsServerAddress(uri)) fail(where + ".uri", "a file");
-            content = readText(osgDB::concatPaths(osgDB::getFilePath(_file.path), decodedUri(uri)),
-                               _file.limits);
+            try {
+                content =
+                    readText(osgDB::concatPaths(osgDB::getFilePath(_file.path), decodedUri(uri)),
+                             _file.limits);
+            } catch (const Error& error) {
+                failFile(_file.path, where + ": " + error.what());
+            }
             _bytes += content.size();
         }
         _bufferSizes.push_back(content.size());

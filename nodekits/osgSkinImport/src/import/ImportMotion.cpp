@@ -45,6 +45,8 @@ Motion readBvhMotion(const std::string& path, const std::string& clip, const Rea
 Motion readAssimpMotion(const std::string& path, const std::string& clip,
                         const ReadLimits& limits) {
     const std::size_t bytes = requireReadable(path, limits);
+    if (osgDB::getLowerCaseFileExtension(path) == "ply")
+        failFile(path, "no animation: a PLY file holds none");
     Assimp::Importer importer;
     const aiScene& scene = readAssimpScene(importer, path, limits);
     if (scene.mNumAnimations == 0) failFile(path, "no animation, expected at least one");

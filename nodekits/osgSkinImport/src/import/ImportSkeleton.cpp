@@ -17,6 +17,8 @@ RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* optio
     limits.checkFormat(path);
     if (osgDB::getLowerCaseFileExtension(path) == "bvh")
         return makeRestSkeleton(readBvh(path, limits));
+    if (osgDB::getLowerCaseFileExtension(path) == "ply")
+        failFile(path, "no skeleton: a PLY file holds none");
     if (!assimpReads(path)) return readOsgSkeleton(*readOsgScene(path, options), path);
     Assimp::Importer importer;
     return readSceneSkeleton(readAssimpScene(importer, path, limits), path, limits).rest;

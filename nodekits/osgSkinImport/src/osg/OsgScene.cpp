@@ -46,8 +46,9 @@ osg::ref_ptr<osg::Node> readOsgScene(const std::string& path, const osgDB::Optio
     osgDB::ReaderWriter::ReadResult read = osgDB::Registry::instance()->readNode(path, options);
     osg::ref_ptr<osg::Node> node = read.getNode();
     if (node) return node;
-    requireReadable(path, ReadLimits::of(options));
     const std::string& reason = read.message();
+    // A pseudo-loader's name is no file, and has a reason of its own.
+    if (reason.empty() || read.notFound()) requireReadable(path, ReadLimits::of(options));
     failFile(path,
              reason.empty() ? "no reader of Assimp or OpenSceneGraph knows this file" : reason);
 }

@@ -15,9 +15,18 @@ namespace {
 
 constexpr std::size_t kMegabyte = 1 << 20;
 
-/// Opens a regular file and tells its size.
-std::ifstream open(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
-                   std::size_t& size) {
+} // namespace
+
+std::string onOneLine(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' '))
+        text.pop_back();
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    return text;
+}
+
+std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
+                       std::size_t& size) {
     std::error_code failure;
     const std::filesystem::file_status status = std::filesystem::status(path, failure);
     if (status.type() == std::filesystem::file_type::directory)
@@ -40,16 +49,6 @@ std::ifstream open(const std::string& path, std::size_t mostMegabytes, const cha
     return stream;
 }
 
-} // namespace
-
-std::string onOneLine(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' '))
-        text.pop_back();
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    return text;
-}
-
 void failFile(const std::string& path, const std::string& message) {
     throw Error(onOneLine(path + ": " + message));
 }
@@ -60,7 +59,7 @@ void failLine(const std::string& path, std::size_t line, const std::string& mess
 
 std::size_t requireReadable(const std::string& path, const ReadLimits& limits) {
     std::size_t size = 0;
-    open(path, limits.fileMegabytes, "maxFileMB", size);
+    openFile(path, limits.fileMegabytes, "maxFileMB", size);
     return size;
 }
 
@@ -71,17 +70,6 @@ bool isRegularFile(const std::string& path) {
 
 std::string readText(const std::string& path, const ReadLimits& limits) {
     return readWholeFile(path, limits.fileMegabytes, "maxFileMB");
-}
-
-std::string readWholeFile(const std::string& path, std::size_t mostMegabytes,
-                          const char* raisedBy) {
-    std::size_t size = 0;
-    std::ifstream stream = open(path, mostMegabytes, raisedBy, size);
-    std::string text(size, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(size));
-    if (static_cast<std::size_t>(stream.gcount()) != size)
-        failFile(path, "cannot be read to its end");
-    return text;
 }
 
 bool parseNumber(std::string_view token, double& value) {

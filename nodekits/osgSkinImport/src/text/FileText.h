@@ -4,6 +4,7 @@
 
 #include <osgSkinImport/ReadLimits>
 
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,11 @@ namespace osgSkin {
 /// The whole content of a file, for any reader; throws osgSkin::Error with the reason where it
 /// cannot be read or is larger than allowed.
 std::string readText(const std::string& path, const ReadLimits& limits);
+
+/// Opens a regular file of less than so many megabytes and tells its size; throws osgSkin::Error,
+/// which names the option that raises the limit.
+std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
+                       std::size_t& size);
 
 /// Throws osgSkin::Error unless `path` is a regular file that can be opened and is no larger than
 /// allowed; returns its size.

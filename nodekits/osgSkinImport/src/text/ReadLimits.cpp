@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
 #include <sstream>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -63,6 +65,17 @@ void ReadLimits::checkFormat(const std::string& path) const {
     for (const std::string& format : formats) allowed += (allowed.empty() ? "" : ", ") + format;
     failFile(path, "the format " + inQuotes(extension) + " is not allowed, expected one of " +
                        allowed + " (option formats)");
+}
+
+std::string readWholeFile(const std::string& path, std::size_t mostMegabytes,
+                          const char* raisedBy) {
+    std::size_t size = 0;
+    std::ifstream stream = openFile(path, mostMegabytes, raisedBy, size);
+    std::string text(size, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(size));
+    if (static_cast<std::size_t>(stream.gcount()) != size)
+        failFile(path, "cannot be read to its end");
+    return text;
 }
 
 } // namespace osgSkin

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Any bytes as a file of one format (OSGSKIN_FUZZ_EXTENSION), by every reader of it. Errors are
+// osgSkin::Error; anything else that is thrown ends the run.
+#include "InputFile.h"
+
+#include <osgSkin/Error>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportRig>
+#include <osgSkinImport/ImportSkeleton>
+
+#include <osg/Notify>
+
+namespace {
+
+template <typename Read>
+void attempt(const Read& read) {
+    try {
+        read();
+    } catch (const osgSkin::Error&) {
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    osg::setNotifyLevel(osg::ALWAYS);
+    const std::string path = fuzz::save("input." OSGSKIN_FUZZ_EXTENSION, data, size);
+    attempt([&] { osgSkin::importMesh(path); });
+    attempt([&] { osgSkin::importSkeleton(path); });
+    attempt([&] { osgSkin::importMotion(path); });
+    if (osgSkin::isReadByAssimp(path)) attempt([&] { osgSkin::importRig(path); });
+    return 0;
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Any words as a saved model (SkinModel::create() behind them), and any numbers as a rotation to be
+// split.
+#include "words/SkinModelBlock.h"
+
+#include <osgSkin/BendTwist>
+#include <osgSkin/Error>
+
+#include <cstdlib>
+#include <cstring>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    std::vector<std::uint32_t> words(size / 4);
+    if (!words.empty()) std::memcpy(words.data(), data, 4 * words.size());
+    const osg::ref_ptr<osgSkin::SkinModel> model = new osgSkin::SkinModel;
+    try {
+        osgSkin::unpackSkinModel(words, *model);
+    } catch (const osgSkin::Error&) {
+    }
+    double numbers[7] = {1, 0, 0, 0, 0, 1, 0};
+    std::memcpy(numbers, data, std::min(size, sizeof numbers));
+    osgSkin::BendTwist split;
+    const glm::dquat rotation(numbers[0], numbers[1], numbers[2], numbers[3]);
+    if (osgSkin::trySplitBendTwist(rotation, {numbers[4], numbers[5], numbers[6]}, split) &&
+        !(std::isfinite(split.bendAngle) && std::isfinite(split.twistAngle) &&
+          osgSkin::isFinite(split.bendAxis)))
+        std::abort();
+    return 0;
+}
