@@ -168,9 +168,8 @@ std::string GltfParts::wrongWith(const json& accessor, const Accessor& known) co
     if ((known.type == "MAT2" || known.type == "MAT3") && component < 4)
         return "matrices of floats";
     if (accessor.contains("bufferView")) {
-        const std::string wrong =
-            beyondView(accessor.at("bufferView"), sizeOf(accessor, "byteOffset"), known.count,
-                       component * width, false);
+        std::string wrong = beyondView(accessor.at("bufferView"), sizeOf(accessor, "byteOffset"),
+                                       known.count, component * width, false);
         if (!wrong.empty()) return wrong;
     } else if (known.count > 2 * limits().samplesOf(_bytes)) {
         return "no more zeros than the file has room for (option maxSamples)";
@@ -181,7 +180,7 @@ std::string GltfParts::wrongWith(const json& accessor, const Accessor& known) co
     const std::size_t changes = sizeOf(sparse, "count");
     const std::size_t place = componentSize(places.at("componentType").get<int>());
     if (place == 0) return "a component type of 5121, 5123 or 5125";
-    const std::string wrong =
+    std::string wrong =
         beyondView(places.at("bufferView"), sizeOf(places, "byteOffset"), changes, place, true);
     if (!wrong.empty()) return wrong;
     return beyondView(values.at("bufferView"), sizeOf(values, "byteOffset"), changes,
