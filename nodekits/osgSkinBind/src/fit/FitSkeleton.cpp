@@ -16,7 +16,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <osgSkinRig/InRange>
 #include <osgSkinRig/JointRoles>
 
 #include <algorithm>
@@ -40,7 +39,9 @@ constexpr double kPerson = 0.10;
 constexpr double kHardlyAll = 0.6;
 
 bool isDirection(const glm::dvec3& d) {
-    return isInRange(d) && glm::length(d) > 1.0 / kLargestCoordinate;
+    constexpr double longest = 1e18; // as coordinates may be
+    const double length = glm::length(d);
+    return length <= longest && length >= 1.0 / longest; // false for NaN
 }
 
 /// The landmarks by the names that a fitted skeleton has; those that are not known stay.

@@ -2,8 +2,7 @@
 #include "bvh/BvhTokens.h"
 
 #include "text/FileText.h"
-
-#include <osgSkinRig/InRange>
+#include "text/InRange.h"
 
 #include <algorithm>
 #include <cmath>

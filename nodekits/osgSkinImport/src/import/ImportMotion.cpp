@@ -9,9 +9,9 @@
 #include "rig/SampleTracks.h"
 #include "rig/TrackOffsets.h"
 #include "text/FileText.h"
+#include "text/InRange.h"
 
 #include <osgSkin/GlmTypes>
-#include <osgSkinRig/InRange>
 
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
@@ -79,7 +79,8 @@ Motion importMotion(const std::string& path, std::size_t skipFrames, const std::
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
     const bool isBvh = osgDB::getLowerCaseFileExtension(path) == "bvh";
-    Motion motion = isBvh ? readBvhMotion(path, clip, limits) : readAssimpMotion(path, clip, limits);
+    Motion motion =
+        isBvh ? readBvhMotion(path, clip, limits) : readAssimpMotion(path, clip, limits);
     if (isBvh || clip.empty()) motion.name = osgDB::getStrippedName(path);
     if (skipFrames >= motion.frames)
         failFile(path, std::to_string(motion.frames) + " frame(s), expected more than the " +

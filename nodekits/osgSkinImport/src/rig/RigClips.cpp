@@ -5,10 +5,10 @@
 #include "rig/ClipNames.h"
 #include "rig/RigBones.h"
 #include "text/FileText.h"
+#include "text/InRange.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
-#include <osgSkinRig/InRange>
 
 #include <osgAnimation/Channel>
 #include <osgAnimation/Sampler>

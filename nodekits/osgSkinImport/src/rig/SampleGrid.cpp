@@ -42,7 +42,8 @@ SampleGrid::SampleGrid(std::vector<double> times) {
                             [same](double a, double b) { return b - a <= same; }),
                 times.end());
     times.back() = span;
-    const double steps = std::max(1.0, std::ceil(std::min(span * rateOf(times), kMostSteps) - kOff));
+    const double steps =
+        std::max(1.0, std::ceil(std::min(span * rateOf(times), kMostSteps) - kOff));
     _samples = static_cast<std::size_t>(steps) + 1;
     _step = span / steps;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/SkinMesh>
 
+#include "mesh/InRange.h"
+
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
-#include <osgSkinRig/InRange>
 
 #include <glm/common.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/Retarget>
 
+#include "mesh/InRange.h"
 #include "reference/CopyRotations.h"
 #include "reference/StandingCheck.h"
 #include "reference/StandingPose.h"
@@ -17,7 +18,6 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
 #include <osgSkinRig/ForwardKinematics>
-#include <osgSkinRig/InRange>
 
 #include <glm/trigonometric.hpp>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/RestSkeleton>
 
+#include "mesh/InRange.h"
+
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
-#include <osgSkinRig/InRange>
 
 #include <set>
 

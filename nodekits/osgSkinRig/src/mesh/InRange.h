@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: MIT -*-C++-*-
-#ifndef OSGSKINRIG_INRANGE
-#define OSGSKINRIG_INRANGE 1
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINRIG_INRANGE_H
+#define OSGSKINRIG_INRANGE_H 1
 
 #include <osgSkin/GlmTypes>
 
@@ -13,7 +13,6 @@ namespace osgSkin {
 constexpr double kLargestCoordinate = 1e18;
 
 /// Whether all components are finite and within kLargestCoordinate.
-/// \param v any vector
 inline bool isInRange(const glm::dvec3& v) {
     return std::abs(v.x) <= kLargestCoordinate && std::abs(v.y) <= kLargestCoordinate &&
            std::abs(v.z) <= kLargestCoordinate; // false for NaN
