@@ -94,9 +94,30 @@ private:
         if (from.contains("material"))
             primitive["material"] = _parts.indexOf(from.at("material"), "materials", where);
         _parts.addDraco(from, where, primitive);
+        addTargets(from, vertices, where, primitive);
         _parts.take(vertices + corners, where);
         _elements.back() += vertices + corners;
         list.push_back(primitive);
+    }
+
+    void addTargets(const json& from, std::size_t vertices, const std::string& where,
+                    json& primitive) {
+        const json targets = from.value("targets", json::array());
+        if (!targets.is_array()) _parts.fail(where + ".targets", "a list");
+        for (const json& target : targets) {
+            json kept = json::object();
+            for (const char* name : {"POSITION", "NORMAL"}) {
+                if (!target.contains(name)) continue;
+                const std::string place = where + ".targets." + name;
+                const std::size_t accessor = _parts.accessor(target.at(name), place);
+                _parts.requireType(accessor, {"VEC3"}, place);
+                if (_parts.count(accessor) != vertices)
+                    _parts.fail(place, std::to_string(vertices) + " elements, one a vertex");
+                kept[name] = accessor;
+            }
+            _parts.addEntries(1);
+            primitive["targets"].push_back(kept);
+        }
     }
 
     void addMeshes(json& result) {
@@ -104,6 +125,7 @@ private:
             json mesh = {{"primitives", json::array()}};
             _parts.copyName(from, mesh);
             _elements.push_back(0);
+            _parts.copyWeights(from, where, mesh);
             const json& primitives = from.at("primitives");
             if (!primitives.is_array()) _parts.fail(where + ".primitives", "a list");
             std::size_t number = 0;
@@ -148,6 +170,7 @@ private:
             _parts.copyNumbers(from, "translation", 3, where, node);
             _parts.copyNumbers(from, "rotation", 4, where, node);
             _parts.copyNumbers(from, "scale", 3, where, node);
+            _parts.copyWeights(from, where, node);
             if (from.contains("mesh"))
                 node["mesh"] = _parts.indexOf(from.at("mesh"), "meshes", where + ".mesh");
             // Every node that shows a mesh makes a copy of it.

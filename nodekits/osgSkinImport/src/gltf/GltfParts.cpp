@@ -102,6 +102,12 @@ void GltfParts::copyNumbers(const json& from, const char* key, std::size_t count
     to[key] = *found;
 }
 
+void GltfParts::copyWeights(const json& from, const std::string& where, json& to) const {
+    const auto found = from.find("weights");
+    if (found != from.end() && found->is_array())
+        copyNumbers(from, "weights", found->size(), where, to);
+}
+
 void GltfParts::checkBuffers(json& result) {
     _bytes = _file.size;
     forEach("buffers", [&](const json& from, const std::string& where) {
