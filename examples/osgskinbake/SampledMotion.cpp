@@ -8,7 +8,7 @@
 namespace bake {
 namespace {
 
-constexpr double kMostFrames = 1e9;
+constexpr double kMostSamples = 1e9;
 
 using osgSkin::Character;
 using osgSkin::CharacterMotion;
@@ -20,7 +20,7 @@ SampledMotion ownSamples(Character& character, const CharacterMotion& motion) {
 
 SampledMotion samplesAt(Character& character, const CharacterMotion& motion, double rate) {
     const double last = std::floor(motion.animation->getDuration() * rate + 1e-6);
-    if (!(last < kMostFrames))
+    if (!(last < kMostSamples))
         throw osgSkin::Error(character.file + ": motion \"" + motion.name() + "\" has " +
                              std::to_string(last) + " frames, expected less than 1e9");
     return {motion.name(),
