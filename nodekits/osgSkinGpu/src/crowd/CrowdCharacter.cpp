@@ -169,7 +169,8 @@ std::size_t CrowdCharacter::addLevel(double triangles, double size) {
         for (const GLuint index : part.indices.front()) indices.push_back(first + index);
         ends.push_back(positions.size());
     }
-    const auto most = 3 * static_cast<std::size_t>(triangles * double(indices.size() / 3));
+    const std::size_t all = indices.size() / 3;
+    const auto most = 3 * static_cast<std::size_t>(triangles * static_cast<double>(all));
     const std::vector<GLuint> kept = simplified(positions, indices, most);
     for (std::size_t p = 0; p < _parts.size(); ++p) {
         const std::size_t first = p == 0 ? 0 : ends[p - 1];

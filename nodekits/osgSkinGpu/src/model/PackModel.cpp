@@ -84,9 +84,9 @@ public:
             for (std::uint32_t row = 0; row < group.vertexCount;
                  ++row, ratios += group.partialCount) {
                 const std::uint32_t v = _model.order()[group.firstVertex + row];
-                (*_texels)[vertices + 2 * v] =
+                (*_texels)[vertices + 2 * std::size_t(v)] =
                     packedTexel(_model.positions()[v], word(chainTexels[g]));
-                (*_texels)[vertices + 2 * v + 1] =
+                (*_texels)[vertices + 2 * std::size_t(v) + 1] =
                     packedTexel(_model.normals()[v], word(_texels->size()));
                 addLinks(chains[g], ratios);
                 if (_model.hasSurfaceNormals()) addGradients(chains[g], ratios, v);
