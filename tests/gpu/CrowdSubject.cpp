@@ -33,7 +33,8 @@ CrowdSubject::CrowdSubject(std::size_t count) : _skin(tubeSkin()), _knob(knob())
     for (std::size_t i = 0; i < count; ++i) {
         osgSkin::CrowdInstance member;
         const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(double(count))));
-        member.position = osg::Vec3d(5.0 * double(i % side), 5.0 * double(i / side), 0.0);
+        const std::size_t row = i / side, column = i % side;
+        member.position = osg::Vec3d(5.0 * double(column), 5.0 * double(row), 0.0);
         member.rotation = osg::Quat(0.7 * double(i), osg::Vec3d(0, 0, 1));
         member.scale = 0.6f + 0.1f * static_cast<float>(i % 5);
         member.clip = static_cast<unsigned int>(i % 2);

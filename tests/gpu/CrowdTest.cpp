@@ -103,7 +103,7 @@ TEST_F(Crowd, BlendsTwoClips) {
     EXPECT_GT(test::unlikePixels(*half, *one), 500u);
     EXPECT_GT(test::unlikePixels(*half, *other), 500u);
     // A clip mixed with itself is that clip, though joints are then multiplied out by the shader.
-    for (std::size_t i = 0; i < blended.size(); ++i) blended[i].otherClip = blended[i].clip;
+    for (CrowdInstance& member : blended) member.otherClip = member.clip;
     EXPECT_LE(test::unlikePixels(*withBlend(0.5f), *one), 20u);
 }
 
