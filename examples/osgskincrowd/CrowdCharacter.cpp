@@ -35,13 +35,15 @@ osg::ref_ptr<osg::Node> readScene(const std::string& file) {
 CrowdCharacter::CrowdCharacter(const std::string& file) {
     const osg::ref_ptr<osg::Node> scene = readScene(file);
     if (!scene) throw std::runtime_error(file + " cannot be read");
+    CountVertices count;
+    scene->accept(count);
+    if (count.vertices == 0)
+        throw std::runtime_error(file + " has no deformable skin; expected a character");
     character = osgSkin::ClipCharacter::create(*scene);
     // One without a clip stands as it does.
     osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
     if (!character->animations().empty()) animation = character->animations().front();
     clip = character->sample(*animation);
     character->bake(clip);
-    CountVertices count;
-    scene->accept(count);
     vertices = count.vertices;
 }

@@ -57,7 +57,7 @@ struct BoundsProxy {
     };
 
     /// Pieces that a skin is cut into at most.
-    static constexpr std::size_t kMost = 128;
+    static constexpr std::size_t kMost = 160;
 
     std::vector<Piece> pieces; ///< those that no term turns stand first
     std::vector<Term> terms;

@@ -8,8 +8,8 @@
 
 namespace osgSkin {
 
-/// How far joints may stand from the origin, either way; the square is a float still. The kits above
-/// keep meshes and motions to the same (osgSkinRig/InRange).
+/// How far joints may stand from the origin, either way; the square is a float still. The kits
+/// above keep meshes and motions to the same (osgSkinRig/InRange).
 constexpr double kReach = 1e18;
 
 /// Whether all components are finite and within kReach.

@@ -18,7 +18,7 @@ struct GltfFile {
     std::optional<std::string> binary; ///< of a binary file: what buffer 0 holds, where it has one
 
     bool isBinary = false;
-    ReadLimits limits; ///< for the other files
+    ReadLimits limits;    ///< for the other files
     std::size_t size = 0; ///< in bytes
 
     /// Reads a file. None where it is no glTF 2, or broken as a whole.

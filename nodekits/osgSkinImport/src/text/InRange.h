@@ -9,7 +9,8 @@
 namespace osgSkin {
 
 /// The largest coordinate, either way, of meshes, skeletons, motions and poses (see Pose::set()):
-/// what lies beyond is refused, here with its place. Its square is a float still, as the radius of a bound needs it.
+/// what lies beyond is refused, here with its place. Its square is a float still, as the radius of
+/// a bound needs it.
 constexpr double kLargestCoordinate = 1e18;
 
 /// Whether all components are finite and within kLargestCoordinate.
