@@ -12,7 +12,8 @@ CrowdView::CrowdView(const osg::Matrixd& modelView, const osg::Matrixd& projecti
         const int axis = static_cast<int>(i / 2);
         const double sign = i % 2 == 0 ? 1.0 : -1.0;
         osg::Vec4d plane;
-        for (int row = 0; row < 4; ++row) plane[row] = clip(row, 3) + sign * clip(row, axis);
+        for (unsigned int row = 0; row < 4; ++row)
+            plane[row] = clip(static_cast<int>(row), 3) + sign * clip(static_cast<int>(row), axis);
         const double length = osg::Vec3d(plane.x(), plane.y(), plane.z()).length();
         planes[i] = length > 0.0 ? plane / length : osg::Vec4d(0, 0, 0, 1);
     }
