@@ -133,7 +133,10 @@ public:
         Rows all(_vertices.model.vertexCount());
         for (std::uint32_t row = 0; row < all.size(); ++row) all[row] = row;
         std::vector<Cell> cells = {cellOf(std::move(all))};
-        const std::size_t most = std::min(BoundsProxy::kMost, _vertices.model.vertexCount() / 12);
+        const std::size_t pieces = SkinModelAccess::correctives(_vertices.model)
+                                       ? BoundsProxy::kMostCorrected
+                                       : BoundsProxy::kMost;
+        const std::size_t most = std::min(pieces, _vertices.model.vertexCount() / 12);
         while (cells.size() < most) {
             const auto worst =
                 std::max_element(cells.begin(), cells.end(),

@@ -56,8 +56,8 @@ struct BoundsProxy {
         std::uint32_t firstCorrection, correctionCount;
     };
 
-    /// Pieces that a skin is cut into at most.
-    static constexpr std::size_t kMost = 160;
+    /// Pieces that a skin is cut into at most, without correctives and with them.
+    static constexpr std::size_t kMost = 128, kMostCorrected = 160;
 
     std::vector<Piece> pieces; ///< those that no term turns stand first
     std::vector<Term> terms;
