@@ -64,9 +64,10 @@ osg::ref_ptr<osg::Program> make(const char* name, const char* defines) {
 } // namespace
 
 osg::Program* computeProgram(bool withTangents) {
-    static const osg::ref_ptr<osg::Program> plain = make("osgSkin deform", "");
-    static const osg::ref_ptr<osg::Program> tangents =
-        make("osgSkin deform with tangents", "#define OSGSKIN_TANGENTS\n");
+    // Never deleted: contexts may be gone when a process ends.
+    static const auto& plain = *new osg::ref_ptr<osg::Program>(make("osgSkin deform", ""));
+    static const auto& tangents = *new osg::ref_ptr<osg::Program>(
+        make("osgSkin deform with tangents", "#define OSGSKIN_TANGENTS\n"));
     return withTangents ? tangents.get() : plain.get();
 }
 

@@ -197,22 +197,23 @@ std::string crowdText() {
 }
 
 osg::Program* plainCrowdProgram() {
-    static const osg::ref_ptr<osg::Program> plain = [] {
+    // Never deleted: contexts may be gone when a process ends.
+    static const auto& plain = *new osg::ref_ptr<osg::Program>([] {
         const osg::ref_ptr<osg::Program> made = program("osgSkin crowd");
         made->addShader(new osg::Shader(osg::Shader::VERTEX, kPlainVertex));
         made->addShader(new osg::Shader(osg::Shader::VERTEX, crowdText()));
         made->addShader(new osg::Shader(osg::Shader::FRAGMENT, kPlainFragment));
         return made;
-    }();
+    }());
     return plain;
 }
 
 osg::Program* cullProgram() {
-    static const osg::ref_ptr<osg::Program> cull = [] {
+    static const auto& cull = *new osg::ref_ptr<osg::Program>([] {
         const osg::ref_ptr<osg::Program> made = program("osgSkin crowd culling");
         made->addShader(new osg::Shader(osg::Shader::COMPUTE, kCull));
         return made;
-    }();
+    }());
     return cull;
 }
 

@@ -14,7 +14,8 @@
 namespace osgSkin {
 
 SharedBarrier& SharedBarrier::instance() {
-    static const osg::ref_ptr<SharedBarrier> barrier = new SharedBarrier;
+    // Never deleted: contexts may be gone when a process ends.
+    static const auto& barrier = *new osg::ref_ptr<SharedBarrier>(new SharedBarrier);
     return *barrier;
 }
 
