@@ -3,9 +3,10 @@
 
 #include "correctives/CorrectiveStray.h"
 #include "model/BoundsProxy.h"
-#include "model/Reach.h"
 #include "model/SkinModelAccess.h"
 #include "pose/JointMotions.h"
+
+#include <osgSkin/GlmTypes>
 
 #include <algorithm>
 #include <array>
@@ -144,7 +145,7 @@ private:
 
 /// A side of the box where it is a number, else as far out as poses may reach.
 float bounded(float side, float otherwise) {
-    return std::abs(side) <= static_cast<float>(kReach) ? side : otherwise; // NaN too
+    return std::abs(side) <= static_cast<float>(kLargestCoordinate) ? side : otherwise; // NaN too
 }
 
 } // namespace
@@ -162,8 +163,8 @@ PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept 
         box.add(piece, corrections ? &*corrections : nullptr);
     PoseBounds bounds{box.low.xyz(), box.high.xyz()};
     for (int axis = 0; axis < 3; ++axis) {
-        bounds.low[axis] = bounded(bounds.low[axis], -static_cast<float>(kReach));
-        bounds.high[axis] = bounded(bounds.high[axis], static_cast<float>(kReach));
+        bounds.low[axis] = bounded(bounds.low[axis], -static_cast<float>(kLargestCoordinate));
+        bounds.high[axis] = bounded(bounds.high[axis], static_cast<float>(kLargestCoordinate));
     }
     return bounds;
 }

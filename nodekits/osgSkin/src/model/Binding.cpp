@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Binding>
 
-#include "model/Reach.h"
-
 #include <osgSkin/Error>
+#include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
 
@@ -29,7 +28,7 @@ void validateJoints(const std::vector<BoundJoint>& joints) {
         if (!parentFits) throw Error(place + " does not come after its parent");
         if (!isUnit(joints[j].boneAxis) || !isUnit(joints[j].twistAxis))
             throw Error(place + " has an axis that is not a unit vector");
-        if (!isWithinReach(joints[j].centre))
+        if (!isInRange(joints[j].centre))
             throw Error(place + " has a centre that is not finite, or beyond -1e18 to 1e18");
     }
 }

@@ -3,7 +3,6 @@
 
 #include <osgSkin/GlmOsg>
 
-#include "model/Reach.h"
 #include "model/SkinBlocks.h"
 #include "pose/SplitUnit.h"
 
@@ -94,7 +93,7 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool*
         const glm::dvec3& centre = (*_rest)[j].centre;
         frame.offset = glm::dvec3(skinning[j] * glm::dvec4(centre, 1.0)) -
                        frame.scale * (frame.rotation * centre);
-        if (!isWithinReach(frame.offset) || !isAffine(skinning[j])) return false;
+        if (!isInRange(frame.offset) || !isAffine(skinning[j])) return false;
     }
     bool other = false;
     for (std::size_t j = 0; j < count; ++j) {

@@ -2,7 +2,8 @@
 #include "bvh/BvhTokens.h"
 
 #include "text/FileText.h"
-#include "text/InRange.h"
+
+#include <osgSkin/GlmTypes>
 
 #include <algorithm>
 #include <cmath>

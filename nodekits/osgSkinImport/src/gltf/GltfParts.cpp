@@ -4,9 +4,9 @@
 #include "gltf/Base64.h"
 #include "gltf/GltfAccessors.h"
 #include "text/FileText.h"
-#include "text/InRange.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmTypes>
 
 #include <osgDB/FileNameUtils>
 

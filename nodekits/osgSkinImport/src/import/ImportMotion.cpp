@@ -9,7 +9,6 @@
 #include "rig/SampleTracks.h"
 #include "rig/TrackOffsets.h"
 #include "text/FileText.h"
-#include "text/InRange.h"
 
 #include <osgSkin/GlmTypes>
 

@@ -5,7 +5,6 @@
 #include "rig/ClipNames.h"
 #include "rig/RigBones.h"
 #include "text/FileText.h"
-#include "text/InRange.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/SkinMesh>
 
-#include "mesh/InRange.h"
-
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
 

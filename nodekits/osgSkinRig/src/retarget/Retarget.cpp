@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/Retarget>
 
-#include "mesh/InRange.h"
 #include "reference/CopyRotations.h"
 #include "reference/StandingCheck.h"
 #include "reference/StandingPose.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/RestSkeleton>
 
-#include "mesh/InRange.h"
-
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
