@@ -4,6 +4,7 @@
 #include "model/SkinBlocks.h"
 #include "pose/LinkTilt.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,9 +16,18 @@ namespace osgSkin {
 struct alignas(16) Splat {
     float value[4];
 
+    /// What a constant is as a float.
+    static float rounded(double x) {
+        const double kept = std::fabs(x) < 1e-15 ? 0.0 : x;
+        return static_cast<float>(kept);
+    }
+
+    void set(float x) {
+        for (float& v : value) v = x;
+    }
+
     Splat& operator=(double x) {
-        const auto rounded = static_cast<float>(x > -1e-15 && x < 1e-15 ? 0.0 : x);
-        for (float& v : value) v = rounded;
+        set(rounded(x));
         return *this;
     }
 };
@@ -72,7 +82,7 @@ struct KernelSlope {
     LinkTilt tilt;
     Splat bend;  ///< psi, in units of those numbers
     Splat twist; ///< phi, the same
-    Splat step;  ///< 1, the same
+    Splat step;  ///< 1, the same; set where the link is adjusted
 };
 
 /// The correctives of one joint on a range of a group's blocks, see Correctives.

@@ -13,9 +13,15 @@ namespace osgSkin {
 namespace {
 
 void write(const glm::dmat3& turn, const glm::dvec3& move, KernelMap& map) noexcept {
+    float rounded[4][3]; // columns; all at once, which takes a few instructions
     for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) map.turn[row][column] = turn[column][row];
-        map.move[row] = move[row];
+        for (int column = 0; column < 3; ++column)
+            rounded[column][row] = Splat::rounded(turn[column][row]);
+        rounded[3][row] = Splat::rounded(move[row]);
+    }
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) map.turn[row][column].set(rounded[column][row]);
+        map.move[row].set(rounded[3][row]);
     }
 }
 
@@ -39,7 +45,12 @@ std::size_t KernelChain::sharedLinks(const SkinModel::Group& group) const noexce
 }
 
 KernelChain::KernelChain(const SkinModel& model, const Pose& pose) noexcept
-    : _model(model), _pose(pose) {}
+    : _model(model), _pose(pose) {
+    State& none = _states.front();
+    none.own = {glm::dmat3(1.0), glm::dvec3(0.0), 1.0};
+    none.map = &none.own;
+    none.partialCount = 0;
+}
 
 void KernelChain::workOut(std::uint32_t index, Joint& joint) const noexcept {
     const JointTransform turn = _pose.transform(index);
@@ -73,35 +84,40 @@ const KernelChain::Joint& KernelChain::joint(std::uint32_t index) noexcept {
     return _joints[index];
 }
 
-void KernelChain::append(const SkinModel::Link& link, State& state) noexcept {
+void KernelChain::append(const SkinModel::Link& link, const State& before, State& state) noexcept {
     const Joint& turn = joint(link.joint);
+    const Map& map = *before.map;
+    state.partialCount = before.partialCount;
     if (!link.partial) {
-        state.map.move += state.map.scale * (state.map.turn * turn.full.move);
-        state.map.turn = state.map.turn * turn.full.turn;
-        state.map.scale *= turn.full.scale;
+        state.own = {map.turn * turn.full.turn, map.move + map.scale * (map.turn * turn.full.move),
+                     map.scale * turn.full.scale};
+        state.map = &state.own;
         return;
     }
     KernelLink& out = _links[state.partialCount++];
     out.bend = turn.bend;
     out.twist = turn.twist;
-    out.adjusted = turn.adjusted || state.map.scale != 1.0;
+    out.adjusted = turn.adjusted || map.scale != 1.0;
     if (out.adjusted) {
         for (int axis = 0; axis < 3; ++axis) out.move[axis] = turn.move[axis];
         out.growth = turn.growth;
-        out.outScale = state.map.scale;
+        out.outScale = map.scale;
     }
-    write(state.map.turn * turn.frame,
-          state.map.scale * (state.map.turn * _model.joints()[link.joint].centre) + state.map.move,
-          out.out);
-    state.map = turn.intoFrame;
+    write(map.turn * turn.frame,
+          map.scale * (map.turn * _model.joints()[link.joint].centre) + map.move, out.out);
+    state.map = &turn.intoFrame;
+    if (link.joint < kMostJoints) return;
+    state.own = turn.intoFrame; // which is another joint's next
+    state.map = &state.own;
 }
 
 void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexcept {
     const std::size_t shared = sharedLinks(group);
-    State state = _states[shared];
+    const State* behind = &_states[shared];
     for (std::size_t i = shared; i < group.linkCount; ++i) {
-        append(_model.links()[group.firstLink + i], state);
-        if (i + 1 <= kKept) _states[i + 1] = state;
+        State& next = _states[std::min(i, kKept) + 1];
+        append(_model.links()[group.firstLink + i], *behind, next);
+        behind = &next;
     }
     _last = &group;
 
@@ -109,9 +125,10 @@ void KernelChain::prepare(const SkinModel::Group& group, KernelCall& call) noexc
     call.links = _links.data();
     call.lead = nullptr;
     if (!isInJointFrame(_model, group)) {
-        write(state.map.turn, state.map.move, _lead);
-        call.leadScaled = state.map.scale != 1.0;
-        if (call.leadScaled) call.leadScale = state.map.scale;
+        const Map& map = *behind->map;
+        write(map.turn, map.move, _lead);
+        call.leadScaled = map.scale != 1.0;
+        if (call.leadScaled) call.leadScale = map.scale;
         call.lead = &_lead;
         return;
     }

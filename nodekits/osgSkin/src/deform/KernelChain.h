@@ -24,16 +24,22 @@ namespace osgSkin {
 class KernelChain {
 public:
     KernelChain(const SkinModel& model, const Pose& pose) noexcept;
+    KernelChain(const KernelChain&) = delete; // its states point at each other
+    KernelChain& operator=(const KernelChain&) = delete;
 
     /// Sets the constants of `call` for a group; they are good until the next call.
     void prepare(const SkinModel::Group& group, KernelCall& call) noexcept;
 
 private:
-    /// x -> scale * turn x + move.
+    /// x -> scale * turn x + move. Not set where nothing is known: there are many of them.
     struct Map {
-        glm::dmat3 turn{1.0};
-        glm::dvec3 move{0.0};
-        double scale = 1.0;
+        Map() = default;
+        Map(const glm::dmat3& t, const glm::dvec3& m, double s) noexcept
+            : turn(t), move(m), scale(s) {}
+
+        glm::dmat3 turn;
+        glm::dvec3 move;
+        double scale;
     };
 
     /// What a joint gives in any chain.
@@ -51,20 +57,21 @@ private:
     /// State behind a link: the full turns since the last partial one, multiplied out, into that
     /// one's frame. Beyond kKept links nothing is kept, only carried along.
     struct State {
-        Map map;
-        std::uint32_t partialCount = 0;
+        const Map* map; ///< a joint's, or `own`
+        Map own;
+        std::uint32_t partialCount;
     };
     static constexpr std::size_t kKept = 48;
 
     const Joint& joint(std::uint32_t index) noexcept;
     void workOut(std::uint32_t index, Joint& joint) const noexcept;
     std::size_t sharedLinks(const SkinModel::Group& group) const noexcept;
-    void append(const SkinModel::Link& link, State& state) noexcept;
+    void append(const SkinModel::Link& link, const State& before, State& state) noexcept;
 
     const SkinModel& _model;
     const Pose& _pose;
     const SkinModel::Group* _last = nullptr;
-    std::array<State, kKept + 1> _states;
+    std::array<State, kKept + 2> _states; ///< behind as many links; the last: beyond kKept
     std::array<KernelLink, SkinModel::kMaxPartialInfluences> _links;
     KernelMap _lead;
     std::bitset<kMostJoints> _known;

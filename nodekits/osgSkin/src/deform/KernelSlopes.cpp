@@ -17,7 +17,7 @@ void KernelSlopes::prepare(std::size_t group, std::size_t firstBlock, KernelCall
         if (!slope.tilt.any()) continue;
         slope.bend = blocks.unit * bend;
         slope.twist = blocks.unit * twist;
-        slope.step = blocks.unit;
+        if (link.adjusted) slope.step = blocks.unit;
         call.lastSlope = k;
         call.gradients = blocks
                              .rows[blocks.firstRow[group] +

@@ -182,10 +182,9 @@ void CorrectiveJoint::weights(glm::dvec2 xy, double* beta) const noexcept {
     evaluate(clamped(xy), phi);
     const std::size_t functions = functionCount();
     const double* row = coefficients.data();
-    for (std::size_t k = 0; k < modes; ++k, row += functions) {
-        beta[k] = 0.0;
-        for (std::size_t i = 0; i < functions; ++i) beta[k] += row[i] * phi[i];
-    }
+    for (std::size_t k = 0; k < modes; ++k) beta[k] = 0.0;
+    for (std::size_t i = 0; i < functions; ++i, ++row) // modes side by side: no sum waits for one
+        for (std::size_t k = 0; k < modes; ++k) beta[k] += row[k * functions] * phi[i];
 }
 
 void Correctives::validate(const std::vector<BoundJoint>& bound, std::size_t vertexCount) const {
