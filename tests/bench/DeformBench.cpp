@@ -12,9 +12,12 @@
 #include <benchmark/benchmark.h>
 #include <hwy/highway.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -91,6 +94,50 @@ void shapes(benchmark::State& state, std::uint32_t parts, bench::Kind kind, bool
     count(state, positions.size());
 }
 
+/// What an update costs beside its vertices: two updates less one of a skin that has every vertex
+/// twice, and so the same groups, chains and joints.
+void setUp(benchmark::State& state, bench::Kind kind) {
+    const bench::Body& body = bench::body(1, kind);
+    osgSkin::SkinModel::Ordered models[2];
+    double seconds[2] = {};
+    osgSkin::Pose pose(body.binding.joints, body.binding.correctives.inputs.size());
+    std::vector<glm::vec3> positions, normals;
+    std::vector<std::uint32_t> source;
+    for (std::size_t times = 1; times <= 2; ++times) {
+        positions.insert(positions.end(), body.positions.begin(), body.positions.end());
+        normals.insert(normals.end(), body.normals.begin(), body.normals.end());
+        for (std::uint32_t v = 0; v < body.positions.size(); ++v) source.push_back(v);
+        models[times - 1] =
+            osgSkin::SkinModel::createInBestOrder(body.binding, positions, normals, source);
+    }
+    std::size_t frame = 0;
+    for ([[maybe_unused]] auto iteration : state) {
+        for (int i = 0; i < 2; ++i) {
+            osgSkin::DeformJob job;
+            job.model = models[i].model.get();
+            job.pose = &pose;
+            job.positions = positions.data();
+            job.normals = normals.data();
+            job.positionCount = job.normalCount = models[i].model->vertexCount();
+            constexpr std::size_t kUpdates = 20; // of one skin, which the caches get used to
+            const auto start = std::chrono::steady_clock::now();
+            for (std::size_t update = 0; update < kUpdates; ++update) {
+                const auto& skinning = body.skinning[(frame + update) % body.skinning.size()];
+                pose.set(skinning.data(), skinning.size());
+                job.run();
+                benchmark::ClobberMemory();
+            }
+            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+            seconds[i] += took.count() / kUpdates;
+        }
+        ++frame;
+    }
+    const auto updates = static_cast<double>(state.iterations());
+    state.counters["set-up us"] = 1e6 * (2.0 * seconds[0] - seconds[1]) / updates;
+    state.counters["update us"] = 1e6 * seconds[0] / updates;
+    state.counters["set-up %"] = 100.0 * (2.0 - seconds[1] / seconds[0]);
+}
+
 void osgAnimationRig(benchmark::State& state, std::uint32_t parts) {
     const bench::Body& body = bench::body(parts);
     bench::OsgRig rig(body);
@@ -133,6 +180,11 @@ int main(int argc, char** argv) {
     describe();
     const std::string joints = std::to_string(bench::body(1).binding.joints.size()) + " joints";
     benchmark::RegisterBenchmark(("pose set-up/" + joints).c_str(), poseSetUp);
+    for (const auto& [name, kind] :
+         {std::pair("set-up share/4k", bench::Kind::Turned),
+          std::pair("set-up share, surface normals/4k", bench::Kind::Surface),
+          std::pair("set-up share, fast shapes/4k", bench::Kind::Shaped)})
+        benchmark::RegisterBenchmark(name, setUp, kind)->Unit(benchmark::kMicrosecond);
     std::vector<std::int64_t> targets;
     for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
         targets.push_back(rest & -rest);
