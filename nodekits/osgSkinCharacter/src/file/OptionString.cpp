@@ -125,6 +125,8 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
         {"gpu=<on|off>", "on: skins are deformed on the graphics card where it has OpenGL 4.3"},
         {"formats=<extension,extension>",
          "what may be read at all, as skin,obj,bvh,ply,gltf,glb; everything by default"},
+        {"classes=<class,library>",
+         "what saved scenes may have beside what characters are made of, as osgParticle"},
         {"maxFileMB=, maxTextMB=, maxJoints=, maxDepth=, maxSamples=<number>",
          "raises a limit of what files may ask for; errors say which"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},

@@ -9,25 +9,17 @@
 #include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
 #include <osgSkinImport/ReadLimits>
+#include <osgSkinImport/ReadScene>
 
 #include <osg/MatrixTransform>
 #include <osg/StateSet>
 #include <osg/Transform>
-#include <osgDB/Registry>
 
 #include <filesystem>
 #include <utility>
 
 namespace osgSkin {
 namespace {
-
-osg::ref_ptr<osg::Node> readScene(const std::string& file, const osgDB::Options* options) {
-    osgDB::ReaderWriter::ReadResult read = osgDB::Registry::instance()->readNode(file, options);
-    osg::ref_ptr<osg::Node> node = read.getNode();
-    if (node) return node;
-    const std::string reason = read.message();
-    throw Error(file + ": " + (reason.empty() ? "cannot be read" : reason));
-}
 
 ConvertOptions convertOptionsOf(const LoadOptions& options) {
     using Method = LoadOptions::Method;

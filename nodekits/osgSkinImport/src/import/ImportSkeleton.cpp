@@ -8,6 +8,8 @@
 #include "osg/OsgScene.h"
 #include "text/FileText.h"
 
+#include <osgSkinImport/ReadScene>
+
 #include <osgDB/FileNameUtils>
 
 namespace osgSkin {
@@ -19,7 +21,7 @@ RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* optio
         return makeRestSkeleton(readBvh(path, limits));
     if (osgDB::getLowerCaseFileExtension(path) == "ply")
         failFile(path, "no skeleton: a PLY file holds none");
-    if (!assimpReads(path)) return readOsgSkeleton(*readOsgScene(path, options), path);
+    if (!assimpReads(path)) return readOsgSkeleton(*readScene(path, options), path);
     Assimp::Importer importer;
     return readSceneSkeleton(readAssimpScene(importer, path, limits), path, limits).rest;
 }

@@ -2,7 +2,6 @@
 #include "osg/OsgMesh.h"
 
 #include "mesh/Material.h"
-#include "osg/OsgScene.h"
 #include "text/FileText.h"
 
 #include <osg/Geometry>
@@ -13,6 +12,7 @@
 #include <osgAnimation/RigGeometry>
 
 #include <osgSkin/GlmOsg>
+#include <osgSkinImport/ReadScene>
 
 #include <cmath>
 #include <limits>
@@ -174,7 +174,7 @@ private:
 } // namespace
 
 CornerMesh readOsgMesh(const std::string& path, const osgDB::Options* options) {
-    const osg::ref_ptr<osg::Node> node = readOsgScene(path, options);
+    const osg::ref_ptr<osg::Node> node = readScene(path, options);
     CornerMesh result;
     GeometryCollector collector(path, result);
     node->accept(collector);

@@ -10,9 +10,6 @@
 #include <osg/NodeVisitor>
 #include <osg/Transform>
 #include <osgAnimation/Bone>
-#include <osgDB/FileNameUtils>
-#include <osgDB/FileUtils>
-#include <osgDB/Registry>
 
 namespace osgSkin {
 namespace {
@@ -36,22 +33,6 @@ public:
 };
 
 } // namespace
-
-osg::ref_ptr<osg::Node> readOsgScene(const std::string& path, const osgDB::Options* options) {
-    if (osgDB::containsServerAddress(path))
-        failFile(path, "cannot open: an address, expected a file");
-    // A pseudo-loader's name is no file; what stands before its extensions is.
-    const std::string found = osgDB::findDataFile(path, options);
-    if (!found.empty()) requireReadable(found, ReadLimits::of(options));
-    osgDB::ReaderWriter::ReadResult read = osgDB::Registry::instance()->readNode(path, options);
-    osg::ref_ptr<osg::Node> node = read.getNode();
-    if (node) return node;
-    const std::string& reason = read.message();
-    // A pseudo-loader's name is no file, and has a reason of its own.
-    if (reason.empty() || read.notFound()) requireReadable(path, ReadLimits::of(options));
-    failFile(path,
-             reason.empty() ? "no reader of Assimp or OpenSceneGraph knows this file" : reason);
-}
 
 RestSkeleton readOsgSkeleton(osg::Node& scene, const std::string& path) {
     SkeletonFinder finder;

@@ -26,12 +26,12 @@ std::size_t countOf(const std::string& key, const std::string& value) {
     return count;
 }
 
-std::vector<std::string> listOf(const std::string& value) {
+std::vector<std::string> listOf(const std::string& key, const std::string& value) {
     std::vector<std::string> result;
     std::istringstream list(value);
     for (std::string name; std::getline(list, name, ',');)
-        if (!name.empty()) result.push_back(osgDB::convertToLowerCase(name));
-    if (result.empty()) throw Error("option formats: expected extensions with commas between them");
+        if (!name.empty()) result.push_back(name);
+    if (result.empty()) throw Error("option " + key + ": expected names with commas between them");
     return result;
 }
 
@@ -52,7 +52,8 @@ ReadLimits ReadLimits::of(const osgDB::Options* options) {
         const std::string key = word.substr(0, sign), value = word.substr(sign + 1);
         for (const auto& [name, count] : counts)
             if (key == name) *count = countOf(key, value);
-        if (key == "formats") limits.formats = listOf(value);
+        if (key == "formats") limits.formats = listOf(key, osgDB::convertToLowerCase(value));
+        if (key == "classes") limits.classes = listOf(key, value);
     }
     return limits;
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_GUARDEDREADS_H
+#define OSGSKINIMPORT_GUARDEDREADS_H 1
+
+#include <osgSkinImport/ReadLimits>
+
+#include <osgDB/Callbacks>
+#include <osgDB/Options>
+
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+
+/// Stands before all of OSG's readers for one file and what it names, scenes and pictures alike:
+/// opens nothing but files, and reads saved scenes by readSaved(). Others go to the callback that
+/// the application has set, or else to OSG.
+class GuardedReads : public osgDB::ReadFileCallback {
+public:
+    using Result = osgDB::ReaderWriter::ReadResult;
+
+    /// \param options of the application; may be null
+    explicit GuardedReads(const osgDB::Options* options);
+
+    /// Why the first file was refused, since a reader between may keep it to itself; empty: none
+    /// was.
+    const std::string& reason() const { return _reason; }
+
+    Result readNode(const std::string& name, const osgDB::Options* options) override;
+    Result readObject(const std::string& name, const osgDB::Options* options) override;
+    Result readImage(const std::string& name, const osgDB::Options* options) override;
+    Result readHeightField(const std::string& name, const osgDB::Options* options) override;
+    Result readShader(const std::string& name, const osgDB::Options* options) override;
+    Result readScript(const std::string& name, const osgDB::Options* options) override;
+
+private:
+    template <typename Read>
+    Result guarded(const std::string& name, const osgDB::Options* options, Read read);
+    Result readSavedFile(const std::string& found, const osgDB::Options* options);
+
+    const ReadLimits _limits;
+    osg::ref_ptr<osgDB::ReadFileCallback> _next;
+    std::string _reason;
+    std::vector<std::string> _open; ///< saved files that are being read
+};
+
+} // namespace osgSkin
+
+#endif

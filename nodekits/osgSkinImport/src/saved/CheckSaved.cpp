@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "saved/CheckSaved.h"
+
+#include "text/FileText.h"
+
+#include <osg/Geometry>
+#include <osg/Group>
+#include <osgAnimation/AnimationManagerBase>
+#include <osgAnimation/MorphGeometry>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace osgSkin {
+namespace {
+
+bool isPerVertex(const osg::Array* array) {
+    return array != nullptr && array->getBinding() == osg::Array::BIND_PER_VERTEX;
+}
+
+/// The vertices that primitives may name; any number where a geometry has no array to say so.
+std::size_t vertexCountOf(const osg::Geometry& geometry) {
+    if (geometry.getVertexArray() != nullptr) return geometry.getVertexArray()->getNumElements();
+    std::size_t count = std::numeric_limits<std::size_t>::max();
+    for (const osg::ref_ptr<osg::Array>& array : geometry.getVertexAttribArrayList())
+        if (isPerVertex(array)) count = std::min<std::size_t>(count, array->getNumElements());
+    return count;
+}
+
+std::string wrongIn(const osg::PrimitiveSet& set, std::size_t vertices) {
+    if (const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&set)) {
+        double end = lengths->getFirst();
+        for (const GLsizei length : *lengths) {
+            if (length < 0) return "a primitive of " + std::to_string(length) + " corners";
+            end += length;
+        }
+        if (lengths->getFirst() < 0 || end > double(vertices))
+            return "primitives beyond its " + std::to_string(vertices) + " vertices";
+        return {};
+    }
+    if (const auto* range = dynamic_cast<const osg::DrawArrays*>(&set)) {
+        if (range->getFirst() < 0 || range->getCount() < 0 ||
+            double(range->getFirst()) + range->getCount() > double(vertices))
+            return "primitives beyond its " + std::to_string(vertices) + " vertices";
+        return {};
+    }
+    const unsigned count = set.getNumIndices();
+    if (set.getMode() == GL_TRIANGLES && count % 3 != 0) // OSG reads all corners of one begun
+        return std::to_string(count) + " corners of triangles, expected a multiple of 3";
+    for (unsigned i = 0; i < count; ++i)
+        if (set.index(i) >= vertices)
+            return "a primitive that names vertex " + std::to_string(set.index(i)) +
+                   ", expected less than " + std::to_string(vertices);
+    return {};
+}
+
+std::string wrongIn(const osg::Geometry& geometry) {
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
+        if (!set) return "a primitive set that is none";
+    const std::size_t vertices = vertexCountOf(geometry);
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList()) {
+        std::string wrong = wrongIn(*set, vertices);
+        if (!wrong.empty()) return wrong;
+    }
+    osg::Geometry::ArrayList arrays;
+    geometry.getArrayList(arrays);
+    for (const osg::ref_ptr<osg::Array>& array : arrays)
+        if (geometry.getVertexArray() != nullptr && isPerVertex(array) &&
+            array->getNumElements() < vertices)
+            return "an array of " + std::to_string(array->getNumElements()) +
+                   " elements, expected one for each of " + std::to_string(vertices) + " vertices";
+    const auto* morphed = dynamic_cast<const osgAnimation::MorphGeometry*>(&geometry);
+    if (morphed == nullptr) return {};
+    for (const auto& target : morphed->getMorphTargetList())
+        if (target.getGeometry() == nullptr || vertexCountOf(*target.getGeometry()) < vertices)
+            return "a morph target without a place for each vertex";
+    return {};
+}
+
+/// Nodes, vertices and corners, as often as they are shown.
+double costOf(const osg::Node& node, std::map<const osg::Node*, double>& known) {
+    const auto found = known.find(&node);
+    if (found != known.end()) return found->second;
+    double cost = 1.0;
+    if (const osg::Geometry* geometry = node.asGeometry()) {
+        if (geometry->getVertexArray() != nullptr)
+            cost += geometry->getVertexArray()->getNumElements();
+        for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry->getPrimitiveSetList())
+            cost += set->getNumIndices();
+    }
+    if (const osg::Group* group = node.asGroup())
+        for (unsigned c = 0; c < group->getNumChildren(); ++c)
+            cost += costOf(*group->getChild(c), known);
+    known.emplace(&node, cost);
+    return cost;
+}
+
+} // namespace
+
+void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::string& path) {
+    for (const auto& [id, object] : objects) {
+        if (const auto* geometry = dynamic_cast<const osg::Geometry*>(object.get())) {
+            const std::string wrong = wrongIn(*geometry);
+            if (!wrong.empty())
+                failFile(path, "geometry " + inQuotes(geometry->getName()) + " (object " +
+                                   std::to_string(id) + ") has " + wrong);
+        }
+        const auto* manager = dynamic_cast<const osgAnimation::AnimationManagerBase*>(object.get());
+        if (manager == nullptr) continue;
+        for (const auto& animation : manager->getAnimationList())
+            if (!animation) failFile(path, "an animation that is none");
+    }
+}
+
+void checkSavedScene(const osg::Node& scene, std::size_t bytes, const ReadLimits& limits,
+                     const std::string& path) {
+    std::map<const osg::Node*, double> known;
+    if (costOf(scene, known) > double(bytes) + double(limits.samplesOf(bytes)))
+        failFile(path, "nodes, vertices and corners are shown more often than " +
+                           std::to_string(limits.samplesOf(bytes)) +
+                           " times beside those in the file (option maxSamples)");
+}
+
+} // namespace osgSkin

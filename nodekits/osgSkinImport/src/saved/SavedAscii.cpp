@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "saved/SavedAscii.h"
+
+#include "text/FileText.h"
+
+#include <algorithm>
+
+namespace osgSkin {
+void SavedAscii::skipSpace() {
+    _at = std::min(_content.find_first_not_of(kSpace, _at), _content.size());
+}
+
+std::string SavedAscii::nextWord() {
+    begin();
+    skipSpace();
+    const std::size_t end = std::min(_content.find_first_of(kSpace, _at), _content.size());
+    std::string word = _content.substr(_at, end - _at);
+    _at = end;
+    if (word.empty()) refuse("it ends too early");
+    return word;
+}
+
+void SavedAscii::readMark(osgDB::ObjectMark& mark) {
+    if (mark._name == "{") tookBegin();
+    const std::string word = nextWord();
+    if (word != mark._name) refuse(inQuotes(word) + ", expected " + inQuotes(mark._name));
+}
+
+void SavedAscii::readWrappedString(std::string& text) {
+    text.clear();
+    begin();
+    skipSpace();
+    const bool quoted = _at < _content.size() && _content[_at] == '"';
+    if (quoted) ++_at;
+    for (;; ++_at) {
+        if (_at >= _content.size()) refuse("it ends within a text");
+        const char c = _content[_at];
+        if (quoted ? c == '"' : c == ' ' || c == '\n') break;
+        if (quoted && c == '\\' && _at + 1 < _content.size()) ++_at;
+        text.push_back(_content[_at]);
+    }
+    ++_at;
+    text = tookWrapped(text);
+}
+
+bool SavedAscii::matchString(const std::string& text) {
+    begin();
+    skipSpace();
+    const std::size_t end = _at + text.size();
+    if (_content.compare(_at, text.size(), text) != 0) return false;
+    if (end < _content.size() && std::string(kSpace).find(_content[end]) == std::string::npos)
+        return false;
+    _at = end;
+    tookMatch(text);
+    return true;
+}
+
+void SavedAscii::advanceToCurrentEndBracket() {
+    for (std::size_t open = 1; open > 0;) {
+        const std::string word = nextWord();
+        if (word == "{") ++open;
+        if (word == "}") --open;
+    }
+}
+
+} // namespace osgSkin

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// Scenes that OSG saved: read as OSG reads them, and refused where OSG believes what it reads.
+#include "ExpectError.h"
+#include "Paths.h"
+
+#include <osgSkinImport/ReadScene>
+
+#include <osg/Geometry>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/Texture2D>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgDB/WriteFile>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include <unistd.h>
+
+namespace {
+
+std::string scratch(const std::string& name, const std::string& content) {
+    // Tests run beside each other.
+    std::string path = testing::TempDir() + std::to_string(::getpid()) + name;
+    std::ofstream(path, std::ios::binary) << content;
+    return path;
+}
+
+std::string contentOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+osg::ref_ptr<osg::Node> read(const std::string& path, const std::string& options = {}) {
+    const osg::ref_ptr<osgDB::Options> with = new osgDB::Options(options);
+    return osgSkin::readScene(path, with.get());
+}
+
+/// The scene in a text file, to compare.
+std::string textOf(osg::Node& scene) {
+    const std::string path = scratch("compared.osgt", {});
+    const osg::ref_ptr<osgDB::Options> exact = new osgDB::Options("precision 17");
+    osgDB::writeNodeFile(scene, path, exact.get());
+    return contentOf(path);
+}
+
+/// A triangle with a material, a picture of 2 x 2 pixels and buffer objects, shown twice.
+osg::ref_ptr<osg::Node> makeScene() {
+    const osg::ref_ptr<osg::Geometry> triangle = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> places = new osg::Vec3Array;
+    for (int i = 0; i < 3; ++i) places->push_back(osg::Vec3(float(i), float(i % 2), 0.125f));
+    triangle->setVertexArray(places);
+    triangle->setUseVertexBufferObjects(true);
+    const osg::ref_ptr<osg::DrawElementsUShort> corners = new osg::DrawElementsUShort(GL_TRIANGLES);
+    for (const int i : {0, 2, 1}) corners->push_back(static_cast<unsigned short>(i));
+    triangle->addPrimitiveSet(corners);
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 2, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+    std::fill_n(image->data(), 12, static_cast<unsigned char>(200));
+    image->setWriteHint(osg::Image::STORE_INLINE);
+    osg::StateSet& state = *triangle->getOrCreateStateSet();
+    state.setTextureAttributeAndModes(0, new osg::Texture2D(image));
+    state.setAttributeAndModes(new osg::Material);
+    triangle->setName("a \"triangle\" {");
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    for (const double x : {1.0, 2.0}) {
+        const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
+        place->setMatrix(osg::Matrix::translate(x, 0, 0));
+        place->addChild(triangle);
+        scene->addChild(place);
+    }
+    scene->setNodeMask(0xfffffff0u);
+    return scene;
+}
+
+std::string saved(const std::string& format) {
+    const std::string path = scratch("whole." + format, {});
+    const osg::ref_ptr<osgDB::Options> inlined = new osgDB::Options("WriteImageHint=IncludeData");
+    EXPECT_TRUE(osgDB::writeNodeFile(*makeScene(), path, inlined.get()));
+    return contentOf(path);
+}
+
+std::string whyRefused(const std::string& path, const std::string& options = {}) {
+    try {
+        read(path, options);
+        return "read";
+    } catch (const osgSkin::Error& error) {
+        return error.what();
+    }
+}
+
+const std::string kHead = "#Ascii Scene\n#Version 161\n#Generator OpenSceneGraph 3.6.5\n";
+
+std::string object(const std::string& name, int id, const std::string& fields) {
+    return name + " {\nUniqueID " + std::to_string(id) + "\n" + fields + "}\n";
+}
+
+std::string nested(int deep) {
+    std::string text;
+    for (int i = 1; i <= deep; ++i)
+        text += "osg::Group {\nUniqueID " + std::to_string(i) + "\nChildren 1 {\n";
+    text += object("osg::Group", deep + 1, "");
+    for (int i = 0; i < deep; ++i) text += "}\n}\n";
+    return text;
+}
+
+/// Each twice below the one before.
+std::string doubled(int levels) {
+    std::string text = object("osg::Group", levels, "");
+    for (int i = levels - 1; i > 0; --i)
+        text = object("osg::Group", i,
+                      "Children 2 {\n" + text + object("osg::Group", i + 1, "") + "}\n");
+    return text;
+}
+
+const std::string kPlaces = "VertexArray TRUE {\n" +
+                            object("osg::Vec3Array", 8,
+                                   "Binding BIND_PER_VERTEX\nvector 3 {\n"
+                                   "0 0 0\n1 0 0\n0 1 0\n}\n") +
+                            "}\n";
+std::string geometry(const std::string& sets) {
+    return object("osg::Geometry", 1, "UseVertexBufferObjects TRUE\n" + sets + kPlaces);
+}
+std::string elements(const std::string& vector) {
+    return geometry("PrimitiveSetList 1 {\n" +
+                    object("osg::DrawElementsUInt", 7, "Mode TRIANGLES\n" + vector) + "}\n");
+}
+
+struct Hostile {
+    const char* name;
+    std::string text;
+    const char* message;
+};
+
+const Hostile kHostile[] = {
+    {"Empty", "", "it ends too early"},
+    {"NoNode", object("osg::Material", 1, ""), "no node"},
+    {"Deep", nested(20000), "at most 1000 deep (option maxDepth)"},
+    {"Itself", object("osg::Group", 1, "Children 1 {\n" + object("osg::Group", 1, "") + "}\n"),
+     "object 1 is a part of itself"},
+    {"ItselfWithCallback",
+     object("osg::Group", 1,
+            "UpdateCallback TRUE {\n" + object("osg::NodeCallback", 2, "") + "}\nChildren 1 {\n" +
+                object("osg::Group", 3, "Children 1 {\n" + object("osg::Group", 1, "") + "}\n") +
+                "}\n"),
+     "object 1 is a part of itself"},
+    {"Doubled", doubled(60), "are shown more often than"},
+    {"ManyChildren", object("osg::Group", 1, "Children 4000000000 {\n}\n"), "4000000000 elements"},
+    {"LongArray",
+     object("osg::Geometry", 1,
+            "VertexArray TRUE {\n" + object("osg::Vec3Array", 8, "vector 4000000000\n") + "}\n"),
+     "4000000000 elements"},
+    {"ManySets", object("osg::Geometry", 1, "PrimitiveSetList 4000000000\n"), "4000000000 element"},
+    {"SetIsNone", geometry("PrimitiveSetList 1 {\nNULL\n}\n"), "expected a primitive set"},
+    {"SetIsANode", geometry("PrimitiveSetList 1 {\n" + object("osg::Group", 7, "") + "}\n"),
+     "expected a primitive set"},
+    {"SetIsAnArray",
+     object("osg::Group", 1,
+            "Children 2 {\n" + object("osg::Geometry", 2, kPlaces) +
+                object("osg::Geometry", 3,
+                       "PrimitiveSetList 1 {\n" + object("osg::DrawArrays", 8, "") + "}\n") +
+                "}\n"),
+     "expected a primitive set"},
+    {"TexCoordsAreNone",
+     object("osg::Geometry", 1,
+            kPlaces + "TexCoordArrayList 2 {\nNULL\n" +
+                object("osg::Vec2Array", 9, "Binding BIND_PER_VERTEX\n") + "}\n"),
+     "an array of 0 elements"},
+    {"FarCorner", elements("vector 3 {\n0 1 3\n}\n"), "names vertex 3, expected less than 3"},
+    {"HalfATriangle", elements("vector 2 {\n0 1\n}\n"), "a multiple of 3"},
+    {"LongRange",
+     geometry("PrimitiveSetList 1 {\n" +
+              object("osg::DrawArrays", 7, "Mode TRIANGLES\nCount 2147483647\n") + "}\n"),
+     "primitives beyond its 3 vertices"},
+    {"UnknownClass", object("osg::HeightField", 1, ""), "class \"osg::HeightField\""},
+    {"ClassOfAPath", object("../../tmp/x::y", 1, ""), "class \"../../tmp/x::y\""},
+    {"EndsInAText", object("osg::Group", 1, "Name \"no end"), "it ends within a text"},
+};
+
+const char* const kFormats[] = {"osgt", "osgb", "osgx"};
+
+} // namespace
+
+TEST(Saved, HostileTextIsRefused) {
+    for (const Hostile& file : kHostile) {
+        SCOPED_TRACE(file.name);
+        const std::string path = scratch("hostile.osgt", kHead + file.text);
+        expectError([&] { read(path); }, "hostile.osgt: ");
+        expectError([&] { read(path); }, file.message);
+    }
+}
+
+TEST(Saved, ScenesAreReadAsOsgReadsThem) {
+    for (const std::string format : kFormats) {
+        const std::string path = scratch("same." + format, saved(format));
+        const osg::ref_ptr<osg::Node> theirs = osgDB::readRefNodeFile(path);
+        ASSERT_TRUE(theirs);
+        EXPECT_EQ(textOf(*read(path)), textOf(*theirs));
+        // Ours, with a pose, animations and callbacks.
+        const std::string tube = testData("saved/tube." + format);
+        EXPECT_EQ(textOf(*read(tube)), textOf(*osgDB::readRefNodeFile(tube)));
+    }
+}
+
+TEST(Saved, CutShortIsReadOrRefused) {
+    for (const std::string format : kFormats) {
+        const std::string whole = saved(format);
+        for (std::size_t size = 0; size < whole.size(); size += 1 + size / 20)
+            EXPECT_NE(whyRefused(scratch("cut." + format, whole.substr(0, size))), "");
+    }
+}
+
+TEST(Saved, AlteredIsReadOrRefused) {
+    std::mt19937 random(1);
+    for (const std::string format : kFormats) {
+        const std::string whole = saved(format);
+        for (int round = 0; round < 100; ++round) {
+            std::string text = whole;
+            for (int change = 0; change < 1 + round % 3; ++change)
+                text[random() % text.size()] = static_cast<char>(
+                    round % 2 ? random() : static_cast<unsigned>("0129{}\" <>"[random() % 10]));
+            EXPECT_NE(whyRefused(scratch("altered." + format, text)), "");
+        }
+    }
+}
+
+TEST(Saved, LengthsAreInTheFile) {
+    const std::string whole = saved("osgb");
+    // Whatever a number stands for: no more time and memory than the file is worth.
+    for (std::size_t place = 8; place + 4 < whole.size(); place += 3) {
+        std::string text = whole;
+        const std::uint32_t number = place % 2 ? 0x7fffffffu : 0xffffffffu;
+        std::memcpy(&text[place], &number, sizeof number);
+        EXPECT_NE(whyRefused(scratch("long.osgb", text)), "");
+    }
+}
+
+TEST(Saved, ScenesKeepToTheirOptions) {
+    const std::string path = scratch("group.osgt", kHead + nested(5));
+    EXPECT_EQ(whyRefused(path), "read");
+    EXPECT_EQ(whyRefused(path + ".2.scale"), "read");
+    const std::string deep = scratch("itself.osgt", kHead + nested(2000));
+    EXPECT_EQ(whyRefused(deep, "maxDepth=3000"), "read");
+    EXPECT_NE(whyRefused(deep + ".2.scale").find("(option maxDepth)"), std::string::npos);
+    EXPECT_NE(whyRefused(path, "maxDepth=3").find("at most 3 deep"), std::string::npos);
+    const std::string field = scratch("field.osgt", kHead + object("osg::Sequence", 1, ""));
+    EXPECT_NE(whyRefused(field).find("(option classes)"), std::string::npos);
+    EXPECT_EQ(whyRefused(field, "classes=osgFX,osg::Sequence"), "read");
+    EXPECT_EQ(whyRefused(field, "classes=osg"), "read");
+    const std::string proxy =
+        scratch("proxy.osgt", kHead + object("osg::ProxyNode", 1,
+                                             "FileNames 1 {\n\"" + std::to_string(::getpid()) +
+                                                 "proxy.osgt\"\n}\n"));
+    EXPECT_NE(whyRefused(proxy, "classes=osg").size(), 0u); // ends
+}
