@@ -132,6 +132,13 @@ std::string elements(const std::string& vector) {
                     object("osg::DrawElementsUInt", 7, "Mode TRIANGLES\n" + vector) + "}\n");
 }
 
+std::string animation(const std::string& keys) {
+    return object("osgAnimation::Animation", 3,
+                  "Name \"a\"\nChannels 1 {\nType Vec3LinearChannel {\nName \"translate\"\n"
+                  "TargetName \"b\"\nKeyFrameContainer TRUE 2 {\n" +
+                      keys + "}\n}\n}\n");
+}
+
 struct Hostile {
     const char* name;
     std::string text;
@@ -178,6 +185,20 @@ const Hostile kHostile[] = {
      geometry("PrimitiveSetList 1 {\n" +
               object("osg::DrawArrays", 7, "Mode TRIANGLES\nCount 2147483647\n") + "}\n"),
      "primitives beyond its 3 vertices"},
+    {"KeysOutOfOrder",
+     object("osg::Group", 1,
+            "UpdateCallback TRUE {\n" +
+                object("osgAnimation::BasicAnimationManager", 2,
+                       "Animations 1 {\n" + animation("2 0 0 0\n1 0 0 0\n") + "}\n") +
+                "}\n"),
+     "not in order"},
+    {"KeysAtNoTime",
+     object("osg::Group", 1,
+            "UpdateCallback TRUE {\n" +
+                object("osgAnimation::BasicAnimationManager", 2,
+                       "Animations 1 {\n" + animation("1 0 0 0\n1e999 0 0 0\n") + "}\n") +
+                "}\n"),
+     "times of keys"},
     {"UnknownClass", object("osg::HeightField", 1, ""), "class \"osg::HeightField\""},
     {"ClassOfAPath", object("../../tmp/x::y", 1, ""), "class \"../../tmp/x::y\""},
     {"EndsInAText", object("osg::Group", 1, "Name \"no end"), "it ends within a text"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "saved/CheckSaved.h"
 
+#include "saved/CheckAnimation.h"
 #include "text/FileText.h"
 
 #include <osg/Geometry>
@@ -105,6 +106,11 @@ void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::str
             if (!wrong.empty())
                 failFile(path, "geometry " + inQuotes(geometry->getName()) + " (object " +
                                    std::to_string(id) + ") has " + wrong);
+        }
+        if (const auto* animation = dynamic_cast<const osgAnimation::Animation*>(object.get())) {
+            const std::string wrong = whyNotPlayed(*animation);
+            if (!wrong.empty())
+                failFile(path, "animation " + inQuotes(animation->getName()) + " has " + wrong);
         }
         const auto* manager = dynamic_cast<const osgAnimation::AnimationManagerBase*>(object.get());
         if (manager == nullptr) continue;

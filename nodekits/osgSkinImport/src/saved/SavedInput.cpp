@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "saved/SavedInput.h"
 
-#include "saved/KnownClasses.h"
 #include "text/FileText.h"
+#include "text/KnownClasses.h"
 
 #include <osgSkin/Error>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "saved/KnownClasses.h"
+#include "text/KnownClasses.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// What may be around a character: another locale, odd names, files of other systems, a signal.
+#include "Command.h"
+
+#include <osgSkin/Error>
+#include <osgSkinCharacter/LoadCharacter>
+
+#include <osgDB/ReadFile>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <clocale>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <locale>
+#include <string>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using osgSkin::Character;
+using osgSkin::loadCharacter;
+
+const std::string kParts = OSGSKIN_TEST_DATA "/character/";
+
+std::string bytesOf(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write(const fs::path& file, const std::string& content) {
+    std::ofstream(file, std::ios::binary) << content;
+}
+
+/// As a German reads and writes numbers.
+struct Comma : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+/// Sets it for the program, in C++ and, where the system has one, in C.
+class CommaLocale {
+public:
+    CommaLocale() : _before(std::locale::global(std::locale(std::locale(), new Comma))) {
+        for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8"})
+            if (std::setlocale(LC_ALL, name) != nullptr) break;
+    }
+    ~CommaLocale() {
+        std::locale::global(_before);
+        std::setlocale(LC_ALL, "C");
+    }
+    CommaLocale(const CommaLocale&) = delete;
+    CommaLocale& operator=(const CommaLocale&) = delete;
+
+private:
+    std::locale _before;
+};
+
+void expectSame(const Character& a, const Character& b) {
+    EXPECT_EQ(a.body.mesh.positions, b.body.mesh.positions);
+    EXPECT_EQ(a.body.mesh.triangles(), b.body.mesh.triangles());
+    ASSERT_EQ(a.rest.joints.size(), b.rest.joints.size());
+    for (std::size_t j = 0; j < a.rest.joints.size(); ++j)
+        EXPECT_EQ(a.rest.joints[j].centre, b.rest.joints[j].centre);
+    ASSERT_EQ(a.binding.influences.size(), b.binding.influences.size());
+    for (std::size_t i = 0; i < a.binding.influences.size(); ++i)
+        EXPECT_EQ(a.binding.influences[i].bend, b.binding.influences[i].bend);
+    EXPECT_EQ(a.motions.size(), b.motions.size());
+}
+
+/// Copies of the character's parts, each with a line end, and something before its first.
+std::string rewritten(const std::string& folder, const std::string& lineEnd,
+                      const std::string& before) {
+    for (const char* name : {"good.skin", "body.obj", "rig.bvh", "move.bvh"}) {
+        std::string text = before;
+        for (const char c : bytesOf(kParts + name)) text += c == '\n' ? lineEnd : std::string(1, c);
+        write(fs::path(folder) / name, text);
+    }
+    return folder + "/good.skin";
+}
+
+} // namespace
+
+TEST(Faults, ADecimalCommaIsNoneOfOurs) {
+    const std::string files[] = {kParts + "good.skin", kParts + "painted.skin",
+                                 OSGSKIN_TEST_DATA "/rig/tube.gltf"};
+    for (const std::string& file : files) {
+        const Character plain = loadCharacter(file);
+        const CommaLocale comma;
+        expectSame(loadCharacter(file), plain);
+    }
+    // What osgDB reads, and what is found in the text of its numbers.
+    const std::string saved = OSGSKIN_TEST_DATA "/saved/tube.osgt";
+    const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(saved);
+    const CommaLocale comma;
+    const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(saved);
+    ASSERT_TRUE(plain && read);
+    EXPECT_EQ(read->getBound().radius(), plain->getBound().radius());
+}
+
+TEST(Faults, LinesMayEndAsOtherSystemsEndThem) {
+    const std::string folder = test::makeTestFolder();
+    const Character plain = loadCharacter(kParts + "good.skin");
+    expectSame(loadCharacter(rewritten(folder, "\r\n", "")), plain);
+    expectSame(loadCharacter(rewritten(folder, "\n", "\xef\xbb\xbf")), plain);
+    expectSame(loadCharacter(rewritten(folder, "\r\n", "\xef\xbb\xbf")), plain);
+    // A mark must not take the first word with it.
+    std::string body = bytesOf(kParts + "body.obj");
+    body.erase(0, body.find("v "));
+    write(folder + "/body.obj", "\xef\xbb\xbf" + body);
+    expectSame(loadCharacter(folder + "/good.skin"), plain);
+}
+
+TEST(Faults, NamesMayBeOdd) {
+    const fs::path folder = fs::path(test::makeTestFolder()) / "-a b \xc3\xbc 'c' \"d\" %d";
+    fs::create_directory(folder);
+    fs::copy_file(kParts + "body.obj", folder / "-b\xc3\xb6"
+                                                "dy #1 (x).obj");
+    fs::copy_file(kParts + "rig.bvh", folder / "rig \"2\".bvh");
+    fs::copy_file(kParts + "move.bvh", folder / "move's%20.bvh");
+    const std::string skin = (folder / "-\xe4\xba\xba & co.skin").string();
+    write(skin, "{\"osgskin\": 1, \"mesh\": \"-b\\u00f6dy #1 (x).obj\", \"skeleton\": \"rig "
+                "\\\"2\\\".bvh\","
+                " \"motions\": [{\"file\": \"move's%20.bvh\", \"name\": \"m\"}]}");
+    const Character plain = loadCharacter(kParts + "good.skin");
+    Character odd = loadCharacter(skin);
+    EXPECT_EQ(odd.body.mesh.positions, plain.body.mesh.positions);
+    EXPECT_EQ(odd.motions.size(), 1u);
+    EXPECT_TRUE(osgDB::readRefNodeFile(skin));
+    const auto baked =
+        test::runBake("'./-\xe4\xba\xba & co.skin' --quiet --rest='-r \xc3\xbc.obj'",
+                      folder.parent_path().string() + "/-a b \xc3\xbc '\\''c'\\'' \"d\" %d");
+    EXPECT_EQ(baked.status, 0) << baked.err;
+    EXPECT_TRUE(fs::exists(folder / "-r \xc3\xbc.obj"));
+}
+
+TEST(Faults, SignalsLeaveWholeFiles) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const fs::path folder = test::makeTestFolder();
+        const std::string skin = rewritten(folder.string(), "\n", "");
+        std::ofstream motion(folder / "move.bvh", std::ios::binary);
+        const std::string whole = bytesOf(kParts + "move.bvh");
+        motion << whole.substr(0, whole.find("Frames:")) << "Frames: 9000\nFrame Time: 0.1\n";
+        for (int f = 0; f < 9000; ++f) motion << f << " 0 0 0 0 0 30 0 0\n";
+        motion.close();
+        const pid_t child = ::fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            ::signal(signal, SIG_DFL);
+            const std::string out = (folder / "f%d.obj").string();
+            ::execl(OSGSKIN_BAKE, OSGSKIN_BAKE, skin.c_str(), "--quiet", "--motion", "move",
+                    "--out", out.c_str(), nullptr);
+            ::_exit(99);
+        }
+        for (int wait = 0; wait < 20000 && !fs::exists(folder / "f5.obj"); ++wait)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ::kill(child, signal);
+        int status = 0;
+        ASSERT_EQ(::waitpid(child, &status, 0), child);
+        EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
+        const std::string first = bytesOf(folder / "f0.obj");
+        const auto lines = std::count(first.begin(), first.end(), '\n');
+        std::size_t files = 0;
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+            if (entry.path().filename().string()[0] != 'f' || entry.path().extension() != ".obj")
+                continue;
+            const std::string text = bytesOf(entry.path());
+            EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), lines) << entry.path();
+            ++files;
+        }
+        EXPECT_GE(files, 6u);
+        EXPECT_LT(files, 9000u);
+    }
+}
