@@ -22,6 +22,12 @@ void KernelCorrections::prepare(std::size_t group, std::size_t firstBlock,
         to.normalShares = blocks.hasNormals
                               ? blocks.normalRows[range.firstRow].lane + skipped * to.blockShares
                               : nullptr;
+        to.tilts = nullptr;
+        if (!blocks.tilts.empty()) {
+            to.tilts =
+                blocks.tilts[range.firstTilt + skipped * 2 * blocks.joints[range.joint].modes].lane;
+            to.tiltUnits = &blocks.tiltUnits[range.firstUnit + skipped];
+        }
         to.firstBlock = range.firstBlock + skipped - firstBlock;
         to.blockCount = range.blockCount - skipped;
         to.modes = blocks.joints[range.joint].modes;

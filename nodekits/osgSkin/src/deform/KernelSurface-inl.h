@@ -60,6 +60,32 @@ HWY_INLINE void cross(V ax, V ay, V az, V bx, V by, V bz, V& x, V& y, V& z) {
     z = hn::MulSub(ax, by, hn::Mul(ay, bx));
 }
 
+/// What the correctives add to rest normals along u and along v.
+/// \return false where that is nothing
+HWY_INLINE bool tilts(const KernelCall& call, std::size_t first, V& alongU, V& alongV) {
+    const D d;
+    alongU = alongV = hn::Zero(d);
+    bool any = false;
+    for (std::size_t i = 0; i < call.correctionCount; ++i) {
+        const KernelCorrection& of = call.corrections[i];
+        const std::size_t at = first / kBlock - of.firstBlock; // large where the block comes before
+        if (at >= of.blockCount || !of.tilts) continue;
+        any = true;
+        const std::int16_t* HWY_RESTRICT from =
+            of.tilts + at * 2 * of.modes * kBlock + first % kBlock;
+        V sumU = hn::Zero(d), sumV = sumU;
+        for (std::size_t k = 0; k < of.modes; ++k, from += 2 * kBlock) {
+            const V weight = hn::Set(d, of.normalWeights[k]);
+            sumU = hn::MulAdd(weight, sharesAt(from), sumU);
+            sumV = hn::MulAdd(weight, sharesAt(from + kBlock), sumV);
+        }
+        const V unit = hn::Set(d, of.tiltUnits[at]);
+        alongU = hn::MulAdd(unit, sumU, alongU);
+        alongV = hn::MulAdd(unit, sumV, alongV);
+    }
+    return any;
+}
+
 /// The directions u and v along the skin, as correctives tilt it at rest: u - (d . u) n and the
 /// same of v, where d is what they add to the normal; their cross product is along n + d then,
 /// but for what d has along n.
@@ -71,9 +97,8 @@ HWY_INLINE void skinDirections(const KernelCall& call, std::size_t first, V nx, 
           vz);
     cross(vx, vy, vz, nx, ny, nz, ux, uy, uz);
     if (HWY_LIKELY(call.correctionCount == 0)) return;
-    V dx, dy, dz;
-    if (!corrections<true>(call, first, dx, dy, dz)) return;
-    const V alongU = dot(dx, dy, dz, ux, uy, uz), alongV = dot(dx, dy, dz, vx, vy, vz);
+    V alongU, alongV;
+    if (!tilts(call, first, alongU, alongV)) return;
     ux = hn::NegMulAdd(alongU, nx, ux);
     uy = hn::NegMulAdd(alongU, ny, uy);
     uz = hn::NegMulAdd(alongU, nz, uz);

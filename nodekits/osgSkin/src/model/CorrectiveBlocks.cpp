@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "model/CorrectiveBlocks.h"
 
+#include "model/GradientBlocks.h"
 #include "model/SkinModelAccess.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 
 namespace osgSkin {
 namespace {
@@ -55,7 +59,7 @@ CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& bindin
     firstRange.push_back(0);
     for (const SkinModel::Group& group : model.groups()) {
         for (std::uint32_t joint = 0; joint < joints.size(); ++joint) {
-            Range range{joint, 0, 0, rows.size()};
+            Range range{joint, 0, 0, rows.size(), tilts.size(), tiltUnits.size()};
             for (std::uint32_t row = 0; row < group.vertexCount; ++row) {
                 const Correctives::Entry* entry =
                     entryOf(from, source[model.order()[group.firstVertex + row]], joint);
@@ -70,9 +74,47 @@ CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& bindin
                     writeLane(&from.normalShares[entry->firstShare], rowsPerBlock(joint),
                               row % kBlock, end, normalRows);
             }
-            if (range.blockCount > 0) ranges.push_back(range);
+            if (range.blockCount == 0) continue;
+            addTilts(model, static_cast<std::size_t>(&group - model.groups().data()), range);
+            ranges.push_back(range);
         }
         firstRange.push_back(static_cast<std::uint32_t>(ranges.size()));
+    }
+}
+
+void CorrectiveBlocks::addTilts(const SkinModel& model, std::size_t group, const Range& range) {
+    const GradientBlocks* gradients = SkinModelAccess::gradients(model);
+    if (!hasNormals || !gradients) return;
+    const SkinModel::Group& of = model.groups()[group];
+    const glm::dmat3 frame = restFrame(model, of);
+    const std::size_t modes = joints[range.joint].modes;
+    std::vector<double> along(2 * modes * kBlock); // of a block, as its rows
+    for (std::uint32_t b = 0; b < range.blockCount; ++b) {
+        const CorrectiveRow* from = normalRows.data() + range.firstRow + b * 3 * modes;
+        std::fill(along.begin(), along.end(), 0.0);
+        double most = 0.0;
+        for (std::uint32_t lane = 0; lane < kBlock; ++lane) {
+            const auto row = static_cast<std::uint32_t>((range.firstBlock + b) * kBlock + lane);
+            if (row >= of.vertexCount) break;
+            const SkinDirections at =
+                skinDirections(model.normals()[model.order()[of.firstVertex + row]], frame,
+                               gradients->acrossOf(model, group, row));
+            for (std::size_t k = 0; k < modes; ++k) {
+                const glm::dvec3 n(from[3 * k].lane[lane], from[3 * k + 1].lane[lane],
+                                   from[3 * k + 2].lane[lane]);
+                double* to = &along[2 * k * kBlock + lane];
+                to[0] = glm::dot(n, at.u);
+                to[kBlock] = glm::dot(n, at.v);
+                most = std::max({most, std::abs(to[0]), std::abs(to[kBlock])});
+            }
+        }
+        const auto unit = static_cast<float>(most > 1e-20 ? most / 32767.0 : 1.0);
+        tiltUnits.push_back(unit);
+        for (std::size_t i = 0; i < along.size(); ++i) {
+            if (i % kBlock == 0) tilts.emplace_back();
+            const double units = std::clamp(along[i] / double(unit), -32767.0, 32767.0);
+            tilts.back().lane[i % kBlock] = static_cast<std::int16_t>(std::lrint(units));
+        }
     }
 }
 

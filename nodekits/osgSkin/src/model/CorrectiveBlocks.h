@@ -24,15 +24,22 @@ struct alignas(32) CorrectiveRow {
 /// one joint are a range of the group's blocks; of a block's lanes that do not, the shares are 0. A
 /// block has three rows (x, y, z; rest space) for each mode. Normal correctives have the same
 /// apart, so that who deforms positions alone has no gaps to read over.
+///
+/// Where the model has gradients, too, the kernel needs of a normal corrective only what it has
+/// along the two directions that those are held by: less to read, and nothing to turn.
 struct CorrectiveBlocks {
     struct Range {
         std::uint32_t joint;      ///< in `joints`
         std::uint32_t firstBlock; ///< of the group's
         std::uint32_t blockCount;
-        std::size_t firstRow; ///< in `rows`
+        std::size_t firstRow;  ///< in `rows`
+        std::size_t firstTilt; ///< in `tilts`
+        std::size_t firstUnit; ///< in `tiltUnits`
     };
 
-    /// \param source as SkinModel::create() takes it; the binding is valid and the model's
+    /// \param model has its gradients already, where it has any
+    /// \param binding valid and the model's
+    /// \param source as SkinModel::create() takes it
     CorrectiveBlocks(const SkinModel& model, const Binding& binding,
                      const std::vector<std::uint32_t>& source);
 
@@ -43,6 +50,11 @@ struct CorrectiveBlocks {
     std::vector<std::uint32_t> firstRange; ///< groups + 1, into `ranges`
     std::vector<CorrectiveRow> rows;
     std::vector<CorrectiveRow> normalRows; ///< as `rows`; empty without normal correctives
+
+    /// Two rows a block for each mode: its normal correctives along skinDirections()' u and v, in
+    /// the block's unit, which stands for that many of `normalRows`. Empty unless there are both.
+    std::vector<CorrectiveRow> tilts;
+    std::vector<float> tiltUnits; ///< of each range's blocks
 
     std::size_t rowsPerBlock(std::uint32_t joint) const { return 3 * joints[joint].modes; }
 
@@ -57,6 +69,8 @@ struct CorrectiveBlocks {
     }
 
 private:
+    void addTilts(const SkinModel& model, std::size_t group, const Range& range);
+
     const CorrectiveRow* rowOf(const std::vector<CorrectiveRow>& of, const Range& range,
                                std::uint32_t row) const noexcept {
         const std::size_t block = row / kBlock;

@@ -125,12 +125,12 @@ osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
         addRatios(vertices, grouped, model->_ratios);
     }
     model->_blocks = std::make_shared<SkinBlocks>(*model);
-    if (!vertices.binding().correctives.empty())
-        model->_correctives =
-            std::make_shared<CorrectiveBlocks>(*model, vertices.binding(), vertices.source());
     if (!vertices.binding().gradients.empty())
         model->_gradients =
             std::make_shared<GradientBlocks>(*model, vertices.binding(), vertices.source());
+    if (!vertices.binding().correctives.empty()) // which look at the gradients
+        model->_correctives =
+            std::make_shared<CorrectiveBlocks>(*model, vertices.binding(), vertices.source());
     return model;
 }
 
