@@ -126,6 +126,10 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.add_option("--muscles", arguments.muscles,
                    "on or off: muscles that swell; as the character says by default")
         ->check(CLI::IsMember({"on", "off"}));
+    app.add_option("--clear-hands", arguments.clearHands,
+                   "on or off: motion files' arms are turned out of the body; as the character "
+                   "says by default")
+        ->check(CLI::IsMember({"on", "off"}));
     app.add_option("--tense", tensed, "NAME=A: tenses a muscle by A, 0 to 1, in all frames");
     app.add_option("--out", arguments.out,
                    "the frames' files, like frame_%04d.obj or .ply; or one for all: .pc2, .glb");

@@ -24,6 +24,7 @@ struct Arguments {
     std::optional<double> rate; ///< samples a second of a rigged model's clips
     std::string shapes;         ///< "none", "fast" or "elastic"; empty: as the character has them
     std::string muscles;        ///< "on" or "off"; empty: as the character has them
+    std::string clearHands;     ///< "on" or "off"; empty: as the character says
     std::vector<std::pair<std::string, float>> activations; ///< of inputs, by name
     std::string out;     ///< pattern of the frames' files; empty: no frames wanted
     std::string rest;    ///< file for the bind pose; empty: not wanted

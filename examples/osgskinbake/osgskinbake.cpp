@@ -127,6 +127,7 @@ Character load(const Arguments& arguments) {
     if (arguments.shapes == "fast") options.shapes = osgSkin::BindOptions::Shapes::Fast;
     if (arguments.shapes == "elastic") options.shapes = osgSkin::BindOptions::Shapes::Elastic;
     if (!arguments.muscles.empty()) options.muscles = arguments.muscles == "on";
+    if (!arguments.clearHands.empty()) options.clearHands = arguments.clearHands == "on";
     options.progress = line.progress();
     Character character = osgSkin::loadCharacter(file, options);
     if (!character.hasBody())

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     app.footer(std::string("Keys:\n") + viewer::keysHelp() +
                "\n\nExit status: 0 done, 1 failed, 2 bad usage.");
     std::string character = OSGSKIN_DATA "/thrower.skin";
-    std::string weights, motion, joint, keys, pictures, shapes, muscles, normals;
+    std::string weights, motion, joint, keys, pictures, shapes, muscles, normals, clearHands;
     Size size;
     double at = 0.0;
     bool paused = false, times = false;
@@ -77,6 +77,10 @@ int main(int argc, char** argv) {
     app.add_option("--normals", normals,
                    "surface (that is drawn) or turned; as the character says by default")
         ->check(CLI::IsMember({"surface", "turned"}));
+    app.add_option("--clear-hands", clearHands,
+                   "on or off: motion files' arms are turned out of the body; as the character "
+                   "says by default")
+        ->check(CLI::IsMember({"on", "off"}));
     app.add_option("--motion", motion, "name of the motion to start with");
     app.add_option("--joint", joint, "name of the joint whose ratios b and t show");
     app.add_option("--at", at, "seconds into the motion to start at");
@@ -100,6 +104,7 @@ int main(int argc, char** argv) {
         if (shapes == "elastic") options.shapes = osgSkin::BindOptions::Shapes::Elastic;
         if (!muscles.empty()) options.muscles = muscles == "on";
         if (!normals.empty()) options.surfaceNormals = normals == "surface";
+        if (!clearHands.empty()) options.clearHands = clearHands == "on";
         viewer::Stage stage(character, weights, options, size.width, size.height);
         if (!motion.empty()) stage.setMotion(motion);
         if (!joint.empty()) stage.setJoint(joint);

@@ -52,21 +52,15 @@ BindOptions::Shapes shapesOf(const std::string& value) {
     fail("shapes", value, "none, fast or elastic");
 }
 
-bool musclesOf(const std::string& value) {
+bool switchOf(const std::string& key, const std::string& value) {
     if (value == "on") return true;
     if (value == "off") return false;
-    fail("muscles", value, "on or off");
+    fail(key, value, "on or off");
 }
 
 bool surfaceNormalsOf(const std::string& value) {
     if (value != "surface" && value != "turned") fail("normals", value, "surface or turned");
     return value == "surface";
-}
-
-bool gpuOf(const std::string& value) {
-    if (value == "on") return true;
-    if (value == "off") return false;
-    fail("gpu", value, "on or off");
 }
 
 std::vector<std::string> namesOf(const std::string& value) {
@@ -89,10 +83,11 @@ LoadOptions toLoadOptions(const osgDB::Options* options) {
     for (const auto& [key, value] : wordsOf(options->getOptionString())) {
         if (key == "bind") result.method = methodOf(value);
         if (key == "shapes") result.shapes = shapesOf(value);
-        if (key == "muscles") result.muscles = musclesOf(value);
+        if (key == "muscles") result.muscles = switchOf(key, value);
+        if (key == "clearHands") result.clearHands = switchOf(key, value);
         if (key == "normals") result.surfaceNormals = surfaceNormalsOf(value);
         if (key == "rigid") result.rigid = namesOf(value);
-        if (key == "gpu") result.gpu = gpuOf(value);
+        if (key == "gpu") result.gpu = switchOf(key, value);
         if (key == "motion") {
             if (value.empty()) fail(key, value, "a clip's name, a motion file, or none");
             result.atRest = value == "none";
@@ -122,6 +117,9 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
          "a minute or more, and is kept in the cache folder"},
         {"muscles=<on|off>",
          "biceps, triceps, quadriceps, hamstrings and calves that swell; off by default"},
+        {"clearHands=<on|off>",
+         "on: motions that are carried over keep forearms and hands out of trunk, thighs and head; "
+         "off by default"},
         {"gpu=<on|off>", "on: skins are deformed on the graphics card where it has OpenGL 4.3"},
         {"formats=<extension,extension>",
          "what may be read at all, as skin,obj,bvh,ply,gltf,glb; everything by default"},

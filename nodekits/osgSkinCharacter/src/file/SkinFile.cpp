@@ -163,7 +163,7 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
     const std::string folder = osgDB::getFilePath(file);
     checkVersion(root);
     root.warnUnknown({"osgskin", "mesh", "skeleton", "motions", "props", "rigid", "bind", "weights",
-                      "joints", "up", "names", "shapes", "muscles", "normals"});
+                      "joints", "up", "names", "shapes", "muscles", "normals", "clearHands"});
 
     SkinFile skin;
     skin.file = file;
@@ -196,6 +196,7 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
         skin.zUp = up->string() == "z";
     }
     if (skin.fit && skin.zUp) skin.fit->up = {0.0, 0.0, 1.0};
+    if (const auto clear = root.find("clearHands")) skin.clearHands = clear->boolean();
     readMethod(root, folder, skin);
     readBinding(root, skin.bind);
     return skin;

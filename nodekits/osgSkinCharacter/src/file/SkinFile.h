@@ -44,6 +44,7 @@ struct SkinFile {
     BindOptions bind;            ///< its `names` serve retargeting, too
     bool paintedWeights = false; ///< the binding comes from painted weights
     std::string weights;         ///< their file; empty: the mesh's own
+    bool clearHands = false;     ///< hands are kept out of the body, see clearHands()
     bool zUp = false;            ///< the character's files have Z up, not Y
 
     /// Reads and checks a file.

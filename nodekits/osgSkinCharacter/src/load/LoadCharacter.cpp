@@ -26,7 +26,8 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     Character character;
     const Progress binding = stages.begin("binding", source.bindingSize());
     character.binding = bindSource(source, binding, character.bindReport);
-    character.motions = retargetMotions(source, options.readOptions.get(), stages);
+    character.motions =
+        retargetMotions(source, character.binding, options.readOptions.get(), stages);
     stages.begin("scene", source.sceneSize());
     character.file = source.file;
     character.meshFile = source.meshFile;

@@ -6,6 +6,7 @@
 
 #include <osgSkin/Error>
 #include <osgSkinImport/ImportMotion>
+#include <osgSkinRig/JointRoles>
 #include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/Retarget>
 
@@ -28,8 +29,9 @@ void checkSize(const std::string& file, std::size_t frames, const CharacterSourc
 
 } // namespace
 
-std::vector<CharacterMotion>
-retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, LoadStages& stages) {
+std::vector<CharacterMotion> retargetMotions(CharacterSource& source, const Binding& binding,
+                                             const osgDB::Options* readOptions,
+                                             LoadStages& stages) {
     std::vector<CharacterMotion> motions;
     for (const SkinFile::MotionEntry& entry : source.motions) {
         stages.begin("motion " + entry.name, LoadStages::kMotion);
@@ -42,9 +44,14 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
             options.joints = entry.joints;
             options.names = source.bind.names;
             made.clip = retarget(motion, source.rest, options, &made.report);
+            if (source.clearHands)
+                made.cleared = clearHands(made.clip, source.rest,
+                                          recogniseJoints(source.rest, source.bind.names),
+                                          source.body.mesh, binding);
             made.animation = makeAnimation(made.clip, source.rest);
         });
         OSG_INFO << entry.file << ":\n" << made.report.text();
+        if (source.clearHands) OSG_INFO << entry.file << ": " << made.cleared.text() << "\n";
         for (const std::string& note : made.report.notes)
             takeNote(source.notes, entry.file + ": " + note);
     }

@@ -4,6 +4,7 @@
 #include "report/LoadStages.h"
 #include "source/CharacterSource.h"
 
+#include <osgSkin/Binding>
 #include <osgSkinCharacter/CharacterMotion>
 
 #include <vector>
@@ -13,11 +14,12 @@ namespace osgSkin {
 /// Reads the source's motion files and retargets them to its rest skeleton.
 ///
 /// \param source gets a note for what is likely not as wanted
+/// \param binding of its body, which hands are kept out of where the source says so
 /// \param readOptions with words of ReadLimits; may be null
 /// \param stages are told of each file
 /// \return one motion for each file, in order
 /// \throw Error with the motion file and the reason
-std::vector<CharacterMotion> retargetMotions(CharacterSource& source,
+std::vector<CharacterMotion> retargetMotions(CharacterSource& source, const Binding& binding,
                                              const osgDB::Options* readOptions, LoadStages& stages);
 
 } // namespace osgSkin

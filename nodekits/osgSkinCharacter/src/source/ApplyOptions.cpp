@@ -92,6 +92,7 @@ void applyOptions(CharacterSource& source, const LoadOptions& options) {
         if (!*options.muscles) source.bind.ownMuscles.clear();
     }
     if (options.surfaceNormals) source.bind.surfaceNormals = *options.surfaceNormals;
+    if (options.clearHands) source.clearHands = *options.clearHands;
     if (options.atRest) {
         source.animations.clear();
         source.motions.clear();

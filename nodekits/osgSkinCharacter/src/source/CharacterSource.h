@@ -47,6 +47,7 @@ struct CharacterSource {
     osgAnimation::AnimationList animations;
 
     std::vector<SkinFile::MotionEntry> motions; ///< files to retarget
+    bool clearHands = false;                    ///< of the body, in `motions`
     std::vector<SkinFile::Prop> props;
 
     ReadLimits limits; ///< for all files

@@ -42,6 +42,7 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
     if (skin.paintedWeights) source.painted = CharacterSource::Painted::Yes;
     source.weightsFile = skin.weights;
     source.motions = skin.motions;
+    source.clearHands = skin.clearHands;
     source.props = skin.props;
     applyOptions(source, options);
 
