@@ -278,7 +278,7 @@ TEST(WildGltf, OneMeshMayHaveTwoSkins) {
     expectExact(column.save("two_skins.gltf"));
 }
 
-TEST(WildGltf, CompressionsThatNobodyReadsAreRefusedByName) {
+TEST(WildGltf, BrokenCompressionsAreRefusedByName) {
     GltfColumn column;
     column.json["extensionsUsed"] = column.json["extensionsRequired"] = {"EXT_meshopt_compression"};
     column.json["buffers"] = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfAccessors.h"
 
-#include "gltf/Base64.h"
+#include "text/Base64.h"
 #include "text/FileText.h"
 
 #include <osgDB/FileNameUtils>

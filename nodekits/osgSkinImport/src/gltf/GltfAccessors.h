@@ -36,6 +36,10 @@ public:
     /// All numbers of an accessor, element by element.
     std::vector<double> values(std::size_t accessor);
 
+    /// What a buffer holds: the file's binary chunk, its own text's, or another file's content.
+    /// \param index of the buffer
+    const std::string& buffer(std::size_t index);
+
     /// Adds an accessor of floats.
     /// \param type of its elements, as "VEC3"
     /// \return its index
@@ -43,7 +47,6 @@ public:
 
 private:
     const nlohmann::json& accessor(std::size_t index) const;
-    const std::string& buffer(std::size_t index);
     void read(std::size_t view, std::size_t offset, int type, std::size_t wide, std::size_t many,
               std::vector<double>& result);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfCheck.h"
 
-#include "gltf/Base64.h"
 #include "gltf/GltfParts.h"
+#include "text/Base64.h"
 #include "text/FileText.h"
 
 #include <algorithm>

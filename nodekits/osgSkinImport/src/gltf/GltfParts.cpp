@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfParts.h"
 
-#include "gltf/Base64.h"
 #include "gltf/GltfAccessors.h"
+#include "text/Base64.h"
 #include "text/FileText.h"
 
 #include <osgSkin/Error>

@@ -8,6 +8,7 @@
 #include "gltf/GltfMorphs.h"
 #include "gltf/GltfNames.h"
 #include "gltf/GltfTracks.h"
+#include "gltf/MeshoptViews.h"
 #include "text/FileText.h"
 
 #include <osgDB/FileNameUtils>
@@ -134,7 +135,8 @@ std::optional<PlainGltf> plainGltf(const std::string& path, const ReadLimits& li
     if (!file) return std::nullopt;
     try {
         const bool backwards = facesBackwards(*file);
-        checkExtensions(*file);
+        noteExtensions(*file);
+        unpackMeshopt(*file);
         file->json = checkedGltf(*file);
         Plainer(*file).run();
         return PlainGltf{file->bytes(), backwards};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/Base64.h"
+#include "text/Base64.h"
 
 #include <cstdint>
 
