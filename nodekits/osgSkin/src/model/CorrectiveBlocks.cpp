@@ -90,7 +90,7 @@ void CorrectiveBlocks::addTilts(const SkinModel& model, std::size_t group, const
     const std::size_t modes = joints[range.joint].modes;
     std::vector<double> along(2 * modes * kBlock); // of a block, as its rows
     for (std::uint32_t b = 0; b < range.blockCount; ++b) {
-        const CorrectiveRow* from = normalRows.data() + range.firstRow + b * 3 * modes;
+        const CorrectiveRow* from = normalRows.data() + range.firstRow + 3 * modes * b;
         std::fill(along.begin(), along.end(), 0.0);
         double most = 0.0;
         for (std::uint32_t lane = 0; lane < kBlock; ++lane) {
