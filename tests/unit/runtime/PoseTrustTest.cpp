@@ -101,6 +101,37 @@ TEST(PoseTrust, NothingThatIsDrawnIsNoNumber) {
         }
 }
 
+/// The same where a pose comes without matrices, joint by joint.
+TEST(PoseTrust, JointMapsBeyondAllNumbersAreRefused) {
+    const auto map = [](double offset, double scale) {
+        osgSkin::JointMap made;
+        made.offset = {0.0, offset, 0.0};
+        made.scale = scale;
+        return made;
+    };
+    using Maps = std::vector<osgSkin::JointMap>;
+    const std::pair<Maps, bool> cases[] = {
+        {{map(1e17, 1.0), map(0.0, 1.0), map(0.0, 1.0)}, true},
+        {{map(0.0, 1e4), map(0.0, 1e-4), map(1.0, 1e4)}, true},
+        {{map(1e39, 1.0), map(0.0, 1.0), map(0.0, 1.0)}, false},
+        {{map(0.0, 1.0), map(0.0, 1.0), map(1e300, 1.0)}, false},
+        {{map(0.0, 1e38), map(0.0, 1.0), map(0.0, 1.0)}, false},
+        {{map(0.0, 1e-38), map(0.0, 1.0), map(0.0, 1.0)}, false},
+        {{map(0.0, 1e7), map(0.0, 1e7), map(0.0, 1e7)}, false}, // together only, as the next
+        {{map(0.0, 1e-7), map(0.0, 1e-7), map(0.0, 1e-7)}, false},
+        {{map(0.0, 1e6), map(0.0, 1.0), map(1e17, 1.0)}, false},
+    };
+    for (const auto& [maps, followed] : cases) {
+        const auto skin = makeSkin();
+        test::bend(*skin, 0.7);
+        const std::vector<osg::Vec3> before = positionsOf(*skin);
+        EXPECT_EQ(skin->setPose(maps.data(), maps.size()), followed)
+            << maps[0].offset.y << " " << maps[0].scale << " " << maps[2].offset.y;
+        EXPECT_TRUE(areFinite(*skin)) << maps[0].offset.y << " " << maps[0].scale;
+        EXPECT_EQ(positionsOf(*skin) == before, !followed);
+    }
+}
+
 TEST(PoseTrust, ABoneThatCannotBeFollowedIsWarnedOfOnce) {
     const auto skin = makeSkin();
     const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;

@@ -7,15 +7,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 
 namespace {
 
-class HostileFile : public testing::TestWithParam<const char*> {
+/// Other than our reasons, OSG says of a bad file what it makes of each word in it.
+template <typename Case>
+class Quietly : public testing::TestWithParam<Case> {
 protected:
-    // Other than our reasons, OSG says of a bad text file what it makes of each word in it.
     void SetUp() override { osg::setNotifyLevel(osg::ALWAYS); }
     void TearDown() override { osg::setNotifyLevel(osg::NOTICE); }
 };
+
+class HostileFile : public Quietly<const char*> {};
 
 /// Where the model's block starts: far enough back to be in our classes from there on.
 std::size_t ourPart(const std::string& file) {
@@ -69,6 +73,68 @@ TEST_P(HostileFile, ReasonIsNamed) {
     EXPECT_EQ(test::load(bad, GetParam(), &reason), nullptr);
     EXPECT_NE(reason.find("version 7"), std::string::npos) << reason;
 }
+
+namespace {
+
+struct BadPrimitives {
+    const char* name;
+    const char* reason;
+    osg::ref_ptr<osg::PrimitiveSet> primitives;
+};
+void PrintTo(const BadPrimitives& bad, std::ostream* out) {
+    *out << bad.name;
+}
+
+osg::ref_ptr<osg::PrimitiveSet> runs(const std::vector<int>& lengths, int first = 0) {
+    const osg::ref_ptr<osg::DrawArrayLengths> made = new osg::DrawArrayLengths(
+        GL_TRIANGLE_FAN, first, static_cast<unsigned int>(lengths.size()));
+    std::copy(lengths.begin(), lengths.end(), made->begin());
+    return made;
+}
+osg::ref_ptr<osg::PrimitiveSet> runs(const std::vector<int>& firsts,
+                                     const std::vector<int>& counts) {
+    const osg::ref_ptr<osg::MultiDrawArrays> made = new osg::MultiDrawArrays(GL_TRIANGLE_FAN);
+    made->setFirsts(firsts);
+    made->setCounts(counts);
+    return made;
+}
+
+constexpr int kMost = 0x7fffffff;
+// OSG's own sums of the first are 2 and 3.
+const std::vector<BadPrimitives> kBadPrimitives = {
+    {"LengthsThatWrap", "names vertex", runs({kMost, kMost, 4})},
+    {"LengthsOfBothSigns", "of -3 corners", runs({3, -3, 3})},
+    {"LengthsFromBefore", "names vertex -4", runs({3, 3}, -4)},
+    {"FewerFirstsThanCounts", "1 first vertices of 2 runs", runs({0}, {3, 3})},
+    {"FirstBeyond", "names vertex", runs({0, kMost}, {3, 3})},
+    {"CountOfLess", "of -1 corners", runs({0, 0}, {3, -1})},
+    {"HalfATriangle", "4 corners of triangles", new osg::DrawElementsUInt(GL_TRIANGLES, 4)},
+};
+
+class HostilePrimitives : public Quietly<BadPrimitives> {};
+
+osg::ref_ptr<osg::Node> loadWith(osg::PrimitiveSet* primitives, std::string* reason) {
+    const osg::ref_ptr<osg::Group> scene = test::makeScene();
+    for (const osgSkin::DeformableSkin* skin : test::skinsOf(*scene))
+        const_cast<osg::Geometry*>(skin->getRestGeometry())->setPrimitiveSet(0, primitives);
+    return test::load(test::save(*scene, "osgb"), "osgb", reason);
+}
+
+} // namespace
+
+TEST_P(HostilePrimitives, AreRefused) {
+    std::string reason;
+    EXPECT_EQ(loadWith(GetParam().primitives, &reason), nullptr);
+    EXPECT_NE(reason.find(GetParam().reason), std::string::npos) << reason;
+}
+
+TEST(Primitives, GoodRunsAreRead) {
+    for (const osg::ref_ptr<osg::PrimitiveSet>& good : {runs({3, 0, 4}, 1), runs({0, 4}, {3, 4})})
+        EXPECT_NE(loadWith(good, nullptr), nullptr) << good->className();
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, HostilePrimitives, testing::ValuesIn(kBadPrimitives),
+                         [](const auto& bad) { return std::string(bad.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(Formats, HostileFile, testing::Values("osgt", "osgb", "osgx"),
                          [](const auto& format) { return std::string(format.param); });

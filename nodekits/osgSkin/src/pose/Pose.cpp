@@ -19,8 +19,25 @@
 namespace osgSkin {
 namespace {
 
-/// Of what a matrix makes of a cube: scales from 1e-9 to 1e9.
+constexpr double kSmallestScale = 1e-9; ///< and the largest is its inverse
+/// Of what a matrix makes of a cube.
 constexpr double kSmallestVolume = 1e-27;
+
+/// How far a joint's map can move the origin, at most, and how it scales, all above it included.
+struct Reach {
+    double length;
+    double scale;
+};
+constexpr Reach kNoReach{0.0, 1.0};
+
+/// Not below the length of a vector, in less time.
+double lengthOf(const glm::dvec3& v) noexcept {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+bool isScale(double scale) noexcept {
+    return scale >= kSmallestScale && scale <= 1.0 / kSmallestScale; // false for NaN
+}
 
 /// The rotation in a 3 x 3 matrix that may also scale, and the uniform part of that scale; false
 /// where there is none to be found.
@@ -142,12 +159,18 @@ bool Pose::isSame(const Split& a, const Split& b) noexcept {
 
 bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* changed) noexcept {
     if (count != _splits.size()) return false;
+    static thread_local std::vector<Reach> reaches;
+    if (reaches.size() < count) reaches.resize(count, Reach{0.0, 1.0});
     for (std::size_t j = 0; j < count; ++j) {
         const JointMap& map = own[j];
+        const int parent = (*_rest)[j].parent;
+        const Reach& above = parent >= 0 ? reaches[static_cast<std::size_t>(parent)] : kNoReach;
+        reaches[j] = {above.length + above.scale * lengthOf(map.offset), above.scale * map.scale};
         // Written so that NaN is refused.
         const glm::dquat& q = map.rotation;
         if (!(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < 1e-6) ||
-            !isFinite(map.offset) || !(map.scale > 0.0) || !std::isfinite(map.scale))
+            !isInRange(map.offset) || !(reaches[j].length <= kLargestCoordinate) ||
+            !isScale(map.scale) || !isScale(reaches[j].scale))
             return false;
     }
     bool other = false;
