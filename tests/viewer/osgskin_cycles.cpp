@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Loads a character, plays it, saves it and lets go of it, again and again: for the sanitizers,
-// which see leaks and what is used after it has been freed. No display needed.
+// which see leaks and what is used after it has been freed, and for long runs, whose memory must
+// stay as it is. No display needed.
+#include "MemorySlope.h"
+
 #include <osgSkin/DeformableSkin>
 
 #include <osg/observer_ptr>
@@ -55,13 +58,15 @@ unsigned int posesOf(osg::Node& node) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 5) {
-        std::cerr << "usage: osgskin_cycles CHARACTER SAVED.osgb FRAMES CYCLES" << std::endl;
+    if (argc != 5 && argc != 6) {
+        std::cerr << "usage: osgskin_cycles CHARACTER SAVED.osgb FRAMES CYCLES [MOST_KB_A_CYCLE]"
+                  << std::endl;
         return 2;
     }
     const auto frames = static_cast<unsigned int>(std::atoi(argv[3]));
     const auto cycles = static_cast<unsigned int>(std::atoi(argv[4]));
     std::string file = argv[1];
+    test::MemorySlope memory;
     for (unsigned int cycle = 0; cycle < cycles; ++cycle) {
         osg::ref_ptr<osg::Node> character = osgDB::readRefNodeFile(file);
         if (!character) return 1;
@@ -80,7 +85,10 @@ int main(int argc, char** argv) {
         }
         // Both ways in, by turns: from its files, and as saved.
         file = file == argv[1] ? argv[2] : argv[1];
+        memory.sample();
     }
-    std::cout << cycles << " times loaded, " << frames << " frames, saved and let go" << std::endl;
-    return 0;
+    std::cout << cycles << " times loaded, " << frames << " frames, saved and let go; "
+              << memory.last() / 1024.0 << " MB in the end, " << memory.slope() << " kB a cycle"
+              << std::endl;
+    return argc == 6 && memory.slope() > std::atof(argv[5]) ? 1 : 0;
 }

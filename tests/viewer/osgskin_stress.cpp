@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A crowd in two windows for many frames, in one of OSG's threading models: for ThreadSanitizer,
 // and for OSG's own stats, which say whether the update of a frame overlaps the draw of the one
-// before.
+// before. For long runs, too, whose memory must stay as it is.
+#include "MemorySlope.h"
+
 #include <osgSkin/DeformableSkin>
 
 #include <osg/MatrixTransform>
@@ -119,10 +121,12 @@ int main(int argc, char** argv) {
     viewer.realize();
     // Pauses and goes back once in a while: the same poses again, and others out of turn.
     double time = 0.0;
+    test::MemorySlope memory;
     for (unsigned int frame = 0; frame < frames; ++frame) {
         if (frame % 50 < 45) time += 1.0 / 60.0;
         if (frame % 200 == 199) time -= 1.0;
         viewer.frame(time);
+        if (frame % 50 == 49) memory.sample();
     }
     viewer.stopThreading();
 
@@ -131,8 +135,9 @@ int main(int argc, char** argv) {
     std::cout << argv[2] << ": " << census.skins << " skins, " << frames << " frames, "
               << census.deformed << " poses deformed; in " << overlaps(viewer, 5, frames - 1)
               << " of " << frames - 6
-              << " frames the update began before the draw of the frame before had ended"
-              << std::endl;
+              << " frames the update began before the draw of the frame before had ended; "
+              << memory.last() / 1024.0 << " MB in the end, " << memory.slope() / 50.0
+              << " kB a frame" << std::endl;
     const bool good =
         census.skins >= count && census.deformed > 0 && census.deformed <= census.skins * frames;
     return good ? 0 : 1;
