@@ -1,48 +1,75 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as skinning matrices: a pose is refused, or all that comes of it is finite.
+// Any bytes as skinning matrices, then as joints' own maps: a pose is refused, or all that comes of
+// it is finite.
 #include "Tube.h"
 
 #include <osgSkin/DeformJob>
 #include <osgSkin/PoseBounds>
 
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 
+namespace {
+
+constexpr std::size_t kJoints = 3;
+constexpr std::size_t kNumbers = 16 * kJoints; ///< of one pose
+
+bool isFinite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void requireFinite(const osgSkin::SkinModel& model, const osgSkin::Pose& pose) {
+    static std::vector<glm::vec3> positions(model.vertexCount()), normals(model.vertexCount());
+    osgSkin::DeformJob job;
+    job.model = &model;
+    job.pose = &pose;
+    job.positions = positions.data();
+    job.normals = normals.data();
+    job.positionCount = job.normalCount = positions.size();
+    job.run();
+    const osgSkin::PoseBounds bounds = computePoseBounds(model, pose);
+    if (!isFinite(bounds.low) || !isFinite(bounds.high)) std::abort();
+    if (!std::all_of(positions.begin(), positions.end(), isFinite)) std::abort();
+    if (!std::all_of(normals.begin(), normals.end(), isFinite)) std::abort();
+}
+
+bool setMatrices(osgSkin::Pose& pose, const float* numbers) {
+    glm::dmat4 matrices[kJoints] = {glm::dmat4(1.0), glm::dmat4(1.0), glm::dmat4(1.0)};
+    for (glm::dmat4& matrix : matrices)
+        for (int k = 0; k < 16; ++k) matrix[k / 4][k % 4] += double(*numbers++);
+    return pose.set(matrices, kJoints);
+}
+
+bool setMaps(osgSkin::Pose& pose, const float* numbers) {
+    osgSkin::JointMap maps[kJoints];
+    for (osgSkin::JointMap& map : maps) {
+        map.rotation = glm::normalize(
+            glm::dquat(1.0 + double(numbers[0]), numbers[1], numbers[2], numbers[3]));
+        map.offset = {numbers[4], numbers[5], numbers[6]};
+        map.scale = 1.0 + double(numbers[7]);
+        numbers += 8;
+    }
+    return pose.set(maps, kJoints);
+}
+
+} // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const test::Tube tube(5, 4);
-    static const osg::ref_ptr<const osgSkin::SkinModel> model = tube.model();
-    static std::vector<glm::vec3> positions(model->vertexCount()), normals(model->vertexCount());
+    static const osg::ref_ptr<const osgSkin::SkinModel> model = test::Tube(5, 4).model();
     osgSkin::Pose pose(model->joints());
-    std::vector<glm::dmat4> matrices(3, glm::dmat4(1.0));
     while (size > 0) {
         // Floats reach more kinds of numbers than doubles do.
-        float numbers[48];
+        float numbers[kNumbers] = {};
         const std::size_t taken = std::min(size, sizeof numbers);
-        std::memset(numbers, 0, sizeof numbers);
         std::memcpy(numbers, data, taken);
-        for (int m = 0; m < 3; ++m)
-            for (int k = 0; k < 16; ++k)
-                matrices[std::size_t(m)][k / 4][k % 4] += double(numbers[16 * m + k]);
         data += taken;
         size -= taken;
-        if (!pose.set(matrices.data(), matrices.size())) continue;
-        osgSkin::DeformJob job;
-        job.model = model.get();
-        job.pose = &pose;
-        job.positions = positions.data();
-        job.normals = normals.data();
-        job.positionCount = job.normalCount = positions.size();
-        job.run();
-        const osgSkin::PoseBounds bounds = computePoseBounds(*model, pose);
-        for (const glm::vec3& v : {bounds.low, bounds.high})
-            if (!std::isfinite(v.x + v.y + v.z)) std::abort();
-        for (std::size_t v = 0; v < positions.size(); ++v) {
-            const glm::vec3& p = positions[v];
-            const glm::vec3& n = normals[v];
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) std::abort();
-            if (!std::isfinite(n.x) || !std::isfinite(n.y) || !std::isfinite(n.z)) std::abort();
-        }
+        if (setMatrices(pose, numbers)) requireFinite(*model, pose);
+        if (setMaps(pose, numbers)) requireFinite(*model, pose);
     }
     return 0;
 }

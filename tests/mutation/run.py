@@ -2,79 +2,123 @@
 # SPDX-License-Identifier: MIT
 """Breaks the product on purpose, place by place, and tells which breaks no test notices.
 
-    tests/mutation/run.py [--count N] [--seed S] [KIT...]
+    tests/mutation/run.py [--count N] [--seed S] [--tests BUILD] [KIT...]
 
-Works in a copy of the last commit, build/mutation/tree, which it builds by the preset release. Each mutant
-changes one operator or number of one line; a kit's mutants are spread over its sources. What survives is
-listed with its place, to be given a test or to be explained.
+Works in a copy of the last commit, build/mutation/tree. Each mutant changes one operator, number or
+order in one line; a kit's mutants are spread over its sources. One source is compiled and one library
+linked a mutant, into build/mutation/broken, where the test programs find it first; a kit's programs
+run in the order of KITS until one notices. What survives is listed with its place, to be given a test
+or, where no test could notice, to be explained in explained.txt.
 """
 import argparse
+import json
+import os
 import random
 import re
+import shlex
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 HOME = ROOT / "build" / "mutation"
 TREE = HOME / "tree"
-# Kit -> the test programs that are to notice.
+BUILD = TREE / "build" / "release"
+BROKEN = HOME / "broken"
+EXPLAINED = Path(__file__).with_name("explained.txt")
+# Kit -> the test programs that are to notice, those that notice most and soonest first.
 KITS = {
-    "osgSkin": ["runtime_test"],
-    "osgSkinRig": ["importTests"],
-    "osgSkinImport": ["importTests"],
-    "osgSkinBind": ["bindTests"],
+    "osgSkin": ["runtime_test", "serializers_test", "scene_test", "allocation_test", "bindTests"],
+    "osgSkinRig": ["runtime_test", "importTests", "bindTests", "system_test"],
+    "osgSkinGpu": ["gpu_test --gtest_filter=-OldDriver.*"],
+    "osgSkinImport": ["importTests", "system_test"],
+    "osgSkinBind": ["bindTests", "system_test"],
     "osgSkinCharacter": ["system_test"],
 }
 RULES = [
     (r" < ", " <= "), (r" <= ", " < "), (r" > ", " >= "), (r" >= ", " > "), (r" == ", " != "),
     (r" != ", " == "), (r" && ", " || "), (r" \|\| ", " && "), (r" \+ ", " - "), (r" - ", " + "),
-    (r" \* ", " / "), (r"\breturn true;", "return false;"), (r"\breturn false;", "return true;"),
-    (r"std::min\b", "std::max"), (r"std::max\b", "std::min"), (r"\b0\.5\b", "0.6"),
-    (r"\bstd::lock_guard<std::mutex> lock\(\w+\);", ";"), (r"\bcontinue;", "break;"),
+    (r" \* ", " / "), (r" \+= ", " -= "), (r" -= ", " += "), (r"\breturn true;", "return false;"),
+    (r"\breturn false;", "return true;"), (r"std::min\b", "std::max"), (r"std::max\b", "std::min"),
+    (r"\b0\.5\b", "0.6"), (r"\bstd::lock_guard<std::mutex> lock\(\w+\);", ";"),
+    (r"\bcontinue;", "break;"), (r"\+\+(\w+)\)", r"\1 += 2)"), (r"\bif \(!", "if ("),
 ]
-SKIPPED = re.compile(r'^\s*(//|#|using|template|namespace|static_assert)|"|fail|Error|OSG_|operator|&&\s*\w+\)')
+# Messages and declarations, where these marks mean something else.
+SKIPPED = re.compile(r'^\s*(//|\*|#|using|template|namespace|static_assert)|"|fail|Error|OSG_|operator')
 
 
-def run(command, where=TREE, timeout=900):
+def shell(command, where, timeout=None, **environment):
     try:
-        return subprocess.run(command, cwd=where, timeout=timeout, shell=True,
+        return subprocess.run(command, cwd=where, timeout=timeout, shell=True, env={**os.environ, **environment},
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
     except subprocess.TimeoutExpired:
         return 124  # a mutant that hangs is noticed
 
 
-def places(kit):
-    """All (file, line number, rule) of a kit where a rule applies."""
-    found = []
-    for file in sorted((TREE / "nodekits" / kit / "src").rglob("*.cpp")):
-        for number, line in enumerate(file.read_text().splitlines()):
-            if SKIPPED.search(line):
-                continue
-            found += [(file, number, rule) for rule in RULES if re.search(rule[0], line)]
-    return found
-
-
-def prepare(kits):
-    HOME.mkdir(parents=True, exist_ok=True)
+def prepare(kits, tests):
+    """The copy's libraries, and its test programs where those of no other build are used."""
+    BROKEN.mkdir(parents=True, exist_ok=True)
     if not TREE.exists():
-        run(f"git worktree add --detach '{TREE}'", ROOT)
-    run(f"git checkout --force --detach $(git -C '{ROOT}' rev-parse HEAD)")
-    tests = " ".join(sorted({test for kit in kits for test in KITS[kit]}))
-    if run("cmake --preset release -DOSGSKIN_GENERATOR=OFF", timeout=None) or run(
-            f"ninja -C build/release osgdb_skin osgdb_serializers_osgskin {tests}", timeout=None):
+        shell(f"git worktree add --detach '{TREE}'", ROOT)
+    shell(f"git checkout --force --detach $(git -C '{ROOT}' rev-parse HEAD)", TREE)
+    programs = sorted({test for kit in kits for test in KITS[kit]})
+    wanted = kits if tests else [*kits, "osgdb_skin", "osgdb_serializers_osgskin", "osgskinbake",
+                                        *(program.split()[0] for program in programs)]
+    if shell("cmake --preset release -DOSGSKIN_GENERATOR=OFF", TREE) or shell(
+            f"ninja -C build/release {' '.join(wanted)}", TREE):
         sys.exit("the copy does not build")
 
 
-def is_noticed(kit):
-    """None where the mutant does not compile."""
-    if run(f"ninja -C build/release {kit}"):
-        return None
-    for test in KITS[kit]:
-        if run(f"OSG_LIBRARY_PATH=build/release/lib nice build/release/bin/{test} "
-               "--gtest_brief=1 --gtest_fail_fast", timeout=300):
-            return True
-    return False
+def run(program, build, limit, libraries):
+    return shell(f"bin/{program} --gtest_brief=1 --gtest_fail_fast", build, limit,
+                 LD_LIBRARY_PATH=str(libraries), OSG_LIBRARY_PATH=str(build / "lib"))
+
+
+def notices(program, build, limits):
+    """True where a test of this program fails with the broken library."""
+    if program not in limits:
+        start = time.monotonic()
+        if run(program, build, None, build / "lib"):
+            sys.exit(f"{program} fails where nothing is broken")
+        limits[program] = 60 + 10 * (time.monotonic() - start)
+    return run(program, build, limits[program], BROKEN) != 0
+
+
+def places(kit, commands):
+    """(file, line number, rule) in each of a kit's sources where a rule applies, a file a turn."""
+    files = []
+    for file in sorted((TREE / "nodekits" / kit / "src").rglob("*.cpp")):
+        # What a test program compiles once more would be broken in the library alone.
+        if len(commands.get(str(file), [])) != 1:
+            continue
+        lines = [line for line in enumerate(file.read_text().splitlines()) if not SKIPPED.search(line[1])]
+        found = [(file, number, rule) for number, line in lines for rule in RULES if re.search(rule[0], line)]
+        random.shuffle(found)
+        files.append(found)
+    random.shuffle(files)
+    for turn in range(max(map(len, files), default=0)):
+        yield from (found[turn] for found in files if turn < len(found))
+
+
+def compile_broken(kit, entry):
+    """Compiles a source as it is now and links its library, in BROKEN; false where that fails."""
+    words = shlex.split(entry["command"])
+    made = words[words.index("-o") + 1]
+    words[words.index("-o") + 1] = str(BROKEN / "broken.o")
+    if shell(shlex.join(words), entry["directory"]):
+        return False
+    library = sorted((BUILD / "lib").glob(f"lib{kit}.so.*"), key=lambda path: len(path.name))
+    link = subprocess.run(["ninja", "-t", "commands", f"lib/{library[-1].name}"], cwd=BUILD, check=True,
+                          capture_output=True, text=True).stdout.splitlines()[-1]
+    broken = BROKEN / library[0].name  # as programs name it
+    link = re.sub(rf"(?<= ){re.escape(made)}(?= )", str(BROKEN / "broken.o"), link)
+    return shell(re.sub(r" -o \S+", f" -o {broken}", link), BUILD) == 0
+
+
+def explained():
+    lines = EXPLAINED.read_text().splitlines() if EXPLAINED.exists() else []
+    return {line for line in lines if line and not line.startswith("#") and not line.startswith("    ")}
 
 
 def main():
@@ -82,32 +126,43 @@ def main():
     parser.add_argument("kits", nargs="*", default=list(KITS))
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--tests", type=Path, help="a finished build of the same commit, whose test "
+                        "programs are run instead of others that take minutes to build")
     arguments = parser.parse_args()
-    prepare(arguments.kits)
-    random.seed(arguments.seed)
+    prepare(arguments.kits, arguments.tests)
+    limits = {}
+    build = arguments.tests.resolve() if arguments.tests else BUILD
+    commands = {}
+    for entry in json.loads((BUILD / "compile_commands.json").read_text()):
+        commands.setdefault(entry["file"], []).append(entry)
     noticed, survivors = 0, []
     for kit in arguments.kits:
-        candidates = places(kit)
-        random.shuffle(candidates)
-        wanted = max(1, arguments.count // len(arguments.kits))
-        for file, number, (pattern, by) in candidates:
+        random.seed(f"{arguments.seed} {kit}")
+        wanted = -(-arguments.count // len(arguments.kits))
+        for file, number, (pattern, by) in places(kit, commands):
             if wanted == 0:
                 break
             text = file.read_text()
             lines = text.splitlines(keepends=True)
             before = lines[number].strip()
             lines[number] = re.sub(pattern, by, lines[number], count=1)
-            place = f"{file.relative_to(TREE)}:{number + 1}: {before} -> {lines[number].strip()}"
+            place = f"{file.relative_to(TREE / 'nodekits')}: {before} -> {lines[number].strip()}"
+            if place in explained():
+                continue
             file.write_text("".join(lines))
-            result = is_noticed(kit)
+            compiles = compile_broken(kit, commands[str(file)][0])
             file.write_text(text)
-            if result is None:
+            by = compiles and next((test for test in KITS[kit] if notices(test, build, limits)), None)
+            for library in BROKEN.glob("*.so*"):
+                library.unlink()
+            if not compiles:
                 continue
             wanted -= 1
-            noticed += result
-            if not result:
+            if by:
+                noticed += 1
+            else:
                 survivors.append(place)
-            print("noticed " if result else "SURVIVED", place, flush=True)
+            print(f"{'noticed by ' + by if by else 'SURVIVED'}: {place}", flush=True)
     total = noticed + len(survivors)
     print(f"{noticed} of {total} noticed, {100.0 * noticed / max(1, total):.0f} %")
     return 0 if total and noticed >= 0.9 * total else 1
