@@ -86,14 +86,14 @@ void PrintTo(const BadPrimitives& bad, std::ostream* out) {
 }
 
 osg::ref_ptr<osg::PrimitiveSet> runs(const std::vector<int>& lengths, int first = 0) {
-    const osg::ref_ptr<osg::DrawArrayLengths> made = new osg::DrawArrayLengths(
+    osg::ref_ptr<osg::DrawArrayLengths> made = new osg::DrawArrayLengths(
         GL_TRIANGLE_FAN, first, static_cast<unsigned int>(lengths.size()));
     std::copy(lengths.begin(), lengths.end(), made->begin());
     return made;
 }
 osg::ref_ptr<osg::PrimitiveSet> runs(const std::vector<int>& firsts,
                                      const std::vector<int>& counts) {
-    const osg::ref_ptr<osg::MultiDrawArrays> made = new osg::MultiDrawArrays(GL_TRIANGLE_FAN);
+    osg::ref_ptr<osg::MultiDrawArrays> made = new osg::MultiDrawArrays(GL_TRIANGLE_FAN);
     made->setFirsts(firsts);
     made->setCounts(counts);
     return made;
