@@ -7,6 +7,7 @@
 
 #include <osg/NodeVisitor>
 #include <osgDB/ReadFile>
+#include <osgDB/Registry>
 
 #include <stdexcept>
 
@@ -25,7 +26,9 @@ public:
 /// By osgDB, which also reads characters that were saved.
 osg::ref_ptr<osg::Node> readScene(const std::string& file) {
     example::ProgressLine line(file);
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    const osgDB::Options* shared = osgDB::Registry::instance()->getOptions();
+    const osg::ref_ptr<osgDB::Options> options =
+        shared ? shared->cloneOptions() : new osgDB::Options;
     osgSkin::setProgress(*options, line.progress());
     return osgDB::readRefNodeFile(file, options);
 }

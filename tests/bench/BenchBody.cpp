@@ -126,7 +126,8 @@ Body load(Kind kind) {
     body.clip = osgSkin::retarget(osgSkin::importMotion(file.motion, file.skipFrames), body.rig);
     osgSkin::BindOptions options;
     options.surfaceNormals = kind != Kind::Turned;
-    if (kind == Kind::Shaped) options.shapes = osgSkin::BindOptions::Shapes::Fast;
+    options.shapes = kind == Kind::Shaped ? osgSkin::BindOptions::Shapes::Fast
+                                          : osgSkin::BindOptions::Shapes::None;
     body.binding = osgSkin::bind(mesh, body.rig, options);
     body.positions.assign(mesh.positions.begin(), mesh.positions.end());
     body.triangles = mesh.triangles();

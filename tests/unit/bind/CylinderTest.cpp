@@ -29,7 +29,9 @@ protected:
         if (last != LastBone::Tip) skeleton.joints.back().tip.reset();
         if (last == LastBone::EndJoint)
             shapes::addJoint(skeleton, "end", skeleton.joints.back().name, {0, 8, 0});
-        binding = bind(mesh, skeleton);
+        BindOptions options; // the ratios alone: the fold's press takes volume
+        options.shapes = BindOptions::Shapes::None;
+        binding = bind(mesh, skeleton, options);
         std::vector<std::uint32_t> source(mesh.positions.size());
         std::iota(source.begin(), source.end(), 0u);
         model = SkinModel::create(binding, {mesh.positions.begin(), mesh.positions.end()},

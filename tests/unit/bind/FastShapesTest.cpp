@@ -5,6 +5,7 @@
 
 #include <osgSkin/DeformJob>
 #include <osgSkinBind/Bind>
+#include <osgSkinBind/BindWeights>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -119,11 +120,23 @@ double swellingOf(const KnownBody& body, const Binding& binding, std::size_t joi
 
 } // namespace
 
-TEST(FastShapes, AreMadeOnlyWhereTheyAreAskedFor) {
+TEST(FastShapes, AreTheDefaultOfSmoothRatiosWithTheNormalsOfTheSurface) {
     const SkinMesh mesh = shapes::cylinder(8.0, 16);
     const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
-    EXPECT_TRUE(bind(mesh, skeleton).correctives.empty());
-    EXPECT_FALSE(bound(mesh, skeleton, BindOptions::Shapes::Fast).correctives.empty());
+    const Binding smooth = bind(mesh, skeleton);
+    EXPECT_EQ(bound(mesh, skeleton, BindOptions::Shapes::Fast).correctives.shares,
+              smooth.correctives.shares);
+    EXPECT_FALSE(smooth.correctives.empty());
+    EXPECT_FALSE(smooth.gradients.empty());
+    EXPECT_TRUE(bound(mesh, skeleton, BindOptions::Shapes::None).correctives.empty());
+
+    BindOptions paper;
+    paper.method = BindOptions::Method::Paper;
+    const VertexWeights weights(mesh.positions.size(), {{0, 0.5}, {1, 0.5}});
+    for (const Binding& as : {bind(mesh, skeleton, paper), bindWeights(mesh, skeleton, weights)}) {
+        EXPECT_TRUE(as.correctives.empty());
+        EXPECT_TRUE(as.gradients.empty());
+    }
 }
 
 TEST(FastShapes, CylinderKeepsItsOuterSideAndDoesNotFoldThroughItself) {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bind/AddShapes.h"
 
+#include "bind/NormalCorrectives.h"
 #include "cache/Digest.h"
 #include "cache/ShapesCache.h"
 #include "elastic/MakeElasticShapes.h"
+#include "muscles/MakeMuscles.h"
+#include "ratios/RatioGradients.h"
 #include "shapes/FastShapes.h"
+#include "shapes/MergeCorrectives.h"
 
 #include <optional>
 #include <utility>
@@ -35,20 +39,34 @@ Correctives elasticShapes(const RestSkeleton& skeleton, const std::vector<Planne
 
 } // namespace
 
+BindOptions decided(BindOptions options, bool ownRatios) {
+    const bool beyondPaper = ownRatios && options.method == BindOptions::Method::Smooth;
+    if (!options.shapes) options.shapes = beyondPaper ? Shapes::Fast : Shapes::None;
+    if (!options.surfaceNormals) options.surfaceNormals = beyondPaper;
+    return options;
+}
+
 void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                const WeldedMesh& mesh, const BindOptions& options, const Progress& progress,
                Binding& binding, std::vector<std::string>& notes) {
-    if (options.shapes == Shapes::None) return;
-    if (progress) progress({"shapes", 0.0});
-    binding.correctives =
-        options.shapes == Shapes::Fast
-            ? makeFastShapes(skeleton, joints, mesh, binding)
-            : elasticShapes(skeleton, joints, mesh, options, progress, binding, notes);
-    if (progress) progress({"shapes", 1.0});
+    if (options.shapes != Shapes::None) {
+        if (progress) progress({"shapes", 0.0});
+        binding.correctives =
+            options.shapes == Shapes::Fast
+                ? makeFastShapes(skeleton, joints, mesh, binding)
+                : elasticShapes(skeleton, joints, mesh, options, progress, binding, notes);
+        if (progress) progress({"shapes", 1.0});
+    }
+    if (options.muscles || !options.ownMuscles.empty())
+        binding.correctives = mergeCorrectives(
+            binding.correctives, makeMuscles(skeleton, joints, mesh, binding, options, notes));
+    if (!*options.surfaceNormals) return;
+    binding.gradients = ratioGradients(mesh, binding);
+    if (!binding.correctives.empty()) addNormalCorrectives(mesh, binding);
 }
 
 double shareWithoutShapes(const BindOptions& options) {
-    switch (options.shapes) {
+    switch (*options.shapes) {
     case Shapes::None:
         return 1.0;
     case Shapes::Fast:

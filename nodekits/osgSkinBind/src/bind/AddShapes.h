@@ -12,7 +12,12 @@
 
 namespace osgSkin {
 
-/// Adds the correctives that the options ask for.
+/// The options with what is unset decided.
+/// \param ownRatios whether ratios are found by us, instead of an artist's weights
+BindOptions decided(BindOptions options, bool ownRatios);
+
+/// Adds what goes beyond the paper: correctives for shapes and muscles, gradients for normals.
+/// \param options with shapes and normals decided()
 /// \param binding of the mesh as given, whose vertices `mesh` has welded
 /// \param progress of this part of the work
 /// \param notes gets a line for what is not as asked for
@@ -21,6 +26,7 @@ void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& jo
                Binding& binding, std::vector<std::string>& notes);
 
 /// The fraction of the time that binding takes without shapes, about.
+/// \param options with shapes decided()
 double shareWithoutShapes(const BindOptions& options);
 
 } // namespace osgSkin

@@ -3,21 +3,17 @@
 
 #include "bind/AddShapes.h"
 #include "bind/CheckOptions.h"
-#include "bind/NormalCorrectives.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
 #include "limbs/LimbRadius.h"
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
-#include "muscles/MakeMuscles.h"
 #include "paper/PaperBoundaries.h"
 #include "paper/PaperFields.h"
 #include "ratios/BendFields.h"
 #include "ratios/PackInfluences.h"
-#include "ratios/RatioGradients.h"
 #include "ratios/TwistFields.h"
 #include "regions/Regions.h"
-#include "shapes/MergeCorrectives.h"
 
 #include <osgSkin/Error>
 
@@ -100,12 +96,13 @@ std::vector<BindReport::Boundaries> boundariesOf(const std::vector<PlannedJoint>
 
 } // namespace
 
-Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptions& options,
+Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptions& asked,
              BindReport* report) {
     const auto start = std::chrono::steady_clock::now();
     mesh.validate();
     skeleton.validate();
-    checkOptions(skeleton, options);
+    checkOptions(skeleton, asked);
+    const BindOptions options = decided(asked, true);
 
     const double shapesBegin = shareWithoutShapes(options);
     const Progress ratiosProgress = subProgress(options.progress, 0.0, shapesBegin);
@@ -161,12 +158,6 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     }
     addShapes(skeleton, joints, skin, options, subProgress(options.progress, shapesBegin, 1.0),
               binding, found.notes);
-    if (options.muscles || !options.ownMuscles.empty())
-        binding.correctives =
-            mergeCorrectives(binding.correctives,
-                             makeMuscles(skeleton, joints, skin, binding, options, found.notes));
-    if (options.surfaceNormals) binding.gradients = ratioGradients(skin, binding);
-    if (options.surfaceNormals && !binding.correctives.empty()) addNormalCorrectives(skin, binding);
     binding.validate();
 
     found.vertices = mesh.positions.size();

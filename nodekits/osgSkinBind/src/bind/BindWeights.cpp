@@ -3,15 +3,11 @@
 
 #include "bind/AddShapes.h"
 #include "bind/CheckOptions.h"
-#include "bind/NormalCorrectives.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
-#include "muscles/MakeMuscles.h"
 #include "ratios/PackInfluences.h"
-#include "ratios/RatioGradients.h"
-#include "shapes/MergeCorrectives.h"
 
 #include <osgSkin/Error>
 
@@ -111,11 +107,12 @@ bool isWellPainted(const VertexWeights& weights) {
 }
 
 Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
-                    const VertexWeights& weights, const BindOptions& options, BindReport* report) {
+                    const VertexWeights& weights, const BindOptions& asked, BindReport* report) {
     const auto start = std::chrono::steady_clock::now();
     mesh.validate();
     skeleton.validate();
-    checkOptions(skeleton, options);
+    checkOptions(skeleton, asked);
+    const BindOptions options = decided(asked, false);
     if (weights.size() != mesh.positions.size())
         throw Error("bind: weights for " + std::to_string(weights.size()) +
                     " vertices, expected one list for each of the mesh's " +
@@ -146,12 +143,6 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
     addShapes(skeleton, joints, skin, options, options.progress, binding, found.notes);
-    if (options.muscles || !options.ownMuscles.empty())
-        binding.correctives =
-            mergeCorrectives(binding.correctives,
-                             makeMuscles(skeleton, joints, skin, binding, options, found.notes));
-    if (options.surfaceNormals) binding.gradients = ratioGradients(skin, binding);
-    if (options.surfaceNormals && !binding.correctives.empty()) addNormalCorrectives(skin, binding);
     binding.validate();
 
     found.regions = regionsOf(binding);

@@ -29,10 +29,10 @@ ConvertOptions convertOptionsOf(const LoadOptions& options) {
                                                          : ConvertOptions::Ratios::Own;
     if (options.method == Method::Paper) convert.bind.method = BindOptions::Method::Paper;
     convert.bind.rigid = options.rigid;
-    if (options.shapes) convert.bind.shapes = *options.shapes;
+    convert.bind.shapes = options.shapes;
     convert.bind.cacheFolder = cacheFolder();
     convert.bind.muscles = options.muscles.value_or(false);
-    if (options.surfaceNormals) convert.bind.surfaceNormals = *options.surfaceNormals;
+    convert.bind.surfaceNormals = options.surfaceNormals;
     convert.showRegions = options.showRegions;
     return convert;
 }
@@ -88,9 +88,7 @@ void faceViewer(Character& character) {
 } // namespace
 
 Character convertScene(const std::string& file, const LoadOptions& options, LoadStages& stages) {
-    const double binding =
-        LoadStages::kBinding +
-        LoadStages::shapesSize(options.shapes.value_or(BindOptions::Shapes::None));
+    const double binding = LoadStages::kBinding + LoadStages::shapesSize(options.shapes);
     stages.plan(LoadStages::kModel + binding);
     stages.begin("model", LoadStages::kModel);
     const ReadLimits limits = ReadLimits::of(options.readOptions.get());

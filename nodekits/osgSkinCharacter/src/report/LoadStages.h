@@ -4,6 +4,7 @@
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/Progress>
 
+#include <optional>
 #include <string>
 
 namespace osgSkin {
@@ -24,7 +25,7 @@ public:
     static constexpr double kPlayedScene = 40.0; ///< with animations that must be played for bounds
 
     /// What is to be added to the binding.
-    static constexpr double shapesSize(BindOptions::Shapes shapes) {
+    static constexpr double shapesSize(std::optional<BindOptions::Shapes> shapes) {
         return shapes == BindOptions::Shapes::Elastic ? 10000.0 : 0.0;
     }
 
