@@ -117,22 +117,29 @@ void dropCorrectives(const std::vector<int>& jointOf, Correctives& correctives) 
 /// Lets some vertices follow one joint, and those above it, in full. [vertex] -1: left as it is.
 void follow(const std::vector<int>& jointOf, Binding& binding) {
     std::vector<Influence> influences;
+    std::vector<RatioGradient> gradients;
     std::vector<std::uint32_t> firsts{0};
     for (std::size_t v = 0; v < jointOf.size(); ++v) {
         if (jointOf[v] < 0) {
-            influences.insert(influences.end(),
-                              binding.influences.begin() + binding.firstInfluence[v],
-                              binding.influences.begin() + binding.firstInfluence[v + 1]);
+            const std::uint32_t begin = binding.firstInfluence[v];
+            const std::uint32_t end = binding.firstInfluence[v + 1];
+            influences.insert(influences.end(), binding.influences.begin() + begin,
+                              binding.influences.begin() + end);
+            if (!binding.gradients.empty())
+                gradients.insert(gradients.end(), binding.gradients.begin() + begin,
+                                 binding.gradients.begin() + end);
         } else {
             const std::size_t begin = influences.size();
             for (int j = jointOf[v]; j >= 0; j = binding.joints[static_cast<std::size_t>(j)].parent)
                 influences.push_back({static_cast<std::uint32_t>(j), 1.0f, 1.0f});
             std::reverse(influences.begin() + static_cast<std::ptrdiff_t>(begin), influences.end());
             binding.regions[v] = static_cast<std::uint32_t>(jointOf[v]);
+            if (!binding.gradients.empty()) gradients.resize(influences.size());
         }
         firsts.push_back(static_cast<std::uint32_t>(influences.size()));
     }
     binding.influences = std::move(influences);
+    binding.gradients = std::move(gradients);
     binding.firstInfluence = std::move(firsts);
     dropCorrectives(jointOf, binding.correctives);
 }
