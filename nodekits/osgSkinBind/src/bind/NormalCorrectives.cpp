@@ -29,6 +29,10 @@ constexpr double kRidge = 1e-6;
 /// Where the skin has folded over, its normals are followed no further: least cosine.
 constexpr double kLeastCosine = 0.15;
 
+/// Ratios alone may turn the skin inside out in a fold that shapes then open: gradients are kept to
+/// what leaves this much of its area, and tilts make good the rest.
+constexpr double kLeastArea = 0.1;
+
 std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& joint) {
     std::vector<glm::dvec2> samples;
     if (joint.basis == CorrectiveJoint::Basis::Input)
@@ -97,6 +101,32 @@ public:
     /// What each vertex's rest normal has to be tilted by in a bend, along the skin.
     /// \param corrected whether rest positions are; without, it is what the gradients leave
     std::vector<glm::dvec3> tilts(const glm::dvec2& xy, bool corrected = true) {
+        const BendTwist bend = pose(xy, corrected);
+        const std::vector<glm::dvec3> wanted = normals(_posed);
+        std::vector<glm::dvec3> result;
+        for (std::size_t v = 0; v < _vertices.size(); ++v)
+            result.push_back(tilt(_vertices[v], bend, _rest[v], wanted[v]));
+        return result;
+    }
+
+    /// Shortens the gradients that would turn the skin inside out in one of the bends.
+    void limitGradients(const std::vector<glm::dvec2>& bends) {
+        std::vector<double> least(_vertices.size(), 1.0);
+        for (const glm::dvec2& xy : bends) {
+            const BendTwist bend = pose(xy, true);
+            for (std::size_t v = 0; v < _vertices.size(); ++v)
+                least[v] = std::min(least[v], 1.0 + glm::dot(glm::dvec3(_vertices[v].gradient.bend),
+                                                             slideOf(_vertices[v], bend)));
+        }
+        for (std::size_t v = 0; v < _vertices.size(); ++v)
+            if (least[v] < kLeastArea)
+                _vertices[v].gradient.bend *=
+                    static_cast<float>((1.0 - kLeastArea) / (1.0 - least[v]));
+    }
+
+private:
+    /// Sets `_posed`.
+    BendTwist pose(const glm::dvec2& xy, bool corrected) {
         BendTwist bend;
         if (const double sine = glm::length(xy); _turns) {
             const glm::dvec3 other = glm::cross(_joint.twistAxis, _functions.axis);
@@ -112,14 +142,15 @@ public:
             _posed[vertex.welded] =
                 turnOf(vertex.ratios, bend) *
                 (_mesh.positions[vertex.welded] + offset(vertex, beta) - _joint.centre);
-        const std::vector<glm::dvec3> wanted = normals(_posed);
-        std::vector<glm::dvec3> result;
-        for (std::size_t v = 0; v < _vertices.size(); ++v)
-            result.push_back(tilt(_vertices[v], bend, _rest[v], wanted[v]));
-        return result;
+        return bend;
     }
 
-private:
+    /// How a vertex moves as its bend ratio grows, with its turn undone.
+    glm::dvec3 slideOf(const Vertex& vertex, const BendTwist& bend) const {
+        return glm::conjugate(turnOf(vertex.ratios, bend)) *
+               (bend.bendAngle * glm::cross(bend.bendAxis, _posed[vertex.welded]));
+    }
+
     void addVertex(std::uint32_t v, std::size_t firstShare) {
         Vertex vertex{_mesh.weldedOf[v], firstShare, {_functions.joint, 0.0f, 0.0f}, {}};
         for (std::uint32_t i = _binding.firstInfluence[v]; i < _binding.firstInfluence[v + 1]; ++i)
@@ -164,10 +195,8 @@ private:
     glm::dvec3 tilt(const Vertex& vertex, const BendTwist& bend, const glm::dvec3& n,
                     const glm::dvec3& wanted) const {
         if (n == glm::dvec3(0.0) || wanted == glm::dvec3(0.0)) return glm::dvec3(0.0);
-        const glm::dquat back = glm::conjugate(turnOf(vertex.ratios, bend));
-        const glm::dvec3 slide =
-            back * (bend.bendAngle * glm::cross(bend.bendAxis, _posed[vertex.welded]));
-        const glm::dvec3 target = back * wanted;
+        const glm::dvec3 slide = slideOf(vertex, bend);
+        const glm::dvec3 target = glm::conjugate(turnOf(vertex.ratios, bend)) * wanted;
         const double cosine = std::max(glm::dot(n, target), kLeastCosine);
         const glm::dvec3 u = anyPerpendicular(n), v = glm::cross(n, u);
         const auto along = [&](const glm::dvec3& direction) {
@@ -219,6 +248,8 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
                            (joint.basis == CorrectiveJoint::Basis::Input);
             });
         const std::vector<glm::dvec2> samples = samplesOf(joint);
+        // Splines follow a hinge closely enough to do without part of the gradients.
+        if (joint.basis == CorrectiveJoint::Basis::Hinge) skin.limitGradients(samples);
         const auto rows = Eigen::Index(samples.size());
         Eigen::MatrixXd weights(rows, Eigen::Index(joint.modes));
         Eigen::MatrixXd tilts(rows, Eigen::Index(3 * skin.vertices().size()));
@@ -249,15 +280,21 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
                             modes(Eigen::Index(k), Eigen::Index(3 * v + axis)) / scale[k]));
         }
         // Copies of a vertex have entries of their own.
-        std::vector<std::size_t> firstOf(mesh.vertexCount(), shares.size());
-        for (const CorrectedSkin::Vertex& vertex : skin.vertices())
-            firstOf[vertex.welded] = vertex.firstShare;
-        for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v)
+        std::vector<const CorrectedSkin::Vertex*> made(mesh.vertexCount(), nullptr);
+        for (const CorrectedSkin::Vertex& vertex : skin.vertices()) made[vertex.welded] = &vertex;
+        for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v) {
+            const CorrectedSkin::Vertex* from = made[mesh.weldedOf[v]];
+            if (!from) continue;
             for (std::uint32_t i = to.firstEntry[v]; i < to.firstEntry[v + 1]; ++i)
                 if (to.entries[i].joint == j)
-                    std::copy_n(shares.begin() + std::ptrdiff_t(firstOf[mesh.weldedOf[v]]),
-                                to.sharesOf(j),
+                    std::copy_n(shares.begin() + std::ptrdiff_t(from->firstShare), to.sharesOf(j),
                                 shares.begin() + std::ptrdiff_t(to.entries[i].firstShare));
+            if (joint.basis == CorrectiveJoint::Basis::Input) continue;
+            for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1];
+                 ++i)
+                if (binding.influences[i].joint == joint.joint)
+                    binding.gradients[i].bend = from->gradient.bend;
+        }
     }
     for (std::size_t j = 0; j < to.joints.size(); ++j) to.joints[j].normalScales = scales[j];
     to.normalShares = std::move(shares);
