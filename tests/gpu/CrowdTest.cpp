@@ -2,6 +2,7 @@
 // Crowds beside skins that the processor deforms, and the ways to draw a crowd beside each other.
 #include "CrowdSubject.h"
 #include "GpuStage.h"
+#include "Pixels.h"
 
 #include <osgSkin/Error>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is seen of computed skins is what is seen of those that the processor deforms.
 #include "GpuSubject.h"
+#include "Pixels.h"
 
 #include <osgSkinGpu/GpuSkin>
 

@@ -4,8 +4,6 @@
 #include <osg/DisplaySettings>
 #include <osg/GLExtensions>
 
-#include <algorithm>
-#include <cstdlib>
 #include <stdexcept>
 
 namespace test {
@@ -30,10 +28,6 @@ std::vector<Vector> readBack(const osg::Array& array, unsigned int id) {
                           static_cast<GLsizeiptr>(result.size() * sizeof(Vector)), result.data());
     gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
     return result;
-}
-
-int channel(const osg::Image& image, unsigned int pixel, unsigned int i) {
-    return image.data()[pixel * 3 + i];
 }
 
 } // namespace
@@ -125,24 +119,6 @@ GpuStage::Posed GpuStage::computed(const osgSkin::DeformableSkin& skin) {
             *drawn->getVertexAttribArray(static_cast<unsigned int>(attribute)), id);
     window.releaseContext();
     return posed;
-}
-
-unsigned int unlikePixels(const osg::Image& a, const osg::Image& b) {
-    unsigned int unlike = 0;
-    for (unsigned int pixel = 0; pixel < GpuStage::kSize * GpuStage::kSize; ++pixel) {
-        int most = 0;
-        for (unsigned int i = 0; i < 3; ++i)
-            most = std::max(most, std::abs(channel(a, pixel, i) - channel(b, pixel, i)));
-        unlike += most > 24 ? 1 : 0;
-    }
-    return unlike;
-}
-
-unsigned int seenPixels(const osg::Image& image) {
-    unsigned int seen = 0;
-    for (unsigned int pixel = 0; pixel < GpuStage::kSize * GpuStage::kSize; ++pixel)
-        seen += channel(image, pixel, 0) + channel(image, pixel, 1) + channel(image, pixel, 2) > 24;
-    return seen;
 }
 
 } // namespace test

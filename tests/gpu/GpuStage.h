@@ -55,10 +55,4 @@ private:
     osg::BoundingSphere _sphere;
 };
 
-/// Pixels in which two pictures differ by more than a little.
-unsigned int unlikePixels(const osg::Image& a, const osg::Image& b);
-
-/// Pixels that are not the background.
-unsigned int seenPixels(const osg::Image& image);
-
 } // namespace test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // loadCharacter() as an application calls it: what it takes, what it gives, what it refuses.
 #include "DrawnSkin.h"
+#include "QuadRig.h"
 #include "WhyRefused.h"
 
 #include <osgSkin/Error>
@@ -44,16 +45,9 @@ std::string rigOfOsg() {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
     const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("bone");
     skeleton->addChild(bone);
-    const osg::ref_ptr<osg::Geometry> quad =
-        osg::createTexturedQuadGeometry(osg::Vec3(), osg::Vec3(1, 0, 0), osg::Vec3(0, 0, 2));
-    quad->setColorArray(nullptr);
-    quad->setNormalArray(nullptr);
-    const osg::ref_ptr<osgAnimation::RigGeometry> rig = new osgAnimation::RigGeometry;
-    rig->setSourceGeometry(quad);
-    const osg::ref_ptr<osgAnimation::VertexInfluenceMap> map = new osgAnimation::VertexInfluenceMap;
-    (*map)["bone"].assign({{0, 1.0f}, {1, 1.0f}, {2, 1.0f}, {3, 1.0f}});
-    rig->setInfluenceMap(map);
-    skeleton->addChild(rig);
+    osgAnimation::VertexInfluenceMap map;
+    map["bone"].assign({{0, 1.0f}, {1, 1.0f}, {2, 1.0f}, {3, 1.0f}});
+    skeleton->addChild(test::makeQuadRig(map));
     std::string file = testing::TempDir() + "load_character_rig.osgt";
     EXPECT_TRUE(osgDB::writeNodeFile(*skeleton, file));
     return file;

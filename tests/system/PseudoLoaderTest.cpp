@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `model.glb.skin`: any rigged model, re-skinned, as a viewer reads it.
+#include "QuadRig.h"
 #include "RiggedModels.h"
 
 #include <osgSkin/DeformableSkin>
@@ -182,17 +183,10 @@ TEST(PseudoLoader, ConvertsRigsThatOsgReads) {
     high->setInvBindMatrixInSkeletonSpace(osg::Matrix::translate(0, 0, -1));
     low->addChild(high);
     skeleton->addChild(low);
-    const osg::ref_ptr<osg::Geometry> quad =
-        osg::createTexturedQuadGeometry(osg::Vec3(), osg::Vec3(1, 0, 0), osg::Vec3(0, 0, 2));
-    quad->setColorArray(nullptr);
-    quad->setNormalArray(nullptr);
-    const osg::ref_ptr<osgAnimation::RigGeometry> rig = new osgAnimation::RigGeometry;
-    rig->setSourceGeometry(quad);
-    const osg::ref_ptr<osgAnimation::VertexInfluenceMap> map = new osgAnimation::VertexInfluenceMap;
-    (*map)["low"].assign({{1, 1.0f}, {2, 1.0f}});
-    (*map)["high"].assign({{0, 1.0f}, {3, 1.0f}});
-    rig->setInfluenceMap(map);
-    skeleton->addChild(rig);
+    osgAnimation::VertexInfluenceMap map;
+    map["low"].assign({{1, 1.0f}, {2, 1.0f}});
+    map["high"].assign({{0, 1.0f}, {3, 1.0f}});
+    skeleton->addChild(test::makeQuadRig(map));
     const std::string file = testing::TempDir() + "osg_rig.osgt";
     ASSERT_TRUE(osgDB::writeNodeFile(*skeleton, file));
     const osg::ref_ptr<osg::Node> scene = readCharacter(file + ".skin");

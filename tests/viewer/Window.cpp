@@ -3,7 +3,6 @@
 
 #include <osg/GraphicsContext>
 
-#include <cstdlib>
 #include <stdexcept>
 
 namespace test {
@@ -18,10 +17,6 @@ struct ReadBack : osg::Camera::DrawCallback {
     }
     osg::ref_ptr<osg::Image> image;
 };
-
-int channel(const osg::Image& image, unsigned int pixel, unsigned int i) {
-    return image.data()[pixel * 3 + i];
-}
 
 } // namespace
 
@@ -61,25 +56,6 @@ std::vector<osg::ref_ptr<osg::Image>> Windows::pictures() {
     for (const osg::ref_ptr<osg::Image>& image : _images)
         copies.push_back(new osg::Image(*image, osg::CopyOp::DEEP_COPY_ALL));
     return copies;
-}
-
-unsigned int differentPixels(const osg::Image& a, const osg::Image& b) {
-    unsigned int different = 0;
-    for (unsigned int pixel = 0; pixel < kSize * kSize; ++pixel) {
-        int most = 0;
-        for (unsigned int i = 0; i < 3; ++i)
-            most = std::max(most, std::abs(channel(a, pixel, i) - channel(b, pixel, i)));
-        different += most > 24 ? 1 : 0;
-    }
-    return different;
-}
-
-unsigned int drawnPixels(const osg::Image& image) {
-    unsigned int drawn = 0;
-    for (unsigned int pixel = 0; pixel < kSize * kSize; ++pixel)
-        drawn +=
-            channel(image, pixel, 0) + channel(image, pixel, 1) + channel(image, pixel, 2) > 24;
-    return drawn;
 }
 
 } // namespace test

@@ -30,10 +30,4 @@ private:
     std::vector<osg::ref_ptr<osg::Image>> _images;
 };
 
-/// Number of pixels in which two pictures differ by more than a little.
-unsigned int differentPixels(const osg::Image& a, const osg::Image& b);
-
-/// Number of pixels that are not the background.
-unsigned int drawnPixels(const osg::Image& image);
-
 } // namespace test

@@ -5,32 +5,16 @@
 #include <osgSkin/DeformJob>
 #include <osgSkin/PoseBounds>
 
+#include "EachTarget.h"
 #include "SomeCorrectives.h"
 #include "Tube.h"
 #include "Turns.h"
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include <string>
 
 namespace {
-
-struct Way {
-    std::string name;
-    std::int64_t target; ///< of Highway; 0: the scalar reference
-};
-
-std::ostream& operator<<(std::ostream& out, const Way& way) {
-    return out << way.name;
-}
-
-std::vector<Way> ways() {
-    std::vector<Way> result = {{"reference", 0}};
-    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
-        result.push_back({hwy::TargetName(rest & -rest), rest & -rest});
-    return result;
-}
 
 /// A tube with correctives, its vertices where the deformation writes them straight or not.
 struct Skin : test::Tube {
@@ -74,17 +58,7 @@ glm::dvec3 expected(const osgSkin::Binding& binding, const osgSkin::Pose& pose,
     return x;
 }
 
-class CorrectedKernel : public testing::TestWithParam<Way> {
-protected:
-    void SetUp() override {
-        if (GetParam().target) hwy::SetSupportedTargetsForTest(GetParam().target);
-    }
-    void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
-
-    bool run(const osgSkin::DeformJob& job) const {
-        return GetParam().target ? job.run() : job.runReference();
-    }
-};
+class CorrectedKernel : public test::EachTarget {};
 
 } // namespace
 
@@ -163,7 +137,7 @@ TEST_P(CorrectedKernel, RestPoseIsTheRestSkin) {
         EXPECT_LE(glm::distance(positions[v], without[v]), 2e-6f) << v;
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, CorrectedKernel, testing::ValuesIn(ways()),
+INSTANTIATE_TEST_SUITE_P(Targets, CorrectedKernel, testing::ValuesIn(test::ways()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(CorrectedBounds, ContainEveryVertex) {

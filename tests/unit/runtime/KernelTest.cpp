@@ -4,10 +4,10 @@
 // the formula worked out in double precision.
 #include <osgSkin/DeformJob>
 
+#include "EachTarget.h"
 #include "Turns.h"
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include <cmath>
 #include <string>
@@ -16,22 +16,6 @@ namespace {
 
 constexpr float kHeight = 10.0f;
 constexpr float kGuard = 12345.0f;
-
-struct Way {
-    std::string name;
-    std::int64_t target; ///< of Highway; 0: the scalar reference
-};
-
-std::vector<Way> ways() {
-    std::vector<Way> result = {{"reference", 0}};
-    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
-        result.push_back({hwy::TargetName(rest & -rest), rest & -rest});
-    return result;
-}
-
-std::ostream& operator<<(std::ostream& out, const Way& way) {
-    return out << way.name;
-}
 
 /// Vertices in a ball that all follow the joints 1.. of a chain in one given manner.
 struct Manner {
@@ -163,13 +147,8 @@ Model modelOf(const Skin& skin) {
 /// Which outputs are asked for beside positions.
 enum class Streams { None, Normals, NormalsAndTangents };
 
-class Kernel : public testing::TestWithParam<Way> {
+class Kernel : public test::EachTarget {
 protected:
-    void SetUp() override {
-        if (GetParam().target) hwy::SetSupportedTargetsForTest(GetParam().target);
-    }
-    void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
-
     static void deform(const Skin& skin, const osgSkin::Pose& pose, const Model& model,
                        Streams streams);
 };
@@ -337,5 +316,5 @@ TEST_P(Kernel, PartsInAnyOrderMakeTheWhole) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Kernel, testing::ValuesIn(ways()),
+INSTANTIATE_TEST_SUITE_P(Targets, Kernel, testing::ValuesIn(test::ways()),
                          [](const auto& tested) { return tested.param.name; });

@@ -4,6 +4,7 @@
 // against differences between posed points of the surface.
 #include <osgSkin/DeformJob>
 
+#include "EachTarget.h"
 #include "SlopedTube.h"
 #include "SomeCorrectives.h"
 #include "Turns.h"
@@ -11,27 +12,10 @@
 #include <glm/trigonometric.hpp>
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include <string>
 
 namespace {
-
-struct Way {
-    std::string name;
-    std::int64_t target; ///< of Highway; 0: the scalar reference
-};
-
-std::ostream& operator<<(std::ostream& out, const Way& way) {
-    return out << way.name;
-}
-
-std::vector<Way> ways() {
-    std::vector<Way> result = {{"reference", 0}};
-    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
-        result.push_back({hwy::TargetName(rest & -rest), rest & -rest});
-    return result;
-}
 
 /// What is left out where nobody can see it, and what rounding gradients costs; radians.
 constexpr double kTolerance = 5e-3;
@@ -93,17 +77,7 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-class SurfaceNormals : public testing::TestWithParam<Way> {
-protected:
-    void SetUp() override {
-        if (GetParam().target) hwy::SetSupportedTargetsForTest(GetParam().target);
-    }
-    void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
-
-    bool run(const osgSkin::DeformJob& job) const {
-        return GetParam().target ? job.run() : job.runReference();
-    }
-};
+class SurfaceNormals : public test::EachTarget {};
 
 } // namespace
 
@@ -242,5 +216,5 @@ TEST_P(SurfaceNormals, PartsInAnyOrderMakeTheWhole) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, SurfaceNormals, testing::ValuesIn(ways()),
+INSTANTIATE_TEST_SUITE_P(Targets, SurfaceNormals, testing::ValuesIn(test::ways()),
                          [](const auto& tested) { return tested.param.name; });
