@@ -3,6 +3,7 @@
 
 #include <osgSkin/Error>
 
+#include <atomic>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -23,7 +24,9 @@ volatile std::sig_atomic_t hasUnfinished = 0;
 void setUnfinished(const std::string& path) {
     hasUnfinished = 0;
     if (path.empty() || path.size() >= kLongestPath) return;
+    std::atomic_signal_fence(std::memory_order_seq_cst);
     std::memcpy(unfinished, path.c_str(), path.size() + 1);
+    std::atomic_signal_fence(std::memory_order_seq_cst);
     hasUnfinished = 1;
 }
 
@@ -50,9 +53,11 @@ WholeFile::WholeFile(const std::string& file) : _file(file), _target(file) {
         _written = _target + ".part" + std::to_string(::getpid());
     // A file that may not be written is not replaced either.
     if (fs::exists(_target, failure) && ::access(_target.c_str(), W_OK) != 0) fail();
+    setUnfinished(_written); // first: a signal may come while it is opened
     _stream = std::fopen((_written.empty() ? _target : _written).c_str(), "wb");
-    if (_stream == nullptr) fail();
-    setUnfinished(_written);
+    if (_stream != nullptr) return;
+    setUnfinished({});
+    fail();
 }
 
 WholeFile::~WholeFile() {
