@@ -31,7 +31,7 @@ void changeSpeed(Clock& clock, double factor) {
 
 /// Whether a key shows what only a character with its mesh and binding has.
 bool needsBody(int key) {
-    return key > 0 && key < 128 && std::strchr("1234gbtjJ", key) != nullptr;
+    return key > 0 && key < 128 && std::strchr("1234gbtjJn", key) != nullptr;
 }
 
 } // namespace
@@ -43,6 +43,7 @@ const char* keysHelp() {
            "- +    slower, faster\n"
            "1 2 3  osgSkin, linear blending, dual quaternions\n"
            "4      osgSkin without shapes\n"
+           "n      normals of the surface, or turned with vertices\n"
            "u      tense all muscles\n"
            "g      regions              b t  bend, twist ratios\n"
            "j J    next joint, last one\n"
@@ -98,6 +99,9 @@ bool press(Stage& stage, int key) {
         return true;
     case '4':
         settings.method = Method::Plain;
+        return true;
+    case 'n':
+        stage.turnNormals(!settings.turnedNormals);
         return true;
     case 'u':
         stage.tense(!settings.tensed);

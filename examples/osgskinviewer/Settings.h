@@ -13,8 +13,9 @@ enum class Colours { Own, Regions, Bend, Twist };
 struct Settings {
     figures::Method method = figures::Method::Ours;
     Colours colours = Colours::Own;
-    std::size_t joint = 0; ///< whose ratios are shown
-    bool tensed = false;   ///< all muscles
+    std::size_t joint = 0;      ///< whose ratios are shown
+    bool tensed = false;        ///< all muscles
+    bool turnedNormals = false; ///< instead of the surface's
     bool skeleton = false;
     bool wireframe = false;
     bool bounds = false;

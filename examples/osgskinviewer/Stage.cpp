@@ -128,6 +128,7 @@ Stage::Stage(const std::string& character, const std::string& weights,
     if (hasBody()) {
         const osgSkin::Character& loaded = _figure.body->character;
         _bones.emplace(loaded.binding.joints, *loaded.skeleton);
+        _normals.emplace(loaded);
         for (const auto& skin : loaded.skin.skins)
             skin.drawable->setCullCallback(new HideSkin(_productShown));
         for (const auto& rigid : loaded.skin.rigids)
@@ -211,6 +212,13 @@ void Stage::changeJoint(int step) {
         settings.joint = (settings.joint + count + static_cast<std::size_t>(step + 1) - 1) % count;
         if (followed[settings.joint]) return;
     }
+}
+
+void Stage::turnNormals(bool on) {
+    if (!_normals || !_normals->canSwitch()) return;
+    settings.turnedNormals = on;
+    _normals->showTurned(on);
+    tense(settings.tensed);
 }
 
 void Stage::tense(bool on) {
@@ -306,6 +314,7 @@ std::string Stage::summary() const {
     if (settings.colours == Colours::Bend || settings.colours == Colours::Twist)
         text += std::string(settings.colours == Colours::Bend ? "; bend" : "; twist") +
                 " ratios of " + _figure.body->character.binding.joints[settings.joint].name;
+    if (settings.turnedNormals) text += "; normals turned with vertices";
     if (settings.tensed) text += "; muscles tensed";
     if (settings.skeleton) text += "; skeleton";
     if (settings.wireframe) text += "; wireframe";

@@ -4,6 +4,7 @@
 
 #include "Clock.h"
 #include "Figure.h"
+#include "NormalsSwitch.h"
 #include "Settings.h"
 #include "Snapshots.h"
 
@@ -43,6 +44,9 @@ public:
     /// Whether regions, ratios and the peers can be shown: not of a scene whose skins were bound
     /// before.
     bool hasBody() const { return _figure.body != nullptr; }
+    /// Lets normals turn with their vertices instead of following the surface, where the character
+    /// has both.
+    void turnNormals(bool on);
     /// Tenses all muscles, or lets them go.
     void tense(bool on);
     /// Goes on to the next joint that skin follows in part, or to the one before.
@@ -67,6 +71,7 @@ private:
     std::string _file;
     Figure _figure;
     std::optional<osgSkin::BoneReader> _bones; ///< of the body
+    std::optional<NormalsSwitch> _normals;     ///< of the body
     std::size_t _motion = 0;
     double _start = 0.0;       ///< simulation time of the motion's beginning
     double _given = 0.0;       ///< the last simulation time that was given

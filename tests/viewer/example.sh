@@ -19,7 +19,7 @@ cat >"$folder/two.skin" <<END
 END
 
 # First the line of text goes: whatever differs from then on is in the scene.
-seen='i234gbtjJk1uwxxwkth.,><0m'
+seen='in234gbtjJk1uwxxwkth.,><0m'
 said='r-+ '
 "$program" "$folder/two.skin" --motion throw --joint LeftHand --at 1.1 --paused \
   --shapes fast --muscles on --width 320 --height 280 --keys "$seen$said" \
@@ -39,6 +39,7 @@ done
 grep -q "'m' late throw 0.00" "$folder/says.txt" || fail "m does not go to the next motion"
 grep -q "osgSkin without shapes" "$folder/says.txt" || fail "4 does not take the shapes off"
 grep -q "'u' .*muscles tensed" "$folder/says.txt" || fail "u does not tense muscles"
+grep -q "'n' .*normals turned" "$folder/says.txt" || fail "n does not turn normals"
 grep -q "x-1" "$folder/says.txt" || fail "r does not turn the time round"
 
 "$program" --pictures "$folder" --keys '?' 2>"$folder/error.txt" && fail "an unknown key was taken"
