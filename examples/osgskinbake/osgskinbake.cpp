@@ -12,6 +12,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/RigidPart>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinCharacter/OptionString>
 
 #include <osg/NodeVisitor>
 
@@ -123,9 +124,7 @@ Character load(const Arguments& arguments) {
     const std::string& file = arguments.character;
     example::ProgressLine line(file, arguments.quiet);
     osgSkin::LoadOptions options;
-    if (arguments.shapes == "none") options.shapes = osgSkin::BindOptions::Shapes::None;
-    if (arguments.shapes == "fast") options.shapes = osgSkin::BindOptions::Shapes::Fast;
-    if (arguments.shapes == "elastic") options.shapes = osgSkin::BindOptions::Shapes::Elastic;
+    options.shapes = osgSkin::shapesCalled(arguments.shapes);
     if (!arguments.muscles.empty()) options.muscles = arguments.muscles == "on";
     if (!arguments.clearHands.empty()) options.clearHands = arguments.clearHands == "on";
     options.progress = line.progress();

@@ -2,6 +2,8 @@
 #include "Keys.h"
 #include "Stage.h"
 
+#include <osgSkinCharacter/OptionString>
+
 #include <osgGA/StateSetManipulator>
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
@@ -99,9 +101,7 @@ int main(int argc, char** argv) {
     }
     try {
         osgSkin::LoadOptions options;
-        if (shapes == "none") options.shapes = osgSkin::BindOptions::Shapes::None;
-        if (shapes == "fast") options.shapes = osgSkin::BindOptions::Shapes::Fast;
-        if (shapes == "elastic") options.shapes = osgSkin::BindOptions::Shapes::Elastic;
+        options.shapes = osgSkin::shapesCalled(shapes);
         if (!muscles.empty()) options.muscles = muscles == "on";
         if (!normals.empty()) options.surfaceNormals = normals == "surface";
         if (!clearHands.empty()) options.clearHands = clearHands == "on";

@@ -46,9 +46,7 @@ LoadOptions::Method methodOf(const std::string& value) {
 }
 
 BindOptions::Shapes shapesOf(const std::string& value) {
-    if (value == "none") return BindOptions::Shapes::None;
-    if (value == "fast") return BindOptions::Shapes::Fast;
-    if (value == "elastic") return BindOptions::Shapes::Elastic;
+    if (const auto shapes = shapesCalled(value)) return *shapes;
     fail("shapes", value, "none, fast or elastic");
 }
 
@@ -99,6 +97,13 @@ LoadOptions toLoadOptions(const osgDB::Options* options) {
         }
     }
     return result;
+}
+
+std::optional<BindOptions::Shapes> shapesCalled(const std::string& word) {
+    if (word == "none") return BindOptions::Shapes::None;
+    if (word == "fast") return BindOptions::Shapes::Fast;
+    if (word == "elastic") return BindOptions::Shapes::Elastic;
+    return std::nullopt;
 }
 
 const std::vector<std::pair<const char*, const char*>>& optionWords() {

@@ -5,6 +5,8 @@
 #include "file/JsonReader.h"
 #include "file/MuscleSettings.h"
 
+#include <osgSkinCharacter/OptionString>
+
 #include <osgDB/FileNameUtils>
 
 #include <set>
@@ -126,9 +128,7 @@ void readMethod(const JsonReader& root, const std::string& folder, SkinFile& ski
 
 BindOptions::Shapes readShapes(const JsonReader& reader) {
     const std::string name = reader.string();
-    if (name == "none") return BindOptions::Shapes::None;
-    if (name == "fast") return BindOptions::Shapes::Fast;
-    if (name == "elastic") return BindOptions::Shapes::Elastic;
+    if (const auto shapes = shapesCalled(name)) return *shapes;
     reader.failWith("expected \"none\", \"fast\" or \"elastic\", found \"" + name + "\"");
 }
 
