@@ -199,6 +199,8 @@ const Hostile kHostile[] = {
                        "Animations 1 {\n" + animation("1 0 0 0\n1e999 0 0 0\n") + "}\n") +
                 "}\n"),
      "times of keys"},
+    {"UnknownBinding", object("osg::Vec3Array", 1, "Binding 77\nvector 0\n"),
+     "a binding of \"77\""},
     {"UnknownClass", object("osg::HeightField", 1, ""), "class \"osg::HeightField\""},
     {"ClassOfAPath", object("../../tmp/x::y", 1, ""), "class \"../../tmp/x::y\""},
     {"EndsInAText", object("osg::Group", 1, "Name \"no end"), "it ends within a text"},

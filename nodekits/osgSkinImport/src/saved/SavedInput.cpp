@@ -65,6 +65,10 @@ SavedInput::Lists SavedInput::listsOf(const std::string& className) {
 }
 
 int SavedInput::took(int number) {
+    // An array's binding: OSG makes an enumerator of any number.
+    const std::vector<std::string>& fields = stream().fields();
+    if (!fields.empty() && fields.back() == "osg::Array" && (number < -1 || number > 4))
+        refuse("an array with a binding of " + std::to_string(number) + ", expected -1 to 4");
     _number = number;
     _numberIsLast = true;
     return static_cast<int>(_image.tookNumber(number, remaining(), *this));
@@ -109,6 +113,9 @@ std::string SavedInput::took(std::string word) {
     _numberIsLast = false;
     if (_property == "ClassName" && word != "osg::Image")
         refuse("a picture of class " + inQuotes(word) + ", expected osg::Image");
+    if (_property == "Binding" && stream().fields().back() == "osg::Array" &&
+        word.compare(0, 5, "BIND_") != 0)
+        refuse("an array with a binding of " + inQuotes(word) + ", expected one by its name");
     _word = word;
     dropClosed();
     _isSet = !_open.empty() && _open.back().sets > 0 && stream().fields().back() == "osg::Geometry";
