@@ -10,6 +10,7 @@
 #include <osgSkinRig/MakeSkeleton>
 
 #include "Tube.h"
+#include "Turns.h"
 
 #include <osg/FrameStamp>
 #include <osg/Geometry>
@@ -21,6 +22,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace {
 
@@ -179,6 +181,27 @@ TEST(SampledClip, PlacesTimes) {
     const auto single = SampledClip::create(someClip(1, 0.3), tubeRig());
     EXPECT_EQ(single->place(17.3, true).from, 0u);
     EXPECT_EQ(single->place(-17.3, true).to, 0u);
+}
+
+TEST(SampledClip, BlendsByTheShortestWayAtAnEvenSpeed) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (int i = 0; i < 20000; ++i) {
+        osgSkin::JointSample a, b;
+        a.rotation = test::randomRotation(random);
+        // Near ones and far ones, on both sides of where a series stands for the sines.
+        const double angle = i % 2 == 0 ? 1.2 * share(random) : 1e-6 * share(random);
+        b.rotation = a.rotation * glm::angleAxis(angle, test::randomUnit(random));
+        if (i % 3 == 0) b.rotation = -b.rotation;
+        const double t = share(random);
+        const glm::dquat between = osgSkin::blend(a, b, t).rotation;
+        const glm::dquat exact = glm::slerp(a.rotation, b.rotation, t);
+        ASSERT_NEAR(std::abs(glm::dot(between, exact)), 1.0, 1e-14) << angle;
+        ASSERT_NEAR(glm::length(between), 1.0, 1e-14);
+        ASSERT_NEAR(glm::angle(glm::conjugate(a.rotation) *
+                               (glm::dot(between, a.rotation) < 0.0 ? -between : between)),
+                    t * angle, 1e-7);
+    }
 }
 
 TEST(SampledClip, RefusesWhatCannotBeSampled) {

@@ -2,6 +2,7 @@
 #include <osgSkinRig/ClipPlayer>
 
 #include "clips/BakedClip.h"
+#include "clips/SampleBlend.h"
 
 #include <osgSkin/GlmOsg>
 
@@ -152,7 +153,8 @@ void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
         if (!_interpolated) at.share = 0.0;
         const JointSample* from = track.clip->sample(at.from);
         const JointSample* next = track.clip->sample(at.to);
-        for (std::size_t j = 0; j < to.size(); ++j) to[j] = blend(from[j], next[j], at.share);
+        const SampleBlend between(at.share);
+        for (std::size_t j = 0; j < to.size(); ++j) to[j] = between(from[j], next[j]);
         if (_root == Root::Moving) return;
         const std::size_t root = track.clip->rootJoint();
         const glm::dvec3 gone = to[root].translation - track.clip->sample(0)[root].translation;
@@ -162,9 +164,10 @@ void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
     take(_tracks[0], joints);
     if (!_tracks[1].clip || _weight == 0.0) return;
     take(_tracks[1], others);
+    const SampleBlend weighted(_weight);
     for (std::size_t j = 0; j < joints.size(); ++j)
         if (_others[j] >= 0)
-            joints[j] = blend(joints[j], others[static_cast<std::size_t>(_others[j])], _weight);
+            joints[j] = weighted(joints[j], others[static_cast<std::size_t>(_others[j])]);
 }
 
 bool ClipPlayer::poseSkin(const Skin& skin, const std::vector<JointMap>& own,

@@ -3,10 +3,10 @@
 
 #include "clips/BoneSampler.h"
 #include "clips/ClipCheck.h"
+#include "clips/SampleBlend.h"
 
 #include <osgSkin/Error>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -15,13 +15,7 @@
 namespace osgSkin {
 
 JointSample blend(const JointSample& a, const JointSample& b, double share) noexcept {
-    if (!(share > 0.0)) return a;
-    if (share >= 1.0) return b;
-    JointSample result;
-    result.rotation = glm::normalize(glm::slerp(a.rotation, b.rotation, share));
-    result.translation = glm::mix(a.translation, b.translation, share);
-    result.scale = glm::mix(a.scale, b.scale, share);
-    return result;
+    return SampleBlend(share)(a, b);
 }
 
 osg::ref_ptr<const SampledClip> SampledClip::create(const Clip& clip, const RestSkeleton& rig) {
@@ -99,7 +93,8 @@ void SampledClip::evaluate(double time, bool loop, JointSample* joints) const no
     const Place at = place(time, loop);
     const JointSample* from = sample(at.from);
     const JointSample* to = sample(at.to);
-    for (std::size_t j = 0; j < _joints.size(); ++j) joints[j] = blend(from[j], to[j], at.share);
+    const SampleBlend blended(at.share);
+    for (std::size_t j = 0; j < _joints.size(); ++j) joints[j] = blended(from[j], to[j]);
 }
 
 } // namespace osgSkin
