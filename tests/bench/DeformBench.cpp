@@ -8,6 +8,7 @@
 #include "RatioTable.h"
 
 #include <osgSkin/DeformPool>
+#include <osgSkin/PoseBounds>
 
 #include <benchmark/benchmark.h>
 #include <hwy/highway.h>
@@ -164,6 +165,20 @@ void poseSetUp(benchmark::State& state) {
     }
 }
 
+void poseBounds(benchmark::State& state) {
+    const bench::Body& body = bench::body(1);
+    const auto model = body.model();
+    std::vector<osgSkin::Pose> poses;
+    for (const std::vector<glm::dmat4>& skinning : body.skinning) {
+        poses.emplace_back(model->joints());
+        poses.back().set(skinning.data(), skinning.size());
+    }
+    std::size_t frame = 0;
+    for ([[maybe_unused]] auto iteration : state)
+        benchmark::DoNotOptimize(osgSkin::computePoseBounds(*model, poses[frame++ % poses.size()]));
+    count(state, body.positions.size());
+}
+
 void describe() {
     const bench::Body& body = bench::body(1);
     std::printf("Body %s: %zu vertices, %zu joints, %.2f partial joints a vertex, %zu frames\n"
@@ -189,6 +204,7 @@ int main(int argc, char** argv) {
             ->Unit(benchmark::kMicrosecond)
             ->UseManualTime()
             ->Iterations(100); // its own time is a small part of what it takes
+    benchmark::RegisterBenchmark("pose bounds/4k", poseBounds);
     std::vector<std::int64_t> targets;
     for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
         targets.push_back(rest & -rest);

@@ -73,7 +73,7 @@ TEST(SkinBuffers, APausedPoseIsNotDeformedAgain) {
         test::cull(*skin, true);
     }
     EXPECT_EQ(skin->getDeformCount(), 1u);
-    EXPECT_EQ(skin->getPose().transform(1).split.bendAngle, 0.3);
+    EXPECT_DOUBLE_EQ(skin->getPose().transform(1).split.bendAngle, 0.3);
 }
 
 TEST(SkinBuffers, DoNotHoldUpTheNextUpdate) {

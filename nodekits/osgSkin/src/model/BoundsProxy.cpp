@@ -2,7 +2,9 @@
 #include "model/BoundsProxy.h"
 
 #include "model/CorrectiveBlocks.h"
+#include "model/PieceVertices.h"
 #include "model/SkinModelAccess.h"
+#include "model/SkinPieces.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,288 +13,137 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace osgSkin {
 namespace {
 
-/// A piece whose excess is less than this share of the skin's extent is small enough.
-constexpr float kFine = 0.006f;
-/// Bend and twist, in radians, that pieces are cut for.
-constexpr float kUsualBend = 0.5f, kUsualTwist = 0.25f;
-/// How many of many vertices are looked at to choose a cut.
-constexpr std::size_t kMostTried = 64;
-/// Ratios this near to 0 or 1 do not turn a piece.
-constexpr float kSnapped = 0.15f;
-
-using Rows = std::vector<std::uint32_t>;
-
-/// What vertices of one piece have of one joint.
-struct Range {
-    std::uint32_t joint;
-    float low = 1.0f, high = 0.0f;           ///< bend ratio
-    float lowTwist = 1.0f, highTwist = 0.0f; ///< twist ratio
-
-    void add(const SkinModel::Ratio& ratio) {
-        low = std::min(low, ratio.bend);
-        high = std::max(high, ratio.bend);
-        lowTwist = std::min(lowTwist, ratio.twist);
-        highTwist = std::max(highTwist, ratio.twist);
-    }
-    bool isWhole() const { return low >= 1.0f - kSnapped && lowTwist >= 1.0f - kSnapped; }
-    bool isMost() const { return low + high >= 1.0f && lowTwist + highTwist >= 1.0f; }
-    bool isNothing() const { return high <= kSnapped && highTwist <= kSnapped; }
-    bool isConstant() const { return low == high && lowTwist == highTwist; }
-    float middle() const { return 0.5f * (low + high); }
-    float middleTwist() const { return 0.5f * (lowTwist + highTwist); }
-};
-
-/// A model's vertices in the order of its groups: row i is vertex order()[i].
-class Vertices {
-public:
-    explicit Vertices(const SkinModel& of) : model(of) {
-        for (std::uint32_t g = 0; g < model.groups().size(); ++g)
-            _group.insert(_group.end(), model.groups()[g].vertexCount, g);
-    }
-    const glm::vec3& position(std::uint32_t row) const {
-        return model.positions()[model.order()[row]];
-    }
-    const glm::vec3& normal(std::uint32_t row) const { return model.normals()[model.order()[row]]; }
-    std::uint32_t group(std::uint32_t row) const { return _group[row]; }
-    std::uint32_t rowInGroup(std::uint32_t row) const {
-        return row - model.groups()[_group[row]].firstVertex;
-    }
-
-    /// Calls `each(joint, ratio)` for the joints that a vertex follows, in their order.
-    template <typename Each>
-    void forEachJoint(std::uint32_t row, Each&& each) const {
-        const SkinModel::Group& group = model.groups()[_group[row]];
-        const SkinModel::Ratio* partial = model.ratios().data() + group.firstRatio +
-                                          std::size_t(rowInGroup(row)) * group.partialCount;
-        for (std::uint32_t i = group.firstLink; i < group.firstLink + group.linkCount; ++i) {
-            const SkinModel::Link& link = model.links()[i];
-            each(link.joint, link.partial ? *partial++ : SkinModel::Ratio{1.0f, 1.0f});
-        }
-    }
-
-    /// What a vertex has of a joint.
-    SkinModel::Ratio ratioOf(std::uint32_t row, std::uint32_t joint) const {
-        SkinModel::Ratio result{0.0f, 0.0f};
-        forEachJoint(row, [&](std::uint32_t other, const SkinModel::Ratio& ratio) {
-            if (other == joint) result = ratio;
-        });
-        return result;
-    }
-
-    /// The joints that any of the vertices follows, in their order.
-    std::vector<Range> ranges(const Rows& rows) const {
-        std::vector<Range> result;
-        std::vector<std::uint32_t> followers;
-        for (const std::uint32_t row : rows) {
-            std::size_t at = 0;
-            forEachJoint(row, [&](std::uint32_t joint, const SkinModel::Ratio& ratio) {
-                while (at < result.size() && result[at].joint < joint) ++at;
-                if (at == result.size() || result[at].joint != joint) {
-                    result.insert(result.begin() + static_cast<std::ptrdiff_t>(at), Range{joint});
-                    followers.insert(followers.begin() + static_cast<std::ptrdiff_t>(at), 0u);
-                }
-                result[at].add(ratio);
-                ++followers[at];
-            });
-        }
-        for (std::size_t i = 0; i < result.size(); ++i)
-            if (followers[i] < rows.size()) result[i].add({0.0f, 0.0f});
-        return result;
-    }
-
-    const SkinModel& model;
-
-private:
-    std::vector<std::uint32_t> _group; ///< of each row
-};
-
-float fromTwistAxis(const BoundJoint& joint, const glm::vec3& point) {
-    const glm::vec3 from = point - glm::vec3(joint.centre);
-    return glm::length(glm::cross(from, glm::vec3(joint.twistAxis)));
-}
-float fromCentre(const BoundJoint& joint, const glm::vec3& point) {
-    return glm::distance(glm::vec3(joint.centre), point);
-}
-
-/// Vertices that may become one piece.
-struct Cell {
-    Rows rows;
-    EllipticCylinder shape;
-    float excess = 0.0f; ///< by how much bounds are larger for its sake in a usual pose
-};
-
-class Cutter {
-public:
-    Cutter(const Vertices& vertices, float extent) : _vertices(vertices), _fine(kFine * extent) {}
-
-    std::vector<Cell> cut() const {
-        Rows all(_vertices.model.vertexCount());
-        for (std::uint32_t row = 0; row < all.size(); ++row) all[row] = row;
-        std::vector<Cell> cells = {cellOf(std::move(all))};
-        const std::size_t pieces = SkinModelAccess::correctives(_vertices.model)
-                                       ? BoundsProxy::kMostCorrected
-                                       : BoundsProxy::kMost;
-        const std::size_t most = std::min(pieces, _vertices.model.vertexCount() / 12);
-        while (cells.size() < most) {
-            const auto worst =
-                std::max_element(cells.begin(), cells.end(),
-                                 [](const Cell& a, const Cell& b) { return a.excess < b.excess; });
-            if (worst->excess <= _fine) break;
-            std::array<Rows, 2> halves = halve(worst->rows);
-            if (halves[0].empty() || halves[1].empty()) {
-                worst->excess = 0.0f; // its vertices are all alike
-                continue;
-            }
-            *worst = cellOf(std::move(halves[0]));
-            cells.push_back(cellOf(std::move(halves[1])));
-        }
-        return cells;
-    }
-
-private:
-    Cell cellOf(Rows rows) const {
-        Cell cell;
-        std::vector<glm::vec3> points;
-        points.reserve(rows.size());
-        for (const std::uint32_t row : rows) points.push_back(_vertices.position(row));
-        cell.shape = cylinderAround(points);
-        const Rows some = sample(rows);
-        // How far the piece sticks out of the skin.
-        float bulge = 0.0f;
-        for (const std::uint32_t row : some) {
-            const glm::vec3& n = _vertices.normal(row);
-            const float out =
-                cell.shape.reach(n) - glm::dot(_vertices.position(row) - cell.shape.centre, n);
-            bulge += out * out;
-        }
-        cell.excess = std::sqrt(bulge / static_cast<float>(some.size()));
-        for (const Range& range : _vertices.ranges(some))
-            if (!range.isConstant()) cell.excess += strayOf(range, some);
-        cell.rows = std::move(rows);
-        return cell;
-    }
-
-    /// How far a joint's ratios let vertices stray in a usual pose.
-    float strayOf(const Range& range, const Rows& rows) const {
-        const BoundJoint& joint = _vertices.model.joints()[range.joint];
-        float bend = 0.0f, twist = 0.0f;
-        for (const std::uint32_t row : rows) {
-            const SkinModel::Ratio ratio = _vertices.ratioOf(row, range.joint);
-            const glm::vec3& x = _vertices.position(row);
-            bend = std::max(bend, std::abs(ratio.bend - range.middle()) * fromCentre(joint, x));
-            twist = std::max(twist,
-                             std::abs(ratio.twist - range.middleTwist()) * fromTwistAxis(joint, x));
-        }
-        return kUsualBend * bend + kUsualTwist * twist;
-    }
-
-    static Rows sample(const Rows& rows) {
-        if (rows.size() <= kMostTried) return rows;
-        Rows some;
-        const std::size_t step = rows.size() / kMostTried;
-        for (std::size_t i = 0; i < rows.size(); i += step) some.push_back(rows[i]);
-        return some;
-    }
-
-    /// The way to cut the vertices in two that leaves the least excess.
-    std::array<Rows, 2> halve(const Rows& rows) const {
-        const Rows some = sample(rows);
-        std::vector<Range> ranges;
-        for (const Range& range : _vertices.ranges(some))
-            if (strayOf(range, some) > 0.1f * _fine) ranges.push_back(range);
-        float least = std::numeric_limits<float>::max();
-        std::size_t bestAxis = 0;
-        float bestMiddle = middleOf(some, ranges, 0);
-        for (std::size_t axis = 0; axis < 3 + 2 * ranges.size(); ++axis) {
-            const float middle = middleOf(some, ranges, axis);
-            const std::array<Rows, 2> halves = parted(some, ranges, axis, middle);
-            if (halves[0].empty() || halves[1].empty()) continue;
-            const float a = cellOf(halves[0]).excess, b = cellOf(halves[1]).excess;
-            if (a * a + b * b >= least) continue;
-            least = a * a + b * b;
-            bestAxis = axis;
-            bestMiddle = middle;
-        }
-        return parted(rows, ranges, bestAxis, bestMiddle);
-    }
-
-    /// x, y, z, then each joint's bend ratio, then their twist ratios.
-    float coordinate(std::uint32_t row, const std::vector<Range>& ranges, std::size_t axis) const {
-        if (axis < 3) return _vertices.position(row)[static_cast<int>(axis)];
-        const bool isBend = axis - 3 < ranges.size();
-        const std::uint32_t of = ranges[isBend ? axis - 3 : axis - 3 - ranges.size()].joint;
-        float result = 0.0f;
-        _vertices.forEachJoint(row, [&](std::uint32_t joint, const SkinModel::Ratio& ratio) {
-            if (joint == of) result = isBend ? ratio.bend : ratio.twist;
-        });
-        return result;
-    }
-    float middleOf(const Rows& rows, const std::vector<Range>& ranges, std::size_t axis) const {
-        float low = coordinate(rows[0], ranges, axis), high = low;
-        for (const std::uint32_t row : rows) {
-            const float at = coordinate(row, ranges, axis);
-            low = std::min(low, at);
-            high = std::max(high, at);
-        }
-        return 0.5f * (low + high);
-    }
-    std::array<Rows, 2> parted(const Rows& rows, const std::vector<Range>& ranges, std::size_t axis,
-                               float middle) const {
-        std::array<Rows, 2> halves;
-        for (const std::uint32_t row : rows)
-            halves[coordinate(row, ranges, axis) <= middle ? 0 : 1].push_back(row);
-        return halves;
-    }
-
-    const Vertices& _vertices;
-    float _fine;
-};
+/// Of a skin, for each of its pieces: else these would cost more than its vertices.
+constexpr std::size_t kLeastVertices = 12;
 
 /// Writes down what the pose does to a piece, and how far its vertices may stray from it.
 class PieceTerms {
 public:
-    PieceTerms(const Vertices& vertices, const Cell& cell)
-        : _vertices(vertices), _joints(vertices.model.joints()), _rows(cell.rows),
-          _ranges(vertices.ranges(cell.rows)) {}
+    /// What the piece has of one joint when it is blended; see BoundsProxy::Share.
+    struct Share {
+        float weight = 0.0f, bend = 0.0f, twist = 0.0f, square = 0.0f;
+    };
 
-    /// \return whether any term turns the piece
-    bool addTo(BoundsProxy& proxy, BoundsProxy::Piece& piece) const {
+    PieceTerms(const PieceVertices& vertices, const SkinPiece& piece)
+        : _vertices(vertices), _joints(vertices.model.joints()), _rows(piece.rows),
+          _ranges(vertices.ranges(piece.rows)) {
         // The root is followed wholly, always.
-        std::size_t anchor = 0, first = 1; // the first one that any vertex does not follow wholly
-        while (anchor + 1 < _ranges.size() && _ranges[anchor + 1].isWhole() &&
-               isBelow(anchor + 1, anchor))
-            ++anchor;
-        while (first < _ranges.size() && _ranges[first].low == 1.0f &&
-               _ranges[first].lowTwist == 1.0f && first <= anchor)
-            ++first;
-        piece.anchor = _ranges[anchor].joint;
-        std::size_t home = anchor;
-        while (home + 1 < _ranges.size() && _ranges[home + 1].isMost() && isBelow(home + 1, home))
-            ++home;
-        piece.home = _ranges[home].joint;
+        while (_anchor + 1 < _ranges.size() && _ranges[_anchor + 1].isWhole() &&
+               above(_anchor + 1) == _anchor)
+            ++_anchor;
+        while (_first < _ranges.size() && _ranges[_first].low == 1.0f &&
+               _ranges[_first].lowTwist == 1.0f && _first <= _anchor)
+            ++_first;
+    }
+
+    void addTo(BoundsProxy& proxy, BoundsProxy::Piece& piece) const {
+        piece.anchor = _ranges[_anchor].joint;
         piece.firstTerm = static_cast<std::uint32_t>(proxy.terms.size());
-        bool turns = false;
-        for (std::size_t k = _ranges.size(); k-- > first;) {
-            const BoundsProxy::Term term = termOf(k, k <= anchor, k <= home);
-            turns = turns || term.turns;
-            proxy.terms.push_back(term);
+        for (std::size_t k = _ranges.size(); k-- > _first;) {
+            proxy.terms.push_back(termOf(k));
             ++piece.termCount;
         }
-        return turns;
+    }
+
+    std::map<std::uint32_t, Share> shares() const {
+        std::vector<float> ratios(_ranges.size(), 1.0f);
+        std::vector<Share> all(_ranges.size());
+        all[0].weight = 1.0f;
+        for (std::size_t k = 1; k < _ranges.size(); ++k) {
+            // Without its parent, a joint's own map is not what its vertices follow.
+            const std::size_t parent = above(k);
+            ratios[k] = parent < k && ratios[parent] > 0.0f ? _ranges[k].snapped() : 0.0f;
+            if (ratios[k] > 0.0f) all[parent].weight -= ratios[k];
+            all[k].weight += ratios[k];
+        }
+        for (std::size_t k = 1; k < _ranges.size(); ++k) addStrays(k, ratios, all);
+        std::map<std::uint32_t, Share> result;
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (all[k].weight != 0.0f || all[k].bend > 0.0f || all[k].twist > 0.0f ||
+                all[k].square > 0.0f)
+                result[_ranges[k].joint] = all[k];
+        return result;
     }
 
 private:
-    bool isBelow(std::size_t range, std::size_t above) const {
-        return _joints[_ranges[range].joint].parent == static_cast<int>(_ranges[above].joint);
+    /// The place in _ranges of a joint's parent; the number of ranges where it is not there.
+    std::size_t above(std::size_t range) const {
+        const int parent = _joints[_ranges[range].joint].parent;
+        std::size_t at = 0;
+        while (at < _ranges.size() && static_cast<int>(_ranges[at].joint) != parent) ++at;
+        return at;
     }
 
-    BoundsProxy::Term termOf(std::size_t k, bool anchored, bool atHome) const {
-        const Range& range = _ranges[k];
+    /// How far vertices stray by the k-th joint of the ranges, and it together with others.
+    void addStrays(std::size_t k, const std::vector<float>& ratios, std::vector<Share>& all) const {
+        const BoundJoint& joint = _joints[_ranges[k].joint];
+        float high = 0.0f, far = 0.0f;
+        std::vector<float> pairs(_ranges.size(), 0.0f); // with joints that turn earlier or later
+        for (const std::uint32_t row : _rows) {
+            const glm::vec3& x = _vertices.position(row);
+            const SkinModel::Ratio ratio = _vertices.ratioOf(row, _ranges[k].joint);
+            const float bend = std::abs(ratio.bend - ratios[k]);
+            const float twist = std::abs(ratio.twist - ratios[k]);
+            all[k].bend = std::max(all[k].bend, bend * fromCentre(joint, x));
+            all[k].twist = std::max(all[k].twist, twist * fromTwistAxis(joint, x));
+            high = std::max(high, fromCentre(joint, x));
+            const std::vector<float> most = farFrom(row, ratios);
+            far = std::max(far, most[k]);
+            for (std::size_t i = k + 1; i < _ranges.size(); ++i) {
+                const SkinModel::Ratio earlier = _vertices.ratioOf(row, _ranges[i].joint);
+                pairs[i] = std::max(pairs[i], std::max(bend, twist) *
+                                                  std::max(earlier.bend, earlier.twist) * most[i]);
+            }
+        }
+        all[k].square += 0.5f * ratios[k] * (1.0f - ratios[k]) * far;
+        std::vector<bool> isAbove(k, false);
+        for (std::size_t i = above(k); i < k; i = above(i)) isAbove[i] = true;
+        for (std::size_t i = 1; i < k; ++i)
+            pairs[i] = ratios[k] * std::abs(ratios[i] - (isAbove[i] ? 1.0f : 0.0f)) * high;
+        for (std::size_t i = 1; i < pairs.size(); ++i) {
+            all[i].square += 0.5f * pairs[i];
+            all[k].square += 0.5f * pairs[i];
+        }
+    }
+
+    /// What a vertex's distances from the joints' centres cannot exceed, whatever those do that
+    /// turn earlier, by its own ratios or the piece's: they keep distances from their own centres,
+    /// and move it by no more than their ratio allows (a bend is at most pi, a twist 2 pi).
+    std::vector<float> farFrom(std::uint32_t row, const std::vector<float>& ratios) const {
+        std::vector<float> result(_ranges.size());
+        const glm::vec3& x = _vertices.position(row);
+        float moved = 0.0f;
+        for (std::size_t k = _ranges.size(); k-- > 0;) {
+            result[k] = std::min(farOf(row, k), fromCentre(_joints[_ranges[k].joint], x) + moved);
+            const SkinModel::Ratio ratio = _vertices.ratioOf(row, _ranges[k].joint);
+            const float bend = std::max(ratio.bend, ratios[k]);
+            const float twist = std::max(ratio.twist, ratios[k]);
+            moved += std::min(2.0f, 3.15f * bend + 6.3f * twist) * result[k];
+        }
+        return result;
+    }
+
+    /// The first of these for one joint.
+    float farOf(std::uint32_t row, std::size_t k) const {
+        float far = 0.0f;
+        glm::vec3 from = _vertices.position(row);
+        for (std::size_t i = _ranges.size(); i-- > k;) {
+            const glm::vec3 centre(_joints[_ranges[i].joint].centre);
+            far += glm::distance(centre, from);
+            from = centre;
+        }
+        return far;
+    }
+
+    BoundsProxy::Term termOf(std::size_t k) const {
+        const PieceRatios& range = _ranges[k];
         const BoundJoint& joint = _joints[range.joint];
+        const bool anchored = k <= _anchor;
         BoundsProxy::Term term{};
         term.joint = range.joint;
         term.turns = !anchored && !range.isNothing();
@@ -300,9 +151,6 @@ private:
         term.twist = anchored ? 1.0f : term.turns ? range.middleTwist() : 0.0f;
         term.bendSpread = std::max(range.high - term.bend, term.bend - range.low);
         term.twistSpread = std::max(range.highTwist - term.twist, term.twist - range.lowTwist);
-        const float home = atHome ? 1.0f : 0.0f;
-        term.homeBendSpread = std::max(range.high - home, home - range.low);
-        term.homeTwistSpread = std::max(range.highTwist - home, home - range.lowTwist);
         term.mostBend = range.high;
         term.mostTwist = range.highTwist;
         for (const std::uint32_t row : _rows) {
@@ -311,28 +159,18 @@ private:
             const float high = fromCentre(joint, x), wide = fromTwistAxis(joint, x);
             term.bendReach = std::max(term.bendReach, std::abs(ratio.bend - term.bend) * high);
             term.twistReach = std::max(term.twistReach, std::abs(ratio.twist - term.twist) * wide);
-            term.homeBendReach = std::max(term.homeBendReach, std::abs(ratio.bend - home) * high);
-            term.homeTwistReach =
-                std::max(term.homeTwistReach, std::abs(ratio.twist - home) * wide);
             term.bendMove = std::max(term.bendMove, ratio.bend * high);
             term.twistMove = std::max(term.twistMove, ratio.twist * wide);
-            // Joints that turn earlier keep distances from their own centres.
-            float far = 0.0f;
-            glm::vec3 from = x;
-            for (std::size_t i = _ranges.size(); i-- > k;) {
-                const glm::vec3 centre(_joints[_ranges[i].joint].centre);
-                far += glm::distance(centre, from);
-                from = centre;
-            }
-            term.mostHigh = std::max(term.mostHigh, far);
+            term.mostHigh = std::max(term.mostHigh, farOf(row, k));
         }
         return term;
     }
 
-    const Vertices& _vertices;
+    const PieceVertices& _vertices;
     const std::vector<BoundJoint>& _joints;
     const Rows& _rows;
-    std::vector<Range> _ranges;
+    std::vector<PieceRatios> _ranges;
+    std::size_t _anchor = 0, _first = 1; ///< the first one that any vertex does not follow wholly
 };
 
 /// Length of the k-th mode's shares in a lane.
@@ -380,7 +218,7 @@ float mostOf(const CorrectiveJoint& joint, std::size_t mode) {
 }
 
 /// Adds how far correctives can take the vertices of a piece.
-void addCorrections(const Vertices& vertices, const Rows& rows, BoundsProxy& proxy,
+void addCorrections(const PieceVertices& vertices, const Rows& rows, BoundsProxy& proxy,
                     BoundsProxy::Piece& piece) {
     const CorrectiveBlocks* blocks = SkinModelAccess::correctives(vertices.model);
     if (!blocks) return;
@@ -411,6 +249,81 @@ void addCorrections(const Vertices& vertices, const Rows& rows, BoundsProxy& pro
     }
 }
 
+/// A piece on its way into a block.
+struct CutPiece {
+    SkinPiece cut;
+    PieceTerms terms;
+    std::map<std::uint32_t, PieceTerms::Share> shares;
+
+    CutPiece(const PieceVertices& vertices, SkinPiece&& piece)
+        : cut(std::move(piece)), terms(vertices, cut), shares(terms.shares()) {}
+
+    /// The joint that it moves with most, then all that it moves with: pieces are sorted by that.
+    std::vector<std::uint32_t> joints() const {
+        std::vector<std::uint32_t> result(1);
+        float most = 0.0f;
+        for (const auto& [joint, share] : shares) {
+            if (share.weight == 0.0f) continue;
+            result.push_back(joint);
+            if (share.weight <= most) continue;
+            most = share.weight;
+            result.front() = joint;
+        }
+        return result;
+    }
+};
+
+/// Adds `count` pieces, from the proxy's piece `first` on, as a block.
+void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::size_t first,
+              BoundsProxy& proxy) {
+    BoundsProxy::Block block{};
+    block.firstPiece = static_cast<std::uint32_t>(first);
+    block.pieceCount = static_cast<std::uint32_t>(count);
+    std::map<std::uint32_t, BoundsProxy::Share> shares;
+    for (std::size_t lane = 0; lane < BoundsProxy::kAtOnce; ++lane) {
+        const std::size_t i = lane < count ? lane : 0;
+        const BoundsProxy::Piece& piece = proxy.pieces[first + i];
+        for (int axis = 0; axis < 3; ++axis) {
+            block.centre[axis].lane[lane] = piece.rest.centre[axis];
+            for (int side = 0; side < 3; ++side)
+                block.axes[side][axis].lane[lane] = piece.rest.axes[side][axis];
+        }
+        block.corrected.lane[lane] = piece.corrected;
+        for (const auto& [joint, of] : pieces[i]->shares) {
+            BoundsProxy::Share& share = shares[joint];
+            share.joint = joint;
+            share.weight.lane[lane] = of.weight;
+            share.bend.lane[lane] = of.bend;
+            share.twist.lane[lane] = of.twist;
+            share.square.lane[lane] = of.square;
+        }
+    }
+    block.firstShare = static_cast<std::uint32_t>(proxy.shares.size());
+    for (const bool weighted : {true, false}) {
+        for (const auto& [joint, share] : shares) {
+            const float* weights = share.weight.lane;
+            const bool any = std::any_of(weights, weights + BoundsProxy::kAtOnce,
+                                         [](float weight) { return weight != 0.0f; });
+            if (any == weighted) proxy.shares.push_back(share);
+        }
+        const auto now = static_cast<std::uint32_t>(proxy.shares.size()) - block.firstShare;
+        (weighted ? block.weighted : block.shareCount) = now;
+    }
+    proxy.blocks.push_back(block);
+}
+
+void addJoints(const SkinModel& model, BoundsProxy& proxy) {
+    for (const BoundJoint& joint : model.joints())
+        proxy.joints.push_back(
+            {four(glm::vec3(joint.centre)), four(glm::vec3(joint.twistAxis)), joint.parent, false});
+    for (const BoundsProxy::Piece& piece : proxy.pieces) proxy.joints[piece.anchor].isNeeded = true;
+    for (const BoundsProxy::Term& term : proxy.terms) proxy.joints[term.joint].isNeeded = true;
+    for (const BoundsProxy::Share& share : proxy.shares) proxy.joints[share.joint].isNeeded = true;
+    for (std::size_t j = proxy.joints.size(); j-- > 0;)
+        if (proxy.joints[j].isNeeded && proxy.joints[j].parent >= 0)
+            proxy.joints[static_cast<std::size_t>(proxy.joints[j].parent)].isNeeded = true;
+}
+
 } // namespace
 
 std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
@@ -423,19 +336,30 @@ std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
     const glm::vec3 size = high - low, far = glm::max(glm::abs(low), glm::abs(high));
     const float extent = std::max({size.x, size.y, size.z});
     const std::shared_ptr<BoundsProxy> proxy = std::make_shared<BoundsProxy>();
-    proxy->rounding =
-        2e-6f * std::max({extent, far.x, far.y, far.z, std::numeric_limits<float>::min()});
-    const Vertices vertices(model);
-    std::vector<BoundsProxy::Piece> turned;
-    for (const Cell& cell : Cutter(vertices, extent).cut()) {
+    const float largest =
+        std::max({extent, far.x, far.y, far.z, std::numeric_limits<float>::min()});
+    proxy->noTravel = 2e-6f * largest;
+    proxy->rounding = 1.5e-5f * largest;
+    const PieceVertices vertices(model);
+    const std::size_t most =
+        SkinModelAccess::correctives(model) ? BoundsProxy::kMostCorrected : BoundsProxy::kMost;
+    std::vector<std::unique_ptr<CutPiece>> pieces;
+    for (SkinPiece& piece :
+         cutSkin(vertices, extent, std::min(most, model.vertexCount() / kLeastVertices)))
+        pieces.push_back(std::make_unique<CutPiece>(vertices, std::move(piece)));
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const auto& a, const auto& b) { return a->joints() < b->joints(); });
+    for (const std::unique_ptr<CutPiece>& from : pieces) {
         BoundsProxy::Piece piece{};
-        piece.rest = cell.shape;
-        piece.radius = cell.shape.radius();
-        const bool turns = PieceTerms(vertices, cell).addTo(*proxy, piece);
-        addCorrections(vertices, cell.rows, *proxy, piece);
-        (turns || piece.correctionCount > 0 ? turned : proxy->pieces).push_back(piece);
+        piece.rest = from->cut.shape;
+        from->terms.addTo(*proxy, piece);
+        addCorrections(vertices, from->cut.rows, *proxy, piece);
+        proxy->pieces.push_back(piece);
     }
-    proxy->pieces.insert(proxy->pieces.end(), turned.begin(), turned.end());
+    for (std::size_t first = 0; first < pieces.size(); first += BoundsProxy::kAtOnce)
+        addBlock(&pieces[first], std::min(BoundsProxy::kAtOnce, pieces.size() - first), first,
+                 *proxy);
+    addJoints(model, *proxy);
     return proxy;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "points/EllipticCylinder.h"
+#include "points/Four.h"
 
 #include <osgSkin/SkinModel>
 
@@ -24,7 +25,28 @@ namespace osgSkin {
 ///
 /// for each joint, since all that follow are turns, which keep distances. The joints applied before
 /// k move z from x by at most as much as they turn times how far it is from them.
+///
+/// Most pieces are well inside the box, which a cheaper bound shows, several at once: that their
+/// vertices are not far from where linear blending puts them, by one ratio s_k of the piece a
+/// joint. With `far` what `high` cannot exceed however joints turn, and t_k = psi_k + |phi_k|, they
+/// stray from that by
+///
+/// - other ratios than s_k: |bend of r - s_k| psi_k high + |twist of r - s_k| |phi_k| wide at rest,
+///   and by what the joints i applied before move them: |r - s_k| t_k r_i t_i far;
+/// - instead of the arc P_k(s) z, its chord Q_k z = z + s (D_k z - z): s (1 - s) / 2 t_k^2 far, as
+///   of any curve whose second derivative is at most t_k^2 far; the Q keep distances from growing;
+/// - instead of the product of all Q, the sum of s_k (G_k x - G_parent x), which has D_i wholly
+///   above k (u = 1; or not at all, u = 0, in another branch): s_k |s_i - u| t_i t_k high for each
+///   pair.
+///
+/// In all pairs t_i t_k <= (t_i^2 + t_k^2) / 2.
 struct BoundsProxy {
+    /// A joint at rest, in single precision.
+    struct Joint {
+        Four centre, twistAxis;
+        int parent;
+        bool isNeeded; ///< a piece follows it, or a joint below it
+    };
     /// One joint that a piece's vertices follow, from where they all follow them wholly on.
     struct Term {
         std::uint32_t joint;
@@ -37,8 +59,6 @@ struct BoundsProxy {
         // The same times `high` and `wide` as they are where joints applied before do not turn.
         float bendReach, twistReach;
         float bendMove, twistMove;
-        // The differences from a piece that moves wholly with its home joint.
-        float homeBendSpread, homeTwistSpread, homeBendReach, homeTwistReach;
         float mostHigh; ///< the largest `high` whatever they do, but move and scale
     };
     /// That vertices of a piece follow the correctives of a joint.
@@ -48,22 +68,44 @@ struct BoundsProxy {
     };
     struct Piece {
         EllipticCylinder rest;
-        float radius;    ///< of the ball about its centre
         float corrected; ///< how far correctives can take a vertex in any pose, or more
         std::uint32_t anchor;
-        std::uint32_t home; ///< the last joint, from the anchor on, that it mostly moves with
         std::uint32_t firstTerm, termCount; ///< innermost (applied first) first
         std::uint32_t firstCorrection, correctionCount;
+    };
+
+    static constexpr std::size_t kAtOnce = 8; ///< pieces of a Block
+    /// A number of each of them.
+    struct alignas(32) Lanes {
+        float lane[kAtOnce];
+    };
+    /// What a block's pieces have of one joint when they are blended.
+    struct Share {
+        Lanes weight;      ///< of the joint's map in theirs
+        Lanes bend, twist; ///< how far vertices stray, a radian of the joint's bend and twist
+        Lanes square;      ///< and a squared radian of their sum
+        std::uint32_t joint;
+    };
+    /// Pieces that are worked on at once; missing ones are the first again.
+    struct Block {
+        Lanes centre[3], axes[3][3]; ///< of the cylinders
+        Lanes corrected;
+        std::uint32_t firstPiece, pieceCount;
+        std::uint32_t firstShare, weighted, shareCount; ///< first those with weights
     };
 
     /// Pieces that a skin is cut into at most, without correctives and with them.
     static constexpr std::size_t kMost = 128, kMostCorrected = 160;
 
-    std::vector<Piece> pieces; ///< those that no term turns stand first
+    std::vector<Joint> joints; ///< the model's
+    std::vector<Block> blocks;
+    std::vector<Share> shares;
+    std::vector<Piece> pieces; ///< in the blocks' order
     std::vector<Term> terms;
     std::vector<Correction> corrections;
     std::vector<float> reach; ///< length of a piece's largest shares, as they are held
-    float rounding;           ///< what single precision may put a vertex off by, near the origin
+    float noTravel;           ///< a joint's translation up to this may be a rounding error
+    float rounding;           ///< what those may put a vertex off by, near the origin
 };
 
 /// Cuts a model's vertices into pieces; null for a model without vertices.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Correctives>
 
-#include "model/QuadraticSplines.h"
+#include "points/QuadraticSplines.h"
 
 #include <osgSkin/Binding>
 #include <osgSkin/Error>

@@ -56,8 +56,14 @@ EllipticCylinder cylinderAlong(const glm::mat3& axes, const std::vector<glm::vec
     // A little more, for what single precision rounds off.
     wide = 1.00001f * std::sqrt(wide);
     tall *= 1.00001f;
-    return {axes * middle,
-            {wide * half.x * axes[0], wide * half.y * axes[1], tall * half.z * axes[2]}};
+    EllipticCylinder result{
+        axes * middle, {wide * half.x * axes[0], wide * half.y * axes[1], tall * half.z * axes[2]}};
+    // What is next to nothing would make denormal numbers of products, which are slow.
+    const float nothing = 1e-9f * result.radius();
+    for (glm::vec3& axis : result.axes)
+        for (int i = 0; i < 3; ++i)
+            if (std::abs(axis[i]) < nothing) axis[i] = 0.0f;
+    return result;
 }
 
 /// Its volume, but so that flat ones differ, too.
@@ -85,7 +91,8 @@ EllipticCylinder cylinderAround(const std::vector<glm::vec3>& points) {
     for (int turn = 1; turn < 3; ++turn) {
         const EllipticCylinder other =
             cylinderAlong({axes[turn % 3], axes[(turn + 1) % 3], axes[(turn + 2) % 3]}, points);
-        if (sizeOf(other, least) < sizeOf(best, least)) best = other;
+        // Not for the sake of rounding errors: the choice is the same however sums are rounded.
+        if (sizeOf(other, least) < 0.9999f * sizeOf(best, least)) best = other;
     }
     return best;
 }

@@ -4,7 +4,7 @@
 #include <osgSkin/GlmOsg>
 
 #include "model/SkinBlocks.h"
-#include "pose/SplitUnit.h"
+#include "pose/SplitPair.h"
 
 #include <osgSkin/GlmTypes>
 
@@ -39,9 +39,18 @@ bool isScale(double scale) noexcept {
     return scale >= kSmallestScale && scale <= 1.0 / kSmallestScale; // false for NaN
 }
 
+/// What a skinning matrix is: x -> offset + scale * rotation * x. As a matrix: which part of a
+/// quaternion is to be found first differs from joint to joint, but for a joint's own rotation it
+/// is nearly always the same one.
+struct Frame {
+    glm::dmat3 rotation{1.0};
+    glm::dvec3 offset{0.0};
+    double scale = 1.0;
+};
+
 /// The rotation in a 3 x 3 matrix that may also scale, and the uniform part of that scale; false
 /// where there is none to be found.
-bool rotationOf(const glm::dmat3& m, glm::dquat& rotation, double& scale) noexcept {
+bool rotationOf(const glm::dmat3& m, glm::dmat3& rotation, double& scale) noexcept {
     glm::dvec3 x = m[0];
     glm::dvec3 y = m[1];
     const double xx = glm::dot(x, x);
@@ -55,7 +64,7 @@ bool rotationOf(const glm::dmat3& m, glm::dquat& rotation, double& scale) noexce
     scale = std::abs(volume - 1.0) < 3e-6 ? 1.0 : std::cbrt(volume);
     x *= 1.0 / std::sqrt(xx);
     y *= 1.0 / std::sqrt(yy);
-    rotation = glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)));
+    rotation = {x, y, glm::cross(x, y)};
     return true;
 }
 
@@ -95,14 +104,12 @@ Pose::Pose(const std::vector<BoundJoint>& joints, std::size_t inputs)
 
 bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool* changed) noexcept {
     if (count != _splits.size()) return false;
-    struct Frame { // of G_j
-        glm::dquat rotation;
-        glm::dvec3 offset;
-        double scale;
-    };
-    static thread_local std::vector<Frame> frames;
-    if (frames.size() < count)
-        frames.resize(count, Frame{{1.0, 0.0, 0.0, 0.0}, glm::dvec3(0.0), 1.0});
+    static thread_local std::vector<Frame> frames;  // G_j
+    static thread_local std::vector<JointMap> maps; // D_j
+    if (frames.size() < count) {
+        frames.resize(count);
+        maps.resize(count);
+    }
     for (std::size_t j = 0; j < count; ++j) {
         Frame& frame = frames[j];
         if (!rotationOf(glm::dmat3(skinning[j]), frame.rotation, frame.scale)) return false;
@@ -112,43 +119,54 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool*
                        frame.scale * (frame.rotation * centre);
         if (!isInRange(frame.offset) || !isAffine(skinning[j])) return false;
     }
-    bool other = false;
     for (std::size_t j = 0; j < count; ++j) {
         // D_j = G_parent^-1 G_j; the root has no parent.
         const Rest& rest = (*_rest)[j];
-        JointMap now{frames[j].rotation, frames[j].offset, frames[j].scale};
-        if (rest.parent >= 0) {
-            const Frame& parent = frames[static_cast<std::size_t>(rest.parent)];
-            const glm::dquat back = glm::conjugate(parent.rotation);
-            now.rotation = back * now.rotation;
-            now.offset = back * (now.offset - parent.offset);
-            if (now.scale != parent.scale || now.scale != 1.0) {
-                now.offset /= parent.scale;
-                now.scale /= parent.scale;
-                if (std::abs(now.scale - 1.0) < 1e-6) now.scale = 1.0;
-            }
+        const Frame& frame = frames[j];
+        JointMap& now = maps[j];
+        if (rest.parent < 0) {
+            now = {glm::quat_cast(frame.rotation), frame.offset, frame.scale};
+            continue;
         }
-        other = take(j, now, twist) || other;
+        const Frame& parent = frames[static_cast<std::size_t>(rest.parent)];
+        const glm::dmat3 back = glm::transpose(parent.rotation);
+        now = {glm::quat_cast(back * frame.rotation), back * (frame.offset - parent.offset),
+               frame.scale};
+        if (now.scale == parent.scale && now.scale == 1.0) continue;
+        now.offset /= parent.scale;
+        now.scale /= parent.scale;
+        if (std::abs(now.scale - 1.0) < 1e-6) now.scale = 1.0;
     }
+    const bool other = take(maps.data(), twist);
     if (changed) *changed = other;
     return true;
 }
 
-bool Pose::take(std::size_t joint, const JointMap& own, Twist twist) noexcept {
-    const Rest& rest = (*_rest)[joint];
-    Split now;
-    now.rotation = own.rotation;
-    now.offset = own.offset;
-    now.scale = own.scale;
-    const BendTwist split = splitUnit(now.rotation, rest.twistAxis);
-    now.azimuthCosine = inSteps(glm::dot(split.bendAxis, rest.e1));
-    now.azimuthSine = inSteps(glm::dot(split.bendAxis, rest.e2));
-    now.bendAngle = split.bendAngle;
-    now.twistAngle = split.twistAngle;
-    Split& before = _splits[joint];
-    if (twist == Twist::Continued) now.twistAngle = continued(before.twistAngle, now.twistAngle);
-    const bool other = !isSame(now, before);
-    before = now;
+bool Pose::take(const JointMap* own, Twist twist) noexcept {
+    bool other = false;
+    const std::size_t count = _splits.size();
+    for (std::size_t first = 0; first < count; first += 2) {
+        const std::size_t joints[2] = {first, std::min(first + 1, count - 1)};
+        SplitAngles angles[2];
+        splitPair({&own[joints[0]].rotation, &own[joints[1]].rotation},
+                  {&(*_rest)[joints[0]], &(*_rest)[joints[1]]}, angles);
+        for (std::size_t i = 0; i < 2 && first + i < count; ++i) {
+            const JointMap& map = own[first + i];
+            Split& before = _splits[first + i];
+            Split now;
+            now.rotation = map.rotation;
+            now.offset = map.offset;
+            now.scale = map.scale;
+            now.azimuthCosine = inSteps(angles[i].azimuthCosine);
+            now.azimuthSine = inSteps(angles[i].azimuthSine);
+            now.bendAngle = angles[i].bend;
+            now.twistAngle = twist == Twist::Continued
+                                 ? continued(before.twistAngle, angles[i].twist)
+                                 : angles[i].twist;
+            other = other || !isSame(now, before);
+            before = now;
+        }
+    }
     return other;
 }
 
@@ -173,8 +191,7 @@ bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* change
             !isScale(map.scale) || !isScale(reaches[j].scale))
             return false;
     }
-    bool other = false;
-    for (std::size_t j = 0; j < count; ++j) other = take(j, own[j], twist) || other;
+    const bool other = take(own, twist);
     if (changed) *changed = other;
     return true;
 }

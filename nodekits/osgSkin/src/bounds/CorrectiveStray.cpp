@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "correctives/CorrectiveStray.h"
+#include "bounds/CorrectiveStray.h"
 
 #include <cmath>
 

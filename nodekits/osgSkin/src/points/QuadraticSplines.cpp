@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "model/QuadraticSplines.h"
+#include "points/QuadraticSplines.h"
 
 #include <algorithm>
 
