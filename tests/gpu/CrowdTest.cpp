@@ -8,7 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <osg/TextureBuffer>
+#include <osgUtil/RenderBin>
+
 #include <chrono>
+#include <utility>
 
 namespace {
 
@@ -36,6 +40,40 @@ osg::ref_ptr<osg::Group> inProgram(osg::Node* node) {
     root->getOrCreateStateSet()->setAttribute(
         CrowdSubject::program(), osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
     return root;
+}
+
+/// What draw threads are given to draw.
+std::size_t leavesOf(const osgUtil::RenderBin& bin) {
+    std::size_t leaves = bin.getRenderLeafList().size();
+    for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
+        leaves += graph->_leaves.size();
+    for (const auto& [number, child] : const_cast<osgUtil::RenderBin&>(bin).getRenderBinList())
+        leaves += leavesOf(*child);
+    return leaves;
+}
+
+/// What a frame makes the processor do for so many members, told without a clock: what it gives to
+/// the draw, and how often it writes what is uploaded.
+std::pair<std::size_t, unsigned int> workOfAFrame(CrowdCharacter* character, std::size_t count) {
+    const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, CrowdSubject(count).members);
+    GpuStage stage(crowd);
+    stage.lookAway();
+    stage.frame(0.0);
+    const auto written = [&] {
+        unsigned int sum = 0;
+        for (const auto& unit : crowd->getStateSet()->getTextureAttributeList())
+            for (const auto& [type, attribute] : unit)
+                if (auto* texels = dynamic_cast<osg::TextureBuffer*>(attribute.first.get()))
+                    sum += texels->getBufferData()->getModifiedCount();
+        return sum;
+    };
+    const unsigned int before = written();
+    const osg::ref_ptr<osgUtil::CullVisitor> cv = stage.cullVisitor();
+    crowd->setTime(0.01);
+    crowd->traverse(*cv);
+    const std::size_t leaves = leavesOf(*cv->getCurrentRenderBin()->getStage());
+    crowd->releaseGLObjects(nullptr);
+    return {leaves, written() - before};
 }
 
 /// In one context; the scene that is drawn is released again.
@@ -149,6 +187,15 @@ TEST_F(Crowd, TenThousandMembersTakeNoTimeOfTheProcessor) {
     EXPECT_LE(best, 0.1) << "milliseconds";
     std::cout << "10,000 members: " << 1000.0 * best << " us a frame" << std::endl;
     crowd->releaseGLObjects(nullptr);
+}
+
+TEST_F(Crowd, TheProcessorsWorkDoesNotGrowWithTheMembers) {
+    const auto character = subject.character();
+    character->addLevel(0.4, 0.2);
+    const auto few = workOfAFrame(character, 10);
+    EXPECT_GT(few.first, 0u);
+    EXPECT_EQ(few.second, 0u);
+    EXPECT_EQ(workOfAFrame(character, 1000), few);
 }
 
 TEST(CrowdCharacter, RefusesWhatDoesNotFit) {
