@@ -60,7 +60,7 @@ Tile tile(const Body& body, const Shot& shot, Method method, const std::string& 
 
 } // namespace
 
-std::vector<Comparison> comparisons(const Body& body, bool painted) {
+std::vector<Comparison> comparisons(const Body& body, bool painted, const Body* elastic) {
     const std::string note = painted ? "painted" : "our ratios";
     std::vector<Comparison> result;
     for (const Shot& shot : kShots) {
@@ -74,6 +74,8 @@ std::vector<Comparison> comparisons(const Body& body, bool painted) {
             row.tiles.push_back(
                 tile(body, shot, Method::Plain, what + "osgSkin, the paper's model"));
         row.tiles.push_back(tile(body, shot, Method::Ours, what + "osgSkin"));
+        if (elastic)
+            row.tiles.push_back(tile(*elastic, shot, Method::Ours, what + "osgSkin, elastic"));
         result.push_back(row);
     }
     return result;

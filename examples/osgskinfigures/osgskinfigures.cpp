@@ -12,10 +12,12 @@
 
 #include <exception>
 #include <iostream>
+#include <optional>
 
 namespace {
 
-void writeFigures(figures::Body& body, const std::string& out, bool painted) {
+void writeFigures(figures::Body& body, const figures::Body* elastic, const std::string& out,
+                  bool painted) {
     if (!osgDB::makeDirectory(out)) throw std::runtime_error(out + ": cannot be made");
     using figures::writePicture;
     writePicture(*figures::regionFigure(body), out + "/fig1_regions.png");
@@ -23,7 +25,7 @@ void writeFigures(figures::Body& body, const std::string& out, bool painted) {
     writePicture(*figures::ratioFigure(body), out + "/fig3_ratios.png");
     std::vector<figures::Tile> all;
     std::size_t columns = 1;
-    for (const figures::Comparison& row : figures::comparisons(body, painted)) {
+    for (const figures::Comparison& row : figures::comparisons(body, painted, elastic)) {
         columns = row.tiles.size();
         writePicture(*figures::tiled(row.tiles, columns), out + "/compare_" + row.name + ".png");
         all.insert(all.end(), row.tiles.begin(), row.tiles.end());
@@ -45,9 +47,12 @@ int main(int argc, char** argv) {
     std::string out;
     std::string file = OSGSKIN_DATA "/thrower.skin";
     std::string weights;
+    bool elastic = false;
     app.add_option("--out", out, "folder for the pictures, made if need be")->required();
     app.add_option("--weights", weights,
                    "painted weights (JSON) for the peers; without: from our ratios");
+    app.add_flag("--elastic", elastic,
+                 "a column with elastic shapes, too; solving them takes a minute or two, once");
     app.add_option("CHARACTER", file, "a .skin file with the joint names of the CMU skeletons");
     try {
         app.parse(argc, argv);
@@ -58,7 +63,10 @@ int main(int argc, char** argv) {
         osgSkin::LoadOptions options;
         options.shapes = osgSkin::BindOptions::Shapes::Fast;
         figures::Body body(file, weights, options);
-        writeFigures(body, out, !weights.empty());
+        std::optional<figures::Body> solid;
+        options.shapes = osgSkin::BindOptions::Shapes::Elastic;
+        if (elastic) solid.emplace(file, weights, options);
+        writeFigures(body, solid ? &*solid : nullptr, out, !weights.empty());
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "osgskinfigures: " << error.what() << std::endl;
