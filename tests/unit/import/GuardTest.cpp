@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <ostream>
 #include <string>
 
@@ -53,6 +54,55 @@ std::string bvh(std::size_t joints, std::size_t frames, bool nested) {
     return text;
 }
 
+std::string repeated(std::size_t count, const std::function<std::string(std::size_t)>& text) {
+    std::string result;
+    for (std::size_t i = 0; i < count; ++i) result += (i > 0 ? "," : "") + text(i);
+    return result;
+}
+
+std::string gltf(const std::string& parts) {
+    return R"({"asset":{"version":"2.0"},)" + parts + "}";
+}
+
+/// Keys at 0 and 1e30 seconds; the values are zeros, which take no room.
+const std::string kLongSpline =
+    gltf(R"("buffers":[{"byteLength":8,"uri":"data:;base64,AAAAAMrySXE="}],
+"bufferViews":[{"buffer":0,"byteLength":8}],"nodes":[{}],
+"accessors":[{"bufferView":0,"componentType":5126,"type":"SCALAR","count":2},
+             {"componentType":5126,"type":"VEC3","count":6}],
+"animations":[{"samplers":[{"input":0,"output":1,"interpolation":"CUBICSPLINE"}],
+               "channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}])");
+
+/// Positions of which number 9 is changed, if there are so many.
+std::string sparse(std::size_t vertices, int indexType, const std::string& primitive = "",
+                   const std::string& mesh = "") {
+    return gltf(R"("buffers":[{"byteLength":16,"uri":"data:;base64,CQAAAAAAAAAAAAAAAAAAAA=="}],
+"bufferViews":[{"buffer":0,"byteLength":4},{"buffer":0,"byteOffset":4,"byteLength":12}],
+"accessors":[{"componentType":5126,"type":"VEC3","count":)" +
+                std::to_string(vertices) +
+                R"(,"sparse":{"count":1,"values":{"bufferView":1},
+    "indices":{"bufferView":0,"componentType":)" +
+                std::to_string(indexType) + R"(}}}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0})" +
+                primitive + "}]" + mesh + "}]");
+}
+
+/// Nodes that show one mesh, each with weights of its own: a copy of all its primitives for each.
+const std::string kManyCopies = gltf(
+    R"("accessors":[{"componentType":5126,"type":"VEC3","count":0}],
+"meshes":[{"primitives":[)" +
+    repeated(1000, [](std::size_t) { return R"({"attributes":{"POSITION":0}})"; }) +
+    R"(]}],"nodes":[)" +
+    repeated(1000,
+             [](std::size_t i) { return R"({"mesh":0,"weights":[)" + std::to_string(i) + "]}"; }) +
+    "]");
+
+std::string plyOfManyElements() {
+    std::string text = "ply\nformat ascii 1.0\n";
+    for (int i = 0; i < 200; ++i) text += "element e" + std::to_string(i) + " 0\n";
+    return text + kPlyVertices + kPlyFaces + kPlyTriangle;
+}
+
 class GuardedMesh : public testing::TestWithParam<Guarded> {};
 
 } // namespace
@@ -88,6 +138,15 @@ INSTANTIATE_TEST_SUITE_P(
                 "ply\nformat ascii 1.0\n" + kPlyVertices + kPlyFaces +
                     "end_header\n0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n",
                 "element \"vertex\" 1: a word that is no number"},
+        Guarded{"elements.ply", plyOfManyElements(), "line 103: one of more than 100 elements"},
+        Guarded{"spline.gltf", kLongSpline, "animation \"0\": sampler 0: a spline of"},
+        Guarded{"sparse.gltf", sparse(9, 5121),
+                "malformed glTF: accessors[0].sparse.indices: expected numbers below 9"},
+        Guarded{"sparse_floats.gltf", sparse(10, 5126),
+                "malformed glTF: accessors[0], meshes[0].primitives[0].POSITION: expected sparse "
+                "indices"},
+        Guarded{"copies.gltf", kManyCopies,
+                "malformed glTF: nodes, bones, materials and channels: expected at most"},
         Guarded{"digits.off", "OFF\n500000000x 500000000 0\n0 0 0\n", "\"500000000x\""},
         Guarded{"deep.bvh", bvh(25'000, 1, true), "no face in a BVH file"}),
     [](const auto& c) {
@@ -144,6 +203,47 @@ TEST(Guard, MotionsAreAsLargeAsTheirFiles) {
     const std::string many = save("many.bvh", bvh(20'000, 1, false));
     expectError([&] { osgSkin::importSkeleton(many); },
                 "one of more than 10000 (option maxJoints)");
+}
+
+/// Texture coordinates of the faces' corners only, so that those of the strips' are none.
+TEST(Guard, StripsBesideFacesHaveNoTextureCoordinates) {
+    const std::string path = save(
+        "strips.ply", "ply\nformat ascii 1.0\n" + kPlyVertices + kPlyFaces +
+                          "property list uchar float texcoord\nelement tristrips 1\nproperty list "
+                          "int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+                          "3 0 1 2 6 .5 .5 1 .5 .5 1\n3 2 1 0\n");
+    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
+    ASSERT_EQ(mesh.mesh.faceSizes.size(), 2u);
+    std::size_t zeros = 0;
+    for (const osgSkin::MeshPart& part : mesh.parts)
+        for (const osg::Vec2& texCoord :
+             dynamic_cast<const osg::Vec2Array&>(*part.geometry->getTexCoordArray(0)))
+            zeros += texCoord == osg::Vec2(0.0f, 0.0f) ? 1 : 0;
+    EXPECT_EQ(zeros, 3u);
+}
+
+TEST(Guard, MorphTargetsAndBuffersAreAsLargeAsTheirFiles) {
+    const auto import = [](const std::string& path, const char* words) {
+        const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
+        osgSkin::importMesh(path, options);
+    };
+    const std::string targets = repeated(20, [](std::size_t) { return R"({"POSITION":0})"; });
+    const std::string ones = repeated(20, [](std::size_t) { return "1"; });
+    const std::string morphs =
+        save("morphs.gltf",
+             sparse(2000, 5121, ",\"targets\":[" + targets + "]", ",\"weights\":[" + ones + "]"));
+    expectError([&] { import(morphs, "maxSamples=1000"); },
+                "malformed glTF: expected morph targets of less vertices");
+
+    save("buffer.bin", std::string(600'000, 'x'));
+    const std::string buffers = save(
+        "buffers.gltf",
+        gltf(
+            R"("buffers":[)" +
+            repeated(2, [](std::size_t) { return R"({"byteLength":600000,"uri":"buffer.bin"})"; }) +
+            "]"));
+    expectError([&] { import(buffers, "maxFileMB=1"); },
+                "malformed glTF: buffers: expected less than 1 MB in all (option maxFileMB)");
 }
 
 TEST(Guard, LimitsAndFormatsAreTheCallers) {

@@ -174,6 +174,12 @@ std::vector<double> GltfAccessors::values(std::size_t index) {
              places.at("componentType").get<int>(), 1, changes, indices);
         read(changed.at("bufferView").get<std::size_t>(), sizeAt(changed, "byteOffset"), type, wide,
              changes, numbers);
+        const bool fits = std::all_of(indices.begin(), indices.end(),
+                                      [&](double place) { return place < double(many); });
+        if (!fits)
+            failFile(_file.path, "malformed glTF: accessors[" + std::to_string(index) +
+                                     "].sparse.indices: expected numbers below " +
+                                     std::to_string(many));
         for (std::size_t i = 0; i < changes; ++i)
             for (std::size_t k = 0; k < wide; ++k)
                 result.at(static_cast<std::size_t>(indices[i]) * wide + k) = numbers[i * wide + k];

@@ -174,8 +174,10 @@ private:
             if (from.contains("mesh"))
                 node["mesh"] = _parts.indexOf(from.at("mesh"), "meshes", where + ".mesh");
             // Every node that shows a mesh makes a copy of it.
-            if (node.contains("mesh"))
+            if (node.contains("mesh")) {
                 _parts.take(_elements[node["mesh"].get<std::size_t>()], where + ".mesh");
+                _parts.addEntries(_primitives[node["mesh"].get<std::size_t>()]);
+            }
             if (from.contains("skin"))
                 node["skin"] = _parts.indexOf(from.at("skin"), "skins", where + ".skin");
             // Assimp makes bones for each mesh, of each skin that it is shown with.

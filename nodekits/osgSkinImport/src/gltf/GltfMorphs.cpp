@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfMorphs.h"
 
+#include "text/FileText.h"
+
 #include <osg/Notify>
 
 #include <algorithm>
@@ -17,7 +19,9 @@ bool anyOf(const std::vector<double>& weights) {
     return std::any_of(weights.begin(), weights.end(), [](double w) { return w != 0.0; });
 }
 
-void applyTo(json& primitive, const std::vector<double>& weights, GltfAccessors& accessors) {
+/// \param left numbers that may be moved still
+void applyTo(json& primitive, const std::vector<double>& weights, const GltfFile& file,
+             GltfAccessors& accessors, double& left) {
     const json targets = primitive.at("targets");
     for (const char* attribute : {"POSITION", "NORMAL"}) {
         json& attributes = primitive.at("attributes");
@@ -27,6 +31,10 @@ void applyTo(json& primitive, const std::vector<double>& weights, GltfAccessors&
         std::vector<double> values = accessors.values(own);
         for (std::size_t t = 0; t < std::min(weights.size(), targets.size()); ++t) {
             if (weights[t] == 0.0 || !targets[t].contains(attribute)) continue;
+            left -= double(values.size());
+            if (left < 0.0)
+                failFile(file.path, "malformed glTF: expected morph targets of less vertices "
+                                    "(option maxSamples)");
             const std::vector<double> moves =
                 accessors.values(targets[t].at(attribute).get<std::size_t>());
             for (std::size_t i = 0; i < std::min(values.size(), moves.size()); ++i)
@@ -57,11 +65,12 @@ void applyMorphs(GltfFile& file, GltfAccessors& accessors) {
                    << (moved == 1 ? " mesh" : " meshes")
                    << " by morph targets, which are left as they are at rest" << std::endl;
     if (!file.json.contains("meshes")) return;
+    double left = 64.0 * double(file.limits.samplesOf(file.size)); // for a second or so
     for (json& mesh : file.json.at("meshes")) {
         const std::vector<double> weights = mesh.value("weights", std::vector<double>{});
         for (json& primitive : mesh.at("primitives")) {
             if (!primitive.contains("targets")) continue;
-            if (anyOf(weights)) applyTo(primitive, weights, accessors);
+            if (anyOf(weights)) applyTo(primitive, weights, file, accessors, left);
             primitive.erase("targets");
         }
         mesh.erase("weights");

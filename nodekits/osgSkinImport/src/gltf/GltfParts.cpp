@@ -134,6 +134,9 @@ void GltfParts::checkBuffers(json& result) {
                 failFile(_file.path, where + ": " + error.what());
             }
             _bytes += content.size();
+            if (_bytes >> 20 >= limits().fileMegabytes)
+                fail("buffers", "less than " + std::to_string(limits().fileMegabytes) +
+                                    " MB in all (option maxFileMB)");
         }
         _bufferSizes.push_back(content.size());
         result["buffers"].push_back(
@@ -184,8 +187,10 @@ std::string GltfParts::wrongWith(const json& accessor, const Accessor& known) co
     const json& sparse = accessor.at("sparse");
     const json &places = sparse.at("indices"), &values = sparse.at("values");
     const std::size_t changes = sizeOf(sparse, "count");
-    const std::size_t place = componentSize(places.at("componentType").get<int>());
-    if (place == 0) return "a component type of 5121, 5123 or 5125";
+    const int kind = places.at("componentType").get<int>();
+    const std::size_t place = componentSize(kind);
+    if (kind != 5121 && kind != 5123 && kind != 5125)
+        return "sparse indices of the component type 5121, 5123 or 5125";
     std::string wrong =
         beyondView(places.at("bufferView"), sizeOf(places, "byteOffset"), changes, place, true);
     if (!wrong.empty()) return wrong;

@@ -43,6 +43,11 @@ Keys fromSteps(const Keys& track) {
     return result;
 }
 
+/// Into how many pieces a spline is taken apart between two times, in whatever order.
+double piecesOf(double from, double to) {
+    return std::max(1.0, std::ceil((to - from) / kStep)); // 1 where there is no number
+}
+
 /// Cubic Hermite splines, as the specification's appendix C has them: of each key the tangent in,
 /// the value, and the tangent out.
 Keys fromSplines(const Keys& track, bool isRotation) {
@@ -54,7 +59,7 @@ Keys fromSplines(const Keys& track, bool isRotation) {
     std::vector<double> value(width);
     for (std::size_t k = 0; k < last; ++k) {
         const double duration = track.times[k + 1] - track.times[k];
-        const double pieces = std::max(1.0, std::ceil(duration / kStep));
+        const double pieces = piecesOf(track.times[k], track.times[k + 1]);
         for (double piece = 0.0; piece < pieces; piece += 1.0) {
             const double t = piece / pieces, t2 = t * t, t3 = t2 * t;
             double length = 0.0;
@@ -74,9 +79,20 @@ Keys fromSplines(const Keys& track, bool isRotation) {
     return result;
 }
 
+/// Takes a spline's pieces from those that all clips together may have.
+void takePieces(const std::vector<double>& times, const std::string& where, double& left) {
+    double pieces = 1.0;
+    for (std::size_t k = 1; k < times.size(); ++k) pieces += piecesOf(times[k - 1], times[k]);
+    if (!(pieces <= left))
+        failFile(where, "a spline of " + std::to_string(times.back() - times.front()) +
+                            " seconds, expected no more pieces than the file has room for "
+                            "(option maxSamples)");
+    left -= pieces;
+}
+
 /// Replaces a track's accessors where Assimp would read them wrongly.
 void makeLinear(json& sampler, const std::string& path, const std::string& where,
-                GltfAccessors& accessors) {
+                GltfAccessors& accessors, double& left) {
     const auto input = sampler.at("input").get<std::size_t>();
     const auto output = sampler.at("output").get<std::size_t>();
     const std::string interpolation = sampler.value("interpolation", "LINEAR");
@@ -90,6 +106,7 @@ void makeLinear(json& sampler, const std::string& path, const std::string& where
     if (!isSpline && !isStepped && accessors.isPlain(input) && accessors.isPlain(output)) return;
     Keys track{width, accessors.values(input), accessors.values(output)};
     if (isStepped) track = fromSteps(track);
+    if (isSpline) takePieces(track.times, where, left);
     if (isSpline) track = fromSplines(track, path == "rotation");
     sampler["input"] = accessors.add("SCALAR", track.times);
     sampler["output"] = accessors.add(width == 4 ? "VEC4" : "VEC3", track.values);
@@ -109,6 +126,8 @@ void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
     const auto animations = file.json.find("animations");
     if (animations == file.json.end()) return;
     bool morphs = false;
+    // A track for each of many joints is usual.
+    double left = 4.0 * double(file.limits.samplesOf(file.size));
     for (std::size_t a = 0; a < animations->size(); ++a) {
         json& animation = animations->at(a);
         json kept = json::array();
@@ -124,7 +143,7 @@ void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
                        channel.at("target").at("path").get<std::string>(),
                        file.path + ": animation " + osgSkin::inQuotes(name) + ": sampler " +
                            std::to_string(sampler),
-                       accessors);
+                       accessors, left);
         }
         animation["channels"] = kept;
     }

@@ -133,6 +133,8 @@ private:
             _faceSizes.push_back(3);
             for (const std::size_t c : {odd ? k - 1 : k - 2, odd ? k - 2 : k - 1, k})
                 _corners.push_back(indexOf(strip[c], "a strip"));
+            // Faces beside strips may have them.
+            if (_cornerTexCoords) _faceTexCoords.resize(_corners.size(), glm::vec2(0.0f));
         }
     }
 

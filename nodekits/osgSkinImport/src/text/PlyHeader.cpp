@@ -27,6 +27,8 @@ constexpr NamedType kTypes[] = {
     {"float64", {kFloating, 8}},
 };
 
+constexpr std::size_t kMostElements = 100; ///< others have ten; each is compared with all
+
 /// Reads line by line; a line ends with LF, CR or both.
 class PlyHeaderReader {
 public:
@@ -97,6 +99,9 @@ private:
             failLine(_path, _line,
                      inQuotes(count) + " elements, expected no more than the file has room for");
         element.count = static_cast<std::size_t>(number);
+        if (_header.elements.size() >= kMostElements)
+            failLine(_path, _line,
+                     "one of more than " + std::to_string(kMostElements) + " elements");
         for (const PlyHeader::Element& known : _header.elements)
             if (known.name == element.name)
                 failLine(_path, _line, "a second element " + inQuotes(element.name));
