@@ -19,7 +19,8 @@ bool anyOf(const std::vector<double>& weights) {
     return std::any_of(weights.begin(), weights.end(), [](double w) { return w != 0.0; });
 }
 
-/// \param left numbers that may be moved still
+/// Takes what is moved from the numbers that are `left`, so that a small file does not take
+/// minutes.
 void applyTo(json& primitive, const std::vector<double>& weights, const GltfFile& file,
              GltfAccessors& accessors, double& left) {
     const json targets = primitive.at("targets");
