@@ -3,10 +3,11 @@
 
 #include <osgSkin/BoneReader>
 #include <osgSkin/RigidPart>
+#include <osgSkinImport/ReadScene>
 
 #include <osg/NodeVisitor>
 #include <osgAnimation/BasicAnimationManager>
-#include <osgDB/ReadFile>
+#include <osgDB/Registry>
 #include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
@@ -63,9 +64,10 @@ void runTo(osg::Node& scene, double time, unsigned int frame) {
 } // namespace
 
 osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file, double& seconds) {
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);
+    const osg::ref_ptr<osg::Node> scene =
+        osgSkin::readScene(file, osgDB::Registry::instance()->getOptions());
     FindDrawn found;
-    if (scene) scene->accept(found);
+    scene->accept(found);
     if (found.skins.empty())
         throw std::runtime_error(file + ": expected a character with a deformable skin");
     osg::ref_ptr<osgSkin::CrowdCharacter> character = new osgSkin::CrowdCharacter;

@@ -4,9 +4,9 @@
 #include "ProgressLine.h"
 
 #include <osgSkinCharacter/ProgressOption>
+#include <osgSkinImport/ReadScene>
 
 #include <osg/NodeVisitor>
-#include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
 #include <stdexcept>
@@ -30,14 +30,13 @@ osg::ref_ptr<osg::Node> readScene(const std::string& file) {
     const osg::ref_ptr<osgDB::Options> options =
         shared ? shared->cloneOptions() : new osgDB::Options;
     osgSkin::setProgress(*options, line.progress());
-    return osgDB::readRefNodeFile(file, options);
+    return osgSkin::readScene(file, options);
 }
 
 } // namespace
 
 CrowdCharacter::CrowdCharacter(const std::string& file) {
     const osg::ref_ptr<osg::Node> scene = readScene(file);
-    if (!scene) throw std::runtime_error(file + " cannot be read");
     CountVertices count;
     scene->accept(count);
     if (count.vertices == 0)

@@ -4,9 +4,9 @@
 #include <osg/NodeVisitor>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
-#include <osgDB/Registry>
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinImport/ImportRig>
+#include <osgSkinImport/ReadScene>
 
 #include <stdexcept>
 
@@ -45,17 +45,8 @@ bool hasBody(const std::string& file) {
 }
 
 osg::ref_ptr<osg::Group> readScene(const std::string& file) {
-    osgDB::ReaderWriter::ReadResult read = osgDB::Registry::instance()->readNode(file, nullptr);
-    const osg::ref_ptr<osg::Node> node = read.getNode();
-    if (!node) {
-        const std::string& reason = read.message();
-        throw std::runtime_error(
-            reason.find(file) == std::string::npos
-                ? file + ": " + (reason.empty() ? "cannot be read as a character" : reason)
-                : reason);
-    }
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(node);
+    root->addChild(osgSkin::readScene(file, nullptr));
     return root;
 }
 
