@@ -76,8 +76,12 @@ Comparison::Comparison()
                       compare::dualQuaternionBlendMatrices) {
     const osgSkin::RestSkeleton bones = twoBones();
     _skeleton = osgSkin::makeSkeleton(bones);
-    const osgSkin::AttachedSkin attached = osgSkin::attachSkin(
-        *_skeleton, _cylinder.mesh, {_cylinder.part}, osgSkin::bind(_cylinder.mesh, bones));
+    osgSkin::BindOptions
+        options; // the paper's model alone: a fold that is pressed flat loses volume
+    options.shapes = osgSkin::BindOptions::Shapes::None;
+    const osgSkin::AttachedSkin attached =
+        osgSkin::attachSkin(*_skeleton, _cylinder.mesh, {_cylinder.part},
+                            osgSkin::bind(_cylinder.mesh, bones, options));
     _skin = attached.skins.front().drawable;
     _skinSource = attached.skins.front().part.sourceVertex;
     _turn = turnOf(*_skeleton);

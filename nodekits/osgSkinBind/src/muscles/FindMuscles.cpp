@@ -58,7 +58,7 @@ std::string make(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& 
     range.above = hinge.comingFrom;
     range.bone = hinge.boneAxis;
     range.twistAxis = bound[joint].twistAxis;
-    setBendRange(axis, range);
+    setBendRange(axis, along, range);
     muscle.name = options.name;
     muscle.functions = range.functions;
     muscle.functions.joint = static_cast<std::uint32_t>(joint);

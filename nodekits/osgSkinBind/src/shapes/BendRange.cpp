@@ -53,11 +53,17 @@ void setHinge(const glm::dvec3& axis, double mostFlexion, ShapedJoint& joint) {
         functions.knots.push_back(sineOfHalf(angle));
 }
 
-void setRound(double mostFlexion, ShapedJoint& joint) {
+glm::dvec3 perpendicular(const glm::dvec3& across, const glm::dvec3& w) {
+    const glm::dvec3 result = across - glm::dot(across, w) * w;
+    const double length = glm::length(result);
+    return length > 1e-3 * glm::length(across) ? result / length : anyPerpendicular(w);
+}
+
+void setRound(double mostFlexion, const glm::dvec3& across, ShapedJoint& joint) {
     CorrectiveJoint& functions = joint.functions;
     const double most = sineOfHalf(mostFlexion);
     functions.basis = CorrectiveJoint::Basis::Round;
-    functions.axis = anyPerpendicular(joint.twistAxis);
+    functions.axis = perpendicular(across, joint.twistAxis);
     functions.low = glm::dvec2(-most);
     functions.high = glm::dvec2(most);
     for (const double angle : steps(0.0, mostFlexion, kRoundKnotStep))
@@ -66,18 +72,18 @@ void setRound(double mostFlexion, ShapedJoint& joint) {
 
 } // namespace
 
-void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint,
-                  double mostFlexion) {
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, const glm::dvec3& across,
+                  ShapedJoint& joint, double mostFlexion) {
     if (mainAxis)
         setHinge(*mainAxis, mostFlexion, joint);
     else
-        setRound(mostFlexion, joint);
+        setRound(mostFlexion, across, joint);
 }
 
-void setBallRange(ShapedJoint& joint, double mostSwing) {
+void setBallRange(const glm::dvec3& across, ShapedJoint& joint, double mostSwing) {
     CorrectiveJoint& functions = joint.functions;
     functions.basis = CorrectiveJoint::Basis::Ball;
-    functions.axis = anyPerpendicular(joint.twistAxis);
+    functions.axis = perpendicular(across, joint.twistAxis);
     functions.low = glm::dvec2(-sineOfHalf(mostSwing));
     functions.high = -functions.low;
 }

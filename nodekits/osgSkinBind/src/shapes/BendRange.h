@@ -11,15 +11,20 @@ namespace osgSkin {
 
 /// Sets basis, axis, range and knots of a joint's functions.
 /// \param mainAxis of findMainAxis(); nothing: it may bend in any direction
+/// \param across where a joint that bends in any direction has its x axis: a direction of the
+///        body's, so that a body that is turned or mirrored gets the same shapes; may be along the
+///        twist axis
 /// \param joint above, bone and twistAxis are set
 /// \param mostFlexion degrees from the straight limb
-void setBendRange(const std::optional<glm::dvec3>& mainAxis, ShapedJoint& joint,
-                  double mostFlexion = ShapeScope().mostFlexion);
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, const glm::dvec3& across,
+                  ShapedJoint& joint, double mostFlexion = ShapeScope().mostFlexion);
 
 /// The same of a joint at the trunk, which may bend in all directions.
+/// \param across as for setBendRange()
 /// \param joint twistAxis is set
 /// \param mostSwing degrees from the rest pose
-void setBallRange(ShapedJoint& joint, double mostSwing = ShapeScope().mostSwing);
+void setBallRange(const glm::dvec3& across, ShapedJoint& joint,
+                  double mostSwing = ShapeScope().mostSwing);
 
 /// The bends, as coordinates (x, y) of the joint's functions, whose shapes those are fitted to: all
 /// over the range and to its end, the rest pose left out.

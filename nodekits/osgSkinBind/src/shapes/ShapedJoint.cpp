@@ -47,10 +47,31 @@ double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
     return *middle;
 }
 
+/// Whether faces look inwards: volumes count as if they did not.
+bool isInsideOut(const WeldedMesh& mesh) {
+    if (mesh.positions.empty()) return false;
+    const glm::dvec3 from = mesh.positions.front();
+    double volume = 0.0;
+    for (const std::array<std::uint32_t, 3>& t : mesh.triangles)
+        volume += glm::dot(mesh.positions[t[0]] - from,
+                           glm::cross(mesh.positions[t[1]] - from, mesh.positions[t[2]] - from));
+    return volume < 0.0;
+}
+
+/// A direction of the body's across a joint's twist axis: where the root lies, or where the bone
+/// above comes from.
+glm::dvec3 acrossOf(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    const PlannedJoint& planned = joints[joint];
+    const glm::dvec3 fromRoot = planned.centre - joints[0].centre;
+    const bool isAlong =
+        glm::length(glm::cross(fromRoot, planned.twistAxis)) < 0.1 * glm::length(fromRoot);
+    return isAlong ? planned.comingFrom : fromRoot;
+}
+
 /// Adds the vertices and triangles within reach; `above` is the joint that moves the limb above.
 void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
              const JointRatios& ratios, std::uint32_t above, const ShapeScope& scope,
-             ShapedJoint& shaped) {
+             bool insideOut, ShapedJoint& shaped) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
     const double reach = shaped.isAtTrunk() ? scope.reachAtTrunk : scope.reach;
@@ -81,8 +102,9 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
             continue;
         for (const std::uint32_t v : triangle)
             if (placeOf[v] == kNone) add(v, false);
-        shaped.triangles.push_back(
-            {placeOf[triangle[0]], placeOf[triangle[1]], placeOf[triangle[2]]});
+        const std::uint32_t second = placeOf[triangle[insideOut ? 2 : 1]];
+        const std::uint32_t third = placeOf[triangle[insideOut ? 1 : 2]];
+        shaped.triangles.push_back({placeOf[triangle[0]], second, third});
     }
 }
 
@@ -103,6 +125,7 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const ShapeScope& scope) {
     const JointRatios ratios(mesh, binding);
     const std::vector<bool> trunk = trunkByShape(joints, mesh.size);
+    const bool insideOut = isInsideOut(mesh);
     std::vector<ShapedJoint> result;
     std::vector<double> bend(mesh.vertexCount());
     for (std::uint32_t j = 1; j < joints.size(); ++j) {
@@ -123,10 +146,11 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
         if (atTrunk)
-            setBallRange(shaped, scope.mostSwing);
+            setBallRange(acrossOf(joints, j), shaped, scope.mostSwing);
         else
-            setBendRange(findMainAxis(skeleton, joints, j), shaped, scope.mostFlexion);
-        addSkin(mesh, joints, ratios, above, scope, shaped);
+            setBendRange(findMainAxis(skeleton, joints, j), acrossOf(joints, j), shaped,
+                         scope.mostFlexion);
+        addSkin(mesh, joints, ratios, above, scope, insideOut, shaped);
         if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
     }
     return result;

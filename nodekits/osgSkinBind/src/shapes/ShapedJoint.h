@@ -39,7 +39,7 @@ struct ShapedJoint {
     std::vector<Vertex> vertices;
 
     /// Those with a corner within reach; three indices in `vertices` each, which for that has
-    /// vertices beyond the reach, too, with `fade` 0.
+    /// vertices beyond the reach, too, with `fade` 0. They look outwards.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 
     /// True where the bone above is none of a limb's: at shoulders and hips.
