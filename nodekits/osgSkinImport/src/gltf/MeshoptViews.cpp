@@ -102,7 +102,8 @@ public:
         if (packed.count > _room / packed.stride)
             fail("at most " + std::to_string(_file.limits.fileMegabytes) +
                  " MB unpacked in all (option maxFileMB)");
-        if (packed.count * packed.stride / kMostFromOne > packed.length) fail("as many bytes as it says");
+        if (packed.count * packed.stride / kMostFromOne > packed.length)
+            fail("as many bytes as it says");
         std::string bytes(packed.count * packed.stride, '\0');
         const char* const begin = from.data() + packed.offset;
         if (!packed.decode(reinterpret_cast<const unsigned char*>(begin), bytes))
