@@ -218,6 +218,7 @@ TEST(ClearHands, AWalkersHandsKeepOutOfAWideBody) {
     osgSkin::CharacterMotion before = character.motions.front();
     Clip thinned = before.clip; // every twentieth sample will do
     thinned.frames = 0;
+    thinned.frameTime *= 20.0;
     thinned.rotations.clear();
     thinned.rootPositions.clear();
     for (std::size_t f = 0; f < before.clip.frames; f += 20, ++thinned.frames) {

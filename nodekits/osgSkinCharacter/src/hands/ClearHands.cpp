@@ -31,8 +31,30 @@ void check(const Clip& clip, const RestSkeleton& rest, const JointRoles& roles,
         throw Error("clear hands: expected a binding of the mesh to the skeleton");
 }
 
-double degrees(const glm::dquat& q) {
-    return glm::degrees(2.0 * std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), std::abs(q.w)));
+/// Where a hand passes the middle of a limb the shortest way out changes sides: turns are blended
+/// over so many seconds before and after.
+constexpr double kBlend = 0.06;
+
+/// The axis times the angle in radians.
+glm::dvec3 toVector(const glm::dquat& q) {
+    const glm::dvec3 axis = (q.w < 0.0 ? -1.0 : 1.0) * glm::dvec3(q.x, q.y, q.z);
+    const double sine = glm::length(axis);
+    return sine > 0.0 ? 2.0 * std::atan2(sine, std::abs(q.w)) / sine * axis : axis;
+}
+
+/// Blended over time, nearer samples more; zero, to the last bit, where all that are near are.
+glm::dvec3 blended(const std::vector<glm::dvec3>& turns, std::size_t frame, double frameTime) {
+    const auto reach = static_cast<std::ptrdiff_t>(frameTime > 0.0 ? kBlend / frameTime : 0.0);
+    const auto at = static_cast<std::ptrdiff_t>(frame);
+    const auto last = static_cast<std::ptrdiff_t>(turns.size()) - 1;
+    glm::dvec3 sum(0.0);
+    double weights = 0.0;
+    for (auto i = std::max<std::ptrdiff_t>(0, at - reach); i <= std::min(last, at + reach); ++i) {
+        const double weight = double(reach + 1 - std::abs(i - at));
+        sum += weight * turns[static_cast<std::size_t>(i)];
+        weights += weight;
+    }
+    return sum / weights;
 }
 
 PosedJoints restPose(const RestSkeleton& rest) {
@@ -64,24 +86,31 @@ ClearedHands clearHands(Clip& clip, const RestSkeleton& rest, const JointRoles& 
     turns.reserve(body.arms.size());
     for (const ArmPiece& arm : body.arms) turns.emplace_back(arm, body.surfaces, pose);
 
+    // [arm][sample], in the axes of the joint above
+    std::vector<std::vector<glm::dvec3>> found(turns.size(), std::vector<glm::dvec3>(clip.frames));
     for (std::size_t frame = 0; frame < clip.frames; ++frame) {
         worldRotations(rest, &clip.rotations[frame * clip.joints], pose.rotations);
         worldPositions(rest, pose.rotations, clip.rootPositions[frame], pose.centres);
         for (BodySurface& surface : body.surfaces) surface.pose(pose);
         for (std::size_t a = 0; a < turns.size(); ++a) {
-            const glm::dquat turn = turns[a].find(pose);
-            ++result.samples;
-            if (isIdentity(turn)) continue; // to the last bit
             const std::size_t upper = body.arms[a].upper;
             const glm::dquat& above =
                 pose.rotations[static_cast<std::size_t>(rest.joints[upper].parent)];
-            clip.rotations[frame * clip.joints + upper] =
-                glm::normalize(glm::conjugate(above) * turn * pose.rotations[upper]);
-            ++result.turned;
-            result.meanDegrees += degrees(turn);
-            result.largestDegrees = std::max(result.largestDegrees, degrees(turn));
+            found[a][frame] = glm::conjugate(above) * toVector(turns[a].find(pose));
         }
     }
+    for (std::size_t a = 0; a < turns.size(); ++a)
+        for (std::size_t frame = 0; frame < clip.frames; ++frame) {
+            ++result.samples;
+            const glm::dvec3 turn = blended(found[a], frame, clip.frameTime);
+            const double angle = glm::length(turn);
+            if (!(angle > 0.0)) continue; // to the last bit
+            glm::dquat& rotation = clip.rotations[frame * clip.joints + body.arms[a].upper];
+            rotation = glm::normalize(glm::angleAxis(angle, turn / angle) * rotation);
+            ++result.turned;
+            result.meanDegrees += glm::degrees(angle);
+            result.largestDegrees = std::max(result.largestDegrees, glm::degrees(angle));
+        }
     if (result.samples > 0) result.meanDegrees /= double(result.samples);
     return result;
 }
