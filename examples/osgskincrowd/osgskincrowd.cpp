@@ -79,7 +79,7 @@ int runOnCard(const std::vector<std::string>& files, std::size_t count, unsigned
 int main(int argc, char** argv) {
     CLI::App app("Many characters, each in its own phase of its own clip.", "osgskincrowd");
     std::vector<std::string> files = {std::string(OSGSKIN_DATA) + "/thrower.skin"};
-    // From where one sees a crowd, neither shows, and they take a third of a frame.
+    // From where one sees a crowd neither shows, and both take time.
     std::string options = "shapes=none normals=turned";
     std::string pictures;
     std::size_t count = 1000;

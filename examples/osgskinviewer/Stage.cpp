@@ -128,7 +128,6 @@ Stage::Stage(const std::string& character, const std::string& weights,
     if (hasBody()) {
         const osgSkin::Character& loaded = _figure.body->character;
         _bones.emplace(loaded.binding.joints, *loaded.skeleton);
-        _normals.emplace(loaded);
         for (const auto& skin : loaded.skin.skins)
             skin.drawable->setCullCallback(new HideSkin(_productShown));
         for (const auto& rigid : loaded.skin.rigids)
@@ -215,7 +214,9 @@ void Stage::changeJoint(int step) {
 }
 
 void Stage::turnNormals(bool on) {
-    if (!_normals || !_normals->canSwitch()) return;
+    if (!hasBody()) return;
+    if (!_normals) _normals.emplace(_figure.body->character);
+    if (!_normals->canSwitch()) return;
     settings.turnedNormals = on;
     _normals->showTurned(on);
     tense(settings.tensed);

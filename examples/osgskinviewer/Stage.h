@@ -71,7 +71,7 @@ private:
     std::string _file;
     Figure _figure;
     std::optional<osgSkin::BoneReader> _bones; ///< of the body
-    std::optional<NormalsSwitch> _normals;     ///< of the body
+    std::optional<NormalsSwitch> _normals;     ///< of the body, once it was asked for
     std::size_t _motion = 0;
     double _start = 0.0;       ///< simulation time of the motion's beginning
     double _given = 0.0;       ///< the last simulation time that was given
