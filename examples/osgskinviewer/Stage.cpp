@@ -2,9 +2,9 @@
 #include "Stage.h"
 
 #include "Drawing.h"
+#include "Framing.h"
 #include "Ground.h"
 #include "Keys.h"
-#include "StandingHeight.h"
 
 #include <osg/FrameStamp>
 #include <osg/NodeCallback>
@@ -124,7 +124,7 @@ Stage::Stage(const std::string& character, const std::string& weights,
              const osgSkin::LoadOptions& options, int width, int height)
     : _file(character), _figure(character, weights, options), _root(new osg::Group),
       _study(new osg::Group), _lines(new osg::Group), _boxes(new osg::Group),
-      _floor(new osg::MatrixTransform) {
+      _floor(new osg::MatrixTransform), _aspect(static_cast<double>(width) / height) {
     if (hasBody()) {
         const osgSkin::Character& loaded = _figure.body->character;
         _bones.emplace(loaded.binding.joints, *loaded.skeleton);
@@ -166,12 +166,13 @@ Stage::Stage(const std::string& character, const std::string& weights,
 }
 
 void Stage::placeFloor() {
-    const osg::Vec3d centre = _figure.root->getBound().center();
+    _extent = playedExtent(_figure, _motion);
+    const osg::Vec3d centre = _extent.box.center();
     const auto spacing = static_cast<double>(lineSpacing(sizeOf(_figure)));
     // Moved along by whole squares: the origin stays where two lines cross.
     _floor->setMatrix(osg::Matrix::translate(spacing * std::round(centre.x() / spacing),
                                              spacing * std::round(centre.y() / spacing),
-                                             standingHeight(_figure, _motion)));
+                                             _extent.floor));
 }
 
 void Stage::setMotion(std::size_t index) {
@@ -231,8 +232,7 @@ void Stage::tense(bool on) {
 }
 
 example::View Stage::view() const {
-    const osg::BoundingSphere& all = _figure.root->getBound();
-    return {all.center() + osg::Vec3d(0.35, -0.95, 0.2) * (2.9 * all.radius()), all.center()};
+    return example::framed(_extent.box, osg::Vec3d(0.35, -0.95, 0.2), _aspect);
 }
 
 osg::Vec4 Stage::colourOf(std::size_t vertex) const {

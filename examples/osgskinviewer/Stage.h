@@ -5,6 +5,7 @@
 #include "Clock.h"
 #include "Figure.h"
 #include "NormalsSwitch.h"
+#include "PlayedExtent.h"
 #include "Settings.h"
 #include "Snapshots.h"
 
@@ -32,7 +33,7 @@ public:
     Clock clock;
 
     osg::Group* root() const { return _root.get(); }
-    example::View view() const; ///< that shows all of the motion
+    example::View view() const; ///< that shows the figure in all of the motion
 
     std::size_t motionCount() const { return _figure.motionCount(); }
     std::size_t motion() const { return _motion; }
@@ -82,6 +83,8 @@ private:
 
     osg::ref_ptr<osg::Group> _root, _study, _lines, _boxes;
     osg::ref_ptr<osg::MatrixTransform> _floor;
+    PlayedExtent _extent;               ///< of the motion that is shown
+    double _aspect;                     ///< the picture's width to its height
     osg::ref_ptr<osg::StateSet> _state; ///< of the figure
     osg::ref_ptr<osg::Node> _help;
     osg::ref_ptr<osgText::Text> _status;

@@ -76,6 +76,14 @@ done
 changed=$(compare -metric AE -fuzz 3% "$folder"/{low,feet}/viewer_01.png null: 2>&1 || true)
 [ "${changed%.*}" -lt 200 ] || fail "the floor is elsewhere where the origin is: $changed pixels"
 
+# The camera goes by the figure, wherever a ball flies: what wireframe changes is large and in the middle.
+mkdir -p "$folder/home"
+"$program" --paused --keys iw --width 320 --height 280 --pictures "$folder/home" >/dev/null
+read -r width height x y < <(convert "$folder"/home/viewer_0[12].png -compose difference -composite \
+  -colorspace gray -threshold 3% -trim -format '%w %h %X %Y\n' info: | tr -d +)
+[ "$height" -ge 150 ] && [ "$y" -gt 0 ] && [ $((y + height)) -lt 280 ] || fail "$height pixels of 280 tall at $y"
+[ "$x" -gt 40 ] && [ $((x + width)) -lt 280 ] || fail "the figure is at $x, $width pixels wide, of 320"
+
 # A paused skin takes no time, and that is no negative number.
 "$program" --paused --times --keys iiii --width 320 --height 280 --pictures "$folder" >"$folder/times.txt"
 grep -c 'the skin [0-9.]* ms$' "$folder/times.txt" | grep -qx 5 || fail "times: $(cat "$folder/times.txt")"
