@@ -165,6 +165,35 @@ void poseSetUp(benchmark::State& state) {
     }
 }
 
+double volumeOf(const glm::vec3& low, const glm::vec3& high) {
+    const glm::dvec3 size = high - low;
+    return size.x * size.y * size.z;
+}
+
+/// Volume of the poses' bounds against that of the tight boxes, in the mean; 0 where a vertex is
+/// not within its bounds.
+double looseness(const osgSkin::SkinModel& model, const std::vector<osgSkin::Pose>& poses) {
+    std::vector<glm::vec3> positions(model.vertexCount());
+    osgSkin::DeformJob job;
+    job.model = &model;
+    job.positions = positions.data();
+    job.positionCount = positions.size();
+    double sum = 0.0;
+    for (const osgSkin::Pose& pose : poses) {
+        job.pose = &pose;
+        job.run();
+        glm::vec3 low = positions.front(), high = low;
+        for (const glm::vec3& p : positions) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        const osgSkin::PoseBounds bounds = osgSkin::computePoseBounds(model, pose);
+        if (low != glm::max(low, bounds.low) || high != glm::min(high, bounds.high)) return 0.0;
+        sum += volumeOf(bounds.low, bounds.high) / volumeOf(low, high);
+    }
+    return sum / static_cast<double>(poses.size());
+}
+
 void poseBounds(benchmark::State& state) {
     const bench::Body& body = bench::body(1);
     const auto model = body.model();
@@ -177,6 +206,7 @@ void poseBounds(benchmark::State& state) {
     for ([[maybe_unused]] auto iteration : state)
         benchmark::DoNotOptimize(osgSkin::computePoseBounds(*model, poses[frame++ % poses.size()]));
     count(state, body.positions.size());
+    state.counters["x tight"] = looseness(*model, poses);
 }
 
 void describe() {

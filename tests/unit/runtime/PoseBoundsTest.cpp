@@ -6,6 +6,7 @@
 #include "Turns.h"
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <limits>
@@ -140,6 +141,16 @@ TEST(PoseBounds, ContainVerticesOfTwoBranches) {
 
 TEST(PoseBounds, ContainEveryVertexAndStayClose) {
     EXPECT_LE(checkBounds(1.0), 1.35);
+}
+
+TEST(PoseBounds, ContainEveryVertexByEveryInstructionSet) {
+    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1) {
+        SCOPED_TRACE(hwy::TargetName(rest & -rest));
+        hwy::SetSupportedTargetsForTest(rest & -rest);
+        EXPECT_LE(checkBounds(1.0), 1.35);
+        checkBounds(1.2);
+    }
+    hwy::SetSupportedTargetsForTest(0);
 }
 
 TEST(PoseBounds, ContainEveryVertexOfScaledJoints) {

@@ -3,6 +3,7 @@
 
 #include "model/CorrectiveBlocks.h"
 #include "model/PieceVertices.h"
+#include "model/SkinBlocks.h"
 #include "model/SkinModelAccess.h"
 #include "model/SkinPieces.h"
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace osgSkin {
 namespace {
@@ -258,20 +260,38 @@ struct CutPiece {
     CutPiece(const PieceVertices& vertices, SkinPiece&& piece)
         : cut(std::move(piece)), terms(vertices, cut), shares(terms.shares()) {}
 
-    /// The joint that it moves with most, then all that it moves with: pieces are sorted by that.
-    std::vector<std::uint32_t> joints() const {
-        std::vector<std::uint32_t> result(1);
-        float most = 0.0f;
-        for (const auto& [joint, share] : shares) {
-            if (share.weight == 0.0f) continue;
-            result.push_back(joint);
-            if (share.weight <= most) continue;
-            most = share.weight;
-            result.front() = joint;
-        }
+    /// The joints that it moves with.
+    std::set<std::uint32_t> joints() const {
+        std::set<std::uint32_t> result;
+        for (const auto& [joint, share] : shares)
+            if (share.weight != 0.0f) result.insert(joint);
         return result;
     }
 };
+
+using CutPieces = std::vector<std::unique_ptr<CutPiece>>;
+
+/// Puts pieces into an order in which those of a block move with few joints altogether: what a
+/// block takes grows with these. One with many joints begins, those that add the fewest follow.
+void orderByJoints(CutPieces& pieces) {
+    std::vector<std::set<std::uint32_t>> joints;
+    for (const std::unique_ptr<CutPiece>& piece : pieces) joints.push_back(piece->joints());
+    std::set<std::uint32_t> block;
+    const auto added = [&](const std::set<std::uint32_t>& by) {
+        return std::count_if(by.begin(), by.end(), [&](auto j) { return block.count(j) == 0; });
+    };
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (i % BoundsProxy::kAtOnce == 0) block.clear();
+        std::size_t next = i;
+        for (std::size_t k = i + 1; k < pieces.size(); ++k) {
+            const auto more = block.empty() ? 0 : added(joints[k]) - added(joints[next]);
+            if (more < 0 || (more == 0 && joints[k].size() > joints[next].size())) next = k;
+        }
+        std::swap(pieces[i], pieces[next]);
+        std::swap(joints[i], joints[next]);
+        block.insert(joints[i].begin(), joints[i].end());
+    }
+}
 
 /// Adds `count` pieces, from the proxy's piece `first` on, as a block.
 void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::size_t first,
@@ -284,9 +304,9 @@ void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::s
         const std::size_t i = lane < count ? lane : 0;
         const BoundsProxy::Piece& piece = proxy.pieces[first + i];
         for (int axis = 0; axis < 3; ++axis) {
-            block.centre[axis].lane[lane] = piece.rest.centre[axis];
+            block.centre[axis].lane[lane] = piece.centre[axis];
             for (int side = 0; side < 3; ++side)
-                block.axes[side][axis].lane[lane] = piece.rest.axes[side][axis];
+                block.axes[side][axis].lane[lane] = piece.axes[side][axis];
         }
         block.corrected.lane[lane] = piece.corrected;
         for (const auto& [joint, of] : pieces[i]->shares) {
@@ -313,9 +333,12 @@ void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::s
 }
 
 void addJoints(const SkinModel& model, BoundsProxy& proxy) {
-    for (const BoundJoint& joint : model.joints())
-        proxy.joints.push_back(
-            {four(glm::vec3(joint.centre)), four(glm::vec3(joint.twistAxis)), joint.parent, false});
+    for (const BoundJoint& joint : model.joints()) {
+        const glm::dmat3 frame = jointFrame(joint);
+        proxy.joints.push_back({four(glm::vec3(joint.centre)), four(glm::vec3(frame[2])),
+                                four(glm::vec3(frame[0])), four(glm::vec3(frame[1])), joint.parent,
+                                false});
+    }
     for (const BoundsProxy::Piece& piece : proxy.pieces) proxy.joints[piece.anchor].isNeeded = true;
     for (const BoundsProxy::Term& term : proxy.terms) proxy.joints[term.joint].isNeeded = true;
     for (const BoundsProxy::Share& share : proxy.shares) proxy.joints[share.joint].isNeeded = true;
@@ -343,15 +366,15 @@ std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
     const PieceVertices vertices(model);
     const std::size_t most =
         SkinModelAccess::correctives(model) ? BoundsProxy::kMostCorrected : BoundsProxy::kMost;
-    std::vector<std::unique_ptr<CutPiece>> pieces;
+    CutPieces pieces;
     for (SkinPiece& piece :
          cutSkin(vertices, extent, std::min(most, model.vertexCount() / kLeastVertices)))
         pieces.push_back(std::make_unique<CutPiece>(vertices, std::move(piece)));
-    std::stable_sort(pieces.begin(), pieces.end(),
-                     [](const auto& a, const auto& b) { return a->joints() < b->joints(); });
+    orderByJoints(pieces);
     for (const std::unique_ptr<CutPiece>& from : pieces) {
         BoundsProxy::Piece piece{};
-        piece.rest = from->cut.shape;
+        piece.centre = four(from->cut.shape.centre);
+        for (int side = 0; side < 3; ++side) piece.axes[side] = four(from->cut.shape.axes[side]);
         from->terms.addTo(*proxy, piece);
         addCorrections(vertices, from->cut.rows, *proxy, piece);
         proxy->pieces.push_back(piece);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "points/EllipticCylinder.h"
 #include "points/Four.h"
 
 #include <osgSkin/SkinModel>
@@ -28,8 +27,8 @@ namespace osgSkin {
 ///
 /// Most pieces are well inside the box, which a cheaper bound shows, several at once: that their
 /// vertices are not far from where linear blending puts them, by one ratio s_k of the piece a
-/// joint. With `far` what `high` cannot exceed however joints turn, and t_k = psi_k + |phi_k|, they
-/// stray from that by
+/// joint (of bends: those take vertices further than twists do). With `far` what `high` cannot
+/// exceed however joints turn, and t_k = psi_k + |phi_k|, they stray from that by
 ///
 /// - other ratios than s_k: |bend of r - s_k| psi_k high + |twist of r - s_k| |phi_k| wide at rest,
 ///   and by what the joints i applied before move them: |r - s_k| t_k r_i t_i far;
@@ -44,6 +43,7 @@ struct BoundsProxy {
     /// A joint at rest, in single precision.
     struct Joint {
         Four centre, twistAxis;
+        Four e1, e2; ///< with the twist axis, jointFrame()
         int parent;
         bool isNeeded; ///< a piece follows it, or a joint below it
     };
@@ -67,8 +67,8 @@ struct BoundsProxy {
         std::uint32_t firstReach; ///< in `reach`: one for each mode
     };
     struct Piece {
-        EllipticCylinder rest;
-        float corrected; ///< how far correctives can take a vertex in any pose, or more
+        Four centre, axes[3]; ///< an EllipticCylinder
+        float corrected;      ///< how far correctives can take a vertex in any pose, or more
         std::uint32_t anchor;
         std::uint32_t firstTerm, termCount; ///< innermost (applied first) first
         std::uint32_t firstCorrection, correctionCount;

@@ -34,9 +34,10 @@ struct PieceRatios {
     bool isWhole() const { return low >= 1.0f - kSnapped && lowTwist >= 1.0f - kSnapped; }
     bool isNothing() const { return high <= kSnapped && highTwist <= kSnapped; }
     bool isConstant() const { return low == high && lowTwist == highTwist; }
-    /// One ratio for all, bend and twist.
+    /// One ratio for all, bend and twist: bends move vertices further, and where a twist builds up
+    /// along a bone nothing bends.
     float snapped() const {
-        const float ratio = 0.5f * (std::min(low, lowTwist) + std::max(high, highTwist));
+        const float ratio = middle();
         return ratio < kNear ? 0.0f : ratio > 1.0f - kNear ? 1.0f : ratio;
     }
     float middle() const { return 0.5f * (low + high); }

@@ -73,14 +73,30 @@ inline FourMap operator*(const FourMap& a, const FourMap& b) noexcept {
     return {{a.turn(b.column[0]), a.turn(b.column[1]), a.turn(b.column[2]), a * b.column[3]}};
 }
 
-/// The rotation of a unit quaternion s + x i + y j + z k, about the origin.
-inline FourMap rotation(float s, float x, float y, float z) noexcept {
-    const float x2 = x + x, y2 = y + y, z2 = z + z;
-    const float xx = x * x2, yy = y * y2, zz = z * z2, xy = x * y2, xz = x * z2, yz = y * z2;
-    const float sx = s * x2, sy = s * y2, sz = s * z2;
-    return {{four(1.0f - yy - zz, xy + sz, xz - sy, 0.0f),
-             four(xy - sz, 1.0f - xx - zz, yz + sx, 0.0f),
-             four(xz + sy, yz - sx, 1.0f - xx - yy, 0.0f), all(0.0f)}};
+/// The rotation of a unit quaternion q[3] + q[0] i + q[1] j + q[2] k, about the origin.
+inline FourMap rotation(const Four& q) noexcept {
+    // 2 q_i q + 2 q_w (q_w e_i + q x e_i) - e_i, whose spare number is nothing.
+    const Four x = four(q[0], q[1], q[2], 0.0f);
+    const Four twice = x + x, w = all(q[3] + q[3]);
+    return {{twice[0] * x + w * four(q[3], q[2], -q[1], 0.0f) - four(1.0f, 0.0f, 0.0f, 0.0f),
+             twice[1] * x + w * four(-q[2], q[3], q[0], 0.0f) - four(0.0f, 1.0f, 0.0f, 0.0f),
+             twice[2] * x + w * four(q[1], -q[0], q[3], 0.0f) - four(0.0f, 0.0f, 1.0f, 0.0f),
+             all(0.0f)}};
+}
+
+/// Sines and cosines of two angles up to pi: (sin a, sin b, cos a, cos b), within 1e-7.
+inline Four sinesAndCosines(float a, float b) noexcept {
+    constexpr float pi = 3.14159265f;
+    // cos x = sin(pi / 2 - x); from a quarter turn on, sin x = sin(pi - x).
+    const Four x = four(a, b, 0.5f * pi - a, 0.5f * pi - b);
+    const Four h = max(min(x, all(pi) - x), all(-pi) - x);
+    const Four t = h * h;
+    // Minimax for sin(h) / h up to pi / 2.
+    constexpr float c[] = {9.9999997659e-01f, -1.6666647633e-01f, 8.3328997978e-03f,
+                           -1.9800896183e-04f, 2.5904852963e-06f};
+    Four sum = all(c[4]);
+    for (int i = 3; i >= 0; --i) sum = sum * t + all(c[i]);
+    return h * sum;
 }
 
 } // namespace osgSkin

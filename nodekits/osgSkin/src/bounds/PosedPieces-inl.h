@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "bounds/PosedPieces.h"
+//
+// Included by BoundsKernel.cpp once for each instruction set.
+#if defined(OSGSKIN_POSEDPIECES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef OSGSKIN_POSEDPIECES_INL_H
+#undef OSGSKIN_POSEDPIECES_INL_H
+#else
+#define OSGSKIN_POSEDPIECES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "bounds/BoundsKernel.h"
+#include "bounds/JointMotions-inl.h"
 
 #include <algorithm>
 
+HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
-namespace {
+namespace HWY_NAMESPACE {
 
 constexpr float kRounding = 2e-6f; ///< of a coordinate: several roundings
 
@@ -12,9 +25,8 @@ constexpr float kRounding = 2e-6f; ///< of a coordinate: several roundings
 struct PosedPiece {
     Four centre, axes[3];
 
-    explicit PosedPiece(const EllipticCylinder& rest) noexcept : centre(four(rest.centre)) {
-        for (int i = 0; i < 3; ++i) axes[i] = four(rest.axes[i]);
-    }
+    explicit PosedPiece(const BoundsProxy::Piece& rest) noexcept
+        : centre(rest.centre), axes{rest.axes[0], rest.axes[1], rest.axes[2]} {}
     void move(const FourMap& map) noexcept {
         centre = map * centre;
         for (Four& axis : axes) axis = map.turn(axis);
@@ -24,11 +36,45 @@ struct PosedPiece {
     }
 };
 
-} // namespace
+/// Boxes of single pieces of skin, moved by a pose's joints.
+class PosedPieces {
+public:
+    /// \param proxy of the pose's model
+    /// \param motions the pose's
+    /// \param corrections null where there are none
+    PosedPieces(const BoundsProxy& proxy, const JointMotions& motions,
+                CorrectiveStray* corrections) noexcept
+        : _proxy(proxy), _motions(motions), _corrections(corrections) {}
+
+    /// How far correctives take a piece's vertices.
+    float corrected(const BoundsProxy::Piece& piece) const noexcept {
+        return _corrections ? _corrections->of(piece) : 0.0f;
+    }
+
+    /// The box of a piece that is turned as its vertices are.
+    ///
+    /// \param piece of the proxy
+    /// \param corrected of the piece
+    FourBox turned(const BoundsProxy::Piece& piece, float corrected) const noexcept;
+
+private:
+    struct Strays {
+        float free = 0.0f;     ///< how far vertices stray before the anchor moves them
+        float anchored = 0.0f; ///< how much more by what they have less of the anchor
+        float grown = 1.0f;    ///< the scale of the first, at least 1
+    };
+    template <bool Plain>
+    Strays straysOf(const BoundsProxy::Piece& piece) const noexcept;
+
+    const BoundsProxy& _proxy;
+    const JointMotions& _motions;
+    CorrectiveStray* _corrections;
+};
 
 /// \tparam Plain whether no joint is moved or scaled
 template <bool Plain>
-PosedPieces::Strays PosedPieces::straysOf(const BoundsProxy::Piece& piece) const noexcept {
+HWY_INLINE PosedPieces::Strays
+PosedPieces::straysOf(const BoundsProxy::Piece& piece) const noexcept {
     Strays result;
     float before = 0.0f;
     const BoundsProxy::Term* term = _proxy.terms.data() + piece.firstTerm;
@@ -62,11 +108,11 @@ PosedPieces::Strays PosedPieces::straysOf(const BoundsProxy::Piece& piece) const
     return result;
 }
 
-void PosedPieces::add(const BoundsProxy::Piece& piece, FourBox& box) noexcept {
+HWY_INLINE FourBox PosedPieces::turned(const BoundsProxy::Piece& piece,
+                                       float corrected) const noexcept {
     const JointMotion& anchor = _motions[piece.anchor];
     const Strays strays = _motions.isPlain() ? straysOf<true>(piece) : straysOf<false>(piece);
-    const float corrected = _corrections ? _corrections->of(piece) : 0.0f;
-    PosedPiece posed(piece.rest);
+    PosedPiece posed(piece);
     const BoundsProxy::Term* term = _proxy.terms.data() + piece.firstTerm;
     for (const auto* end = term + piece.termCount; term != end; ++term)
         if (term->turns) posed.move(_motions.partialTurn(*term));
@@ -74,8 +120,11 @@ void PosedPieces::add(const BoundsProxy::Piece& piece, FourBox& box) noexcept {
     const float more = anchor.growthHere * (strays.free + strays.grown * corrected) +
                        strays.anchored + _proxy.rounding;
     const Four half = posed.half() + all(more) + kRounding * abs(posed.centre);
-    box.low = min(box.low, posed.centre - half);
-    box.high = max(box.high, posed.centre + half);
+    return {posed.centre - half, posed.centre + half};
 }
 
+} // namespace HWY_NAMESPACE
 } // namespace osgSkin
+HWY_AFTER_NAMESPACE();
+
+#endif
