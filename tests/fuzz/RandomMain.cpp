@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// fuzz_TARGET SECONDS FOUND [--words DICTIONARY] SEED_FILE...: where there is no libFuzzer, runs a
+// target on files changed at random, the same ones each time. An input that ends the program, or
+// keeps it for ten seconds, is written to FOUND.
+#include "Mutator.h"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+constexpr unsigned kHang = 10; ///< seconds
+
+const char* found;
+const std::string* running;
+
+/// Only what a signal's handler may call.
+void keep(int signal) {
+    const int file = ::open(found, O_CREAT | O_TRUNC | O_WRONLY, 0644);
+    const bool isKept = file >= 0 && ::write(file, running->data(), running->size()) >= 0;
+    const char* said =
+        signal == SIGALRM ? "An input takes too long\n" : "An input ends the program\n";
+    if (isKept && ::write(STDERR_FILENO, said, std::strlen(said)) < 0) ::_exit(2);
+    ::_exit(1);
+}
+
+std::string contents(const char* path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The words of a dictionary in libFuzzer's form: one in quotes a line, with \\, \" and \xAB.
+std::vector<std::string> wordsOf(const char* path) {
+    std::vector<std::string> words;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t from = line.find('"'), to = line.rfind('"');
+        if (line.empty() || line[0] == '#' || from == to) continue;
+        std::string word;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            if (line[i] == '\\' && line[i + 1] == 'x') {
+                word += char(std::strtol(line.substr(i + 2, 2).c_str(), nullptr, 16));
+                i += 3;
+            } else
+                word += line[i] == '\\' ? line[++i] : line[i];
+        }
+        words.push_back(word);
+    }
+    return words;
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    if (count < 3) {
+        std::fprintf(stderr, "usage: %s SECONDS FOUND [--words DICTIONARY] SEED_FILE...\n",
+                     arguments[0]);
+        return 2;
+    }
+    found = arguments[2];
+    std::vector<std::string> words, seeds;
+    for (int i = 3; i < count; ++i) {
+        if (!std::strcmp(arguments[i], "--words") && i + 1 < count)
+            words = wordsOf(arguments[++i]);
+        else
+            seeds.push_back(contents(arguments[i]));
+    }
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM})
+        std::signal(signal, keep);
+
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + std::chrono::seconds(std::atoi(arguments[1]));
+    fuzz::Mutator mutator(std::move(seeds), std::move(words), 65536, 1);
+    long executions = 0;
+    for (; Clock::now() < end; ++executions) {
+        const std::string input = mutator.next();
+        running = &input;
+        ::alarm(kHang);
+        LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+        ::alarm(0);
+    }
+    std::printf("%ld executions\n", executions);
+    return 0;
+}
