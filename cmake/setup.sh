@@ -5,7 +5,7 @@ osgskin_build_packages="g++ cmake ninja-build pkg-config libopenscenegraph-dev o
   libglm-dev libcgal-dev libeigen3-dev libassimp-dev libtinyobjloader-dev nlohmann-json3-dev
   libcli11-dev libhwy-dev libtbb-dev libmeshoptimizer-dev"
 osgskin_show_packages="xvfb imagemagick libgl1-mesa-dri"
-osgskin_test_packages="libgtest-dev libbenchmark-dev libegl-dev libegl1 binutils dpkg-dev file assimp-testmodels python3 universal-ctags"
+osgskin_test_packages="libgtest-dev libbenchmark-dev libegl-dev libegl1 binutils dpkg-dev file locales assimp-testmodels python3 universal-ctags"
 
 # osgskin_install PACKAGE...: installs the Debian packages that are missing.
 osgskin_install() {

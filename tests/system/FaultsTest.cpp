@@ -17,6 +17,7 @@
 #include <fstream>
 #include <iterator>
 #include <locale>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -47,21 +48,35 @@ struct Comma : std::numpunct<char> {
     std::string do_grouping() const override { return "\3"; }
 };
 
-/// Sets it for the program, in C++ and, where the system has one, in C.
+/// Sets it for the program, in C++ and in C, by a locale made for this test.
 class CommaLocale {
 public:
     CommaLocale() : _before(std::locale::global(std::locale(std::locale(), new Comma))) {
-        for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8"})
-            if (std::setlocale(LC_ALL, name) != nullptr) break;
+        const std::string& folder = madeLocales();
+        ::setenv("LOCPATH", folder.c_str(), 1);
+        if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr ||
+            *std::localeconv()->decimal_point != ',')
+            throw std::runtime_error("no locale with a decimal comma in " + folder);
     }
     ~CommaLocale() {
         std::locale::global(_before);
         std::setlocale(LC_ALL, "C");
+        ::unsetenv("LOCPATH");
     }
     CommaLocale(const CommaLocale&) = delete;
     CommaLocale& operator=(const CommaLocale&) = delete;
 
 private:
+    static const std::string& madeLocales() {
+        static const std::string folder = [] {
+            std::string made = test::makeTestFolder() + "/locales";
+            fs::create_directories(made);
+            test::runCommand("localedef -i de_DE -f UTF-8 '" + made + "/de_DE.UTF-8'", made);
+            return made;
+        }();
+        return folder;
+    }
+
     std::locale _before;
 };
 
@@ -105,6 +120,24 @@ TEST(Faults, ADecimalCommaIsNoneOfOurs) {
     const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(saved);
     ASSERT_TRUE(plain && read);
     EXPECT_EQ(read->getBound().radius(), plain->getBound().radius());
+}
+
+TEST(Faults, WhatCannotBeWrittenIsSaid) {
+    const std::string folder = test::makeTestFolder();
+    const std::string good = "'" + kParts + "good.skin' --quiet ";
+    fs::create_directories(folder + "/taken.glb");
+    write(folder + "/file", "whole");
+    for (const char* out :
+         {"--out nowhere/o.glb", "--out file/o.glb", "--out taken.glb", "--rest nowhere/r.obj",
+          "--pose nowhere/p.json", "--out nowhere/f%d.ply"}) {
+        const auto result = test::runBake(good + out, folder);
+        EXPECT_EQ(result.status, 1) << out;
+        EXPECT_NE(result.err.find("cannot be written"), std::string::npos)
+            << out << ": " << result.err;
+    }
+    EXPECT_EQ(bytesOf(folder + "/file"), "whole");
+    EXPECT_TRUE(fs::is_empty(folder + "/taken.glb"));
+    EXPECT_FALSE(fs::exists(folder + "/nowhere"));
 }
 
 TEST(Faults, LinesMayEndAsOtherSystemsEndThem) {
