@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "CharacterBench.h"
 
-#include "BenchBody.h"
 #include "OsgRig.h"
 
 #include <osgSkin/DeformJob>
@@ -72,22 +71,22 @@ ownCharacter(const Body& body, const osg::ref_ptr<const osgSkin::SkinModel>& mod
 /// A scene and its frames.
 class Scene {
 public:
-    explicit Scene(Player player) {
-        const Body& body = bench::body(1);
+    Scene(Player player, Kind kind) {
+        const Body& body = bench::body(1, kind);
         const auto model = body.model();
         osg::ref_ptr<osgSkin::ClipCharacter> copies;
         osg::ref_ptr<const osgSkin::SampledClip> clip;
-        if (player == Player::Baked || player == Player::Sampled) {
+        if (player == Player::Baked || player == Player::Between || player == Player::Sampled) {
             const osg::ref_ptr<osg::Group> character = ownCharacter(body, model, 0.0);
             copies = osgSkin::ClipCharacter::create(*character);
             clip = copies->sample(*copies->animations().front());
-            if (player == Player::Baked) copies->bake(clip);
+            if (player != Player::Sampled) copies->bake(clip);
         }
         for (unsigned int i = 0; i < kInScene; ++i) {
             const double phase = kPhase * i;
             if (copies) {
                 const auto copy = copies->makeInstance();
-                copy.player->setInterpolated(player == Player::Sampled);
+                copy.player->setInterpolated(player != Player::Baked);
                 copy.player->setTrack(0, {clip, phase});
                 _scene->addChild(copy.node);
             } else if (player == Player::Skeleton) {
@@ -142,15 +141,15 @@ private:
 
 } // namespace
 
-void characters(benchmark::State& state, Player player) {
-    Scene scene(player);
+void characters(benchmark::State& state, Player player, Kind kind) {
+    Scene scene(player, kind);
     for ([[maybe_unused]] auto iteration : state) scene.frame();
     state.counters["vertices"] =
         static_cast<double>(kInScene) * static_cast<double>(bench::body(1).positions.size());
 }
 
-void deformationAlone(benchmark::State& state) {
-    const Body& body = bench::body(1);
+void deformationAlone(benchmark::State& state, Kind kind) {
+    const Body& body = bench::body(1, kind);
     const auto model = body.model();
     std::vector<osgSkin::Pose> poses(kInScene, osgSkin::Pose(model->joints()));
     for (std::size_t i = 0; i < kInScene; ++i) {

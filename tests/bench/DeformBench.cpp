@@ -274,16 +274,22 @@ int main(int argc, char** argv) {
                                      bench::crowd, threads)
             ->Unit(benchmark::kMillisecond)
             ->UseRealTime();
-    const auto addCharacters = [](const char* name, bench::Player player) {
-        benchmark::RegisterBenchmark(name, bench::characters, player)
-            ->Unit(benchmark::kMicrosecond);
-    };
-    benchmark::RegisterBenchmark("frame, deformation alone/20", bench::deformationAlone)
+    // The paper's model, and what characters have by default.
+    for (const auto& [frame, kind] : {std::pair("frame, ", bench::Kind::Turned),
+                                      std::pair("frame, fast shapes, ", bench::Kind::Shaped)}) {
+        const auto add = [name = std::string(frame)](const char* what, auto run, auto... more) {
+            benchmark::RegisterBenchmark((name + what + "/20").c_str(), run, more...)
+                ->Unit(benchmark::kMicrosecond);
+        };
+        add("alone", bench::deformationAlone, kind);
+        add("baked", bench::characters, bench::Player::Baked, kind);
+        add("baked, between", bench::characters, bench::Player::Between, kind);
+        add("sampled", bench::characters, bench::Player::Sampled, kind);
+        add("skeleton", bench::characters, bench::Player::Skeleton, kind);
+    }
+    benchmark::RegisterBenchmark("frame, osgAnimation/20", bench::characters,
+                                 bench::Player::OsgAnimation, bench::Kind::Turned)
         ->Unit(benchmark::kMicrosecond);
-    addCharacters("frame, clip baked/20", bench::Player::Baked);
-    addCharacters("frame, clip sampled/20", bench::Player::Sampled);
-    addCharacters("frame, skeleton/20", bench::Player::Skeleton);
-    addCharacters("frame, osgAnimation/20", bench::Player::OsgAnimation);
     bench::RatioTable table;
     benchmark::RunSpecifiedBenchmarks(&table);
     return 0;

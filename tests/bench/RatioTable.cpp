@@ -6,6 +6,15 @@
 
 namespace bench {
 
+namespace {
+
+/// The deformation that a frame is compared with: the same skins'.
+std::string aloneOf(const std::string& frame) {
+    return frame.find("shapes") == std::string::npos ? "frame, alone" : "frame, fast shapes, alone";
+}
+
+} // namespace
+
 double RatioTable::Row::median() const {
     if (seconds.empty()) return reportedMedian;
     std::vector<double> sorted = seconds;
@@ -49,20 +58,21 @@ void RatioTable::ReportRuns(const std::vector<Run>& runs) {
 void RatioTable::Finalize() {
     ConsoleReporter::Finalize();
     std::printf("\nMedians, positions and normals, pose set-up included\n"
-                "%-24s %8s %12s %10s %12s %18s\n",
+                "%-34s %8s %12s %10s %12s %18s\n",
                 "", "vertices", "us/update", "ns/vertex", "x memcpy", "x osgAnimation");
     for (const Row& row : _rows) {
         const double seconds = row.median();
-        std::printf("%-24s ", (row.what + "/" + row.size).c_str());
+        std::printf("%-34s ", (row.what + "/" + row.size).c_str());
         if (row.vertices == 0.0) {
             std::printf("%8s %12.2f\n", "", 1e6 * seconds);
             continue;
         }
         std::printf("%8.0f %12.2f %10.2f", row.vertices, 1e6 * seconds,
                     1e9 * seconds / row.vertices);
-        if (const Row* copy = find("memcpy", row.size))
-            std::printf(" %10.2f x", seconds / copy->median());
-        if (const Row* rig = find("osgAnimation", row.size))
+        const bool isFrame = row.what.rfind("frame, ", 0) == 0;
+        const Row* copy = find(isFrame ? aloneOf(row.what) : "memcpy", row.size);
+        if (copy) std::printf(" %10.2f x%s", seconds / copy->median(), isFrame ? " alone" : "");
+        if (const Row* rig = find(isFrame ? "frame, osgAnimation" : "osgAnimation", row.size))
             std::printf(" %11.1f x faster", rig->median() / seconds);
         std::printf("\n");
     }

@@ -252,6 +252,61 @@ TEST(ClipPlayer, PosesAsTheSkeletonDoes) {
     }
 }
 
+TEST(ClipPlayer, BakedBoundsHoldTheSkinBetweenSamples) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    std::mt19937_64 random(17);
+    std::uniform_real_distribution<double> at(-1.0, 3.0);
+    for (const double speed : {0.3, 0.8, 2.6, 3.5}) { // the last ones turn joints half around
+        const auto clip = SampledClip::create(someClip(12, speed), character.rig);
+        copies->bake(clip);
+        const auto copy = copies->makeInstance();
+        osgSkin::DeformableSkin& skin = skinOf(*copy.node);
+        double mean = 0.0;
+        constexpr int kTimes = 400;
+        for (int i = 0; i < kTimes; ++i) {
+            copy.player->setTrack(0, {clip, at(random) * clip->duration(), 1.0, i % 2 == 0});
+            osg::BoundingBox tight;
+            for (const osg::Vec3& p : posedBy(*copy.player, skin)) {
+                ASSERT_TRUE(skin.getBoundingBox().contains(p)) << speed;
+                tight.expandBy(p);
+            }
+            const osg::Vec3d is = skin.getBoundingBox()._max - skin.getBoundingBox()._min;
+            const osg::Vec3d least = tight._max - tight._min;
+            mean += is.x() * is.y() * is.z() / (least.x() * least.y() * least.z()) / kTimes;
+        }
+        if (speed < 1.0) {
+            EXPECT_LE(mean, 1.2) << speed;
+        }
+    }
+}
+
+TEST(ClipPlayer, BlendsBetweenBakedClipsAreBoundedToo) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto slow = SampledClip::create(someClip(12, 0.3), character.rig);
+    const auto fast = SampledClip::create(someClip(9, 1.2), character.rig);
+    copies->bake(slow);
+    copies->bake(fast);
+    const auto copy = copies->makeInstance();
+    osgSkin::DeformableSkin& skin = skinOf(*copy.node);
+    const auto expectHeld = [&] {
+        for (const osg::Vec3& p : posedBy(*copy.player, skin))
+            ASSERT_TRUE(skin.getBoundingBox().contains(p, 1e-5f));
+    };
+    for (int i = 0; i < 60; ++i) {
+        copy.player->setTrack(0, {slow, 0.013 * i});
+        copy.player->setTrack(1, {fast, 0.017 * i});
+        for (const double weight : {0.0, 0.4, 1.0}) {
+            copy.player->setWeight(weight);
+            expectHeld();
+        }
+        copy.player->setRoot(ClipPlayer::Root::InPlace);
+        expectHeld();
+        copy.player->setRoot(ClipPlayer::Root::Moving);
+    }
+}
+
 TEST(ClipPlayer, LoopsWithoutASeam) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);

@@ -165,6 +165,14 @@ bool DeformableSkin::setPose(const JointMap* own, std::size_t count, Pose::Twist
     return true;
 }
 
+bool DeformableSkin::setPose(const JointMap* own, std::size_t count,
+                             const osg::BoundingBox& bounds) {
+    bool changed = false;
+    if (!_model || !_pose.set(own, count, Pose::Twist::Shortest, &changed)) return false;
+    if (changed) poseChanged(bounds);
+    return true;
+}
+
 bool DeformableSkin::setPose(const Pose& pose, const osg::BoundingBox& bounds) {
     bool changed = false;
     if (!_model || !_pose.setJoints(pose, &changed)) return false;

@@ -2,6 +2,7 @@
 #include <osgSkinRig/ClipCharacter>
 
 #include "clips/BakedClip.h"
+#include "clips/BoundWay.h"
 
 #include <osgSkin/DeformJob>
 #include <osgSkin/Error>
@@ -10,6 +11,8 @@
 
 #include <osg/NodeVisitor>
 #include <osgAnimation/BasicAnimationManager>
+
+#include <array>
 
 namespace osgSkin {
 namespace {
@@ -43,16 +46,21 @@ osg::NodePath toSkeleton(osg::NodePath path) {
     return path;
 }
 
-osg::BoundingBox boundsOf(const SkinModel& model, const Pose& pose) {
-    std::vector<glm::vec3> positions(model.vertexCount());
+SkinMoment momentOf(const DeformableSkin& skin) {
+    const SkinModel& model = *skin.getModel();
+    SkinMoment moment{skin.getPose(), std::vector<glm::vec3>(model.vertexCount())};
     DeformJob job;
     job.model = &model;
-    job.pose = &pose;
-    job.positions = positions.data();
-    job.positionCount = positions.size();
+    job.pose = &moment.pose;
+    job.positions = moment.positions.data();
+    job.positionCount = moment.positions.size();
     job.run();
+    return moment;
+}
+
+osg::BoundingBox boundsOf(const SkinMoment& moment) {
     osg::BoundingBox box;
-    for (const glm::vec3& p : positions) box.expandBy(p.x, p.y, p.z);
+    for (const glm::vec3& p : moment.positions) box.expandBy(p.x, p.y, p.z);
     return box;
 }
 
@@ -101,21 +109,30 @@ void ClipCharacter::bake(const SampledClip* clip) {
                             "\" has an activation, expected none in what is baked");
     const Instance model = makeInstance(false);
     ClipPlayer& player = *model.player;
-    player.setInterpolated(false);
     const osg::ref_ptr<BakedClip> baked = new BakedClip;
     baked->clip = clip;
     baked->skins.resize(_skins.size());
     baked->rigids.resize(_rigids.size());
     player._baked.clear();
-    for (std::size_t sample = 0; sample < clip->sampleCount(); ++sample) {
-        player.setTrack(0, {clip, static_cast<double>(sample) * clip->step(), 0.0, true});
+    const auto poseAt = [&](double samples) {
+        player.setTrack(0, {clip, samples * clip->step(), 0.0, true});
         if (!player.pose())
             throw Error("clip character: the clip \"" + clip->name() + "\" cannot pose its skins");
+    };
+    constexpr std::size_t parts = BakedClip::kParts;
+    std::vector<std::array<SkinMoment, parts + 1>> ways(_skins.size());
+    for (std::size_t sample = 0; sample < clip->sampleCount(); ++sample) {
+        for (std::size_t k = parts + 1; k-- > 0;) { // the sample itself last
+            poseAt(double(sample) + double(k) / double(parts));
+            for (std::size_t i = 0; i < _skins.size(); ++i)
+                ways[i][k] = momentOf(*player._skins[i].skin);
+        }
         for (std::size_t i = 0; i < _skins.size(); ++i) {
-            const DeformableSkin& skin = *player._skins[i].skin;
-            baked->skins[i].poses.push_back(skin.getPose());
-            baked->skins[i].bounds.push_back(boundsOf(*skin.getModel(), skin.getPose()));
-            const osg::BoundingBox& box = baked->skins[i].bounds.back();
+            BakedClip::Skin& skin = baked->skins[i];
+            skin.poses.push_back(ways[i].front().pose);
+            skin.bounds.push_back(boundsOf(ways[i].front()));
+            boundWay(ways[i], skin.ways);
+            const osg::BoundingBox& box = skin.bounds.back();
             for (unsigned int corner = 0; corner < 8; ++corner)
                 _bakedBounds.expandBy(box.corner(corner) * _skins[i].toCharacter);
         }

@@ -41,6 +41,14 @@ osg::Matrixd toMatrix(const JointMap& map) {
     return result;
 }
 
+/// What was baked holds no skin that is activated.
+bool isActivated(const DeformableSkin& skin) {
+    const std::size_t inputs = skin.getModel() ? skin.getModel()->inputs().size() : 0;
+    for (std::size_t i = 0; i < inputs; ++i)
+        if (skin.getPose().input(i) != 0.0f) return true;
+    return false;
+}
+
 int parentJoint(const SampledClip& clip, int joint) {
     return joint < 0 ? -1 : clip.joints()[static_cast<std::size_t>(joint)].parent;
 }
@@ -124,7 +132,7 @@ void ClipPlayer::findJoints() {
     _needsWhole = !_rigids.empty();
     for (Skin& skin : _skins) {
         skin.joints.clear();
-        skin.direct = true;
+        skin.direct = skin.same = true;
         if (!skin.skin->getModel()) continue;
         for (const BoundJoint& joint : skin.skin->getModel()->joints()) {
             const int found = clip.find(joint.name);
@@ -133,15 +141,22 @@ void ClipPlayer::findJoints() {
             if (found >= 0 && parentJoint(clip, found) != above) skin.direct = false;
             // One that is missing moves with its parent, and so do those below it with that.
             if (found < 0 && above >= 0) skin.direct = false;
+            if (found != static_cast<int>(skin.joints.size())) skin.same = false;
             skin.joints.push_back(found >= 0 ? found : above);
         }
         _needsWhole = _needsWhole || !skin.direct;
     }
     for (Rigid& rigid : _rigids) rigid.joint = clip.find(rigid.name);
     _others.clear();
-    if (_tracks[1].clip)
+    _alike = true;
+    if (_tracks[1].clip) {
+        const std::vector<SampledClip::Joint>& others = _tracks[1].clip->joints();
         for (const SampledClip::Joint& joint : clip.joints())
             _others.push_back(_tracks[1].clip->find(joint.name));
+        _alike =
+            std::equal(others.begin(), others.end(), clip.joints().begin(), clip.joints().end(),
+                       [](const auto& a, const auto& b) { return a.name == b.name; });
+    }
     _found = {_tracks[0].clip.get(), _tracks[1].clip.get()};
 }
 
@@ -171,11 +186,17 @@ void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
 }
 
 bool ClipPlayer::poseSkin(const Skin& skin, const std::vector<JointMap>& own,
-                          const std::vector<JointMap>& whole) const {
+                          const std::vector<JointMap>& whole,
+                          const osg::BoundingBox* bounds) const {
     static thread_local std::vector<JointMap> maps;
     if (!skin.skin->getModel()) return false;
     const std::vector<BoundJoint>& joints = skin.skin->getModel()->joints();
     if (joints.size() != skin.joints.size()) return false;
+    const auto set = [&](const std::vector<JointMap>& of) {
+        return bounds ? skin.skin->setPose(of.data(), joints.size(), *bounds)
+                      : skin.skin->setPose(of.data(), joints.size());
+    };
+    if (skin.direct && skin.same) return set(own);
     maps.assign(joints.size(), JointMap());
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const int found = skin.joints[j];
@@ -191,33 +212,47 @@ bool ClipPlayer::poseSkin(const Skin& skin, const std::vector<JointMap>& own,
         maps[j] =
             above < 0 ? whole[at] : inverse(whole[static_cast<std::size_t>(above)]) * whole[at];
     }
-    return skin.skin->setPose(maps.data(), maps.size());
+    return set(maps);
 }
 
-bool ClipPlayer::poseBaked() {
-    if (_baked.empty() || _interpolated || _root != Root::Moving) return false;
-    const bool second = _tracks[1].clip && _weight == 1.0;
-    if (_tracks[1].clip && !second && _weight != 0.0) return false;
-    const Track& track = _tracks[second ? 1 : 0];
+const ClipPlayer::Track* ClipPlayer::trackAlone() const {
+    if (!_tracks[1].clip || _weight == 0.0) return _tracks.data();
+    return _weight == 1.0 ? &_tracks[1] : nullptr;
+}
+
+const BakedClip* ClipPlayer::findBaked() const {
+    const Track* track = trackAlone();
+    if (_baked.empty() || !track || _root != Root::Moving) return nullptr;
     const auto baked = std::find_if(_baked.begin(), _baked.end(),
-                                    [&](const auto& b) { return b->clip == track.clip; });
+                                    [&](const auto& b) { return b->clip == track->clip; });
     if (baked == _baked.end() || (*baked)->skins.size() != _skins.size() ||
         (*baked)->rigids.size() != _rigids.size())
-        return false;
-    const std::size_t sample = track.clip->place(track.time, track.loop).from;
+        return nullptr;
+    for (const Skin& skin : _skins)
+        if (isActivated(*skin.skin)) return nullptr;
+    return baked->get();
+}
+
+bool ClipPlayer::poseBaked(const BakedClip& baked, std::size_t sample) const {
     bool good = true;
     for (std::size_t i = 0; i < _skins.size(); ++i) {
-        const BakedClip::Skin& skin = (*baked)->skins[i];
+        const BakedClip::Skin& skin = baked.skins[i];
         good = _skins[i].skin->setPose(skin.poses[sample], skin.bounds[sample]) && good;
     }
     for (std::size_t i = 0; i < _rigids.size(); ++i)
-        _rigids[i].transform->setMatrix((*baked)->rigids[i][sample]);
+        _rigids[i].transform->setMatrix(baked.rigids[i][sample]);
     return good;
 }
 
 bool ClipPlayer::pose() {
     if (!_tracks[0].clip) return false;
-    if (poseBaked()) return true;
+    const BakedClip* baked = findBaked();
+    SampledClip::Place at;
+    if (baked) {
+        const Track& track = *trackAlone();
+        at = track.clip->place(track.time, track.loop);
+        if ((!_interpolated || at.share == 0.0) && poseBaked(*baked, at.from)) return true;
+    }
     if (_found[0] != _tracks[0].clip.get() || _found[1] != _tracks[1].clip.get()) findJoints();
     static thread_local std::vector<JointSample> samples;
     static thread_local std::vector<JointMap> own, whole;
@@ -233,7 +268,12 @@ bool ClipPlayer::pose() {
                            : whole[static_cast<std::size_t>(joints[j].parent)] * own[j];
     }
     bool good = true;
-    for (const Skin& skin : _skins) good = poseSkin(skin, own, whole) && good;
+    for (std::size_t i = 0; i < _skins.size(); ++i) {
+        // A joint that track 1 does not have would move by track 0.
+        const osg::BoundingBox* bounds = baked && _alike ? &baked->skins[i].boundsAt(at) : nullptr;
+        if (bounds && !bounds->valid()) bounds = nullptr;
+        good = poseSkin(_skins[i], own, whole, bounds) && good;
+    }
     for (const Rigid& rigid : _rigids)
         rigid.transform->setMatrix(rigid.joint < 0
                                        ? rigid.toParent

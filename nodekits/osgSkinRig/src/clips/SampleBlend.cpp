@@ -10,6 +10,9 @@ namespace {
 
 /// cos(theta) - 1 down to which the series have all digits: samples up to 28 degrees apart.
 constexpr double kNear = -0.03;
+/// The same of the first kFew terms: up to 2.6 degrees apart, as most samples are.
+constexpr double kNearer = -0.001;
+constexpr std::size_t kFew = 5;
 
 } // namespace
 
@@ -34,7 +37,7 @@ JointSample SampleBlend::operator()(const JointSample& a, const JointSample& b) 
         result.rotation = glm::normalize(glm::slerp(a.rotation, b.rotation, _share));
     } else {
         double from = 1.0, to = 1.0;
-        for (std::size_t k = kTerms; k-- > 0;) {
+        for (std::size_t k = x < kNearer ? kTerms : kFew; k-- > 0;) {
             from = 1.0 + _ofRest[k] * x * from;
             to = 1.0 + _ofShare[k] * x * to;
         }
