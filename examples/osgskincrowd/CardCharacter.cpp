@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "CardCharacter.h"
 
-#include <osgSkin/BoneReader>
 #include <osgSkin/RigidPart>
 #include <osgSkinImport/ReadScene>
+#include <osgSkinRig/ClipCharacter>
 
 #include <osg/NodeVisitor>
-#include <osgAnimation/BasicAnimationManager>
 #include <osgDB/Registry>
-#include <osgUtil/UpdateVisitor>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -23,12 +22,6 @@ constexpr double kSamplesASecond = 60.0;
 class FindDrawn : public osg::NodeVisitor {
 public:
     FindDrawn() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Node& node) override {
-        for (osg::Callback* c = node.getUpdateCallback(); c; c = c->getNestedCallback())
-            if (auto* found = dynamic_cast<osgAnimation::BasicAnimationManager*>(c))
-                manager = found;
-        traverse(node);
-    }
     void apply(osg::Geometry&) override {
         const osg::NodePath& path = getNodePath();
         if (std::any_of(path.begin(), path.end(), [](const osg::Node* node) {
@@ -40,7 +33,6 @@ public:
         if (dynamic_cast<osgSkin::DeformableSkin*>(&drawable)) skins.push_back(getNodePath());
     }
 
-    osgAnimation::BasicAnimationManager* manager = nullptr;
     std::vector<osg::NodePath> skins, rigids;
 };
 
@@ -51,14 +43,19 @@ Node* nearest(const osg::NodePath& path) {
     return nullptr;
 }
 
-void runTo(osg::Node& scene, double time, unsigned int frame) {
-    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-    stamp->setSimulationTime(time);
-    stamp->setFrameNumber(frame);
-    osgUtil::UpdateVisitor update;
-    update.setFrameStamp(stamp);
-    update.setTraversalNumber(frame);
-    scene.accept(update);
+/// A pose as skinning matrices.
+std::vector<glm::dmat4> skinningOf(const osgSkin::DeformableSkin& skin) {
+    const std::vector<osgSkin::BoundJoint>& joints = skin.getModel()->joints();
+    std::vector<glm::dmat4> result;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        const osgSkin::JointTransform of = skin.getPose().transform(j);
+        const glm::dmat4 own = glm::translate(glm::dmat4(1.0), of.offset) *
+                               glm::mat4_cast(of.rotation) *
+                               glm::scale(glm::dmat4(1.0), glm::dvec3(of.scale));
+        const int parent = joints[j].parent;
+        result.push_back(parent < 0 ? own : result[static_cast<std::size_t>(parent)] * own);
+    }
+    return result;
 }
 
 } // namespace
@@ -71,13 +68,10 @@ osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file,
     if (found.skins.empty())
         throw std::runtime_error(file + ": expected a character with a deformable skin");
     osg::ref_ptr<osgSkin::CrowdCharacter> character = new osgSkin::CrowdCharacter;
-    std::vector<osgSkin::BoneReader> readers;
+    std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins;
     for (const osg::NodePath& path : found.skins) {
-        auto* skeleton = nearest<osgAnimation::Skeleton>(path);
-        auto& skin = static_cast<osgSkin::DeformableSkin&>(*path.back());
-        if (!skeleton) throw std::runtime_error(file + ": a skin stands under no skeleton");
-        character->addSkin(skin, osg::computeLocalToWorld(path));
-        readers.emplace_back(skin.getModel()->joints(), *skeleton);
+        skins.emplace_back(static_cast<osgSkin::DeformableSkin*>(path.back()));
+        character->addSkin(*skins.back(), osg::computeLocalToWorld(path));
     }
     for (const osg::NodePath& path : found.rigids)
         if (const auto* bone = nearest<osgAnimation::Bone>(path)) {
@@ -88,17 +82,22 @@ osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file,
             character->addRigid(geometry, state, 0, bone->getName());
         }
 
-    seconds = 0.0;
-    if (found.manager && !found.manager->getAnimationList().empty())
-        seconds = found.manager->getAnimationList().front()->getDuration();
-    const std::size_t count =
-        std::max<std::size_t>(1, std::size_t(std::lround(seconds * kSamplesASecond)));
-    osgSkin::CrowdCharacter::Samples samples(readers.size());
+    // The scene's own skins follow a player in place of their bones.
+    const auto source = osgSkin::ClipCharacter::create(*scene);
+    osg::ref_ptr<const osgSkin::SampledClip> clip;
+    if (!source->animations().empty())
+        clip = source->sample(*source->animations().front(), kSamplesASecond);
+    const osg::ref_ptr<osgSkin::ClipPlayer> player = new osgSkin::ClipPlayer;
+    for (const auto& skin : skins) player->addSkin(skin);
+    osgSkin::CrowdCharacter::Samples samples(skins.size());
+    const std::size_t count = clip ? clip->sampleCount() : 1;
     for (std::size_t i = 0; i < count; ++i) {
-        runTo(*scene, double(i) / kSamplesASecond, static_cast<unsigned int>(i + 1));
-        for (std::size_t s = 0; s < readers.size(); ++s) samples[s].push_back(readers[s].read());
+        if (clip) player->setTrack(0, {clip, double(i) * clip->step()});
+        if (clip && !player->pose()) throw std::runtime_error(file + ": its clip poses no skin");
+        for (std::size_t s = 0; s < skins.size(); ++s) samples[s].push_back(skinningOf(*skins[s]));
     }
-    character->addClip(samples, kSamplesASecond, true);
+    seconds = clip ? clip->duration() : 0.0;
+    character->addClip(samples, clip ? 1.0 / clip->step() : kSamplesASecond, true);
     // Of the picture's height a figure has 1/4, 1/10 and 1/25 there.
     character->addLevel(0.4, 0.25);
     character->addLevel(0.15, 0.1);

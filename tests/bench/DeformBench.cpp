@@ -194,8 +194,8 @@ double looseness(const osgSkin::SkinModel& model, const std::vector<osgSkin::Pos
     return sum / static_cast<double>(poses.size());
 }
 
-void poseBounds(benchmark::State& state) {
-    const bench::Body& body = bench::body(1);
+void poseBounds(benchmark::State& state, bench::Kind kind) {
+    const bench::Body& body = bench::body(1, kind);
     const auto model = body.model();
     std::vector<osgSkin::Pose> poses;
     for (const std::vector<glm::dmat4>& skinning : body.skinning) {
@@ -234,7 +234,8 @@ int main(int argc, char** argv) {
             ->Unit(benchmark::kMicrosecond)
             ->UseManualTime()
             ->Iterations(100); // its own time is a small part of what it takes
-    benchmark::RegisterBenchmark("pose bounds/4k", poseBounds);
+    benchmark::RegisterBenchmark("pose bounds/4k", poseBounds, bench::Kind::Turned);
+    benchmark::RegisterBenchmark("pose bounds, fast shapes/4k", poseBounds, bench::Kind::Shaped);
     std::vector<std::int64_t> targets;
     for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
         targets.push_back(rest & -rest);

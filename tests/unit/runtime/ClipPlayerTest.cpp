@@ -281,6 +281,23 @@ TEST(ClipPlayer, BakedBoundsHoldTheSkinBetweenSamples) {
     }
 }
 
+TEST(ClipPlayer, PosesWhatItIsGiven) {
+    const osgSkin::Clip clip = someClip(12, 0.8);
+    Character character(clip);
+    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    player->addSkin(character.skin);
+    EXPECT_FALSE(player->pose()); // no clip yet
+    const auto played = SampledClip::create(clip, character.rig);
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto copy = copies->makeInstance();
+    for (int i = 0; i < 20; ++i) {
+        player->setTrack(0, {played, 0.021 * i});
+        copy.player->setTrack(0, {played, 0.021 * i});
+        const Vertices expected = posedBy(*copy.player, skinOf(*copy.node));
+        EXPECT_LE(difference(posedBy(*player, *character.skin), expected), 1e-6 * kSize);
+    }
+}
+
 TEST(ClipPlayer, BlendsBetweenBakedClipsAreBoundedToo) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);

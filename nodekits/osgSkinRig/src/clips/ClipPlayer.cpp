@@ -55,6 +55,7 @@ int parentJoint(const SampledClip& clip, int joint) {
 
 } // namespace
 
+ClipPlayer::ClipPlayer() = default;
 ClipPlayer::~ClipPlayer() = default;
 
 void ClipPlayer::setTrack(std::size_t index, const Track& track) {
