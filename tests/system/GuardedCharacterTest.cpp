@@ -189,6 +189,15 @@ TEST(GuardedCharacter, GltfIsCheckedBeforeItIsRead) {
         SCOPED_TRACE(c.place);
         expectSays(refusal(file.save("broken.gltf")), c.message);
     }
+    // Zeros as numbers of vertices and joints.
+    for (const char* named : {"indices", "attributes/JOINTS_0"}) {
+        test::GltfBuilder file = triangle();
+        file.save("nowhere.gltf");
+        const std::string place = std::string("/meshes/0/primitives/0/") + named;
+        const auto accessor = file.json.at(nlohmann::json::json_pointer(place)).get<std::size_t>();
+        file.json["accessors"][accessor].erase("bufferView");
+        expectSays(refusal(file.save("nowhere.gltf")), "expected a buffer view");
+    }
     test::GltfBuilder deep = triangle();
     for (std::size_t n = 0; n < 1200; ++n)
         deep.node(n < 1199 ? nlohmann::json{{"children", {n + 3}}} : nlohmann::json::object());

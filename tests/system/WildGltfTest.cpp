@@ -260,6 +260,22 @@ TEST(WildGltf, ClipsMayBeginLate) {
     EXPECT_NEAR(loadCharacter(file).motions.front().duration(), 1.0, 1e-6);
 }
 
+TEST(WildGltf, NumbersThatStandNowhereAreZeros) {
+    const auto jointAt = [](bool isStored) {
+        GltfColumn column;
+        column.animate("still", column.joints[1], "translation", {0.0, 1.0},
+                       std::vector<double>(6, 0.0));
+        const nlohmann::json& sampler = column.json["animations"][0]["samplers"][0];
+        if (!isStored) column.json["accessors"][sampler["output"].get<int>()].erase("bufferView");
+        Character character = loadCharacter(column.save(isStored ? "stored.gltf" : "nowhere.gltf"));
+        character.poseAt(character.motions.at(0), 0.5);
+        osgAnimation::BoneMapVisitor bones;
+        character.skeleton->accept(bones);
+        return bones.getBoneMap().at(character.rest.joints.at(1).name)->getMatrixInSkeletonSpace();
+    };
+    EXPECT_EQ(jointAt(false), jointAt(true));
+}
+
 TEST(WildGltf, OneMeshMayHaveTwoSkins) {
     GltfColumn column;
     column.bend();

@@ -105,7 +105,7 @@ std::size_t GltfAccessors::width(std::size_t index) const {
 
 bool GltfAccessors::isPlain(std::size_t index) const {
     return accessor(index).at("componentType") == int(kFloat) &&
-           !accessor(index).contains("sparse");
+           accessor(index).contains("bufferView") && !accessor(index).contains("sparse");
 }
 
 bool GltfAccessors::hasValues(std::size_t index) const {

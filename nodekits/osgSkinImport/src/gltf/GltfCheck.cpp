@@ -94,10 +94,20 @@ private:
         if (from.contains("material"))
             primitive["material"] = _parts.indexOf(from.at("material"), "materials", where);
         _parts.addDraco(from, where, primitive);
+        if (!primitive.contains("extensions")) requireIndices(primitive, where);
         addTargets(from, vertices, where, primitive);
         _parts.take(vertices + corners, where);
         _elements.back() += vertices + corners;
         list.push_back(primitive);
+    }
+
+    /// What names vertices and joints is there, where Draco does not hold it.
+    void requireIndices(const json& primitive, const std::string& where) const {
+        if (primitive.contains("indices"))
+            _parts.requireValues(primitive.at("indices").get<std::size_t>(), where + ".indices");
+        for (const auto& [name, accessor] : primitive.at("attributes").items())
+            if (name.rfind("JOINTS_", 0) == 0)
+                _parts.requireValues(accessor.get<std::size_t>(), where + "." + name);
     }
 
     void addTargets(const json& from, std::size_t vertices, const std::string& where,

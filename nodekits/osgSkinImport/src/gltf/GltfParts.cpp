@@ -206,6 +206,7 @@ void GltfParts::checkAccessors(json& result) {
         const json& component = from.at("componentType");
         known.component = static_cast<int>(index(component, 5127, where + ".componentType"));
         known.sparse = from.contains("sparse");
+        known.stored = from.contains("bufferView");
         known.wrong = wrongWith(from, known);
         _accessors.push_back(known);
         json accessor = {{"count", known.count},
@@ -248,6 +249,11 @@ void GltfParts::requireIndices(std::size_t accessor, bool wide, const std::strin
     const bool fits =
         known.component == 5121 || known.component == 5123 || (wide && known.component == 5125);
     if (!fits || known.sparse) fail(where, "unsigned whole numbers, not sparse");
+}
+
+void GltfParts::requireValues(std::size_t accessor, const std::string& where) const {
+    if (!_accessors[accessor].stored)
+        fail("accessors[" + std::to_string(accessor) + "], " + where, "a buffer view");
 }
 
 void GltfParts::take(std::size_t elements, const std::string& where) {

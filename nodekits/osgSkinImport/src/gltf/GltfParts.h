@@ -65,6 +65,9 @@ public:
     /// Of bytes or shorts, or where `wide` four bytes, as they stand.
     void requireIndices(std::size_t accessor, bool wide, const std::string& where) const;
 
+    /// Not zeros alone, as numbers are that stand nowhere.
+    void requireValues(std::size_t accessor, const std::string& where) const;
+
     /// Takes elements that are asked for, and things with a name, off what the file's size allows.
     void take(std::size_t elements, const std::string& where);
     void addEntries(std::size_t entries) { _entries += entries; }
@@ -76,7 +79,8 @@ private:
         std::string type;
         int component = 0;
         bool sparse = false;
-        std::string wrong; ///< why it cannot be read; empty: it can
+        bool stored = false; ///< in a buffer view
+        std::string wrong;   ///< why it cannot be read; empty: it can
     };
 
     std::string wrongWith(const nlohmann::json& accessor, const Accessor& known) const;

@@ -38,7 +38,7 @@ public:
         nameNodes(_file);
         for (json& skin : list("skins")) addBindMatrices(skin);
         for (json& mesh : list("meshes"))
-            for (json& primitive : mesh.at("primitives")) makeFloats(primitive.at("attributes"));
+            for (json& primitive : mesh.at("primitives")) makeFloats(primitive);
         makeTracksLinear(_file, _accessors);
         for (const char* files : {"buffers", "images"})
             for (json& named : list(files)) decodeUri(named);
@@ -95,11 +95,13 @@ private:
         skin["inverseBindMatrices"] = _accessors.add("MAT4", matrices);
     }
 
-    void makeFloats(json& attributes) {
-        for (auto& [name, index] : attributes.items()) {
+    void makeFloats(json& primitive) {
+        const bool isCompressed = primitive.contains("extensions");
+        for (auto& [name, index] : primitive.at("attributes").items()) {
             if (!isTakenForFloats(name)) continue;
             const auto accessor = index.get<std::size_t>();
-            if (_accessors.isPlain(accessor) || !_accessors.hasValues(accessor)) continue;
+            if (_accessors.isPlain(accessor) || (isCompressed && !_accessors.hasValues(accessor)))
+                continue;
             const auto known = _floats.find(accessor);
             if (known == _floats.end()) {
                 const std::string type =
