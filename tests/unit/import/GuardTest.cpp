@@ -148,6 +148,11 @@ INSTANTIATE_TEST_SUITE_P(
         Guarded{"copies.gltf", kManyCopies,
                 "malformed glTF: nodes, bones, materials and channels: expected at most"},
         Guarded{"digits.off", "OFF\n500000000x 500000000 0\n0 0 0\n", "\"500000000x\""},
+        Guarded{"marked.off", "N90199019 1 ", "\"N90199019\", expected OFF"},
+        Guarded{"joined.off", "OFF90199019 1 0\n", "\"OFF90199019\", expected OFF"},
+        Guarded{"commented.off", "OFF # a\r90199019 1 0\n3 1 0\n", "\"90199019\" vertices"},
+        Guarded{"small_number.off", "OFF\n90199019e-9 1 0\n", "\"90199019e-9\", expected a number"},
+        Guarded{"dimensions.off", "nOFF\n3 90199019 1 0\n", "\"90199019\" vertices"},
         Guarded{"deep.bvh", bvh(25'000, 1, true), "no face in a BVH file"}),
     [](const auto& c) {
         std::string name = c.param.name;
