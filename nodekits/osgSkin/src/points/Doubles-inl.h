@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+//
+// Included once for each instruction set by what foreach_target.h includes again and again.
+#if defined(OSGSKIN_DOUBLES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef OSGSKIN_DOUBLES_INL_H
+#undef OSGSKIN_DOUBLES_INL_H
+#else
+#define OSGSKIN_DOUBLES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+
+HWY_BEFORE_NAMESPACE();
+namespace osgSkin {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A number of up to four joints each.
+using DoubleTag = hn::CappedTag<double, 4>;
+using Doubles = hn::Vec<DoubleTag>;
+using DoubleMask = hn::Mask<DoubleTag>;
+
+HWY_INLINE Doubles allOf(double x) {
+    return hn::Set(DoubleTag(), x);
+}
+
+HWY_INLINE Doubles dot(const Doubles (&a)[3], const Doubles (&b)[3]) {
+    return hn::MulAdd(a[2], b[2], hn::MulAdd(a[1], b[1], hn::Mul(a[0], b[0])));
+}
+
+HWY_INLINE void cross(const Doubles (&a)[3], const Doubles (&b)[3], Doubles (&to)[3]) {
+    to[0] = hn::MulSub(a[1], b[2], hn::Mul(a[2], b[1]));
+    to[1] = hn::MulSub(a[2], b[0], hn::Mul(a[0], b[2]));
+    to[2] = hn::MulSub(a[0], b[1], hn::Mul(a[1], b[0]));
+}
+
+/// Four numbers that stand side by side, of one joint a lane.
+///
+/// \param from as many as there are lanes
+HWY_INLINE void loadFour(const double* const* from, std::size_t at, Doubles (&to)[4]) {
+    const DoubleTag d;
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    const Doubles a = hn::LoadU(d, from[0] + at), b = hn::LoadU(d, from[1] + at),
+                  e = hn::LoadU(d, from[2] + at), f = hn::LoadU(d, from[3] + at);
+    const Doubles even = hn::InterleaveLower(d, a, b), odd = hn::InterleaveUpper(d, a, b);
+    const Doubles even2 = hn::InterleaveLower(d, e, f), odd2 = hn::InterleaveUpper(d, e, f);
+    to[0] = hn::ConcatLowerLower(d, even2, even);
+    to[1] = hn::ConcatLowerLower(d, odd2, odd);
+    to[2] = hn::ConcatUpperUpper(d, even2, even);
+    to[3] = hn::ConcatUpperUpper(d, odd2, odd);
+#elif HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
+    for (std::size_t half = 0; half < 4; half += 2) {
+        const Doubles a = hn::LoadU(d, from[0] + at + half), b = hn::LoadU(d, from[1] + at + half);
+        to[half] = hn::InterleaveLower(d, a, b);
+        to[half + 1] = hn::InterleaveUpper(d, a, b);
+    }
+#else
+    for (std::size_t i = 0; i < 4; ++i) {
+        double lanes[4];
+        for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) lanes[lane] = from[lane][at + i];
+        to[i] = hn::LoadU(d, lanes);
+    }
+#endif
+}
+
+/// The same the other way round.
+HWY_INLINE void storeFour(const Doubles& x, const Doubles& y, const Doubles& z, const Doubles& w,
+                          double* const* to) {
+    const DoubleTag d;
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    const Doubles even = hn::InterleaveLower(d, x, y), odd = hn::InterleaveUpper(d, x, y);
+    const Doubles even2 = hn::InterleaveLower(d, z, w), odd2 = hn::InterleaveUpper(d, z, w);
+    hn::StoreU(hn::ConcatLowerLower(d, even2, even), d, to[0]);
+    hn::StoreU(hn::ConcatLowerLower(d, odd2, odd), d, to[1]);
+    hn::StoreU(hn::ConcatUpperUpper(d, even2, even), d, to[2]);
+    hn::StoreU(hn::ConcatUpperUpper(d, odd2, odd), d, to[3]);
+#else
+    double lanes[4][4];
+    hn::StoreU(x, d, lanes[0]);
+    hn::StoreU(y, d, lanes[1]);
+    hn::StoreU(z, d, lanes[2]);
+    hn::StoreU(w, d, lanes[3]);
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
+        for (std::size_t i = 0; i < 4; ++i) to[lane][i] = lanes[i][lane];
+#endif
+}
+
+/// One number of each lane's own place in a row.
+HWY_INLINE Doubles loadEach(const double* row, const int* at) {
+    const DoubleTag d;
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    // Faster than the instruction for it where that is slow, and about as fast elsewhere.
+    return Doubles{_mm256_setr_pd(row[at[0]], row[at[1]], row[at[2]], row[at[3]])};
+#else
+    double lanes[4];
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) lanes[lane] = row[at[lane]];
+    return hn::LoadU(d, lanes);
+#endif
+}
+
+/// The angle of (x, y) from the x axis, -pi / 2 to pi / 2, to the last digits.
+///
+/// \param y as long as it is wide
+/// \param x not below 0; not 0 where y is
+HWY_INLINE Doubles angleOf(const Doubles& y, const Doubles& x) {
+    const Doubles up = hn::Abs(y);
+    // Into the middle half of an eighth of a turn: tan(a - pi / 4) = (tan a - 1) / (tan a + 1).
+    const DoubleMask steep = hn::Gt(up, x);
+    const Doubles low = hn::Min(up, x), high = hn::Max(up, x);
+    const DoubleMask far = hn::Gt(low, hn::Mul(allOf(0.41421356237309503), high));
+    const Doubles t = hn::Div(hn::IfThenElse(far, hn::Sub(low, high), low),
+                              hn::IfThenElse(far, hn::Add(low, high), high));
+    // Chebyshev's fit of atan(t) / t to t^2 there, within 4e-17; even and odd powers at a time.
+    const Doubles z = hn::Mul(t, t), zz = hn::Mul(z, z);
+    const auto sum = [zz](std::initializer_list<double> terms) HWY_ATTR {
+        const double* c = terms.begin();
+        Doubles result = allOf(*c++);
+        while (c != terms.end()) result = hn::MulAdd(result, zz, allOf(*c++));
+        return result;
+    };
+    const Doubles odd = sum({0.0211353731576932452, 0.05688349226809010479, 0.07689953496306857756,
+                             0.1111110618045594522, 0.1999999999885511013});
+    const Doubles even =
+        sum({-0.04348052215716462478, -0.06640233930429408589, -0.0909077307480841379,
+             -0.1428571418097646683, -0.3333333333332843857});
+    Doubles angle = hn::MulAdd(t, hn::Mul(z, hn::MulAdd(odd, z, even)), t);
+    angle = hn::Add(angle, hn::IfThenElseZero(far, allOf(0.78539816339744831)));
+    angle = hn::IfThenElse(steep, hn::Sub(allOf(1.5707963267948966), angle), angle);
+    return hn::CopySign(angle, y);
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace osgSkin
+HWY_AFTER_NAMESPACE();
+
+#endif

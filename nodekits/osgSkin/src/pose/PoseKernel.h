@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pose/PoseAccess.h"
+
+#include <osgSkin/GlmTypes>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace osgSkin {
+
+/// A pose that is being set, several joints at a time.
+struct PoseCall {
+    std::size_t count;  ///< joints, not 0
+    std::size_t stride; ///< as in Pose, of all rows
+    const int* parents;
+    const double* rest;     ///< by PoseAccess::RestRow
+    double* rows;           ///< by PoseAccess::Row
+    std::int32_t* azimuths; ///< a row of cosines, one of sines
+    bool continued;         ///< see Pose::Twist
+};
+
+/// Of what a skinning matrix makes of a cube.
+constexpr double kSmallestVolume = 1e-27;
+
+/// Rows of numbers that PoseFrames take for each joint.
+constexpr std::size_t kFrameRows = 13;
+
+/// What the skinning matrices of a pose are: x -> offset + scale * rotation * x, in rows behind one
+/// another: the rotation's columns, offset, scale. As matrices: which part of a quaternion is to be
+/// found first differs from joint to joint, but for a joint's own rotation it is nearly always the
+/// same one.
+struct PoseFrames {
+    double* rows; ///< of joint 0
+    std::size_t stride;
+
+    /// Numbers before joint 0 of each row; the last of them is what has no parent's parent.
+    static constexpr std::size_t kBefore = PoseAccess::kAtOnce;
+};
+
+/// Takes skinning matrices G_j apart.
+///
+/// \param skinning one for each joint
+/// \param call its rows are left as they are
+/// \param frames set; room for call.stride joints in each row, and kBefore before them
+/// \return false where one of them cannot be followed, see Pose::set()
+bool readFrames(const glm::dmat4* skinning, const PoseCall& call,
+                const PoseFrames& frames) noexcept;
+
+/// Sets a pose from those: D_j = G_parent^-1 G_j, split into bend and twist (eq. 1 to 4).
+///
+/// \return whether it is another pose than before
+bool splitFrames(const PoseCall& call, const PoseFrames& frames) noexcept;
+
+/// The same from D_j.
+///
+/// \param own one for each joint
+bool splitMaps(const PoseCall& call, const JointMap* own) noexcept;
+
+} // namespace osgSkin
