@@ -194,15 +194,17 @@ void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const Model& mo
 
 /// Poses that stay within the body's height: turns of any angle about joints inside the body.
 /// Each joint scales by up to `grows` more or less, evenly.
+/// Any turns, or by `angle` each.
 osgSkin::Pose randomPose(const osgSkin::Binding& binding, double moves, std::mt19937_64& random,
-                         double grows = 0.0) {
+                         double grows = 0.0, double angle = 0.0) {
     std::uniform_real_distribution<double> growth(1.0 - grows, 1.0 + grows);
     std::vector<glm::dmat4> skinning;
     for (std::size_t j = 0; j < binding.joints.size(); ++j) {
         const glm::dvec3 c = binding.joints[j].centre;
         const glm::dmat4 turn =
             glm::translate(glm::dmat4(1.0), c + moves * test::randomUnit(random)) *
-            glm::mat4_cast(test::randomRotation(random)) *
+            glm::mat4_cast(angle > 0.0 ? glm::angleAxis(angle, test::randomUnit(random))
+                                       : test::randomRotation(random)) *
             glm::scale(glm::dmat4(1.0), glm::dvec3(grows > 0.0 ? growth(random) : 1.0)) *
             glm::translate(glm::dmat4(1.0), -c);
         skinning.push_back(j == 0 ? turn : skinning.back() * turn);
@@ -270,6 +272,46 @@ TEST_P(Kernel, TakesLongChainsAndManyPartialJoints) {
     skinning = test::skinningFrom(skin.binding.joints, turns);
     ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
     deform(skin, pose, model, Streams::NormalsAndTangents);
+}
+
+/// Some hundred joints, and chains with more full joints between the partial ones than are kept at
+/// a time.
+TEST_P(Kernel, TakesMoreJointsThanAreKeptAtATime) {
+    std::mt19937_64 random(17);
+    constexpr std::size_t kJoints = 300;
+    std::vector<Manner> manner = {{"all full", std::vector<char>(kJoints, 'f')}};
+    for (const std::size_t partial : {0u, 120u, 299u}) {
+        manner.push_back(manner.front());
+        manner.back().joints[partial] = 'p';
+    }
+    std::uniform_int_distribution<std::size_t> place(0, kJoints - 1);
+    for (int i = 0; i < 40; ++i) { // some joints here and there
+        manner.push_back({"few", std::vector<char>(kJoints, '-')});
+        for (int j = 0; j < 12; ++j) manner.back().joints[place(random)] = j < 4 ? 'p' : 'f';
+    }
+    const Skin skin = inBestOrder(Skin(kJoints + 1, manner, 130, 4));
+    const Model model = modelOf(skin);
+    std::vector<glm::dquat> turns;
+    for (std::size_t j = 0; j <= kJoints; ++j)
+        turns.push_back(glm::angleAxis(0.003, test::randomUnit(random)));
+    const auto skinning = test::skinningFrom(skin.binding.joints, turns);
+    osgSkin::Pose pose(skin.binding.joints);
+    ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
+    deform(skin, pose, model, Streams::NormalsAndTangents);
+    deform(skin, randomPose(skin.binding, 0.0, random, 1e-3, 0.003), model, Streams::Normals);
+    if (!GetParam().target) return; // the reference has no parts
+    const std::size_t count = skin.positions.size();
+    std::vector<glm::vec3> whole(count), parts(count);
+    osgSkin::DeformJob job;
+    job.model = model.get();
+    job.pose = &pose;
+    job.positions = whole.data();
+    job.positionCount = count;
+    ASSERT_TRUE(job.run());
+    job.positions = parts.data();
+    ASSERT_GE(job.partCount(), 2u);
+    for (std::size_t part = job.partCount(); part-- > 0;) job.runPart(part);
+    EXPECT_EQ(parts, whole);
 }
 
 TEST_P(Kernel, TurnsByPiAndBack) {

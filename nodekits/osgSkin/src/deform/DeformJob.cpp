@@ -6,9 +6,9 @@
 #include "correctives/ReferenceCorrections.h"
 #include "deform/Chain.h"
 #include "deform/DeformKernel.h"
-#include "deform/KernelChain.h"
 #include "deform/KernelCorrections.h"
 #include "deform/KernelSlopes.h"
+#include "deform/PosedChains.h"
 #include "deform/SurfaceChain.h"
 #include "model/SkinModelAccess.h"
 
@@ -39,21 +39,34 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
     const SkinModel& model = *job.model;
     const SkinBlocks& blocks = SkinModelAccess::blocks(model);
     const std::size_t endVertex = firstVertexOf(model, end);
-    KernelChain chain(model, *job.pose);
+    PosedChains chains;
     KernelCall call;
+    call.joints = &chains.joints;
+    call.outs = chains.outs;
     call.correctionCount = 0;
     call.gradients = nullptr;
     std::optional<KernelCorrections> corrections;
     if (SkinModelAccess::correctives(model)) corrections.emplace(model, *job.pose);
     std::optional<KernelSlopes> slopes;
     if (job.normals && SkinModelAccess::gradients(model)) slopes.emplace(model);
-    for (std::size_t g = groupOf(blocks, first); blocks.firstBlock[g] < end; ++g) {
+    const std::size_t firstGroup = first < end ? groupOf(blocks, first) : model.groups().size();
+    const std::size_t endGroup = first < end ? groupOf(blocks, end - 1) + 1 : firstGroup;
+    const ChainPlan::Section* section = blocks.plan.sections.data();
+    for (std::size_t g = firstGroup; g < endGroup; ++g) {
+        if (g == firstGroup || g == section->endGroup) {
+            while (section->endGroup <= g) ++section;
+            chains.set(model, *job.pose, *section, g,
+                       std::min<std::size_t>(section->endGroup, endGroup));
+        }
         const SkinModel::Group& group = model.groups()[g];
+        const ChainPlan::Group& planned = blocks.plan.groups[g];
         const std::size_t from = std::max(first, blocks.firstBlock[g]) - blocks.firstBlock[g];
         const std::size_t to = std::min(end, blocks.firstBlock[g + 1]) - blocks.firstBlock[g];
         const std::size_t vertex = group.firstVertex + from * kBlock;
         const std::size_t out = blocks.inOrder ? vertex : 0;
-        chain.prepare(group, call);
+        call.linkCount = group.partialCount;
+        call.links = blocks.plan.links.data() + planned.firstLink;
+        call.lead = planned.lead == ChainPlan::kNoLead ? nullptr : &chains.outs[planned.lead];
         if (corrections) corrections->prepare(g, from, call);
         if (slopes) slopes->prepare(g, from, call);
         call.rows =

@@ -64,7 +64,8 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
     if (kNormals && HWY_UNLIKELY(call.correctionCount > 0))
         correctNormals<kTangents>(call, first, nx, ny, nz, tx, ty, tz);
     if (call.lead) {
-        if (HWY_UNLIKELY(call.leadScaled)) scaleBy(constant(call.leadScale), x, y, z);
+        if (HWY_UNLIKELY(call.lead->scale() != 1.0f))
+            scaleBy(constant(call.lead->scale()), x, y, z);
         apply(*call.lead, x, y, z);
         if (kNormals) turn(*call.lead, nx, ny, nz);
         if (kTangents) turn(*call.lead, tx, ty, tz);
@@ -75,19 +76,19 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
          ratio += 2 * kBlock, inJointFrame = false) {
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
-        sineCosine(link->twist, hn::Load(d, ratio + kBlock), sine, cosine);
-        if (inJointFrame) takeAzimuthOff(call, sine, cosine);
+        sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
+        if (inJointFrame) takeAzimuthOff(call, *link, sine, cosine);
         turnPlane(sine, cosine, x, y);
         if (kNormals) turnPlane(sine, cosine, nx, ny);
         if (kTangents) turnPlane(sine, cosine, tx, ty);
-        sineCosine(link->bend, bendRatio, sine, cosine);
+        sineCosine(call.joints->bendOf(link->joint), bendRatio, sine, cosine);
         turnPlane(sine, cosine, y, z);
         if (kNormals) turnPlane(sine, cosine, ny, nz);
         if (kTangents) turnPlane(sine, cosine, ty, tz);
-        if (HWY_UNLIKELY(link->adjusted)) adjust(*link, bendRatio, x, y, z);
-        apply(link->out, x, y, z);
-        if (kNormals) turn(link->out, nx, ny, nz);
-        if (kTangents) turn(link->out, tx, ty, tz);
+        if (HWY_UNLIKELY(call.isAdjusted(*link))) adjust(call, *link, bendRatio, x, y, z);
+        apply(call.outs[link->out], x, y, z);
+        if (kNormals) turn(call.outs[link->out], nx, ny, nz);
+        if (kTangents) turn(call.outs[link->out], tx, ty, tz);
     }
     prefetch<kNormals>(out, first);
     store(out.positions, first, x, y, z);
@@ -118,10 +119,10 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         square = dot(tx, ty, tz, tx, ty, tz);
     }
     if (call.lead) {
-        if (HWY_UNLIKELY(call.leadScaled)) {
-            scaleBy(constant(call.leadScale), x, y, z);
-            scaleBy(constant(call.leadScale), ux, uy, uz);
-            scaleBy(constant(call.leadScale), vx, vy, vz);
+        if (HWY_UNLIKELY(call.lead->scale() != 1.0f)) {
+            scaleBy(constant(call.lead->scale()), x, y, z);
+            scaleBy(constant(call.lead->scale()), ux, uy, uz);
+            scaleBy(constant(call.lead->scale()), vx, vy, vz);
         }
         apply(*call.lead, x, y, z);
         turn(*call.lead, ux, uy, uz);
@@ -137,8 +138,8 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         const KernelSlope& slope = call.slopes[link - call.links];
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
-        sineCosine(link->twist, hn::Load(d, ratio + kBlock), sine, cosine);
-        if (inJointFrame) takeAzimuthOff(call, sine, cosine);
+        sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
+        if (inJointFrame) takeAzimuthOff(call, *link, sine, cosine);
         if (slope.tilt.twists) {
             addSlope(slopeAt(slopes, kTwistAlongU, slope.twist), x, y, ux, uy);
             addSlope(slopeAt(slopes, kTwistAlongV, slope.twist), x, y, vx, vy);
@@ -146,66 +147,66 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         turnPlane(sine, cosine, x, y);
         turnPlane(sine, cosine, ux, uy);
         turnPlane(sine, cosine, vx, vy);
-        sineCosine(link->bend, bendRatio, sine, cosine);
+        sineCosine(call.joints->bendOf(link->joint), bendRatio, sine, cosine);
         if (slope.tilt.bends) {
             addSlope(slopeAt(slopes, kBendAlongU, slope.bend), y, z, uy, uz);
             addSlope(slopeAt(slopes, kBendAlongV, slope.bend), y, z, vy, vz);
         }
         turnPlane(sine, cosine, y, z);
-        if (link == last && HWY_LIKELY(!link->adjusted)) {
+        if (link == last && HWY_LIKELY(!call.isAdjusted(*link))) {
             cross(ux, uy, uz, vx, vy, vz, nx, ny, nz);
             turnPlane(sine, cosine, ny, nz);
             if (kTangents) {
                 combine(alongU, alongV, ux, uy, uz, vx, vy, vz, tx, ty, tz);
                 turnPlane(sine, cosine, ty, tz);
             }
-            apply(link->out, x, y, z);
+            apply(call.outs[link->out], x, y, z);
             break;
         }
         turnPlane(sine, cosine, uy, uz);
         turnPlane(sine, cosine, vy, vz);
-        if (HWY_UNLIKELY(link->adjusted)) {
-            adjustAlong(*link, bendRatio, slopeAt(slopes, kBendAlongU, slope.step), x, y, z, ux, uy,
-                        uz);
-            adjustAlong(*link, bendRatio, slopeAt(slopes, kBendAlongV, slope.step), x, y, z, vx, vy,
-                        vz);
-            adjust(*link, bendRatio, x, y, z);
+        if (HWY_UNLIKELY(call.isAdjusted(*link))) {
+            adjustAlong(call, *link, bendRatio, slopeAt(slopes, kBendAlongU, slope.step), x, y, z,
+                        ux, uy, uz);
+            adjustAlong(call, *link, bendRatio, slopeAt(slopes, kBendAlongV, slope.step), x, y, z,
+                        vx, vy, vz);
+            adjust(call, *link, bendRatio, x, y, z);
         }
-        apply(link->out, x, y, z);
+        apply(call.outs[link->out], x, y, z);
         if (link == last) {
             cross(ux, uy, uz, vx, vy, vz, nx, ny, nz);
             if (kTangents) combine(alongU, alongV, ux, uy, uz, vx, vy, vz, tx, ty, tz);
             break;
         }
-        turn(link->out, ux, uy, uz);
-        turn(link->out, vx, vy, vz);
+        turn(call.outs[link->out], ux, uy, uz);
+        turn(call.outs[link->out], vx, vy, vz);
         ratio += 2 * kBlock;
         slopes += kSlopeRows * kBlock;
         inJointFrame = false;
     }
     // Nothing waits for the lengths until all is stored.
     const V length = inverseRoot(dot(nx, ny, nz, nx, ny, nz));
-    turn(last->out, nx, ny, nz);
+    turn(call.outs[last->out], nx, ny, nz);
     if (kTangents) {
         scaleBy(hn::Mul(hn::Sqrt(square), inverseRoot(dot(tx, ty, tz, tx, ty, tz))), tx, ty, tz);
-        turn(last->out, tx, ty, tz);
+        turn(call.outs[last->out], tx, ty, tz);
     }
     ratio += 2 * kBlock;
     while (link-- != call.links) {
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
-        sineCosine(link->twist, hn::Load(d, ratio + kBlock), sine, cosine);
+        sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
         turnPlane(sine, cosine, x, y);
         turnPlane(sine, cosine, nx, ny);
         if (kTangents) turnPlane(sine, cosine, tx, ty);
-        sineCosine(link->bend, bendRatio, sine, cosine);
+        sineCosine(call.joints->bendOf(link->joint), bendRatio, sine, cosine);
         turnPlane(sine, cosine, y, z);
         turnPlane(sine, cosine, ny, nz);
         if (kTangents) turnPlane(sine, cosine, ty, tz);
-        if (HWY_UNLIKELY(link->adjusted)) adjust(*link, bendRatio, x, y, z);
-        apply(link->out, x, y, z);
-        turn(link->out, nx, ny, nz);
-        if (kTangents) turn(link->out, tx, ty, tz);
+        if (HWY_UNLIKELY(call.isAdjusted(*link))) adjust(call, *link, bendRatio, x, y, z);
+        apply(call.outs[link->out], x, y, z);
+        turn(call.outs[link->out], nx, ny, nz);
+        if (kTangents) turn(call.outs[link->out], tx, ty, tz);
         ratio += 2 * kBlock;
     }
     prefetch<true>(out, first);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "model/ChainPlan.h"
 #include "model/SkinBlocks.h"
 #include "pose/LinkTilt.h"
 
@@ -10,79 +11,67 @@
 
 namespace osgSkin {
 
-/// A constant four times over, so that 128-bit instructions can read it as an operand. Rounding
-/// errors are taken as 0: their products would be denormal numbers, which processors are many times
-/// slower with.
-struct alignas(16) Splat {
-    float value[4];
+/// What rounding errors are taken as: their products would be denormal numbers, which processors
+/// are many times slower with.
+inline float roundedToFloat(double x) {
+    return static_cast<float>(std::fabs(x) < 1e-15 ? 0.0 : x);
+}
 
-    /// What a constant is as a float.
-    static float rounded(double x) {
-        const double kept = std::fabs(x) < 1e-15 ? 0.0 : x;
-        return static_cast<float>(kept);
-    }
+/// x -> turn x + move, in single precision, as the kernel reads it: columns of the turn, then the
+/// move. Behind that by how much positions are to be scaled before.
+struct alignas(64) KernelMap {
+    float column[4][4];
 
-    void set(float x) {
-        for (float& v : value) v = x;
-    }
-
-    Splat& operator=(double x) {
-        set(rounded(x));
-        return *this;
-    }
-};
-
-/// x -> turn x + move, in single precision, as the kernel reads it.
-struct KernelMap {
-    Splat turn[3][3]; ///< [row][column]
-    Splat move[3];
+    const float& turn(std::size_t row, std::size_t at) const { return column[at][row]; }
+    const float& move(std::size_t row) const { return column[3][row]; }
+    const float& scale() const { return column[3][3]; }
 };
 
 /// An angle of which each vertex takes its share. The smaller it is, the fewer terms its sine
 /// needs.
 struct KernelAngle {
     /// Up to 0.34, 0.9, pi / 2, pi and 2 pi.
-    enum Range { kSmall, kMedium, kLarge, kHalved, kQuartered };
-    Splat value; ///< radians; half the angle where the range is kHalved, a quarter where kQuartered
-    Range range;
+    enum Range : std::int32_t { kSmall, kMedium, kLarge, kHalved, kQuartered };
+    const float& value; ///< radians; half the angle where the range is kHalved, a quarter where
+                        ///< kQuartered
+    std::int32_t range;
 
-    KernelAngle& operator=(double angle) {
-        const double size = angle < 0.0 ? -angle : angle;
-        range = size <= 0.34     ? kSmall
-                : size <= 0.9    ? kMedium
-                : size <= 1.5708 ? kLarge
-                : size <= 3.1416 ? kHalved
-                                 : kQuartered;
-        value = range == kQuartered ? 0.25 * angle : range == kHalved ? 0.5 * angle : angle;
-        return *this;
-    }
     double whole() const {
-        return double(value.value[0]) * (range == kQuartered ? 4.0 : range == kHalved ? 2.0 : 1.0);
+        return double(value) * (range == kQuartered ? 4.0 : range == kHalved ? 2.0 : 1.0);
     }
 };
 
-/// One partial joint of a group's chain in the present pose.
+/// What joints do in the present pose, whatever chain they are in.
 ///
 /// In the frame (v, w x v, w) about the joint centre, with bend axis v and twist axis w, the
 /// partial turn is a turn in the plane of the first two axes (by the twist) followed by one in the
 /// plane of the last two (by the bend).
-struct KernelLink {
-    KernelAngle bend;  ///< psi
-    KernelAngle twist; ///< phi
-    bool adjusted;     ///< the joint is moved or scaled, or joints further out are scaled
-    Splat move[3];     ///< the joint's translation, in its frame; comes in with the bend ratio
-    Splat growth;      ///< the joint's scale less 1; the same
-    Splat outScale;    ///< of positions, before `out`
-    KernelMap out; ///< from this frame to that of the next partial joint outwards, or rest space
+struct KernelJoints {
+    static constexpr std::size_t kMost = ChainPlan::kMostJoints;
+
+    KernelAngle bendOf(std::size_t joint) const { return {bend[joint], bendRange[joint]}; }
+    KernelAngle twistOf(std::size_t joint) const { return {twist[joint], twistRange[joint]}; }
+
+    float bend[kMost], twist[kMost]; ///< psi and phi, as KernelAngle has them
+    std::int32_t bendRange[kMost], twistRange[kMost];
+    float azimuthCosine[kMost], azimuthSine[kMost]; ///< of v in the joint's fixed frame
+    float move[3][kMost]; ///< the joint's translation, in its frame; comes in with the bend ratio
+    float growth[kMost];  ///< the joint's scale less 1; the same
+    std::int32_t adjusted[kMost]; ///< these are not 0
+    bool anyAdjusted;             ///< of all joints, whatever their number
 };
+
+/// A partial joint of a group's chain: its number, and the map from its frame to that of the next
+/// partial joint outwards, or to rest space.
+using KernelLink = ChainPlan::Link;
 
 /// What the growth of a link's ratios along the skin does to directions along it, by the numbers
 /// that GradientBlocks has of it.
 struct KernelSlope {
     LinkTilt tilt;
-    Splat bend;  ///< psi, in units of those numbers
-    Splat twist; ///< phi, the same
-    Splat step;  ///< 1, the same; set where the link is adjusted
+    float bend;  ///< psi, in units of those numbers
+    float twist; ///< phi, the same
+    float step;  ///< 1, the same; set where the link is adjusted
 };
 
 /// The correctives of one joint on a range of a group's blocks, see Correctives.
@@ -106,13 +95,18 @@ struct KernelCall {
     const BlockRow* rows;
     const BlockRow* tangentRows; ///< SkinModelAccess::blocks(); where tangents is not null
     std::size_t vertexCount;
+    const KernelJoints* joints;
+    const KernelMap* outs;
     std::size_t linkCount;   ///< partial links
     const KernelLink* links; ///< outermost first
     const KernelMap* lead;   ///< applied first; null where the blocks are in a joint's frame
-    Splat leadScale;         ///< of positions, before lead
-    bool leadScaled;         ///< leadScale is not 1; else it is not set
-    Splat azimuthCosine;     ///< of v in that frame; where lead is null
-    Splat azimuthSine;
+
+    /// Whether a link's joint is moved or scaled, or joints further out are scaled.
+    bool isAdjusted(const KernelLink& link) const {
+        return joints->anyAdjusted &&
+               (joints->adjusted[link.joint] != 0 || outs[link.out].scale() != 1.0f);
+    }
+
     const KernelCorrection* corrections; ///< what is added to rest positions before all else
     std::size_t correctionCount;
     const KernelMap* correctionFrame; ///< turns it into the blocks' frame; null: rest space

@@ -42,7 +42,8 @@ void KernelCorrections::prepare(std::size_t group, std::size_t firstBlock,
         SkinModelAccess::blocks(_model)
             .jointFrames[_model.links()[of.firstLink + of.linkCount - 1].joint];
     for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column) _frame.turn[row][column] = frame[row][column];
+        for (int column = 0; column < 3; ++column)
+            _frame.column[column][row] = roundedToFloat(frame[row][column]);
     call.correctionFrame = &_frame;
 }
 

@@ -57,9 +57,9 @@ struct alignas(64) ChunkSurface {
 /// that they take the shares as they are. With kShifted, the call's azimuth is taken off.
 template <int kDoublings, bool kShifted, std::size_t kTerms>
 HWY_INLINE void turnShares(const float (&sineTerms)[kTerms], const float (&cosineTerms)[kTerms - 1],
-                           float angle, const KernelCall& call, const Chunk& chunk,
-                           const float* HWY_RESTRICT ratio, float* HWY_RESTRICT sines,
-                           float* HWY_RESTRICT cosines) {
+                           float angle, const KernelCall& call, const KernelLink& link,
+                           const Chunk& chunk, const float* HWY_RESTRICT ratio,
+                           float* HWY_RESTRICT sines, float* HWY_RESTRICT cosines) {
     const D d;
     float forSine[kTerms], forCosine[kTerms - 1];
     double power = double(angle);
@@ -77,7 +77,7 @@ HWY_INLINE void turnShares(const float (&sineTerms)[kTerms], const float (&cosin
             V sine = hn::Mul(r, polynomial(t, forSine));
             V cosine = hn::MulAdd(t, polynomial(t, forCosine), one);
             for (int i = 0; i < kDoublings; ++i) twice(sine, cosine);
-            if (kShifted) takeAzimuthOff(call, sine, cosine);
+            if (kShifted) takeAzimuthOff(call, link, sine, cosine);
             hn::Store(sine, d, sines + b * kBlock + lane);
             hn::Store(cosine, d, cosines + b * kBlock + lane);
         }
@@ -85,25 +85,26 @@ HWY_INLINE void turnShares(const float (&sineTerms)[kTerms], const float (&cosin
 }
 
 template <bool kShifted>
-HWY_NOINLINE void turnShares(const KernelAngle& angle, const KernelCall& call, const Chunk& chunk,
-                             const float* ratio, float* sines, float* cosines) {
-    const float value = angle.value.value[0];
+HWY_NOINLINE void turnShares(const KernelAngle& angle, const KernelCall& call,
+                             const KernelLink& link, const Chunk& chunk, const float* ratio,
+                             float* sines, float* cosines) {
+    const float value = angle.value;
     switch (angle.range) {
     case KernelAngle::kSmall:
-        return turnShares<0, kShifted>(kSmallSine, kSmallCosine, value, call, chunk, ratio, sines,
-                                       cosines);
+        return turnShares<0, kShifted>(kSmallSine, kSmallCosine, value, call, link, chunk, ratio,
+                                       sines, cosines);
     case KernelAngle::kMedium:
-        return turnShares<0, kShifted>(kMediumSine, kMediumCosine, value, call, chunk, ratio, sines,
-                                       cosines);
+        return turnShares<0, kShifted>(kMediumSine, kMediumCosine, value, call, link, chunk, ratio,
+                                       sines, cosines);
     case KernelAngle::kLarge:
-        return turnShares<0, kShifted>(kLargeSine, kLargeCosine, value, call, chunk, ratio, sines,
-                                       cosines);
+        return turnShares<0, kShifted>(kLargeSine, kLargeCosine, value, call, link, chunk, ratio,
+                                       sines, cosines);
     case KernelAngle::kHalved:
-        return turnShares<1, kShifted>(kLargeSine, kLargeCosine, value, call, chunk, ratio, sines,
-                                       cosines);
+        return turnShares<1, kShifted>(kLargeSine, kLargeCosine, value, call, link, chunk, ratio,
+                                       sines, cosines);
     case KernelAngle::kQuartered:
-        return turnShares<2, kShifted>(kLargeSine, kLargeCosine, value, call, chunk, ratio, sines,
-                                       cosines);
+        return turnShares<2, kShifted>(kLargeSine, kLargeCosine, value, call, link, chunk, ratio,
+                                       sines, cosines);
     }
 }
 
@@ -117,6 +118,9 @@ HWY_NOINLINE void pass(const KernelCall& call, const Chunk& chunk, const KernelM
                            : kStream == Stream::Normals ? call.normals
                                                         : call.tangents);
     const std::size_t ahead = from == state ? 0 : chunk.blocks * stride;
+    const MapRows rows(map);
+    const bool adjusted = kTurns && kStream == Stream::Positions && call.isAdjusted(*link);
+    const bool scaled = !kTurns && kStream == Stream::Positions && call.lead->scale() != 1.0f;
     for (std::size_t b = 0; b < chunk.blocks; ++b, from += stride) {
         for (std::size_t row = 0; row < 3; ++row) hwy::Prefetch(from + ahead + row * kBlock);
         for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
@@ -127,13 +131,13 @@ HWY_NOINLINE void pass(const KernelCall& call, const Chunk& chunk, const KernelM
                 turnPlane(hn::Load(d, chunk.twistSine + v), hn::Load(d, chunk.twistCosine + v), x,
                           y);
                 turnPlane(hn::Load(d, chunk.bendSine + v), hn::Load(d, chunk.bendCosine + v), y, z);
-                if (kStream == Stream::Positions && HWY_UNLIKELY(link->adjusted))
-                    adjust(*link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane), x, y,
-                           z);
-            } else if (kStream == Stream::Positions && HWY_UNLIKELY(call.leadScaled)) {
-                scaleBy(constant(call.leadScale), x, y, z);
+                if (HWY_UNLIKELY(adjusted))
+                    adjust(call, *link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane), x,
+                           y, z);
+            } else if (HWY_UNLIKELY(scaled)) {
+                scaleBy(constant(call.lead->scale()), x, y, z);
             }
-            kStream == Stream::Positions ? apply(map, x, y, z) : turn(map, x, y, z);
+            kStream == Stream::Positions ? applyTo(rows, x, y, z) : turnBy(rows, x, y, z);
             if (!kLast) {
                 float* to = state + 3 * b * kBlock + lane;
                 hn::Store(x, d, to);
@@ -234,9 +238,9 @@ HWY_NOINLINE void startSurface(const KernelCall& call, const Chunk& chunk,
                 hn::Store(dot(tx, ty, tz, vx, vy, vz), d, surface.alongV + v);
                 hn::Store(dot(tx, ty, tz, tx, ty, tz), d, surface.square + v);
             }
-            if (call.lead && HWY_UNLIKELY(call.leadScaled)) {
-                scaleBy(constant(call.leadScale), ux, uy, uz);
-                scaleBy(constant(call.leadScale), vx, vy, vz);
+            if (call.lead && HWY_UNLIKELY(call.lead->scale() != 1.0f)) {
+                scaleBy(constant(call.lead->scale()), ux, uy, uz);
+                scaleBy(constant(call.lead->scale()), vx, vy, vz);
             }
             storeRows(ux, uy, uz, surface.u.state + 3 * b * kBlock + lane);
             storeRows(vx, vy, vz, surface.v.state + 3 * b * kBlock + lane);
@@ -273,9 +277,9 @@ HWY_NOINLINE void passDirection(const KernelCall& call, const Chunk& chunk, cons
             cosine = hn::Load(d, chunk.bendCosine + v);
             if (slope.tilt.bends) addSlope(slopeAt(slopes + lane, kBend, slope.bend), y, z, uy, uz);
             turnPlane(sine, cosine, uy, uz);
-            if (HWY_UNLIKELY(link.adjusted)) {
+            if (HWY_UNLIKELY(call.isAdjusted(link))) {
                 turnPlane(sine, cosine, y, z);
-                adjustAlong(link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane),
+                adjustAlong(call, link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane),
                             slopeAt(slopes + lane, kBend, slope.step), x, y, z, ux, uy, uz);
             }
             storeRows(ux, uy, uz, to + lane);
@@ -378,11 +382,11 @@ HWY_INLINE void deformByLinks(const KernelCall& call) {
         for (const KernelLink* link = call.links + call.linkCount; link-- != call.links;
              chunk.ratios += 2 * kBlock, inJointFrame = false) {
             const auto twist = inJointFrame ? turnShares<true> : turnShares<false>;
-            twist(link->twist, call, chunk, chunk.ratios + kBlock, chunk.twistSine,
-                  chunk.twistCosine);
-            turnShares<false>(link->bend, call, chunk, chunk.ratios, chunk.bendSine,
-                              chunk.bendCosine);
-            streams(link->out, link, link == call.links);
+            twist(call.joints->twistOf(link->joint), call, *link, chunk, chunk.ratios + kBlock,
+                  chunk.twistSine, chunk.twistCosine);
+            turnShares<false>(call.joints->bendOf(link->joint), call, *link, chunk, chunk.ratios,
+                              chunk.bendSine, chunk.bendCosine);
+            streams(call.outs[link->out], link, link == call.links);
             if (call.gradients) chunk.slopes += kSlopeRows * kBlock;
         }
     }

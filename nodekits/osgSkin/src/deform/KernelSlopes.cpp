@@ -11,13 +11,15 @@ void KernelSlopes::prepare(std::size_t group, std::size_t firstBlock, KernelCall
     call.gradients = nullptr;
     for (std::size_t k = call.linkCount; k-- > 0;) {
         const KernelLink& link = call.links[k];
-        const double bend = link.bend.whole(), twist = link.twist.whole();
+        const double bend = call.joints->bendOf(link.joint).whole();
+        const double twist = call.joints->twistOf(link.joint).whole();
+        const bool adjusted = call.isAdjusted(link);
         KernelSlope& slope = _slopes[k];
-        slope.tilt = linkTilt(reach[k], bend, twist, link.adjusted);
+        slope.tilt = linkTilt(reach[k], bend, twist, adjusted);
         if (!slope.tilt.any()) continue;
-        slope.bend = blocks.unit * bend;
-        slope.twist = blocks.unit * twist;
-        if (link.adjusted) slope.step = blocks.unit;
+        slope.bend = roundedToFloat(blocks.unit * bend);
+        slope.twist = roundedToFloat(blocks.unit * twist);
+        if (adjusted) slope.step = roundedToFloat(blocks.unit);
         call.lastSlope = k;
         call.gradients = blocks
                              .rows[blocks.firstRow[group] +

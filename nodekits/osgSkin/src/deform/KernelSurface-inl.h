@@ -29,7 +29,7 @@ HWY_INLINE const std::int16_t* gradientLanes(const KernelCall& call, std::size_t
 }
 
 /// The gradient of a link's ratio along one direction, `row` of its rows, times `by`.
-HWY_INLINE V slopeAt(const std::int16_t* HWY_RESTRICT slopes, SlopeRow row, const Splat& by) {
+HWY_INLINE V slopeAt(const std::int16_t* HWY_RESTRICT slopes, SlopeRow row, const float& by) {
     return hn::Mul(sharesAt(slopes + row * kBlock), constant(by));
 }
 
@@ -41,17 +41,20 @@ HWY_INLINE void addSlope(V slope, V a, V b, V& alongA, V& alongB) {
 }
 
 /// The same of adjust(), which is yet to be applied to the vertex.
-HWY_INLINE void adjustAlong(const KernelLink& link, V bendRatio, V step, V x, V y, V z, V& alongX,
-                            V& alongY, V& alongZ) {
-    const V growth = constant(link.growth);
+HWY_INLINE void adjustAlong(const KernelCall& call, const KernelLink& link, V bendRatio, V step,
+                            V x, V y, V z, V& alongX, V& alongY, V& alongZ) {
+    const KernelJoints& joints = *call.joints;
+    const V growth = constant(joints.growth[link.joint]);
+    const V scale = constant(call.outs[link.out].scale());
     const V factor = hn::MulAdd(bendRatio, growth, hn::Set(D(), 1.0f));
-    const auto along = [&](const Splat& move, V at, V& to) HWY_ATTR {
-        to = hn::MulAdd(factor, to, hn::Mul(step, hn::MulAdd(growth, at, constant(move))));
-        to = hn::Mul(to, constant(link.outScale));
+    const auto along = [&](std::size_t axis, V at, V& to) HWY_ATTR {
+        const V move = constant(joints.move[axis][link.joint]);
+        to = hn::MulAdd(factor, to, hn::Mul(step, hn::MulAdd(growth, at, move)));
+        to = hn::Mul(to, scale);
     };
-    along(link.move[0], x, alongX);
-    along(link.move[1], y, alongY);
-    along(link.move[2], z, alongZ);
+    along(0, x, alongX);
+    along(1, y, alongY);
+    along(2, z, alongZ);
 }
 
 HWY_INLINE void cross(V ax, V ay, V az, V bx, V by, V bz, V& x, V& y, V& z) {

@@ -20,14 +20,37 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, kBlock>;
 using V = hn::Vec<D>;
 
-HWY_INLINE V constant(const Splat& splat) {
-    const D d;
-#if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
-    return hn::Load(d, splat.value); // a memory operand: these targets have few registers
-#else
-    return hn::Set(d, splat.value[0]);
-#endif
+HWY_INLINE V constant(const float& x) {
+    return hn::Set(D(), x);
 }
+
+/// A map whose constants are as many times there as a vector has numbers, where instructions can
+/// read those as operands: such processors have few registers.
+struct MapRows {
+    HWY_INLINE explicit MapRows(const KernelMap& map) {
+        const D d;
+        for (std::size_t row = 0; row < 3; ++row)
+            for (std::size_t column = 0; column < 4; ++column)
+                hn::Store(hn::Set(d, map.column[column][row]), d, rows[row][column]);
+    }
+    HWY_INLINE V turn(std::size_t row, std::size_t column) const {
+        return hn::Load(D(), rows[row][column]);
+    }
+    HWY_INLINE V move(std::size_t row) const { return hn::Load(D(), rows[row][3]); }
+
+    alignas(64) float rows[3][4][hn::MaxLanes(D())];
+};
+
+/// A map whose constants are read once each.
+struct MapNumbers {
+    HWY_INLINE explicit MapNumbers(const KernelMap& from) : map(from) {}
+    HWY_INLINE V turn(std::size_t row, std::size_t column) const {
+        return constant(map.turn(row, column));
+    }
+    HWY_INLINE V move(std::size_t row) const { return constant(map.move(row)); }
+
+    const KernelMap& map;
+};
 
 /// c[0] + c[1] t + c[2] t^2 + ...
 template <std::size_t kTerms>
@@ -81,11 +104,12 @@ HWY_INLINE void sineCosine(const KernelAngle& angle, V ratio, V& sine, V& cosine
 
 /// From the twist b to b - z: the rest data's fixed frame differs from (v, w x v, w) by v's azimuth
 /// z.
-HWY_INLINE void takeAzimuthOff(const KernelCall& call, V& sine, V& cosine) {
+HWY_INLINE void takeAzimuthOff(const KernelCall& call, const KernelLink& link, V& sine, V& cosine) {
     const V old = cosine;
-    cosine =
-        hn::MulAdd(old, constant(call.azimuthCosine), hn::Mul(sine, constant(call.azimuthSine)));
-    sine = hn::MulSub(sine, constant(call.azimuthCosine), hn::Mul(old, constant(call.azimuthSine)));
+    const V of = constant(call.joints->azimuthCosine[link.joint]);
+    const V by = constant(call.joints->azimuthSine[link.joint]);
+    cosine = hn::MulAdd(old, of, hn::Mul(sine, by));
+    sine = hn::MulSub(sine, of, hn::Mul(old, by));
 }
 
 /// Turns (a, b) in its plane.
@@ -95,31 +119,43 @@ HWY_INLINE void turnPlane(V sine, V cosine, V& a, V& b) {
     b = hn::MulAdd(sine, old, hn::Mul(cosine, b));
 }
 
-HWY_INLINE V mapRow(const Splat (&row)[3], V x, V y, V z) {
-    return hn::MulAdd(constant(row[2]), z,
-                      hn::MulAdd(constant(row[1]), y, hn::Mul(constant(row[0]), x)));
+template <typename Map>
+HWY_INLINE V turnedRow(const Map& map, std::size_t row, V x, V y, V z) {
+    return hn::MulAdd(map.turn(row, 2), z,
+                      hn::MulAdd(map.turn(row, 1), y, hn::Mul(map.turn(row, 0), x)));
+}
+
+template <typename Map>
+HWY_INLINE void turnBy(const Map& map, V& x, V& y, V& z) {
+    const V a = turnedRow(map, 0, x, y, z);
+    const V b = turnedRow(map, 1, x, y, z);
+    z = turnedRow(map, 2, x, y, z);
+    x = a;
+    y = b;
 }
 
 HWY_INLINE void turn(const KernelMap& map, V& x, V& y, V& z) {
-    const V a = mapRow(map.turn[0], x, y, z);
-    const V b = mapRow(map.turn[1], x, y, z);
-    z = mapRow(map.turn[2], x, y, z);
-    x = a;
-    y = b;
+    turnBy(MapNumbers(map), x, y, z);
 }
 
-HWY_INLINE V movedRow(const Splat (&row)[3], const Splat& move, V x, V y, V z) {
+template <typename Map>
+HWY_INLINE V movedRow(const Map& map, std::size_t row, V x, V y, V z) {
     return hn::MulAdd(
-        constant(row[2]), z,
-        hn::MulAdd(constant(row[1]), y, hn::MulAdd(constant(row[0]), x, constant(move))));
+        map.turn(row, 2), z,
+        hn::MulAdd(map.turn(row, 1), y, hn::MulAdd(map.turn(row, 0), x, map.move(row))));
+}
+
+template <typename Map>
+HWY_INLINE void applyTo(const Map& map, V& x, V& y, V& z) {
+    const V a = movedRow(map, 0, x, y, z);
+    const V b = movedRow(map, 1, x, y, z);
+    z = movedRow(map, 2, x, y, z);
+    x = a;
+    y = b;
 }
 
 HWY_INLINE void apply(const KernelMap& map, V& x, V& y, V& z) {
-    const V a = movedRow(map.turn[0], map.move[0], x, y, z);
-    const V b = movedRow(map.turn[1], map.move[1], x, y, z);
-    z = movedRow(map.turn[2], map.move[2], x, y, z);
-    x = a;
-    y = b;
+    applyTo(MapNumbers(map), x, y, z);
 }
 
 HWY_INLINE void scaleBy(V factor, V& x, V& y, V& z) {
@@ -130,12 +166,14 @@ HWY_INLINE void scaleBy(V factor, V& x, V& y, V& z) {
 
 /// A translation and a scale of the joint, where the motion has them, come in with the bend; about
 /// its centre, the frame's origin.
-HWY_INLINE void adjust(const KernelLink& link, V bendRatio, V& x, V& y, V& z) {
-    const V factor = hn::MulAdd(bendRatio, constant(link.growth), hn::Set(D(), 1.0f));
-    x = hn::MulAdd(bendRatio, constant(link.move[0]), hn::Mul(factor, x));
-    y = hn::MulAdd(bendRatio, constant(link.move[1]), hn::Mul(factor, y));
-    z = hn::MulAdd(bendRatio, constant(link.move[2]), hn::Mul(factor, z));
-    scaleBy(constant(link.outScale), x, y, z);
+HWY_INLINE void adjust(const KernelCall& call, const KernelLink& link, V bendRatio, V& x, V& y,
+                       V& z) {
+    const KernelJoints& joints = *call.joints;
+    const V factor = hn::MulAdd(bendRatio, constant(joints.growth[link.joint]), hn::Set(D(), 1.0f));
+    x = hn::MulAdd(bendRatio, constant(joints.move[0][link.joint]), hn::Mul(factor, x));
+    y = hn::MulAdd(bendRatio, constant(joints.move[1][link.joint]), hn::Mul(factor, y));
+    z = hn::MulAdd(bendRatio, constant(joints.move[2][link.joint]), hn::Mul(factor, z));
+    scaleBy(constant(call.outs[link.out].scale()), x, y, z);
 }
 
 } // namespace HWY_NAMESPACE

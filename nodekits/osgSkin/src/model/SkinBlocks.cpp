@@ -63,7 +63,7 @@ glm::dmat3 restFrame(const SkinModel& model, const SkinModel::Group& group) {
 }
 
 SkinBlocks::SkinBlocks(const SkinModel& model)
-    : inOrder(isIdentity(model.order())), smallMove(1e-9 * largestCoordinate(model)) {
+    : plan(model), inOrder(isIdentity(model.order())), smallMove(1e-9 * largestCoordinate(model)) {
     for (const BoundJoint& joint : model.joints()) jointFrames.push_back(jointFrame(joint));
     for (const SkinModel::Group& group : model.groups()) {
         const std::size_t blockRows = rowsPerBlock(group.partialCount);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "model/ChainPlan.h"
+
 #include <osgSkin/SkinModel>
 
 #include <glm/mat3x3.hpp>
@@ -33,6 +35,7 @@ struct SkinBlocks {
     /// SkinTangents has blocks of its own: x, y, z in the same frame, and the handedness.
     static constexpr std::size_t kTangentRows = 4;
 
+    ChainPlan plan;
     std::vector<BlockRow> rows;
     std::vector<std::size_t> firstRow;         ///< of each group
     std::vector<std::size_t> firstBlock = {0}; ///< of each group; then the number of all blocks

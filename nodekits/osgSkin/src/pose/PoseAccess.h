@@ -28,6 +28,10 @@ public:
     static const double* restRows(const Pose& pose) {
         return pose._rest ? pose._rest->rows.data() : nullptr;
     }
+    /// -1 of the root.
+    static const int* parents(const Pose& pose) {
+        return pose._rest ? pose._rest->parents.data() : nullptr;
+    }
     /// A row of cosines, one of sines.
     static const std::int32_t* azimuths(const Pose& pose) { return pose._azimuths.data(); }
     /// A multiple of kAtOnce.

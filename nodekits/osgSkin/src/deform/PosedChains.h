@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "deform/DeformKernel.h"
+#include "model/ChainPlan.h"
+
+#include <osgSkin/Pose>
+#include <osgSkin/SkinModel>
+
+#include <cstddef>
+
+namespace osgSkin {
+
+/// x -> scale * turn x + move, while chains are being multiplied out: columns of the turn, then
+/// the move with the scale behind it. Turns are rotations.
+struct alignas(32) PosedMap {
+    double column[4][4];
+};
+
+/// The maps of a plan's section in one pose. Only what the section has is ever set.
+struct PosedChains {
+    /// Works out what the groups from `firstGroup` to before `endGroup` need, which are of one
+    /// section.
+    void set(const SkinModel& model, const Pose& pose, const ChainPlan::Section& section,
+             std::size_t firstGroup, std::size_t endGroup) noexcept;
+
+    PosedMap maps[ChainPlan::kMaps]; ///< by ChainPlan's indices
+    KernelMap outs[ChainPlan::kMostOuts];
+    KernelJoints joints;
+    bool scaled; ///< any joint is
+};
+
+/// What multiplies a section out.
+struct ChainCall {
+    const Pose& pose;
+    const ChainPlan& plan;
+    const ChainPlan::Section& section;
+    double smallMove;   ///< a joint's translation up to this is a rounding error
+    const bool* needed; ///< of the section's steps; null: all are
+};
+
+/// By the best instructions that the machine has.
+void multiplyOut(const ChainCall& call, PosedChains& chains) noexcept;
+
+} // namespace osgSkin
