@@ -3,12 +3,12 @@
 
 #include <osgSkin/Error>
 
+#include "chains/PosedChains.h"
 #include "correctives/ReferenceCorrections.h"
 #include "deform/Chain.h"
 #include "deform/DeformKernel.h"
 #include "deform/KernelCorrections.h"
 #include "deform/KernelSlopes.h"
-#include "deform/PosedChains.h"
 #include "deform/SurfaceChain.h"
 #include "model/SkinModelAccess.h"
 

@@ -67,24 +67,27 @@ HWY_INLINE void loadFour(const double* const* from, std::size_t at, Doubles (&to
 }
 
 /// The same the other way round.
+///
+/// \param to of the first lane
+/// \param next from one lane's to the next one's
 HWY_INLINE void storeFour(const Doubles& x, const Doubles& y, const Doubles& z, const Doubles& w,
-                          double* const* to) {
+                          double* to, std::size_t next) {
     const DoubleTag d;
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
     const Doubles even = hn::InterleaveLower(d, x, y), odd = hn::InterleaveUpper(d, x, y);
     const Doubles even2 = hn::InterleaveLower(d, z, w), odd2 = hn::InterleaveUpper(d, z, w);
-    hn::StoreU(hn::ConcatLowerLower(d, even2, even), d, to[0]);
-    hn::StoreU(hn::ConcatLowerLower(d, odd2, odd), d, to[1]);
-    hn::StoreU(hn::ConcatUpperUpper(d, even2, even), d, to[2]);
-    hn::StoreU(hn::ConcatUpperUpper(d, odd2, odd), d, to[3]);
+    hn::StoreU(hn::ConcatLowerLower(d, even2, even), d, to);
+    hn::StoreU(hn::ConcatLowerLower(d, odd2, odd), d, to + next);
+    hn::StoreU(hn::ConcatUpperUpper(d, even2, even), d, to + 2 * next);
+    hn::StoreU(hn::ConcatUpperUpper(d, odd2, odd), d, to + 3 * next);
 #else
     double lanes[4][4];
     hn::StoreU(x, d, lanes[0]);
     hn::StoreU(y, d, lanes[1]);
     hn::StoreU(z, d, lanes[2]);
     hn::StoreU(w, d, lanes[3]);
-    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
-        for (std::size_t i = 0; i < 4; ++i) to[lane][i] = lanes[i][lane];
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane, to += next)
+        for (std::size_t i = 0; i < 4; ++i) to[i] = lanes[i][lane];
 #endif
 }
 

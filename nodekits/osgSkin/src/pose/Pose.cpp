@@ -11,7 +11,9 @@
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 namespace osgSkin {
 namespace {
@@ -34,25 +36,83 @@ bool isScale(double scale) noexcept {
     return scale >= kSmallestScale && scale <= 1.0 / kSmallestScale; // false for NaN
 }
 
+constexpr std::size_t kAtOnce = PoseAccess::kAtOnce;
+
+/// Fewer joints than are worked on at a time: a copy, with the last one over again.
+class FewJoints {
+public:
+    explicit FewJoints(const PoseCall& of) : _of(of) {
+        for (std::size_t j = 0; j < kAtOnce; ++j) {
+            _parents[j] = of.parents[last(j)];
+            for (std::size_t row = 0; row < PoseAccess::kRestRows; ++row)
+                _rest[row * kAtOnce + j] = of.rest[row * of.count + last(j)];
+            for (std::size_t row = 0; row < PoseAccess::kNumberRows; ++row)
+                _rows[row * kAtOnce + j] = of.rows[row * of.count + last(j)];
+        }
+    }
+
+    PoseCall call() {
+        return {kAtOnce, _parents.data(), _rest.data(), _rows.data(), _of.continued};
+    }
+
+    template <typename T>
+    std::array<T, kAtOnce> padded(const T* joints) const {
+        std::array<T, kAtOnce> result;
+        for (std::size_t j = 0; j < kAtOnce; ++j) result[j] = joints[last(j)];
+        return result;
+    }
+
+    void write() const {
+        for (std::size_t row = 0; row < PoseAccess::kNumberRows; ++row)
+            std::copy_n(&_rows[row * kAtOnce], _of.count, _of.rows + row * _of.count);
+        constexpr std::size_t kSize = sizeof(std::int32_t);
+        auto* const to = reinterpret_cast<char*>(_of.rows + PoseAccess::kNumberRows * _of.count);
+        const auto* const from =
+            reinterpret_cast<const char*>(_rows.data() + PoseAccess::kNumberRows * kAtOnce);
+        for (std::size_t row = 0; row < 2; ++row)
+            std::memcpy(to + row * _of.count * kSize, from + row * kAtOnce * kSize,
+                        _of.count * kSize);
+    }
+
+private:
+    std::size_t last(std::size_t joint) const { return std::min(joint, _of.count - 1); }
+
+    PoseCall _of;
+    std::array<int, kAtOnce> _parents;
+    std::array<double, PoseAccess::kRestRows * kAtOnce> _rest;
+    std::array<double, PoseAccess::kRows * kAtOnce> _rows;
+};
+
+/// \return false where the matrices cannot be followed
+bool setFrom(const glm::dmat4* skinning, const PoseCall& call, bool& other) noexcept {
+    static thread_local std::vector<double> room;
+    const std::size_t stride = PoseFrames::kBefore + call.count;
+    if (room.size() < kFrameRows * stride) room.resize(kFrameRows * stride);
+    const PoseFrames frames{room.data() + PoseFrames::kBefore, stride};
+    if (!readFrames(skinning, call, frames)) return false;
+    other = splitFrames(call, frames);
+    return true;
+}
+
 } // namespace
 
 Pose::Pose(const std::vector<BoundJoint>& joints, std::size_t inputs)
-    : _count(joints.size()), _stride((_count + kAtOnce - 1) / kAtOnce * kAtOnce),
-      _rows(kRows * _stride, 0.0), _azimuths(2 * _stride, 0), _inputs(inputs, 0.0f) {
+    : _rows(kRows * joints.size(), 0.0), _inputs(inputs, 0.0f) {
+    const std::size_t count = joints.size();
     for (const Row one : {kW, kScale})
-        std::fill_n(_rows.begin() + static_cast<std::ptrdiff_t>(one * _stride), _stride, 1.0);
-    std::fill_n(_azimuths.begin(), _stride, 1 << 30);
+        std::fill_n(_rows.begin() + static_cast<std::ptrdiff_t>(one * count), count, 1.0);
+    const std::vector<std::int32_t> none(count, 1 << 30);
+    if (count > 0) std::memcpy(&_rows[kAzimuth * count], none.data(), count * sizeof(std::int32_t));
     const auto rest = std::make_shared<RestRows>();
-    rest->rows.resize(kRestRows * _stride);
-    for (std::size_t j = 0; j < _stride; ++j) {
-        const BoundJoint& joint = joints[std::min(j, _count - 1)];
-        const glm::dmat3 frame = jointFrame(joint);
-        rest->parents.push_back(joint.parent);
+    rest->rows.resize(kRestRows * count);
+    for (std::size_t j = 0; j < count; ++j) {
+        const glm::dmat3 frame = jointFrame(joints[j]);
+        rest->parents.push_back(joints[j].parent);
         const auto write = [&](RestRow row, const glm::dvec3& v) {
             for (int axis = 0; axis < 3; ++axis)
-                rest->rows[(row + static_cast<std::size_t>(axis)) * _stride + j] = v[axis];
+                rest->rows[(row + static_cast<std::size_t>(axis)) * count + j] = v[axis];
         };
-        write(kCentre, joint.centre);
+        write(kCentre, joints[j].centre);
         write(kPole, frame[2]);
         write(kE1, frame[0]);
         write(kE2, frame[1]);
@@ -60,29 +120,27 @@ Pose::Pose(const std::vector<BoundJoint>& joints, std::size_t inputs)
     _rest = rest;
 }
 
+PoseCall Pose::callFor(Twist twist) noexcept {
+    return {size(), _rest->parents.data(), _rest->rows.data(), _rows.data(),
+            twist == Twist::Continued};
+}
+
 bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool* changed) noexcept {
-    if (count != _count) return false;
+    if (count != size()) return false;
     bool other = false;
-    if (count > 0) {
-        static thread_local std::vector<double> room;
-        const std::size_t stride = PoseFrames::kBefore + _stride;
-        if (room.size() < kFrameRows * stride) room.resize(kFrameRows * stride);
-        const PoseFrames frames{room.data() + PoseFrames::kBefore, stride};
-        const PoseCall call = callFor(twist);
-        if (!readFrames(skinning, call, frames)) return false;
-        other = splitFrames(call, frames);
+    if (count >= kAtOnce) {
+        if (!setFrom(skinning, callFor(twist), other)) return false;
+    } else if (count > 0) {
+        FewJoints few(callFor(twist));
+        if (!setFrom(few.padded(skinning).data(), few.call(), other)) return false;
+        few.write();
     }
     if (changed) *changed = other;
     return true;
 }
 
-PoseCall Pose::callFor(Twist twist) noexcept {
-    return {_count,       _stride,          _rest->parents.data(),    _rest->rows.data(),
-            _rows.data(), _azimuths.data(), twist == Twist::Continued};
-}
-
 bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* changed) noexcept {
-    if (count != _count) return false;
+    if (count != size()) return false;
     static thread_local std::vector<Reach> reaches;
     if (reaches.size() < count) reaches.resize(count, Reach{0.0, 1.0});
     for (std::size_t j = 0; j < count; ++j) {
@@ -97,24 +155,29 @@ bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* change
             !isScale(map.scale) || !isScale(reaches[j].scale))
             return false;
     }
-    const bool other = count > 0 && splitMaps(callFor(twist), own);
+    bool other = false;
+    if (count >= kAtOnce) {
+        other = splitMaps(callFor(twist), own);
+    } else if (count > 0) {
+        FewJoints few(callFor(twist));
+        other = splitMaps(few.call(), few.padded(own).data());
+        few.write();
+    }
     if (changed) *changed = other;
     return true;
 }
 
 bool Pose::setJoints(const Pose& other, bool* changed) noexcept {
-    if (other._count != _count) return false;
+    const std::size_t count = size();
+    if (other.size() != count) return false;
     // What bends are follows from the rotations.
     const auto isSame = [&](Row first, Row end) {
-        return std::equal(_rows.begin() + static_cast<std::ptrdiff_t>(first * _stride),
-                          _rows.begin() + static_cast<std::ptrdiff_t>(end * _stride),
-                          other._rows.begin() + static_cast<std::ptrdiff_t>(first * _stride));
+        return std::equal(_rows.begin() + static_cast<std::ptrdiff_t>(first * count),
+                          _rows.begin() + static_cast<std::ptrdiff_t>(end * count),
+                          other._rows.begin() + static_cast<std::ptrdiff_t>(first * count));
     };
-    const bool differs = !isSame(kW, kBend) || !isSame(kTwist, kRows);
-    if (differs) {
-        std::copy(other._rows.begin(), other._rows.end(), _rows.begin());
-        std::copy(other._azimuths.begin(), other._azimuths.end(), _azimuths.begin());
-    }
+    const bool differs = !isSame(kW, kBend) || !isSame(kTwist, kAzimuth);
+    if (differs) std::memcpy(_rows.data(), other._rows.data(), _rows.size() * sizeof(double));
     if (changed) *changed = differs;
     return true;
 }

@@ -23,7 +23,7 @@ public:
     /// \param joint its index
     static Rest rest(const Pose& pose, std::size_t joint) { return pose.restOf(joint); }
 
-    /// The rows, stride() from one to the next; null where there are no joints.
+    /// The rows, as many numbers each as there are joints; null where there are none.
     static const double* rows(const Pose& pose) { return pose._rows.data(); }
     static const double* restRows(const Pose& pose) {
         return pose._rest ? pose._rest->rows.data() : nullptr;
@@ -32,13 +32,14 @@ public:
     static const int* parents(const Pose& pose) {
         return pose._rest ? pose._rest->parents.data() : nullptr;
     }
-    /// A row of cosines, one of sines.
-    static const std::int32_t* azimuths(const Pose& pose) { return pose._azimuths.data(); }
-    /// A multiple of kAtOnce.
-    static std::size_t stride(const Pose& pose) { return pose._stride; }
+    /// A row of cosines, one of sines; read only as vectors are.
+    static const std::int32_t* azimuths(const double* rows, std::size_t joints) {
+        return reinterpret_cast<const std::int32_t*>(rows + Pose::kAzimuth * joints);
+    }
 
     static constexpr std::size_t kAtOnce = Pose::kAtOnce;
     static constexpr std::size_t kRows = Pose::kRows;
+    static constexpr std::size_t kNumberRows = Pose::kAzimuth; ///< less the one of azimuths
     static constexpr std::size_t kRestRows = Pose::kRestRows;
 
     /// Split::azimuthCosine and azimuthSine are in steps of this.

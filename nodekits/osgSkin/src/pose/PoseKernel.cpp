@@ -58,10 +58,10 @@ bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFram
     const auto require = [&good](const DoubleMask& that) HWY_ATTR { good = hn::And(good, that); };
     for (std::size_t row = 0; row < kFrameRows; ++row) // no turn
         frames.rows[row * frames.stride - 1] = row == 0 || row == 4 || row == 8 || row == 12;
-    for (std::size_t first = 0; first < call.count; first += lanes) {
+    for (std::size_t next = 0; next < call.count; next += lanes) {
+        const std::size_t first = HWY_MIN(next, call.count - lanes); // the last ones overlap
         const double* from[4];
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-            from[lane] = &skinning[HWY_MIN(first + lane, call.count - 1)][0][0];
+        for (std::size_t lane = 0; lane < lanes; ++lane) from[lane] = &skinning[first + lane][0][0];
         Doubles m[4][4];
         for (std::size_t column = 0; column < 4; ++column) loadFour(from, 4 * column, m[column]);
         // Written so that NaN is refused.
@@ -95,7 +95,7 @@ bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFram
             hn::StoreU(value, d, frames.rows + row * frames.stride + first);
         };
         const auto rest = [&](std::size_t row) HWY_ATTR {
-            return hn::LoadU(d, call.rest + row * call.stride + first);
+            return hn::LoadU(d, call.rest + row * call.count + first);
         };
         const Doubles centre[3] = {rest(PoseAccess::RestRow::kCentre),
                                    rest(PoseAccess::RestRow::kCentre + 1),
@@ -151,8 +151,8 @@ HWY_INLINE Quaternions quaternionsOf(const Doubles (&m)[3][3]) {
 HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t joint, const double (&q)[4],
                              double (&angles)[4]) {
     const auto rest = [&](std::size_t row) {
-        const double* at = call.rest + row * call.stride + joint;
-        return glm::dvec3(at[0], at[call.stride], at[2 * call.stride]);
+        const double* at = call.rest + row * call.count + joint;
+        return glm::dvec3(at[0], at[call.count], at[2 * call.count]);
     };
     const BendTwist split = splitUnit({q[0], q[1], q[2], q[3]}, rest(PoseAccess::RestRow::kPole));
     angles[0] = split.bendAngle;
@@ -181,9 +181,9 @@ HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternio
     const Doubles zero = hn::Zero(d), one = allOf(1.0), two = allOf(2.0);
     const Doubles xyz[3] = {q.x, q.y, q.z};
     const auto along = [&](std::size_t row) HWY_ATTR {
-        const double* at = call.rest + row * call.stride + first;
-        const Doubles axis[3] = {hn::LoadU(d, at), hn::LoadU(d, at + call.stride),
-                                 hn::LoadU(d, at + 2 * call.stride)};
+        const double* at = call.rest + row * call.count + first;
+        const Doubles axis[3] = {hn::LoadU(d, at), hn::LoadU(d, at + call.count),
+                                 hn::LoadU(d, at + 2 * call.count)};
         return dot(xyz, axis);
     };
     // c + s w is the twist, u1 e1 + u2 e2 what is perpendicular to w; of q and -q the one where c
@@ -245,10 +245,10 @@ HWY_INLINE DoubleMask write(const PoseCall& call, std::size_t first, const Quate
     double* const at = call.rows + first;
     Angles angles = split(call, first, q);
     if (HWY_UNLIKELY(call.continued))
-        angles.twist = continued(hn::LoadU(d, at + Access::kTwist * call.stride), angles.twist);
-    DoubleMask other = hn::Ne(angles.twist, hn::LoadU(d, at + Access::kTwist * call.stride));
+        angles.twist = continued(hn::LoadU(d, at + Access::kTwist * call.count), angles.twist);
+    DoubleMask other = hn::Ne(angles.twist, hn::LoadU(d, at + Access::kTwist * call.count));
     const auto put = [&](std::size_t row, const Doubles& value) HWY_ATTR {
-        double* const to = at + row * call.stride;
+        double* const to = at + row * call.count;
         other = hn::Or(other, hn::Ne(value, hn::LoadU(d, to)));
         hn::StoreU(value, d, to);
     };
@@ -258,15 +258,18 @@ HWY_INLINE DoubleMask write(const PoseCall& call, std::size_t first, const Quate
     put(Access::kZ, q.z);
     for (std::size_t axis = 0; axis < 3; ++axis) put(Access::kOffset + axis, offset[axis]);
     put(Access::kScale, scale);
-    hn::StoreU(angles.bend, d, at + Access::kBend * call.stride);
-    hn::StoreU(angles.twist, d, at + Access::kTwist * call.stride);
+    hn::StoreU(angles.bend, d, at + Access::kBend * call.count);
+    hn::StoreU(angles.twist, d, at + Access::kTwist * call.count);
     // As good as the kernel's floats, in half of a double's room.
     const auto inSteps = [&](const Doubles& x) HWY_ATTR {
         const Doubles of = hn::Mul(x, allOf(1.0 / PoseAccess::kAzimuthStep));
         return hn::DemoteTo(steps, hn::Add(of, hn::CopySign(allOf(0.5), of)));
     };
-    hn::StoreU(inSteps(angles.cosine), steps, call.azimuths + first);
-    hn::StoreU(inSteps(angles.sine), steps, call.azimuths + call.stride + first);
+    // Read and written as vectors and bytes only, which may be anything.
+    auto* const azimuths =
+        reinterpret_cast<std::int32_t*>(call.rows + Access::kAzimuth * call.count);
+    hn::StoreU(inSteps(angles.cosine), steps, azimuths + first);
+    hn::StoreU(inSteps(angles.sine), steps, azimuths + call.count + first);
     return other;
 }
 
@@ -274,7 +277,8 @@ bool splitFrames(const PoseCall& call, const PoseFrames& frames) {
     const DoubleTag d;
     const Doubles one = allOf(1.0);
     DoubleMask other = hn::Lt(one, one);
-    for (std::size_t first = 0; first < call.count; first += hn::Lanes(d)) {
+    for (std::size_t next = 0; next < call.count; next += hn::Lanes(d)) {
+        const std::size_t first = HWY_MIN(next, call.count - hn::Lanes(d)); // the last ones overlap
         const int* parents = call.parents + first;
         const auto own = [&](std::size_t row) HWY_ATTR {
             return hn::LoadU(d, frames.rows + row * frames.stride + first);
@@ -309,11 +313,11 @@ bool splitMaps(const PoseCall& call, const JointMap* own) {
     static_assert(isPacked<JointMap, double, 8>() && offsetof(JointMap, offset) == 32);
     const DoubleTag d;
     DoubleMask other = hn::Lt(allOf(1.0), allOf(1.0));
-    for (std::size_t first = 0; first < call.count; first += hn::Lanes(d)) {
+    for (std::size_t next = 0; next < call.count; next += hn::Lanes(d)) {
+        const std::size_t first = HWY_MIN(next, call.count - hn::Lanes(d)); // the last ones overlap
         const double* from[4];
         for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
-            from[lane] = reinterpret_cast<const double*>(
-                &own[HWY_MIN(first + lane, call.count - 1)].rotation.x);
+            from[lane] = reinterpret_cast<const double*>(&own[first + lane].rotation.x);
         Doubles q[4], rest[4]; // x, y, z, w
         loadFour(from, 0, q);
         loadFour(from, 4, rest);

@@ -12,13 +12,11 @@ namespace osgSkin {
 
 /// A pose that is being set, several joints at a time.
 struct PoseCall {
-    std::size_t count;  ///< joints, not 0
-    std::size_t stride; ///< as in Pose, of all rows
+    std::size_t count; ///< joints, and numbers in a row; at least PoseAccess::kAtOnce
     const int* parents;
-    const double* rest;     ///< by PoseAccess::RestRow
-    double* rows;           ///< by PoseAccess::Row
-    std::int32_t* azimuths; ///< a row of cosines, one of sines
-    bool continued;         ///< see Pose::Twist
+    const double* rest; ///< by PoseAccess::RestRow
+    double* rows;       ///< by PoseAccess::Row
+    bool continued;     ///< see Pose::Twist
 };
 
 /// Of what a skinning matrix makes of a cube.
@@ -43,7 +41,7 @@ struct PoseFrames {
 ///
 /// \param skinning one for each joint
 /// \param call its rows are left as they are
-/// \param frames set; room for call.stride joints in each row, and kBefore before them
+/// \param frames set; room for as many joints in each row, and kBefore before them
 /// \return false where one of them cannot be followed, see Pose::set()
 bool readFrames(const glm::dmat4* skinning, const PoseCall& call,
                 const PoseFrames& frames) noexcept;

@@ -2,13 +2,14 @@
 //
 // Compiled once for each instruction set by foreach_target.h, which includes this file again and
 // again; the best one is chosen at run time.
-#include "deform/PosedChains.h"
+#include "chains/ChainKernel.h"
+
 #include "pose/PoseAccess.h"
 
 #include <glm/gtc/quaternion.hpp>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "deform/ChainKernel.cpp"
+#define HWY_TARGET_INCLUDE "chains/ChainKernel.cpp"
 #include <hwy/foreach_target.h>
 // Must follow foreach_target.h.
 #include <hwy/highway.h>
@@ -38,13 +39,14 @@ struct JointRows {
 };
 
 HWY_INLINE JointRows rowsOf(const Pose& pose) {
-    return {PoseAccess::rows(pose), PoseAccess::restRows(pose), PoseAccess::azimuths(pose),
-            PoseAccess::parents(pose), PoseAccess::stride(pose)};
+    const double* const rows = PoseAccess::rows(pose);
+    return {rows, PoseAccess::restRows(pose), PoseAccess::azimuths(rows, pose.size()),
+            PoseAccess::parents(pose), pose.size()};
 }
 
 /// Where rows of a section's own are put together.
 struct GatheredRows {
-    double own[PoseAccess::kRows * ChainPlan::kMostJoints];
+    double own[PoseAccess::kNumberRows * ChainPlan::kMostJoints];
     double rest[PoseAccess::kRestRows * ChainPlan::kMostJoints];
     std::int32_t azimuths[2 * ChainPlan::kMostJoints];
     int parents[ChainPlan::kMostJoints];
@@ -81,12 +83,11 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, double smal
                          HWY_ATTR { return hn::LoadU(d, rows.own + row * rows.stride + first); };
     const auto rest = [&](std::size_t row)
                           HWY_ATTR { return hn::LoadU(d, rows.rest + row * rows.stride + first); };
-    double* to[3][4][4]; // full, frame, into; columns; lanes
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-        for (std::size_t map = 0; map < 3; ++map)
-            for (std::size_t column = 0; column < 4; ++column)
-                to[map][column][lane] =
-                    chains.maps[ChainPlan::full(first + lane) + map].column[column];
+    PosedMap* const maps = &chains.maps[ChainPlan::full(first)]; // full, frame, into
+    constexpr std::size_t kNext = 3 * sizeof(PosedMap) / sizeof(double);
+    const auto put4 = [&](std::size_t map, std::size_t column, const Doubles& a, const Doubles& b,
+                          const Doubles& c, const Doubles& e)
+                          HWY_ATTR { storeFour(a, b, c, e, maps[map].column[column], kNext); };
 
     // The whole turn.
     const Doubles w = own(Own::kW), x = own(Own::kX), y = own(Own::kY), z = own(Own::kZ);
@@ -100,8 +101,8 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, double smal
     const Doubles offset[3] = {own(Own::kOffset), own(Own::kOffset + 1), own(Own::kOffset + 2)};
     const Doubles scale = own(Own::kScale);
     for (std::size_t column = 0; column < 3; ++column)
-        storeFour(turn[column][0], turn[column][1], turn[column][2], zero, to[0][column]);
-    storeFour(offset[0], offset[1], offset[2], scale, to[0][3]);
+        put4(0, column, turn[column][0], turn[column][1], turn[column][2], zero);
+    put4(0, 3, offset[0], offset[1], offset[2], scale);
 
     // The frame v, w x v, w about the joint centre, and the way back into it.
     const Doubles step = allOf(PoseAccess::kAzimuthStep);
@@ -118,12 +119,12 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, double smal
         centre[axis] = rest(Rest::kCentre + axis);
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        storeFour(frame[axis][0], frame[axis][1], frame[axis][2], zero, to[1][axis]);
-        storeFour(frame[0][axis], frame[1][axis], frame[2][axis], zero, to[2][axis]);
+        put4(1, axis, frame[axis][0], frame[axis][1], frame[axis][2], zero);
+        put4(2, axis, frame[0][axis], frame[1][axis], frame[2][axis], zero);
     }
-    storeFour(centre[0], centre[1], centre[2], one, to[1][3]);
-    storeFour(hn::Neg(dot(frame[0], centre)), hn::Neg(dot(frame[1], centre)),
-              hn::Neg(dot(frame[2], centre)), one, to[2][3]);
+    put4(1, 3, centre[0], centre[1], centre[2], one);
+    put4(2, 3, hn::Neg(dot(frame[0], centre)), hn::Neg(dot(frame[1], centre)),
+         hn::Neg(dot(frame[2], centre)), one);
 
     KernelJoints& joints = chains.joints;
     putAngle(own(Own::kBend), joints.bend + first, joints.bendRange + first);
@@ -225,13 +226,13 @@ HWY_INLINE void takeAll(const ChainCall& call, PosedChains& chains) {
 }
 
 HWY_NOINLINE JointRows gather(const ChainCall& call, GatheredRows& to) {
-    constexpr std::size_t kStride = ChainPlan::kMostJoints;
+    constexpr std::size_t kStride = ChainPlan::kMostJoints, kAtOnce = PoseAccess::kAtOnce;
     const JointRows from = rowsOf(call.pose);
     const std::size_t count = call.section.jointCount;
-    const std::size_t padded = (count + PoseAccess::kAtOnce - 1) / PoseAccess::kAtOnce;
-    for (std::size_t i = 0; i < padded * PoseAccess::kAtOnce; ++i) {
+    const std::size_t padded = (count + kAtOnce - 1) / kAtOnce;
+    for (std::size_t i = 0; i < padded * kAtOnce; ++i) {
         const std::size_t joint = call.plan.joints[call.section.firstJoint + HWY_MIN(i, count - 1)];
-        for (std::size_t row = 0; row < PoseAccess::kRows; ++row)
+        for (std::size_t row = 0; row < PoseAccess::kNumberRows; ++row)
             to.own[row * kStride + i] = from.own[row * from.stride + joint];
         for (std::size_t row = 0; row < PoseAccess::kRestRows; ++row)
             to.rest[row * kStride + i] = from.rest[row * from.stride + joint];
@@ -245,11 +246,16 @@ HWY_NOINLINE JointRows gather(const ChainCall& call, GatheredRows& to) {
 void multiply(const ChainCall& call, PosedChains& chains) {
     const DoubleTag d;
     GatheredRows room;
-    const JointRows rows = call.plan.inOrder ? rowsOf(call.pose) : gather(call, room);
+    const std::size_t count = call.section.jointCount, lanes = hn::Lanes(d);
+    const JointRows rows =
+        call.plan.inOrder && count >= lanes ? rowsOf(call.pose) : gather(call, room);
     const Doubles one = allOf(1.0);
     DoubleMask adjusted = hn::Lt(one, one), scaled = adjusted;
-    for (std::size_t first = 0; first < call.section.jointCount; first += hn::Lanes(d))
+    for (std::size_t next = 0; next < count; next += lanes) {
+        // The last ones overlap those before.
+        const std::size_t first = count >= lanes ? HWY_MIN(next, count - lanes) : next;
         poseJoints(rows, first, call.smallMove, chains, adjusted, scaled);
+    }
     chains.scaled = !hn::AllFalse(d, scaled);
     chains.joints.anyAdjusted = !hn::AllFalse(d, adjusted);
     PosedMap& identity = chains.maps[ChainPlan::kIdentity];

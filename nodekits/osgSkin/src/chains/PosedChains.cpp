@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "deform/PosedChains.h"
+#include "chains/PosedChains.h"
 
+#include "chains/ChainKernel.h"
 #include "model/SkinModelAccess.h"
 
 #include <algorithm>
@@ -13,7 +14,9 @@ namespace {
 constexpr std::size_t kMostSteps = ChainPlan::kMostStates + ChainPlan::kMostOuts;
 using Needed = std::array<bool, kMostSteps>;
 
-/// Tells the steps that some of a section's groups need. \return false where all are to be done
+/// Tells the steps that some of a section's groups need.
+///
+/// \return false where all are to be done
 bool findNeeded(const SkinModel& model, const ChainPlan& plan, const ChainPlan::Section& section,
                 std::size_t firstGroup, std::size_t endGroup, Needed& needed) noexcept {
     const std::size_t count = section.endStep - section.firstStep;

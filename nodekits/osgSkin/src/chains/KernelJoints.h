@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "model/ChainPlan.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace osgSkin {
+
+/// An angle of which each vertex takes its share. The smaller it is, the fewer terms its sine
+/// needs.
+struct KernelAngle {
+    /// Up to 0.34, 0.9, pi / 2, pi and 2 pi.
+    enum Range : std::int32_t { kSmall, kMedium, kLarge, kHalved, kQuartered };
+    const float& value; ///< radians; half the angle where the range is kHalved, a quarter where
+                        ///< kQuartered
+    std::int32_t range;
+
+    double whole() const {
+        return double(value) * (range == kQuartered ? 4.0 : range == kHalved ? 2.0 : 1.0);
+    }
+};
+
+/// What joints do in the present pose, whatever chain they are in.
+///
+/// In the frame (v, w x v, w) about the joint centre, with bend axis v and twist axis w, the
+/// partial turn is a turn in the plane of the first two axes (by the twist) followed by one in the
+/// plane of the last two (by the bend).
+struct KernelJoints {
+    static constexpr std::size_t kMost = ChainPlan::kMostJoints;
+
+    KernelAngle bendOf(std::size_t joint) const { return {bend[joint], bendRange[joint]}; }
+    KernelAngle twistOf(std::size_t joint) const { return {twist[joint], twistRange[joint]}; }
+
+    float bend[kMost], twist[kMost]; ///< psi and phi, as KernelAngle has them
+    std::int32_t bendRange[kMost], twistRange[kMost];
+    float azimuthCosine[kMost], azimuthSine[kMost]; ///< of v in the joint's fixed frame
+    float move[3][kMost]; ///< the joint's translation, in its frame; comes in with the bend ratio
+    float growth[kMost];  ///< the joint's scale less 1; the same
+    std::int32_t adjusted[kMost]; ///< these are not 0
+    bool anyAdjusted;             ///< of all joints, whatever their number
+};
+
+} // namespace osgSkin
