@@ -266,7 +266,8 @@ TEST(WildGltf, NumbersThatStandNowhereAreZeros) {
         column.animate("still", column.joints[1], "translation", {0.0, 1.0},
                        std::vector<double>(6, 0.0));
         const nlohmann::json& sampler = column.json["animations"][0]["samplers"][0];
-        if (!isStored) column.json["accessors"][sampler["output"].get<int>()].erase("bufferView");
+        if (!isStored)
+            column.json["accessors"][sampler["output"].get<std::size_t>()].erase("bufferView");
         Character character = loadCharacter(column.save(isStored ? "stored.gltf" : "nowhere.gltf"));
         character.poseAt(character.motions.at(0), 0.5);
         osgAnimation::BoneMapVisitor bones;

@@ -34,35 +34,45 @@ public:
     PieceTerms(const PieceVertices& vertices, const SkinPiece& piece)
         : _vertices(vertices), _joints(vertices.model.joints()), _rows(piece.rows),
           _ranges(vertices.ranges(piece.rows)) {
+        for (const PieceRatios& range : _ranges)
+            _above.push_back(placeOf(_joints[range.joint].parent));
         // The root is followed wholly, always.
         while (_anchor + 1 < _ranges.size() && _ranges[_anchor + 1].isWhole() &&
-               above(_anchor + 1) == _anchor)
+               _above[_anchor + 1] == _anchor)
             ++_anchor;
         while (_first < _ranges.size() && _ranges[_first].low == 1.0f &&
                _ranges[_first].lowTwist == 1.0f && _first <= _anchor)
             ++_first;
+        lookAtVertices();
+        for (std::size_t k = _ranges.size(); k-- > _first;) _terms.push_back(termOf(k));
+        _shares = shares();
+        // These are as many as the piece's vertices times its joints.
+        _ratios = {};
+        _far = {};
     }
 
     void addTo(BoundsProxy& proxy, BoundsProxy::Piece& piece) const {
         piece.anchor = _ranges[_anchor].joint;
         piece.firstTerm = static_cast<std::uint32_t>(proxy.terms.size());
-        for (std::size_t k = _ranges.size(); k-- > _first;) {
-            proxy.terms.push_back(termOf(k));
-            ++piece.termCount;
-        }
+        piece.termCount = static_cast<decltype(piece.termCount)>(_terms.size());
+        proxy.terms.insert(proxy.terms.end(), _terms.begin(), _terms.end());
     }
 
-    std::map<std::uint32_t, Share> shares() const {
+    const std::map<std::uint32_t, Share>& jointShares() const { return _shares; }
+
+private:
+    std::map<std::uint32_t, Share> shares() {
         std::vector<float> ratios(_ranges.size(), 1.0f);
         std::vector<Share> all(_ranges.size());
         all[0].weight = 1.0f;
         for (std::size_t k = 1; k < _ranges.size(); ++k) {
             // Without its parent, a joint's own map is not what its vertices follow.
-            const std::size_t parent = above(k);
+            const std::size_t parent = _above[k];
             ratios[k] = parent < k && ratios[parent] > 0.0f ? _ranges[k].snapped() : 0.0f;
             if (ratios[k] > 0.0f) all[parent].weight -= ratios[k];
             all[k].weight += ratios[k];
         }
+        limitFar(ratios);
         for (std::size_t k = 1; k < _ranges.size(); ++k) addStrays(k, ratios, all);
         std::map<std::uint32_t, Share> result;
         for (std::size_t k = 0; k < all.size(); ++k)
@@ -72,13 +82,33 @@ public:
         return result;
     }
 
-private:
-    /// The place in _ranges of a joint's parent; the number of ranges where it is not there.
-    std::size_t above(std::size_t range) const {
-        const int parent = _joints[_ranges[range].joint].parent;
-        std::size_t at = 0;
-        while (at < _ranges.size() && static_cast<int>(_ranges[at].joint) != parent) ++at;
-        return at;
+    /// The place in _ranges of a joint; the number of ranges where it is not there.
+    std::size_t placeOf(int joint) const {
+        const auto at = std::lower_bound(_ranges.begin(), _ranges.end(), joint,
+                                         [](const PieceRatios& range, int wanted) {
+                                             return static_cast<int>(range.joint) < wanted;
+                                         });
+        return at != _ranges.end() && static_cast<int>(at->joint) == joint
+                   ? static_cast<std::size_t>(at - _ranges.begin())
+                   : _ranges.size();
+    }
+
+    void lookAtVertices() {
+        const std::size_t count = _ranges.size();
+        _ratios.resize(_rows.size() * count);
+        _far.resize(_rows.size() * count);
+        for (std::size_t i = 0; i < _rows.size(); ++i) {
+            _vertices.ratiosOf(_rows[i], _ranges, _ratios.data() + i * count);
+            // They keep distances from their own centres.
+            glm::vec3 from = _vertices.position(_rows[i]);
+            float far = 0.0f;
+            for (std::size_t k = count; k-- > 0;) {
+                const glm::vec3 centre(_joints[_ranges[k].joint].centre);
+                far += glm::distance(centre, from);
+                from = centre;
+                _far[i * count + k] = far;
+            }
+        }
     }
 
     /// How far vertices stray by the k-th joint of the ranges, and it together with others.
@@ -86,25 +116,24 @@ private:
         const BoundJoint& joint = _joints[_ranges[k].joint];
         float high = 0.0f, far = 0.0f;
         std::vector<float> pairs(_ranges.size(), 0.0f); // with joints that turn earlier or later
-        for (const std::uint32_t row : _rows) {
-            const glm::vec3& x = _vertices.position(row);
-            const SkinModel::Ratio ratio = _vertices.ratioOf(row, _ranges[k].joint);
-            const float bend = std::abs(ratio.bend - ratios[k]);
-            const float twist = std::abs(ratio.twist - ratios[k]);
+        for (std::size_t row = 0; row < _rows.size(); ++row) {
+            const glm::vec3& x = _vertices.position(_rows[row]);
+            const SkinModel::Ratio* const own = ratiosOf(row);
+            const float* const most = farOf(row);
+            const float bend = std::abs(own[k].bend - ratios[k]);
+            const float twist = std::abs(own[k].twist - ratios[k]);
             all[k].bend = std::max(all[k].bend, bend * fromCentre(joint, x));
             all[k].twist = std::max(all[k].twist, twist * fromTwistAxis(joint, x));
             high = std::max(high, fromCentre(joint, x));
-            const std::vector<float> most = farFrom(row, ratios);
             far = std::max(far, most[k]);
-            for (std::size_t i = k + 1; i < _ranges.size(); ++i) {
-                const SkinModel::Ratio earlier = _vertices.ratioOf(row, _ranges[i].joint);
+            if (bend == 0.0f && twist == 0.0f) continue;
+            for (std::size_t i = k + 1; i < _ranges.size(); ++i)
                 pairs[i] = std::max(pairs[i], std::max(bend, twist) *
-                                                  std::max(earlier.bend, earlier.twist) * most[i]);
-            }
+                                                  std::max(own[i].bend, own[i].twist) * most[i]);
         }
         all[k].square += 0.5f * ratios[k] * (1.0f - ratios[k]) * far;
         std::vector<bool> isAbove(k, false);
-        for (std::size_t i = above(k); i < k; i = above(i)) isAbove[i] = true;
+        for (std::size_t i = _above[k]; i < k; i = _above[i]) isAbove[i] = true;
         for (std::size_t i = 1; i < k; ++i)
             pairs[i] = ratios[k] * std::abs(ratios[i] - (isAbove[i] ? 1.0f : 0.0f)) * high;
         for (std::size_t i = 1; i < pairs.size(); ++i) {
@@ -113,34 +142,27 @@ private:
         }
     }
 
-    /// What a vertex's distances from the joints' centres cannot exceed, whatever those do that
-    /// turn earlier, by its own ratios or the piece's: they keep distances from their own centres,
-    /// and move it by no more than their ratio allows (a bend is at most pi, a twist 2 pi).
-    std::vector<float> farFrom(std::uint32_t row, const std::vector<float>& ratios) const {
-        std::vector<float> result(_ranges.size());
-        const glm::vec3& x = _vertices.position(row);
-        float moved = 0.0f;
-        for (std::size_t k = _ranges.size(); k-- > 0;) {
-            result[k] = std::min(farOf(row, k), fromCentre(_joints[_ranges[k].joint], x) + moved);
-            const SkinModel::Ratio ratio = _vertices.ratioOf(row, _ranges[k].joint);
-            const float bend = std::max(ratio.bend, ratios[k]);
-            const float twist = std::max(ratio.twist, ratios[k]);
-            moved += std::min(2.0f, 3.15f * bend + 6.3f * twist) * result[k];
+    /// Lessens _far to what moves vertices at all: joints that turn earlier, by the vertex's own
+    /// ratios or the piece's, by no more than these allow (a bend is at most pi, a twist 2 pi).
+    void limitFar(const std::vector<float>& ratios) {
+        for (std::size_t row = 0; row < _rows.size(); ++row) {
+            const glm::vec3& x = _vertices.position(_rows[row]);
+            const SkinModel::Ratio* const own = ratiosOf(row);
+            float* const far = _far.data() + row * _ranges.size();
+            float moved = 0.0f;
+            for (std::size_t k = _ranges.size(); k-- > 0;) {
+                far[k] = std::min(far[k], fromCentre(_joints[_ranges[k].joint], x) + moved);
+                const float bend = std::max(own[k].bend, ratios[k]);
+                const float twist = std::max(own[k].twist, ratios[k]);
+                moved += std::min(2.0f, 3.15f * bend + 6.3f * twist) * far[k];
+            }
         }
-        return result;
     }
 
-    /// The first of these for one joint.
-    float farOf(std::uint32_t row, std::size_t k) const {
-        float far = 0.0f;
-        glm::vec3 from = _vertices.position(row);
-        for (std::size_t i = _ranges.size(); i-- > k;) {
-            const glm::vec3 centre(_joints[_ranges[i].joint].centre);
-            far += glm::distance(centre, from);
-            from = centre;
-        }
-        return far;
+    const SkinModel::Ratio* ratiosOf(std::size_t row) const {
+        return _ratios.data() + row * _ranges.size();
     }
+    const float* farOf(std::size_t row) const { return _far.data() + row * _ranges.size(); }
 
     BoundsProxy::Term termOf(std::size_t k) const {
         const PieceRatios& range = _ranges[k];
@@ -155,15 +177,15 @@ private:
         term.twistSpread = std::max(range.highTwist - term.twist, term.twist - range.lowTwist);
         term.mostBend = range.high;
         term.mostTwist = range.highTwist;
-        for (const std::uint32_t row : _rows) {
-            const glm::vec3& x = _vertices.position(row);
-            const SkinModel::Ratio ratio = _vertices.ratioOf(row, range.joint);
+        for (std::size_t row = 0; row < _rows.size(); ++row) {
+            const glm::vec3& x = _vertices.position(_rows[row]);
+            const SkinModel::Ratio& ratio = ratiosOf(row)[k];
             const float high = fromCentre(joint, x), wide = fromTwistAxis(joint, x);
             term.bendReach = std::max(term.bendReach, std::abs(ratio.bend - term.bend) * high);
             term.twistReach = std::max(term.twistReach, std::abs(ratio.twist - term.twist) * wide);
             term.bendMove = std::max(term.bendMove, ratio.bend * high);
             term.twistMove = std::max(term.twistMove, ratio.twist * wide);
-            term.mostHigh = std::max(term.mostHigh, farOf(row, k));
+            term.mostHigh = std::max(term.mostHigh, farOf(row)[k]);
         }
         return term;
     }
@@ -172,7 +194,12 @@ private:
     const std::vector<BoundJoint>& _joints;
     const Rows& _rows;
     std::vector<PieceRatios> _ranges;
-    std::size_t _anchor = 0, _first = 1; ///< the first one that any vertex does not follow wholly
+    std::vector<std::size_t> _above;       ///< by range: the place of the joint's parent
+    std::size_t _anchor = 0, _first = 1;   ///< the first one that any vertex does not follow wholly
+    std::vector<SkinModel::Ratio> _ratios; ///< by vertex, then by range
+    std::vector<float> _far; ///< the same: from a joint's centre, whatever is done before it
+    std::vector<BoundsProxy::Term> _terms;
+    std::map<std::uint32_t, Share> _shares;
 };
 
 /// Length of the k-th mode's shares in a lane.
@@ -255,15 +282,14 @@ void addCorrections(const PieceVertices& vertices, const Rows& rows, BoundsProxy
 struct CutPiece {
     SkinPiece cut;
     PieceTerms terms;
-    std::map<std::uint32_t, PieceTerms::Share> shares;
 
     CutPiece(const PieceVertices& vertices, SkinPiece&& piece)
-        : cut(std::move(piece)), terms(vertices, cut), shares(terms.shares()) {}
+        : cut(std::move(piece)), terms(vertices, cut) {}
 
     /// The joints that it moves with.
     std::set<std::uint32_t> joints() const {
         std::set<std::uint32_t> result;
-        for (const auto& [joint, share] : shares)
+        for (const auto& [joint, share] : terms.jointShares())
             if (share.weight != 0.0f) result.insert(joint);
         return result;
     }
@@ -309,7 +335,7 @@ void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::s
                 block.axes[side][axis].lane[lane] = piece.axes[side][axis];
         }
         block.corrected.lane[lane] = piece.corrected;
-        for (const auto& [joint, of] : pieces[i]->shares) {
+        for (const auto& [joint, of] : pieces[i]->terms.jointShares()) {
             BoundsProxy::Share& share = shares[joint];
             share.joint = joint;
             share.weight.lane[lane] = of.weight;

@@ -72,13 +72,15 @@ public:
         }
     }
 
-    /// What a vertex has of a joint.
-    SkinModel::Ratio ratioOf(std::uint32_t row, std::uint32_t joint) const {
-        SkinModel::Ratio result{0.0f, 0.0f};
-        forEachJoint(row, [&](std::uint32_t other, const SkinModel::Ratio& ratio) {
-            if (other == joint) result = ratio;
+    /// What a vertex has of each of these joints, which stand in their order.
+    void ratiosOf(std::uint32_t row, const std::vector<PieceRatios>& joints,
+                  SkinModel::Ratio* result) const {
+        std::fill(result, result + joints.size(), SkinModel::Ratio{0.0f, 0.0f});
+        std::size_t at = 0;
+        forEachJoint(row, [&](std::uint32_t joint, const SkinModel::Ratio& ratio) {
+            while (at < joints.size() && joints[at].joint < joint) ++at;
+            if (at < joints.size() && joints[at].joint == joint) result[at] = ratio;
         });
-        return result;
     }
 
     /// The joints that any of the vertices follows, in their order.

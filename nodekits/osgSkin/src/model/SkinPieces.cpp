@@ -64,24 +64,39 @@ private:
             bulge += out * out;
         }
         piece.excess = std::sqrt(bulge / static_cast<float>(some.size()));
-        for (const PieceRatios& range : _vertices.ranges(some))
-            if (!range.isConstant()) piece.excess += strayOf(range, some);
+        for (const float stray : straysOf(rangesOf(some), some)) piece.excess += stray;
         piece.rows = std::move(rows);
         return piece;
     }
 
-    /// How far a joint's ratios let vertices stray in a usual pose.
-    float strayOf(const PieceRatios& range, const Rows& rows) const {
-        const BoundJoint& joint = _vertices.model.joints()[range.joint];
-        float bend = 0.0f, twist = 0.0f;
+    /// Of the joints that vertices follow differently.
+    std::vector<PieceRatios> rangesOf(const Rows& rows) const {
+        std::vector<PieceRatios> ranges = _vertices.ranges(rows);
+        ranges.erase(std::remove_if(ranges.begin(), ranges.end(),
+                                    [](const PieceRatios& range) { return range.isConstant(); }),
+                     ranges.end());
+        return ranges;
+    }
+
+    /// How far each joint's ratios let vertices stray in a usual pose.
+    std::vector<float> straysOf(const std::vector<PieceRatios>& ranges, const Rows& rows) const {
+        std::vector<float> bend(ranges.size(), 0.0f), twist(ranges.size(), 0.0f);
+        std::vector<SkinModel::Ratio> ratios(ranges.size());
         for (const std::uint32_t row : rows) {
-            const SkinModel::Ratio ratio = _vertices.ratioOf(row, range.joint);
+            _vertices.ratiosOf(row, ranges, ratios.data());
             const glm::vec3& x = _vertices.position(row);
-            bend = std::max(bend, std::abs(ratio.bend - range.middle()) * fromCentre(joint, x));
-            twist = std::max(twist,
-                             std::abs(ratio.twist - range.middleTwist()) * fromTwistAxis(joint, x));
+            for (std::size_t i = 0; i < ranges.size(); ++i) {
+                const PieceRatios& range = ranges[i];
+                const BoundJoint& joint = _vertices.model.joints()[range.joint];
+                bend[i] = std::max(bend[i], std::abs(ratios[i].bend - range.middle()) *
+                                                fromCentre(joint, x));
+                twist[i] = std::max(twist[i], std::abs(ratios[i].twist - range.middleTwist()) *
+                                                  fromTwistAxis(joint, x));
+            }
         }
-        return kUsualBend * bend + kUsualTwist * twist;
+        for (std::size_t i = 0; i < ranges.size(); ++i)
+            bend[i] = kUsualBend * bend[i] + kUsualTwist * twist[i];
+        return bend;
     }
 
     static Rows sample(const Rows& rows) {
@@ -95,9 +110,11 @@ private:
     /// The way to cut the vertices in two that leaves the least excess.
     std::array<Rows, 2> halve(const Rows& rows) const {
         const Rows some = sample(rows);
+        const std::vector<PieceRatios> all = rangesOf(some);
+        const std::vector<float> strays = straysOf(all, some);
         std::vector<PieceRatios> ranges;
-        for (const PieceRatios& range : _vertices.ranges(some))
-            if (strayOf(range, some) > 0.1f * _fine) ranges.push_back(range);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (strays[i] > 0.1f * _fine) ranges.push_back(all[i]);
         float least = std::numeric_limits<float>::max();
         std::size_t bestAxis = 0;
         float bestPlace = placeOf(some, ranges, 0);
