@@ -21,6 +21,8 @@ MOST_LINES = 1500
 # GCC's own warning options mean nothing to clang, and OSG's wrapper macros leave parameters unused.
 FLAGS = ["-Wno-unknown-warning-option", "-Wno-unused-parameter", "-Wdocumentation",
          "-Wreserved-identifier"]
+# Functions that each program has.
+ONE_A_PROGRAM = {"main", "LLVMFuzzerTestOneInput"}
 # Made by macros, another in each file.
 TESTS = {"TEST", "TEST_F", "TEST_P", "INSTANTIATE_TEST_SUITE_P", "REGISTER_OBJECT_WRAPPER"}
 
@@ -58,6 +60,7 @@ def own_names(files):
     for tag in map(json.loads, tags.splitlines()):
         scope = tag.get("scope", "")
         local = "__anon" in scope or tag.get("file") or tag["kind"] == "macro"
+        local = local or tag["name"] in ONE_A_PROGRAM
         if local and tag.get("scopeKind") in (None, "namespace") and tag["name"] not in TESTS:
             names[tag["path"]].add(tag["name"])
     return names
