@@ -11,26 +11,54 @@
 namespace osgSkin {
 namespace {
 
-/// The words that a file begins with, as Assimp divides them: it takes CR and form feeds for ends
-/// of lines, too, and comments end there.
-std::vector<std::string_view> firstWords(std::string_view text, std::size_t most) {
-    constexpr std::string_view lineEnds("\n\r\f\0", 4);
-    std::vector<std::string_view> words;
-    for (std::size_t at = 0; at < text.size() && words.size() < most;) {
-        const char c = text[at];
-        if (c == '#') {
-            at = text.find_first_of(lineEnds, at);
-        } else if (c == ' ' || c == '\t' || lineEnds.find(c) != std::string_view::npos) {
-            ++at;
-        } else {
-            const std::size_t end =
-                std::min(text.size(), text.find_first_of(std::string_view("\n\r\f\0 \t#", 7), at));
-            words.push_back(text.substr(at, end - at));
-            at = end;
+/// A file's words and lines as Assimp divides it: it takes CR and form feeds for ends of lines,
+/// too, and comments of the head end there.
+class OffText {
+public:
+    explicit OffText(std::string_view text) : _rest(text) {}
+
+    /// The next word of the head; empty at the end.
+    std::string_view word() {
+        skipToWord();
+        return take(_rest.find_first_of("\n\r\f \t#"));
+    }
+    void skipToWord() {
+        while (!_rest.empty()) {
+            if (_rest.front() == '#')
+                take(_rest.find_first_of(kLineEnds));
+            else if (std::string_view("\n\r\f \t").find(_rest.front()) != std::string_view::npos)
+                _rest.remove_prefix(1);
+            else
+                return;
         }
     }
-    return words;
-}
+    /// The words of the next line of the body; none at the end.
+    std::vector<std::string_view> line() {
+        std::string_view line = take(_rest.find_first_of(kLineEnds));
+        _rest.remove_prefix(std::min(_rest.size(), _rest.find_first_not_of(kLineEnds)));
+        std::vector<std::string_view> words;
+        if (line.size() >= kLongestLine) return words;
+        for (std::size_t at = 0;
+             (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
+            const std::size_t end = std::min(line.size(), line.find_first_of(" \t", at));
+            words.push_back(line.substr(at, end - at));
+            at = end;
+        }
+        return words;
+    }
+
+private:
+    static constexpr std::string_view kLineEnds = "\n\r\f";
+    static constexpr std::size_t kLongestLine = 4096; ///< that Assimp takes for one
+
+    std::string_view take(std::size_t length) {
+        const std::string_view taken = _rest.substr(0, length);
+        _rest.remove_prefix(taken.size());
+        return taken;
+    }
+
+    std::string_view _rest;
+};
 
 bool isDigits(std::string_view word) {
     return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
@@ -43,34 +71,60 @@ bool isKeyword(std::string_view word) {
     return word == "OFF";
 }
 
+bool isVertex(const std::vector<std::string_view>& words) {
+    double number = 0.0;
+    return words.size() >= 3 && std::all_of(words.begin(), words.begin() + 3,
+                                            [&](auto word) { return parseNumber(word, number); });
+}
+
+bool isFace(const std::vector<std::string_view>& words, std::size_t vertices) {
+    double corners = 0.0, index = 0.0;
+    if (words.empty() || !isDigits(words[0]) || !parseNumber(words[0], corners) ||
+        !(corners >= 1.0 && corners <= 8.0 && double(words.size()) > corners))
+        return false;
+    return std::all_of(words.begin() + 1, words.begin() + 1 + static_cast<int>(corners),
+                       [&](std::string_view word) {
+                           return isDigits(word) && parseNumber(word, index) &&
+                                  index < double(vertices);
+                       });
+}
+
 } // namespace
 
 void checkOff(const std::string& path, const std::string& text) {
-    std::vector<std::string_view> words = firstWords(text, 4);
-    const bool hasKeyword = !words.empty() && isKeyword(words.front());
+    if (text.find('\0') != std::string::npos) failFile(path, "a zero byte, expected text");
+    OffText off(text);
+    const std::string_view keyword = off.word();
     // Without the keyword Assimp takes a file's first digit for one of its marks.
-    if (!hasKeyword)
-        failFile(path, inQuotes(std::string(words.empty() ? "" : words.front())) +
-                           ", expected OFF, or STOFF, COFF, NOFF, ...");
-    const bool hasDimension =
-        words.front().size() > 3 && words.front()[words.front().size() - 4] == 'n';
-    const std::size_t counts = hasDimension ? 2 : 1;
-    for (std::size_t i = 1; i < counts + 2; ++i) {
-        const std::string word(i < words.size() ? words[i] : "");
-        const bool isVertices = i == counts;
+    if (!isKeyword(keyword))
+        failFile(path,
+                 inQuotes(std::string(keyword)) + ", expected OFF, or STOFF, COFF, NOFF, ...");
+    const auto count = [&](const char* what) {
+        const std::string word(off.word());
+        double number = 0.0;
         // Assimp reads the digits that a word begins with.
-        if (!isDigits(word))
-            failFile(path, inQuotes(word) + ", expected a number of " +
-                               (i < counts   ? "dimensions"
-                                : isVertices ? "vertices"
-                                             : "faces"));
+        if (!isDigits(word) || !parseNumber(word, number))
+            failFile(path, inQuotes(word) + ", expected a number of " + what);
         // Each vertex and each face takes a few characters.
-        double count = 0.0;
-        parseNumber(word, count);
-        if (i >= counts && count > double(text.size()))
-            failFile(path, inQuotes(word) + (isVertices ? " vertices" : " faces") +
-                               ", expected no more than the file has room for");
-    }
+        if (number > double(text.size()))
+            failFile(path,
+                     inQuotes(word) + " " + what + ", expected no more than the file has room for");
+        return static_cast<std::size_t>(number);
+    };
+    if (keyword.size() > 3 && keyword[keyword.size() - 4] == 'n') count("dimensions");
+    const std::size_t vertices = count("vertices"), faces = count("faces");
+    count("edges");
+    off.skipToWord();
+    for (std::size_t i = 0; i < vertices; ++i)
+        if (!isVertex(off.line()))
+            failFile(path,
+                     "vertex " + std::to_string(i) + ": expected a line of three numbers or more");
+    // What it takes for no face Assimp counts off more faces than there are.
+    for (std::size_t i = 0; i < faces; ++i)
+        if (!isFace(off.line(), vertices))
+            failFile(path, "face " + std::to_string(i) +
+                               ": expected a line with 1 to 8 and so many numbers below " +
+                               std::to_string(vertices));
 }
 
 } // namespace osgSkin

@@ -6,7 +6,8 @@
 
 namespace osgSkin {
 
-/// Checks the counts of an OFF file: Assimp 5.2.5 asks for the memory before it reads on.
+/// Checks counts, vertices and faces of an OFF file: Assimp 5.2.5 asks for the memory before it
+/// reads on, and counts faces that are none off more than there are.
 /// \throw osgSkin::Error "PATH: what was expected".
 void checkOff(const std::string& path, const std::string& text);
 
