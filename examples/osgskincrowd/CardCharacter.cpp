@@ -8,8 +8,6 @@
 #include <osg/NodeVisitor>
 #include <osgDB/Registry>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
@@ -41,21 +39,6 @@ Node* nearest(const osg::NodePath& path) {
     for (auto node = path.rbegin(); node != path.rend(); ++node)
         if (auto* found = dynamic_cast<Node*>(*node)) return found;
     return nullptr;
-}
-
-/// A pose as skinning matrices.
-std::vector<glm::dmat4> skinningOf(const osgSkin::DeformableSkin& skin) {
-    const std::vector<osgSkin::BoundJoint>& joints = skin.getModel()->joints();
-    std::vector<glm::dmat4> result;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        const osgSkin::JointTransform of = skin.getPose().transform(j);
-        const glm::dmat4 own = glm::translate(glm::dmat4(1.0), of.offset) *
-                               glm::mat4_cast(of.rotation) *
-                               glm::scale(glm::dmat4(1.0), glm::dvec3(of.scale));
-        const int parent = joints[j].parent;
-        result.push_back(parent < 0 ? own : result[static_cast<std::size_t>(parent)] * own);
-    }
-    return result;
 }
 
 } // namespace
@@ -94,7 +77,8 @@ osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file,
     for (std::size_t i = 0; i < count; ++i) {
         if (clip) player->setTrack(0, {clip, double(i) * clip->step()});
         if (clip && !player->pose()) throw std::runtime_error(file + ": its clip poses no skin");
-        for (std::size_t s = 0; s < skins.size(); ++s) samples[s].push_back(skinningOf(*skins[s]));
+        for (std::size_t s = 0; s < skins.size(); ++s)
+            samples[s].push_back(skins[s]->getPose().skinning());
     }
     seconds = clip ? clip->duration() : 0.0;
     character->addClip(samples, clip ? 1.0 / clip->step() : kSamplesASecond, true);

@@ -82,7 +82,7 @@ bool checkPose(const osgSkin::DeformableSkin& skin) {
 
 /// Skinning matrices: what is seen before the first update moves the bones.
 bool writePose(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
-    const std::vector<glm::dmat4> skinning = skinningOf(skin);
+    const std::vector<glm::dmat4> skinning = skin.getPose().skinning();
     os.writeSize(static_cast<unsigned int>(skinning.size()));
     os << os.BEGIN_BRACKET << std::endl;
     for (const glm::dmat4& matrix : skinning) {

@@ -259,6 +259,26 @@ TEST(Pose, LeavesUnevenScaleAndMirroringOut) {
     }
 }
 
+TEST(Pose, GivesTheMatricesBackThatItWasMadeFrom) {
+    const test::Tube tube(3, 3);
+    Pose pose(tube.binding.joints);
+    std::mt19937_64 random(17);
+    std::vector<glm::dmat4> skinning;
+    for (int j = 0; j < 3; ++j) {
+        const glm::dmat4 own = glm::translate(glm::dmat4(1.0), test::randomUnit(random)) *
+                               glm::mat4_cast(test::randomRotation(random)) *
+                               glm::scale(glm::dmat4(1.0), glm::dvec3(0.5 + j));
+        skinning.push_back(j == 0 ? own : skinning.back() * own);
+    }
+    ASSERT_TRUE(pose.set(skinning.data(), 3));
+    const std::vector<glm::dmat4> back = pose.skinning();
+    ASSERT_EQ(back.size(), 3u);
+    for (std::size_t j = 0; j < 3; ++j)
+        for (int column = 0; column < 4; ++column)
+            EXPECT_LT(glm::distance(back[j][column], skinning[j][column]), 1e-12) << j << column;
+    EXPECT_TRUE(Pose().skinning().empty());
+}
+
 /// What follows the joints fully goes where their matrices put it, as linear blending has it.
 TEST(DeformJob, ScaledJointsTakeFullFollowersAlong) {
     const test::Tube tube;

@@ -8,7 +8,10 @@
 
 #include <osgSkin/GlmTypes>
 
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 
 #include <algorithm>
 #include <array>
@@ -191,6 +194,20 @@ bool Pose::setInput(std::size_t input, float value) noexcept {
 bool Pose::set(const osg::Matrixd* skinning, std::size_t count, Twist twist,
                bool* changed) noexcept {
     return set(asGlm(skinning), count, twist, changed);
+}
+
+std::vector<glm::dmat4> Pose::skinning() const {
+    std::vector<glm::dmat4> result;
+    result.reserve(size());
+    for (std::size_t j = 0; j < size(); ++j) {
+        const Split split = splitOf(j);
+        const glm::dmat4 own = glm::translate(glm::dmat4(1.0), split.offset) *
+                               glm::mat4_cast(split.rotation) *
+                               glm::scale(glm::dmat4(1.0), glm::dvec3(split.scale));
+        const int parent = _rest->parents[j];
+        result.push_back(parent < 0 ? own : result[static_cast<std::size_t>(parent)] * own);
+    }
+    return result;
 }
 
 } // namespace osgSkin
