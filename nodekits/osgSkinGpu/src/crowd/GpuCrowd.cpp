@@ -76,9 +76,9 @@ struct GpuCrowd::Inside {
 };
 
 GpuCrowd::GpuCrowd(CrowdCharacter* character) : _inside(std::make_unique<Inside>()) {
+    _inside->character = character; // first: what is refused is let go, too
     if (!character || character->parts().empty() || !character->skins().front().clips)
         throw Error("crowd: expected a character with a skin and a clip");
-    _inside->character = character;
     osg::StateSet& state = *getOrCreateStateSet();
     // Times and members change while a draw thread may still read those of the frame before.
     state.setDataVariance(osg::Object::DYNAMIC);
