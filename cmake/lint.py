@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: MIT
 """lint.py BUILD [FILE...]: clang-tidy over our sources, or over these; fails on any complaint.
 
-Nine tenths of clang-tidy's time go into headers, so sources that are compiled alike are read several
-to a unit. Those that share a name of their own file (by ctags) go into different units, and those
-that do not compile beside others after all are read by themselves.
+Nine tenths of clang-tidy's time go into headers, so sources are read several to a unit: first those
+that are compiled alike, then units that are left small, where their targets' flags agree. Those that
+share a name of their own file (by ctags) go into different units, and those that do not compile
+beside others after all are read by themselves.
 """
 import collections
 import concurrent.futures
+import functools
 import json
 import os
 import pathlib
@@ -23,6 +25,8 @@ FLAGS = ["-Wno-unknown-warning-option", "-Wno-unused-parameter", "-Wdocumentatio
          "-Wreserved-identifier"]
 # Functions that each program has.
 ONE_A_PROGRAM = {"main", "LLVMFuzzerTestOneInput"}
+# No part of this build: tests compile the first two by themselves, and sanitizers bring the third.
+APART = ["downstream", "unit/headers", "support/DriverLeaks.cpp"]
 # Made by macros, another in each file.
 TESTS = {"TEST", "TEST_F", "TEST_P", "INSTANTIATE_TEST_SUITE_P", "REGISTER_OBJECT_WRAPPER"}
 
@@ -81,8 +85,49 @@ def units(entries):
                 break
         else:
             made[flags_of(entry)].append([[file], set(names[file]), lines])
-    result = [(flags, unit[0]) for flags, list_ in made.items() for unit in list_]
-    return sorted(result, key=lambda unit: -len(unit[1]))  # the longest first
+    result = []  # [flags, files, names, lines]
+    parts = [[list(flags), *unit] for flags, list_ in made.items() for unit in list_]
+    for part in sorted(parts, key=lambda part: -part[3]):
+        if not any(join(unit, part) for unit in result):
+            result.append(part)
+    return sorted(((part[0], part[1]) for part in result), key=lambda unit: -len(unit[1]))  # the longest first
+
+
+def join(unit, part):
+    """Takes another target's sources into a unit; False where one of them would be read otherwise then."""
+    if len(unit[1]) + len(part[1]) > MOST_FILES or unit[3] + part[3] > MOST_LINES or unit[2] & part[2]:
+        return False
+    flags = pairs(unit[0])
+    added = [flag for flag in pairs(part[0]) if flag not in flags]
+    # Of -DNAME=VALUE, -std=VALUE and the like each has one value.
+    given = {flag[0].split("=")[0] for flag in flags}
+    if any(flag[0].split("=")[0] in given for flag in added if "=" in flag[0]):
+        return False
+    # A header's name that two folders have would be found in the first.
+    first, second = ([f[-1] for f in side if f not in other] for side, other in
+                     ((flags, pairs(part[0])), (pairs(part[0]), flags)))
+    if any(headers(a) & headers(b) for a in first for b in second):
+        return False
+    unit[0] += [word for flag in added for word in flag]
+    unit[1] += part[1]
+    unit[2] |= part[2]
+    unit[3] += part[3]
+    return True
+
+
+def pairs(words):
+    """A command's options, each a tuple: ("-isystem", "folder") or ("-Wall",)."""
+    words = iter(words)
+    return [(word, next(words)) if word in ("-isystem", "-I", "-include") else (word,) for word in words]
+
+
+@functools.lru_cache(maxsize=None)
+def headers(flag):
+    """What of ours can be included by name from an option's folder; nothing of the system's."""
+    folder = pathlib.Path(flag.removeprefix("-I"))
+    if not folder.is_absolute() or not folder.is_dir() or folder.is_relative_to("/usr"):
+        return frozenset()
+    return frozenset(str(path.relative_to(folder)) for path in folder.rglob("*") if path.suffix in ("", ".h"))
 
 
 def run(folder, flags, files, checks):
@@ -116,8 +161,7 @@ def tidy(folder, flags, files):
 def main():
     build = pathlib.Path(sys.argv[1]).resolve()
     root = pathlib.Path(__file__).parents[1].resolve()
-    # These two are no part of the build: tests compile them by themselves.
-    listed = subprocess.run(["git", "ls-files", "*.cpp", ":!tests/downstream", ":!tests/unit/headers"], cwd=root, check=True,
+    listed = subprocess.run(["git", "ls-files", "*.cpp", *(f":!tests/{part}" for part in APART)], cwd=root, check=True,
                             capture_output=True, text=True).stdout.split()
     wanted = {str(root / f) for f in listed}
     if sys.argv[2:]:
