@@ -7,6 +7,7 @@
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSkeleton>
+#include <osgSkinImport/ReadScene>
 #include <osgSkinRig/Motion>
 
 #include <osg/Geometry>
@@ -201,6 +202,33 @@ TEST(Guard, NothingButFilesIsOpened) {
         std::ofstream(folder + "/texture.mtl") << "newmtl a\nKd 1 0 0\nmap_Kd pipe.fbx\n";
         EXPECT_EQ(osgSkin::importMesh(mesh).mesh.positions.size(), 3u) << library;
     }
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Guard, NothingIsRunOrUnpacked) {
+    const std::string folder = testing::TempDir() + "guard_scripts/";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+    const std::string ran = folder + "ran", script = folder + "script.lua";
+    std::ofstream(script) << "io.open(\"" << ran << "\", \"w\"):close()";
+    const char* const reason = "expected a file that only has to be read";
+    for (const char* behind : {"", ".90,0,0.rot"}) {
+        expectError([&] { osgSkin::importMesh(script + behind); }, reason);
+        expectError([&] { osgSkin::importSkeleton(script + behind); }, reason);
+        expectError([&] { osgSkin::readScene(script + behind, nullptr); }, reason);
+    }
+    // A shell's command would have this name in it; OpenSceneGraph jumps to nowhere over the other.
+    const std::string archive = folder + "a;touch ran;.tgz";
+    for (const std::string& packed : {archive, folder + "body.gz", folder + "body.OSGT.GZ"}) {
+        std::ofstream(packed) << "v 0 0 0";
+        expectError([&] { osgSkin::importMesh(packed); }, reason);
+        expectError([&] { osgSkin::importMotion(packed); }, reason);
+    }
+    const std::string mesh = folder + "mesh.obj";
+    std::ofstream(mesh) << "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::ofstream(folder + "a.mtl") << "newmtl a\nKd 1 0 0\nmap_Kd script.lua\n";
+    EXPECT_EQ(osgSkin::importMesh(mesh).mesh.positions.size(), 3u);
+    EXPECT_FALSE(std::filesystem::exists(ran));
     std::filesystem::remove_all(folder);
 }
 

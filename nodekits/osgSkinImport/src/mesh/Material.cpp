@@ -2,6 +2,7 @@
 #include "mesh/Material.h"
 
 #include "text/FileText.h"
+#include "text/SafeNames.h"
 
 #include <osg/AlphaFunc>
 #include <osg/CullFace>
@@ -71,8 +72,8 @@ osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string&
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
     const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
-    // Nothing is fetched from a network, and what is no regular file may never end.
-    if (osgDB::containsServerAddress(fileName) ||
+    // Nothing is fetched from a network or run, and what is no regular file may never end.
+    if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName) ||
         !isRegularFile(osgDB::findDataFile(fileName, local))) {
         missing.add(name);
         return nullptr;

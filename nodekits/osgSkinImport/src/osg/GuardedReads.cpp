@@ -3,6 +3,7 @@
 
 #include "saved/ReadSaved.h"
 #include "text/FileText.h"
+#include "text/SafeNames.h"
 
 #include <osgSkin/Error>
 
@@ -31,6 +32,7 @@ GuardedReads::Result GuardedReads::guarded(const std::string& name, const osgDB:
     try {
         if (osgDB::containsServerAddress(name))
             failFile(name, "cannot open: an address, expected a file");
+        requireOnlyRead(name);
         // A pseudo-loader's name is no file; what stands before its extensions is.
         const std::string found = osgDB::findDataFile(name, options);
         if (!found.empty()) requireReadable(found, _limits);

@@ -3,6 +3,7 @@
 
 #include "osg/GuardedReads.h"
 #include "text/FileText.h"
+#include "text/SafeNames.h"
 
 #include <osgSkin/Error>
 
@@ -15,6 +16,7 @@ namespace osgSkin {
 osg::ref_ptr<osg::Node> readScene(const std::string& path, const osgDB::Options* options) {
     if (osgDB::containsServerAddress(path))
         failFile(path, "cannot open: an address, expected a file");
+    requireOnlyRead(path);
     const ReadLimits limits = ReadLimits::of(options);
     // A pseudo-loader's name is no file; what stands before its extensions is.
     const std::string found = osgDB::findDataFile(path, options);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "text/FileText.h"
 
+#include "text/SafeNames.h"
+
 #include <osgSkin/Error>
 
 #include <cerrno>
@@ -58,6 +60,7 @@ void failLine(const std::string& path, std::size_t line, const std::string& mess
 }
 
 std::size_t requireReadable(const std::string& path, const ReadLimits& limits) {
+    requireOnlyRead(path);
     std::size_t size = 0;
     openFile(path, limits.fileMegabytes, "maxFileMB", size);
     return size;

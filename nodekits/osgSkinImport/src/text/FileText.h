@@ -25,8 +25,8 @@ std::string readText(const std::string& path, const ReadLimits& limits);
 std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
                        std::size_t& size);
 
-/// Throws osgSkin::Error unless `path` is a regular file that can be opened and is no larger than
-/// allowed; returns its size.
+/// Throws osgSkin::Error unless `path` is a regular file that can be opened, only has to be read
+/// (requireOnlyRead()) and is no larger than allowed; returns its size.
 std::size_t requireReadable(const std::string& path, const ReadLimits& limits);
 
 /// Whether `path` is a regular file: opening anything else may take for ever.
