@@ -140,6 +140,27 @@ TEST(GuardedCharacter, MotionsOfWideRigsAreAsLargeAsTheirFiles) {
                "3000 frames for 301 joints");
 }
 
+TEST(GuardedCharacter, AFileIsNamedSoOftenAtMost) {
+    const std::string folder = test::makeTestFolder();
+    std::string motions, props;
+    for (int i = 0; i <= 100; ++i) {
+        const std::string comma = i == 0 ? "" : ", ", number = std::to_string(i);
+        const std::string way = kCharacter + std::string(i % 3 == 0 ? "" : "./") + "move.bvh";
+        motions += comma + "{\"file\": \"" + way + "\", \"name\": \"m" + number + "\"}";
+        props += comma + "{\"mesh\": \"" + kCharacter + "body.obj\", \"motion\": \"m0\", " +
+                 "\"file\": \"" + folder + "/" + number + ".bvh\"}";
+    }
+    const std::string both = parts(kCharacter + "body.obj", kCharacter + "rig.bvh");
+    const std::string often = skin(folder, "often", both + ", \"motions\": [" + motions + "]");
+    expectSays(refusal(often), "motions[100]");
+    expectSays(refusal(often), "expected at most 100 times (option maxUses)");
+    EXPECT_EQ(refusal(often, "maxUses=101"), "read");
+    const std::string one = motions.substr(0, motions.find('}') + 1);
+    expectSays(refusal(skin(folder, "props",
+                            both + ", \"motions\": [" + one + "], \"props\": [" + props + "]")),
+               "props[100]");
+}
+
 TEST(GuardedCharacter, GltfIsCheckedBeforeItIsRead) {
     struct Case {
         const char* place; ///< JSON pointer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file/SkinFile.h"
 
+#include "file/FileUses.h"
 #include "file/FitSettings.h"
 #include "file/JsonReader.h"
 #include "file/MuscleSettings.h"
@@ -173,10 +174,12 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
         skin.fit = readFit(*skeleton);
     else
         skin.skeleton = skeleton ? path(*skeleton, folder) : skin.mesh;
+    FileUses uses(limits.uses);
     if (const auto motions = root.find("motions")) {
         std::set<std::string> names;
         motions->forEachItem([&](const JsonReader& reader) {
             skin.motions.push_back(readMotion(reader, folder));
+            uses.add(skin.motions.back().file, reader);
             if (!names.insert(skin.motions.back().name).second)
                 reader.failWith("the name \"" + skin.motions.back().name +
                                 "\" is taken, expected a \"name\" of its own");
@@ -189,6 +192,8 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
     if (const auto props = root.find("props"))
         props->forEachItem([&](const JsonReader& reader) {
             skin.props.push_back(readProp(reader, skin, folder));
+            uses.add(skin.props.back().mesh, reader);
+            uses.add(skin.props.back().file, reader);
         });
     if (const auto up = root.find("up")) {
         if (up->string() != "y" && up->string() != "z")

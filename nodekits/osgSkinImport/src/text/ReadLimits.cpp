@@ -40,11 +40,10 @@ std::vector<std::string> listOf(const std::string& key, const std::string& value
 ReadLimits ReadLimits::of(const osgDB::Options* options) {
     ReadLimits limits;
     if (options == nullptr) return limits;
-    const std::pair<const char*, std::size_t*> counts[] = {{"maxFileMB", &limits.fileMegabytes},
-                                                           {"maxTextMB", &limits.textMegabytes},
-                                                           {"maxJoints", &limits.joints},
-                                                           {"maxDepth", &limits.depth},
-                                                           {"maxSamples", &limits.samples}};
+    const std::pair<const char*, std::size_t*> counts[] = {
+        {"maxFileMB", &limits.fileMegabytes}, {"maxTextMB", &limits.textMegabytes},
+        {"maxJoints", &limits.joints},        {"maxDepth", &limits.depth},
+        {"maxSamples", &limits.samples},      {"maxUses", &limits.uses}};
     std::istringstream words(options->getOptionString());
     for (std::string word; words >> word;) {
         const std::size_t sign = word.find('=');
