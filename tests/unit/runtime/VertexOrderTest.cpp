@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 using namespace osgSkin;
@@ -53,6 +54,43 @@ TEST(VertexOrder, IsThatOfTheModelMadeInIt) {
         EXPECT_EQ(made.model->positions()[v], tube.positions[made.order[v]]);
         EXPECT_EQ(made.model->normals()[v], tube.normals[made.order[v]]);
     }
+}
+
+TEST(VertexOrder, SmallGroupsJoinOthersByRatiosOfNothingAndAll) {
+    const test::Tube tube(25, 3);
+    std::set<std::vector<std::uint32_t>> signatures;
+    for (const std::uint32_t v : tube.source) {
+        std::vector<std::uint32_t> signature;
+        for (std::uint32_t i = tube.binding.firstInfluence[v];
+             i < tube.binding.firstInfluence[v + 1]; ++i)
+            signature.push_back(2 * tube.binding.influences[i].joint +
+                                (tube.binding.influences[i].isPartial() ? 1 : 0));
+        signatures.insert(signature);
+    }
+    const auto model = tube.model();
+    EXPECT_LT(model->groups().size(), signatures.size());
+    std::size_t seen = 0;
+    for (const SkinModel::Group& group : model->groups()) {
+        const SkinModel::Ratio* ratio = model->ratios().data() + group.firstRatio;
+        for (std::uint32_t row = 0; row < group.vertexCount; ++row, ++seen) {
+            const std::uint32_t bound = tube.source[model->order()[group.firstVertex + row]];
+            std::vector<Influence> has; // by the model
+            for (std::uint32_t k = 0; k < group.linkCount; ++k) {
+                const SkinModel::Link& link = model->links()[group.firstLink + k];
+                const SkinModel::Ratio own = link.partial ? *ratio++ : SkinModel::Ratio{1.0f, 1.0f};
+                if (own.bend != 0.0f || own.twist != 0.0f)
+                    has.push_back({link.joint, own.bend, own.twist});
+            }
+            const std::uint32_t first = tube.binding.firstInfluence[bound];
+            ASSERT_EQ(has.size(), tube.binding.firstInfluence[bound + 1] - first);
+            for (std::size_t i = 0; i < has.size(); ++i) {
+                EXPECT_EQ(has[i].joint, tube.binding.influences[first + i].joint);
+                EXPECT_EQ(has[i].bend, tube.binding.influences[first + i].bend);
+                EXPECT_EQ(has[i].twist, tube.binding.influences[first + i].twist);
+            }
+        }
+    }
+    EXPECT_EQ(seen, tube.source.size());
 }
 
 TEST(VertexOrder, RefusesWhatCreateRefuses) {

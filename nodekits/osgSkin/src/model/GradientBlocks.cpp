@@ -2,6 +2,7 @@
 #include "model/GradientBlocks.h"
 
 #include "model/SkinModelAccess.h"
+#include "model/VertexGroups.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -21,7 +22,7 @@ struct Components {
 };
 
 struct LinkComponents {
-    Components bend, twist;
+    Components bend{0.0, 0.0}, twist{0.0, 0.0};
 };
 
 Components along(const SkinDirections& directions, const glm::vec3& gradient) {
@@ -29,15 +30,21 @@ Components along(const SkinDirections& directions, const glm::vec3& gradient) {
     return {glm::dot(g, directions.u), glm::dot(g, directions.v)};
 }
 
-/// The gradients of a bound vertex's partial influences, outermost first.
+/// The gradients of a bound vertex's partial influences, for each partial link of its group,
+/// outermost first.
 std::vector<LinkComponents> componentsOf(const Binding& binding, std::uint32_t vertex,
+                                         const SkinModel& model, const SkinModel::Group& group,
                                          const SkinDirections& directions) {
     std::vector<LinkComponents> result;
-    for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
-         ++i)
-        if (binding.influences[i].isPartial())
-            result.push_back({along(directions, binding.gradients[i].bend),
-                              along(directions, binding.gradients[i].twist)});
+    for (std::uint32_t i = group.firstLink; i < group.firstLink + group.linkCount; ++i) {
+        if (!model.links()[i].partial) continue;
+        LinkComponents& link = result.emplace_back();
+        const Influence* own = influenceOf(binding, vertex, model.links()[i].joint);
+        if (!own || !own->isPartial()) continue; // of one that joined the group
+        const RatioGradient& gradient =
+            binding.gradients[static_cast<std::size_t>(own - binding.influences.data())];
+        link = {along(directions, gradient.bend), along(directions, gradient.twist)};
+    }
     return result;
 }
 
@@ -135,7 +142,7 @@ GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
             const std::uint32_t v = model.order()[group.firstVertex + row];
             const SkinDirections at =
                 skinDirections(model.normals()[v], frame, acrossOf(model, g, row));
-            for (const LinkComponents& link : componentsOf(binding, source[v], at))
+            for (const LinkComponents& link : componentsOf(binding, source[v], model, group, at))
                 largest = std::max(largest, largestOf(link));
         }
     }
@@ -158,7 +165,8 @@ GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
             const double sizeV = std::max(glm::length(at.v), kLeastLength);
             GradientRow* to = rows.data() + firstRow.back() + row / kBlock * blockRows;
             const auto put = [&](double number) { (to++)->lane[row % kBlock] = rounded(number); };
-            const std::vector<LinkComponents> links = componentsOf(binding, source[v], at);
+            const std::vector<LinkComponents> links =
+                componentsOf(binding, source[v], model, group, at);
             // Joints further in turn the vertex, too: what they keep is its distance from theirs.
             double distance = 0.0;
             glm::dvec3 from(model.positions()[v]);

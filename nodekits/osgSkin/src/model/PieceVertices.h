@@ -68,7 +68,8 @@ public:
                                           std::size_t(rowInGroup(row)) * group.partialCount;
         for (std::uint32_t i = group.firstLink; i < group.firstLink + group.linkCount; ++i) {
             const SkinModel::Link& link = model.links()[i];
-            each(link.joint, link.partial ? *partial++ : SkinModel::Ratio{1.0f, 1.0f});
+            const SkinModel::Ratio ratio = link.partial ? *partial++ : SkinModel::Ratio{1.0f, 1.0f};
+            if (ratio.bend != 0.0f || ratio.twist != 0.0f) each(link.joint, ratio);
         }
     }
 

@@ -13,15 +13,18 @@
 namespace osgSkin {
 namespace {
 
-/// The ratios of a group's vertices, those of partial influences only.
+/// The ratios of a group's vertices, those of partial joints only.
 void addRatios(const VertexGroups& vertices, const VertexGroups::Group& group,
                std::vector<SkinModel::Ratio>& ratios) {
     const Binding& binding = vertices.binding();
     for (std::uint32_t k = 0; k < group.vertexCount; ++k) {
         const std::uint32_t s = vertices.source()[vertices.order()[group.firstVertex + k]];
-        for (std::uint32_t i = binding.firstInfluence[s]; i < binding.firstInfluence[s + 1]; ++i)
-            if (binding.influences[i].isPartial())
-                ratios.push_back({binding.influences[i].bend, binding.influences[i].twist});
+        for (const VertexGroups::Joint& joint : group.joints) {
+            if (!joint.partial) continue;
+            const Influence* own = influenceOf(binding, s, joint.index);
+            ratios.push_back(own ? SkinModel::Ratio{own->bend, own->twist}
+                                 : SkinModel::Ratio{0.0f, 0.0f});
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 #include "model/VertexGroups.h"
 
 #include "model/CorrectiveBlocks.h"
+#include "model/SkinBlocks.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/SkinModel>
@@ -9,10 +10,14 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace osgSkin {
 namespace {
+
+/// Joints that vertices follow in part where groups join, at most; as many as bindings have.
+constexpr std::size_t kMostJoined = 4;
 
 /// What the vertices of a group have in common: twice each joint's index, one more where they
 /// follow it in part.
@@ -29,21 +34,99 @@ Signature signatureOf(const Binding& binding, std::uint32_t vertex) {
     return signature;
 }
 
+std::size_t partialCount(const Signature& signature) {
+    return static_cast<std::size_t>(std::count_if(signature.begin(), signature.end(),
+                                                  [](std::uint32_t key) { return key % 2 == 1; }));
+}
+
+/// The one that vertices of both can have: joints that one of them does not follow, or only one
+/// follows wholly, are followed in part, by ratios 0 or 1.
+void unite(const Signature& a, const Signature& b, Signature& result) {
+    result.clear();
+    auto i = a.begin(), k = b.begin();
+    while (i != a.end() || k != b.end()) {
+        const std::uint32_t joint =
+            std::min(i != a.end() ? *i / 2 : *k / 2, k != b.end() ? *k / 2 : *i / 2);
+        const bool inA = i != a.end() && *i / 2 == joint, inB = k != b.end() && *k / 2 == joint;
+        const bool whole = inA && inB && *i % 2 == 0 && *k % 2 == 0;
+        result.push_back(2 * joint + (whole ? 0u : 1u));
+        if (inA) ++i;
+        if (inB) ++k;
+    }
+}
+
 /// The vertices of each signature. Sorted, so that groups side by side share their outer links.
 using Members = std::map<Signature, std::vector<std::uint32_t>>;
 
-Members groupBySignature(const Binding& binding, const std::vector<std::uint32_t>& source) {
+/// What it takes to deform a group, about, in the time that a link of a block takes.
+double costOf(const Signature& signature, std::size_t vertices) {
+    constexpr double kGroup = 3.0; // to begin one
+    const std::size_t count = (vertices + kBlock - 1) / kBlock;
+    const auto blocks = static_cast<double>(count);
+    return kGroup + blocks * (1.0 + static_cast<double>(partialCount(signature)));
+}
+
+/// Lets small groups join others, where that takes less time than the padding of both and one group
+/// more.
+void joinSmall(Members& members) {
+    constexpr std::size_t kSmall = 2 * kBlock;
+    struct Small {
+        std::size_t vertices;
+        Signature signature;
+        bool operator<(const Small& other) const {
+            return std::tie(vertices, signature) < std::tie(other.vertices, other.signature);
+        }
+    };
+    std::vector<Small> small;
+    for (const auto& [signature, vertices] : members)
+        if (vertices.size() < kSmall) small.push_back({vertices.size(), signature});
+    std::sort(small.begin(), small.end());
+    Signature united, best;
+    for (const Small& one : small) {
+        const auto own = members.find(one.signature);
+        if (own == members.end() || own->second.size() >= kSmall) continue;
+        const std::size_t count = own->second.size();
+        double most = 0.0;
+        auto with = members.end();
+        for (auto other = members.begin(); other != members.end(); ++other) {
+            if (other == own) continue;
+            unite(one.signature, other->first, united);
+            if (partialCount(united) > kMostJoined &&
+                partialCount(united) > partialCount(other->first))
+                continue;
+            const std::size_t others = other->second.size();
+            const double saved = costOf(one.signature, count) + costOf(other->first, others) -
+                                 costOf(united, count + others);
+            if (saved <= most) continue;
+            most = saved;
+            with = other;
+            best = united;
+        }
+        if (with == members.end()) continue;
+        std::vector<std::uint32_t> all = std::move(own->second);
+        all.insert(all.end(), with->second.begin(), with->second.end());
+        members.erase(own);
+        members.erase(with);
+        std::vector<std::uint32_t>& to = members[best]; // which there may be already
+        to.insert(to.end(), all.begin(), all.end());
+    }
+}
+
+Members groupVertices(const Binding& binding, const std::vector<std::uint32_t>& source) {
     Members members;
     for (std::uint32_t v = 0; v < source.size(); ++v) {
         if (source[v] >= binding.vertexCount())
             throw Error("skin model: vertex " + std::to_string(v) + " comes from no bound vertex");
         members[signatureOf(binding, source[v])].push_back(v);
     }
-    if (binding.correctives.empty()) return members;
-    for (auto& [signature, vertices] : members)
+    joinSmall(members);
+    for (auto& [signature, vertices] : members) {
+        std::sort(vertices.begin(), vertices.end());
+        if (binding.correctives.empty()) continue;
         std::stable_sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
             return correctedBy(binding, source[a]) < correctedBy(binding, source[b]);
         });
+    }
     return members;
 }
 
@@ -68,13 +151,20 @@ VertexGroups::VertexGroups(const Binding& binding, std::vector<std::uint32_t> so
     : _binding(&binding), _source(std::move(source)) {
     binding.validate();
     _order.reserve(_source.size());
-    for (const auto& [signature, vertices] : groupBySignature(binding, _source)) {
+    for (const auto& [signature, vertices] : groupVertices(binding, _source)) {
         const std::vector<Joint> joints = jointsOf(signature);
         checkPartial(joints, vertices.front());
         _groups.push_back({joints, static_cast<std::uint32_t>(_order.size()),
                            static_cast<std::uint32_t>(vertices.size())});
         _order.insert(_order.end(), vertices.begin(), vertices.end());
     }
+}
+
+const Influence* influenceOf(const Binding& binding, std::uint32_t vertex, std::uint32_t joint) {
+    const auto end = binding.influences.begin() + binding.firstInfluence[vertex + 1];
+    const auto found = std::find_if(binding.influences.begin() + binding.firstInfluence[vertex],
+                                    end, [joint](const Influence& i) { return i.joint == joint; });
+    return found == end ? nullptr : &*found;
 }
 
 void VertexGroups::reorder() {

@@ -11,13 +11,15 @@ namespace osgSkin {
 /// A skin's vertices, checked against their binding and grouped for the deformation: what
 /// SkinModel::create() makes a model of.
 ///
-/// The vertices of a group have one signature: they follow the same joints wholly and the same in
-/// part. A group is deformed as a whole, so its vertices are written side by side best.
+/// The vertices of a group follow the same joints wholly and the same in part: they have one
+/// signature. Small groups join others, whose further joints their vertices follow by ratios of 0
+/// or 1, where that costs less than vectors with empty lanes. A group is deformed as a whole, so
+/// its vertices are written side by side best.
 class VertexGroups {
 public:
     struct Joint {
         std::uint32_t index; ///< in Binding::joints
-        bool partial;        ///< Influence::isPartial(); else followed wholly
+        bool partial;        ///< Influence::isPartial() of some; else followed wholly by all
     };
     struct Group {
         std::vector<Joint> joints;     ///< that its vertices follow, in joint order
@@ -55,5 +57,12 @@ private:
     std::vector<Group> _groups;
     std::vector<std::uint32_t> _order;
 };
+
+/// What a bound vertex has of a joint; null where that is nothing.
+///
+/// \param binding valid
+/// \param vertex of the binding
+/// \param joint of the binding
+const Influence* influenceOf(const Binding& binding, std::uint32_t vertex, std::uint32_t joint);
 
 } // namespace osgSkin

@@ -62,16 +62,15 @@ Binding bindingOf(const SkinModel& model) {
         const SkinModel::Ratio* ratio = model.ratios().data() + group.firstRatio;
         for (std::uint32_t i = 0; i < group.vertexCount; ++i) {
             std::vector<Influence>& list = influences[model.order()[group.firstVertex + i]];
+            std::vector<RatioGradient>& slopes = gradients[model.order()[group.firstVertex + i]];
             for (std::uint32_t k = 0; k < group.linkCount; ++k) {
                 const SkinModel::Link& link = model.links()[group.firstLink + k];
-                list.push_back({link.joint, link.partial ? ratio->bend : 1.0f,
-                                link.partial ? ratio->twist : 1.0f});
-                if (link.partial) ++ratio;
+                const SkinModel::Ratio own = link.partial ? *ratio++ : SkinModel::Ratio{1.0f, 1.0f};
+                const RatioGradient slope = grouped.empty() ? RatioGradient{} : *gradient++;
+                if (own.bend == 0.0f && own.twist == 0.0f) continue; // others of the group have it
+                list.push_back({link.joint, own.bend, own.twist});
+                if (!grouped.empty()) slopes.push_back(slope);
             }
-            if (grouped.empty()) continue;
-            gradients[model.order()[group.firstVertex + i]].assign(gradient,
-                                                                   gradient + group.linkCount);
-            gradient += group.linkCount;
         }
     }
     Binding binding;
