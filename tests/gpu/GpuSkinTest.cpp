@@ -45,11 +45,10 @@ TEST_P(GpuSkin, PositionsNormalsAndTangentsAreTheProcessors) {
         }
     }
     EXPECT_LE(most.positions, 1e-6) << "of the extent";
-    // Of surface normals the processor's vectors, in single precision, are farther off themselves.
     EXPECT_LE(most.computedError, 3e-6);
-    if (!subject.skins.front()->getModel()->hasSurfaceNormals()) {
-        EXPECT_LE(most.normals, 3e-6);
-    }
+    // Where skin is folded to next to nothing, single precision does not tell its normals better.
+    const bool ofSurface = subject.skins.front()->getModel()->hasSurfaceNormals();
+    EXPECT_LE(most.normals, ofSurface ? 1e-5 : 3e-6);
     EXPECT_LE(most.tangents, 3e-6);
     std::cout << GetParam() << ": positions " << most.positions << " of the extent, normals "
               << most.normals << " (from the reference " << most.computedError

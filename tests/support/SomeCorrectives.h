@@ -14,7 +14,7 @@ namespace test {
 /// Functions of every basis, for one joint each, that move by about `size`.
 inline osgSkin::CorrectiveJoint someFunctions(const osgSkin::Binding& binding, std::uint32_t joint,
                                               osgSkin::CorrectiveJoint::Basis basis, double size,
-                                              std::mt19937_64& random) {
+                                              std::mt19937_64& random, std::size_t roundModes = 1) {
     using Basis = osgSkin::CorrectiveJoint::Basis;
     std::uniform_real_distribution<double> number(-size, size);
     osgSkin::CorrectiveJoint result;
@@ -27,7 +27,7 @@ inline osgSkin::CorrectiveJoint someFunctions(const osgSkin::Binding& binding, s
     result.high = {0.9, 0.7};
     if (basis == Basis::Hinge) result.knots = {-0.5, -0.1, 0.3, 0.6, 0.9};
     if (basis == Basis::Round) result.knots = {0.0, 0.2, 0.5, 0.9};
-    result.modes = basis == Basis::Hinge ? 3 : basis == Basis::Ball ? 5 : 1;
+    result.modes = basis == Basis::Hinge ? 3 : basis == Basis::Ball ? 5 : roundModes;
     for (std::size_t i = 0; i < result.modes * result.functionCount(); ++i)
         result.coefficients.push_back(number(random));
     return result;
@@ -36,7 +36,8 @@ inline osgSkin::CorrectiveJoint someFunctions(const osgSkin::Binding& binding, s
 /// Correctives of the joints from 1 on, for about two vertices in three that follow them in part,
 /// and of one input, for about one in three.
 inline osgSkin::Correctives someCorrectives(const osgSkin::Binding& binding, double size,
-                                            std::uint64_t seed, bool withNormals = false) {
+                                            std::uint64_t seed, bool withNormals = false,
+                                            std::size_t roundModes = 1) {
     using Basis = osgSkin::CorrectiveJoint::Basis;
     std::mt19937_64 random(seed);
     std::uniform_int_distribution<int> share(-osgSkin::Correctives::kUnit,
@@ -44,7 +45,7 @@ inline osgSkin::Correctives someCorrectives(const osgSkin::Binding& binding, dou
     osgSkin::Correctives result;
     for (std::uint32_t joint = 1; joint < binding.joints.size() && joint < 7; ++joint) {
         result.joints.push_back(
-            someFunctions(binding, joint, static_cast<Basis>(joint % 3), size, random));
+            someFunctions(binding, joint, static_cast<Basis>(joint % 3), size, random, roundModes));
         if (withNormals) result.joints.back().normalScales.assign(result.joints.back().modes, 2.0);
     }
     const auto input = static_cast<std::uint32_t>(result.joints.size());

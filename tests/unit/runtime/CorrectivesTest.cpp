@@ -19,7 +19,9 @@ namespace {
 /// A tube with correctives, its vertices where the deformation writes them straight or not.
 struct Skin : test::Tube {
     Skin(int rings, int sides, bool inBestOrder) : test::Tube(rings, sides) {
-        binding.correctives = test::someCorrectives(binding, 0.3, std::uint64_t(rings));
+        const std::size_t modes = sides % 2 == 0 ? 14 : 1; // several vectors of them, or less
+        binding.correctives =
+            test::someCorrectives(binding, 0.3, std::uint64_t(rings), false, modes);
         if (!inBestOrder) return;
         const std::vector<glm::vec3> oldPositions = positions, oldNormals = normals;
         source = osgSkin::SkinModel::bestOrder(binding, source);

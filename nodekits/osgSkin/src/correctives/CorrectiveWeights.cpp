@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "correctives/CorrectiveWeights.h"
 
+#include "correctives/WeightTerms.h"
 #include "model/SkinModelAccess.h"
+#include "pose/PoseAccess.h"
 
 #include <cmath>
 
 namespace osgSkin {
 
-glm::dvec2 CorrectiveWeights::coordinatesOf(const CorrectiveJoint& joint) const noexcept {
-    if (joint.basis == CorrectiveJoint::Basis::Input)
-        return {double(_pose.input(joint.joint)), 0.0};
-    const BendTwist bend = _pose.transform(joint.joint).split;
-    return joint.coordinates(bend.bendAxis, bend.bendAngle, _model.joints()[joint.joint].twistAxis);
+glm::dvec2 CorrectiveWeights::coordinatesOf(std::uint32_t joint) const noexcept {
+    const CorrectiveJoint& of = _blocks.joints[joint];
+    if (of.basis == CorrectiveJoint::Basis::Input) return {double(_pose.input(of.joint)), 0.0};
+    const PoseAccess::Split split = PoseAccess::split(_pose, of.joint);
+    const glm::dvec2 axis(split.azimuthCosine, split.azimuthSine);
+    return std::sin(0.5 * split.bendAngle) * PoseAccess::kAzimuthStep *
+           (_blocks.tables[joint].toAxes * axis);
 }
 
 const CorrectiveWeights::Weights* CorrectiveWeights::of(std::uint32_t joint) noexcept {
@@ -19,8 +23,9 @@ const CorrectiveWeights::Weights* CorrectiveWeights::of(std::uint32_t joint) noe
     Weights& weights = _weights[joint];
     if (state == State::Unknown) {
         const CorrectiveJoint& from = _blocks.joints[joint];
+        static_assert(CorrectiveJoint::kMostModes % CorrectiveTable::kAtOnce == 0);
         double beta[CorrectiveJoint::kMostModes];
-        from.weights(coordinatesOf(from), beta);
+        WeightTerms(from, _blocks.tables[joint], coordinatesOf(joint)).sum(beta);
         state = State::Nothing;
         for (std::size_t k = 0; k < from.modes; ++k) {
             // A rest pose read from matrices is one up to rounding errors.

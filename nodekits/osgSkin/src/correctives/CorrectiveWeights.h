@@ -32,7 +32,7 @@ public:
 private:
     enum class State : unsigned char { Unknown, Nothing, Something };
 
-    glm::dvec2 coordinatesOf(const CorrectiveJoint& joint) const noexcept;
+    glm::dvec2 coordinatesOf(std::uint32_t joint) const noexcept;
 
     const SkinModel& _model;
     const Pose& _pose;

@@ -57,6 +57,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
             while (section->endGroup <= g) ++section;
             chains.set(model, *job.pose, *section, g,
                        std::min<std::size_t>(section->endGroup, endGroup));
+            if (slopes) slopes->take(chains.joints, section->jointCount);
         }
         const SkinModel::Group& group = model.groups()[g];
         const ChainPlan::Group& planned = blocks.plan.groups[g];

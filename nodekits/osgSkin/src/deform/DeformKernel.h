@@ -32,10 +32,9 @@ struct KernelCorrection {
                                 ///< each mode
     const std::int16_t* normalShares; ///< the same of normals; null where they have none
     std::size_t blockShares;          ///< from a block's shares to the next one's
-    const std::int16_t* tilts; ///< of the range's first block: along u and v for each mode; null
-                               ///< where the model has not both normal correctives and gradients
-    const float* tiltUnits;    ///< of each block
-    std::size_t firstBlock;    ///< of the call's
+    const float* tilts; ///< of the range's first block: along u and v for each mode; null where the
+                        ///< model has not both normal correctives and gradients
+    std::size_t firstBlock; ///< of the call's
     std::size_t blockCount;
     std::size_t modes;
     const float* weights;       ///< of each mode, for its shares

@@ -3,6 +3,8 @@
 
 #include "model/SkinModelAccess.h"
 
+#include <cstring>
+
 namespace osgSkin {
 
 void KernelCorrections::prepare(std::size_t group, std::size_t firstBlock,
@@ -26,7 +28,6 @@ void KernelCorrections::prepare(std::size_t group, std::size_t firstBlock,
         if (!blocks.tilts.empty()) {
             to.tilts =
                 blocks.tilts[range.firstTilt + skipped * 2 * blocks.joints[range.joint].modes].lane;
-            to.tiltUnits = &blocks.tiltUnits[range.firstUnit + skipped];
         }
         to.firstBlock = range.firstBlock + skipped - firstBlock;
         to.blockCount = range.blockCount - skipped;
@@ -38,12 +39,9 @@ void KernelCorrections::prepare(std::size_t group, std::size_t firstBlock,
     call.correctionFrame = nullptr;
     const SkinModel::Group& of = _model.groups()[group];
     if (call.correctionCount == 0 || !isInJointFrame(_model, of)) return;
-    const glm::dmat3& frame =
-        SkinModelAccess::blocks(_model)
-            .jointFrames[_model.links()[of.firstLink + of.linkCount - 1].joint];
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column)
-            _frame.column[column][row] = roundedToFloat(frame[row][column]);
+    const CorrectiveFrame& frame =
+        blocks.frames[_model.links()[of.firstLink + of.linkCount - 1].joint];
+    std::memcpy(_frame.column, frame.column, sizeof frame.column);
     call.correctionFrame = &_frame;
 }
 

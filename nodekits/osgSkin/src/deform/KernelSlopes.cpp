@@ -5,20 +5,27 @@
 
 namespace osgSkin {
 
+void KernelSlopes::take(const KernelJoints& joints, std::size_t count) noexcept {
+    const double unit = SkinModelAccess::gradients(_model)->unit;
+    for (std::size_t j = 0; j < count; ++j) {
+        const double bend = joints.bendOf(j).whole(), twist = joints.twistOf(j).whole();
+        _angles[j] = {bend, twist, roundedToFloat(unit * bend), roundedToFloat(unit * twist)};
+    }
+}
+
 void KernelSlopes::prepare(std::size_t group, std::size_t firstBlock, KernelCall& call) noexcept {
     const GradientBlocks& blocks = *SkinModelAccess::gradients(_model);
     const GradientBlocks::Reach* reach = blocks.reach.data() + blocks.firstReach[group];
     call.gradients = nullptr;
     for (std::size_t k = call.linkCount; k-- > 0;) {
         const KernelLink& link = call.links[k];
-        const double bend = call.joints->bendOf(link.joint).whole();
-        const double twist = call.joints->twistOf(link.joint).whole();
+        const Angles& angles = _angles[link.joint];
         const bool adjusted = call.isAdjusted(link);
         KernelSlope& slope = _slopes[k];
-        slope.tilt = linkTilt(reach[k], bend, twist, adjusted);
+        slope.tilt = linkTilt(reach[k], angles.bend, angles.twist, adjusted);
         if (!slope.tilt.any()) continue;
-        slope.bend = roundedToFloat(blocks.unit * bend);
-        slope.twist = roundedToFloat(blocks.unit * twist);
+        slope.bend = angles.bendSlope;
+        slope.twist = angles.twistSlope;
         if (adjusted) slope.step = roundedToFloat(blocks.unit);
         call.lastSlope = k;
         call.gradients = blocks

@@ -15,6 +15,12 @@ public:
     /// \pre the model has gradients
     explicit KernelSlopes(const SkinModel& model) noexcept : _model(model) {}
 
+    /// Takes what the joints of a section do; before its groups.
+    ///
+    /// \param joints of the section
+    /// \param count of them
+    void take(const KernelJoints& joints, std::size_t count) noexcept;
+
     /// Sets what `call` has of gradients; it is good until the next call.
     ///
     /// \param group an index
@@ -23,7 +29,13 @@ public:
     void prepare(std::size_t group, std::size_t firstBlock, KernelCall& call) noexcept;
 
 private:
+    struct Angles {
+        double bend, twist;          ///< psi, phi
+        float bendSlope, twistSlope; ///< KernelSlope's
+    };
+
     const SkinModel& _model;
+    std::array<Angles, KernelJoints::kMost> _angles;
     std::array<KernelSlope, SkinModel::kMaxPartialInfluences> _slopes;
 };
 

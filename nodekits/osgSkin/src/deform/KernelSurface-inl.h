@@ -74,17 +74,12 @@ HWY_INLINE bool tilts(const KernelCall& call, std::size_t first, V& alongU, V& a
         const std::size_t at = first / kBlock - of.firstBlock; // large where the block comes before
         if (at >= of.blockCount || !of.tilts) continue;
         any = true;
-        const std::int16_t* HWY_RESTRICT from =
-            of.tilts + at * 2 * of.modes * kBlock + first % kBlock;
-        V sumU = hn::Zero(d), sumV = sumU;
+        const float* HWY_RESTRICT from = of.tilts + at * 2 * of.modes * kBlock + first % kBlock;
         for (std::size_t k = 0; k < of.modes; ++k, from += 2 * kBlock) {
             const V weight = hn::Set(d, of.normalWeights[k]);
-            sumU = hn::MulAdd(weight, sharesAt(from), sumU);
-            sumV = hn::MulAdd(weight, sharesAt(from + kBlock), sumV);
+            alongU = hn::MulAdd(weight, hn::Load(d, from), alongU);
+            alongV = hn::MulAdd(weight, hn::Load(d, from + kBlock), alongV);
         }
-        const V unit = hn::Set(d, of.tiltUnits[at]);
-        alongU = hn::MulAdd(unit, sumU, alongU);
-        alongV = hn::MulAdd(unit, sumV, alongV);
     }
     return any;
 }

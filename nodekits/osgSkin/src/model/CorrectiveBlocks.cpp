@@ -3,6 +3,7 @@
 
 #include "model/GradientBlocks.h"
 #include "model/SkinModelAccess.h"
+#include "points/QuadraticSplines.h"
 
 #include <glm/geometric.hpp>
 
@@ -51,15 +52,44 @@ std::vector<std::uint32_t> correctedBy(const Binding& binding, std::uint32_t ver
     return joints;
 }
 
+CorrectiveTable::CorrectiveTable(const CorrectiveJoint& joint, const std::vector<BoundJoint>& bound)
+    : stride((joint.modes + kAtOnce - 1) / kAtOnce * kAtOnce), restRow(joint.functionCount()) {
+    rows.resize((restRow + 1) * stride, 0.0);
+    for (std::size_t k = 0; k < joint.modes; ++k)
+        for (std::size_t i = 0; i < restRow; ++i)
+            rows[i * stride + k] = joint.coefficients[k * restRow + i];
+    if (joint.basis == CorrectiveJoint::Basis::Input) return;
+    const BoundJoint& of = bound[joint.joint];
+    const glm::dmat3 frame = jointFrame(of);
+    const glm::dvec3 second = glm::cross(of.twistAxis, joint.axis);
+    toAxes = {{glm::dot(frame[0], joint.axis), glm::dot(frame[0], second)},
+              {glm::dot(frame[1], joint.axis), glm::dot(frame[1], second)}};
+    if (joint.basis == CorrectiveJoint::Basis::Ball) return;
+    const std::size_t next = joint.basis == CorrectiveJoint::Basis::Round ? 7 : 1;
+    double atRest[3];
+    const std::size_t first = splinesAt(joint.knots, 0.0, atRest);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < joint.modes; ++k)
+            rows[restRow * stride + k] += atRest[i] * row((first + i) * next)[k];
+}
+
 CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& binding,
                                    const std::vector<std::uint32_t>& source)
     : joints(binding.correctives.joints), inputs(binding.correctives.inputs),
       hasNormals(binding.correctives.hasNormals()) {
     const Correctives& from = binding.correctives;
+    for (const CorrectiveJoint& joint : joints) tables.emplace_back(joint, binding.joints);
+    for (const glm::dmat3& axes : SkinModelAccess::blocks(model).jointFrames) {
+        CorrectiveFrame& frame = frames.emplace_back(CorrectiveFrame{});
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column)
+                frame.column[column][row] = static_cast<float>(
+                    std::abs(axes[row][column]) < 1e-15 ? 0.0 : axes[row][column]);
+    }
     firstRange.push_back(0);
     for (const SkinModel::Group& group : model.groups()) {
         for (std::uint32_t joint = 0; joint < joints.size(); ++joint) {
-            Range range{joint, 0, 0, rows.size(), tilts.size(), tiltUnits.size()};
+            Range range{joint, 0, 0, rows.size(), tilts.size()};
             for (std::uint32_t row = 0; row < group.vertexCount; ++row) {
                 const Correctives::Entry* entry =
                     entryOf(from, source[model.order()[group.firstVertex + row]], joint);
@@ -88,11 +118,10 @@ void CorrectiveBlocks::addTilts(const SkinModel& model, std::size_t group, const
     const SkinModel::Group& of = model.groups()[group];
     const glm::dmat3 frame = restFrame(model, of);
     const std::size_t modes = joints[range.joint].modes;
-    std::vector<double> along(2 * modes * kBlock); // of a block, as its rows
+    tilts.resize(range.firstTilt + 2 * modes * range.blockCount, BlockRow{});
     for (std::uint32_t b = 0; b < range.blockCount; ++b) {
         const CorrectiveRow* from = normalRows.data() + range.firstRow + 3 * modes * b;
-        std::fill(along.begin(), along.end(), 0.0);
-        double most = 0.0;
+        BlockRow* const to = tilts.data() + range.firstTilt + 2 * modes * b;
         for (std::uint32_t lane = 0; lane < kBlock; ++lane) {
             const auto row = static_cast<std::uint32_t>((range.firstBlock + b) * kBlock + lane);
             if (row >= of.vertexCount) break;
@@ -102,18 +131,9 @@ void CorrectiveBlocks::addTilts(const SkinModel& model, std::size_t group, const
             for (std::size_t k = 0; k < modes; ++k) {
                 const glm::dvec3 n(from[3 * k].lane[lane], from[3 * k + 1].lane[lane],
                                    from[3 * k + 2].lane[lane]);
-                double* to = &along[2 * k * kBlock + lane];
-                to[0] = glm::dot(n, at.u);
-                to[kBlock] = glm::dot(n, at.v);
-                most = std::max({most, std::abs(to[0]), std::abs(to[kBlock])});
+                to[2 * k].lane[lane] = static_cast<float>(glm::dot(n, at.u));
+                to[2 * k + 1].lane[lane] = static_cast<float>(glm::dot(n, at.v));
             }
-        }
-        const auto unit = static_cast<float>(most > 1e-20 ? most / 32767.0 : 1.0);
-        tiltUnits.push_back(unit);
-        for (std::size_t i = 0; i < along.size(); ++i) {
-            if (i % kBlock == 0) tilts.emplace_back();
-            const double units = std::clamp(along[i] / double(unit), -32767.0, 32767.0);
-            tilts.back().lane[i % kBlock] = static_cast<std::int16_t>(std::lrint(units));
         }
     }
 }

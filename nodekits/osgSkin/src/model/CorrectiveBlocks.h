@@ -6,6 +6,8 @@
 #include <osgSkin/Binding>
 #include <osgSkin/SkinModel>
 
+#include <glm/mat2x2.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -16,6 +18,31 @@ namespace osgSkin {
 /// One share of each vertex of a block.
 struct alignas(32) CorrectiveRow {
     std::int16_t lane[kBlock];
+};
+
+/// A CorrectiveJoint as its weights are summed up: the coefficients of all modes side by side.
+struct CorrectiveTable {
+    static constexpr std::size_t kAtOnce = 4; ///< modes that are worked out at a time
+
+    /// \param joint valid
+    /// \param bound the binding's joints
+    CorrectiveTable(const CorrectiveJoint& joint, const std::vector<BoundJoint>& bound);
+
+    const double* row(std::size_t function) const { return rows.data() + function * stride; }
+
+    std::size_t stride; ///< the modes, up to a multiple of kAtOnce with zeros
+    /// A row for each function, with splines as they are; behind those one of what splines come to
+    /// at rest, which is to be taken off.
+    std::vector<double> rows;
+    std::size_t restRow;
+    /// From a bend axis' cosine and sine in the frame of its joint (jointFrame()) to the two
+    /// directions that bends are measured along.
+    glm::dmat2 toAxes{1.0};
+};
+
+/// From rest space into a joint's frame (jointFrame()), columns with a spare number.
+struct CorrectiveFrame {
+    float column[3][4];
 };
 
 /// A SkinModel's correctives as the kernel reads them, and the only place that a model has them in.
@@ -34,7 +61,6 @@ struct CorrectiveBlocks {
         std::uint32_t blockCount;
         std::size_t firstRow;  ///< in `rows`
         std::size_t firstTilt; ///< in `tilts`
-        std::size_t firstUnit; ///< in `tiltUnits`
     };
 
     /// \param model has its gradients already, where it has any
@@ -44,6 +70,8 @@ struct CorrectiveBlocks {
                      const std::vector<std::uint32_t>& source);
 
     std::vector<CorrectiveJoint> joints;
+    std::vector<CorrectiveTable> tables; ///< of `joints`
+    std::vector<CorrectiveFrame> frames; ///< of each joint of the model
     std::vector<std::string> inputs;
     bool hasNormals = false;
     std::vector<Range> ranges;
@@ -52,9 +80,8 @@ struct CorrectiveBlocks {
     std::vector<CorrectiveRow> normalRows; ///< as `rows`; empty without normal correctives
 
     /// Two rows a block for each mode: its normal correctives along skinDirections()' u and v, in
-    /// the block's unit, which stands for that many of `normalRows`. Empty unless there are both.
-    std::vector<CorrectiveRow> tilts;
-    std::vector<float> tiltUnits; ///< of each range's blocks
+    /// units of `normalRows`; not rounded to those once more. Empty unless there are both.
+    std::vector<BlockRow> tilts;
 
     std::size_t rowsPerBlock(std::uint32_t joint) const { return 3 * joints[joint].modes; }
 

@@ -9,10 +9,7 @@ std::size_t splineCount(const std::vector<double>& knots) noexcept {
     return knots.size() < 2 ? 0 : knots.size() + 1;
 }
 
-void evaluateSplines(const std::vector<double>& knots, double x, double* values) noexcept {
-    const std::size_t count = splineCount(knots);
-    if (count == 0) return;
-    std::fill_n(values, count, 0.0);
+std::size_t splinesAt(const std::vector<double>& knots, double x, double (&values)[3]) noexcept {
     const std::size_t last = knots.size() - 1;
     x = std::clamp(x, knots.front(), knots.back());
     std::size_t span = 0;
@@ -27,9 +24,19 @@ void evaluateSplines(const std::vector<double>& knots, double x, double* values)
     const double up = (x - low) / (high - low);
     const double before = knot(span, -1), behind = knot(span, 2);
     const double left = (high - x) / (high - before), right = (behind - x) / (behind - low);
-    values[span] = left * (1.0 - up);
-    values[span + 1] = (1.0 - left) * (1.0 - up) + right * up;
-    values[span + 2] = (1.0 - right) * up;
+    values[0] = left * (1.0 - up);
+    values[1] = (1.0 - left) * (1.0 - up) + right * up;
+    values[2] = (1.0 - right) * up;
+    return span;
+}
+
+void evaluateSplines(const std::vector<double>& knots, double x, double* values) noexcept {
+    const std::size_t count = splineCount(knots);
+    if (count == 0) return;
+    std::fill_n(values, count, 0.0);
+    double three[3];
+    const std::size_t first = splinesAt(knots, x, three);
+    std::copy_n(three, 3, values + first);
 }
 
 } // namespace osgSkin
