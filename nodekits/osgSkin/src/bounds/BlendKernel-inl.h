@@ -29,6 +29,7 @@ constexpr float kBlendRounding = 2e-6f; ///< of a coordinate: several roundings
 /// Boxes of a block's pieces, [axis].
 struct BlendedBlock {
     BoundsProxy::Lanes low[3], high[3];
+    BoundsProxy::Lanes corrected; ///< how far correctives take the pieces' vertices
 };
 
 /// A box's sides, [axis].
@@ -74,6 +75,25 @@ HWY_INLINE Pieces turned(const BlendedMaps& maps, const BoundsProxy::Lanes (&x)[
     return from;
 }
 
+/// How far correctives take the vertices of a block's pieces.
+///
+/// \param weights CorrectiveStray's; null where there are no correctives
+HWY_INLINE BoundsProxy::Lanes correctedBy(const BoundsProxy& proxy, const BoundsProxy::Block& block,
+                                          const float* weights) {
+    const PieceTag d;
+    BoundsProxy::Lanes result;
+    const BoundsProxy::Reach* const reaches = proxy.reaches.data() + block.firstReach;
+    const std::size_t count = weights ? block.reachCount : 0;
+    for (std::size_t first = 0; first < BoundsProxy::kAtOnce; first += hn::Lanes(d)) {
+        Pieces sum = hn::Zero(d);
+        for (std::size_t i = 0; i < count; ++i)
+            sum = hn::MulAdd(hn::Set(d, weights[reaches[i].weight]),
+                             lanesOf(reaches[i].length, first), sum);
+        hn::Store(sum, d, result.lane + first);
+    }
+    return result;
+}
+
 /// A box that grows, in each lane.
 struct Growing {
     Pieces low[3], high[3];
@@ -104,19 +124,21 @@ struct Growing {
 ///
 /// \param proxy of the pose's model
 /// \param motions the pose's
+/// \param weights CorrectiveStray's; null where there are no correctives
 /// \param boxes one for each block
 /// \return around the pieces where nothing strays: about where the skin is
 HWY_INLINE BlendedBox blendBoxes(const BoundsProxy& proxy, const JointMotions& motions,
-                                 BlendedBlock* boxes) {
+                                 const float* weights, BlendedBlock* boxes) {
     const PieceTag d;
     const Pieces none = hn::Zero(d);
     Growing about;
     for (const BoundsProxy::Block& block : proxy.blocks) {
         const BoundsProxy::Share* shares = proxy.shares.data() + block.firstShare;
+        boxes->corrected = correctedBy(proxy, block, weights);
         for (std::size_t first = 0; first < BoundsProxy::kAtOnce; first += hn::Lanes(d)) {
             BlendedMaps maps{{{none, none, none}, {none, none, none}, {none, none, none}},
                              {none, none, none},
-                             hn::Add(lanesOf(block.corrected, first), hn::Set(d, proxy.rounding))};
+                             hn::Add(lanesOf(boxes->corrected, first), hn::Set(d, proxy.rounding))};
             std::uint32_t i = 0;
             for (; i < block.weighted; ++i)
                 addWeighted(shares[i], motions[shares[i].joint], first, maps);

@@ -31,7 +31,9 @@ class BlendedPieces {
 public:
     /// \param proxy of the pose's model
     /// \param motions the pose's, which is plain
-    BlendedPieces(const BoundsProxy& proxy, const JointMotions& motions) noexcept;
+    /// \param weights CorrectiveStray's; null where there are no correctives
+    BlendedPieces(const BoundsProxy& proxy, const JointMotions& motions,
+                  const float* weights) noexcept;
 
     /// The box that holds all vertices: of the pieces' blended boxes, but where one reaches far out
     /// of where the skin is about, of what is known more closely of that piece.
@@ -41,43 +43,42 @@ public:
 
 private:
     static constexpr std::size_t kMostBlocks =
-        (BoundsProxy::kMostCorrected + BoundsProxy::kAtOnce - 1) / BoundsProxy::kAtOnce;
+        (BoundsProxy::kMost + BoundsProxy::kAtOnce - 1) / BoundsProxy::kAtOnce;
 
-    /// Makes a piece's box smaller by what is known more closely, until it is good enough.
-    void look(std::size_t block, std::size_t lane, const BlendedBox& wanted,
-              const PosedPieces& pieces) noexcept;
+    /// Makes a piece's box smaller by what is known more closely, unless it is in `wanted`; that
+    /// grows by it: as far out as the skin reaches anyway, others need not be looked at.
+    void look(std::size_t block, std::size_t lane, const PosedPieces& pieces,
+              BlendedBox& wanted) noexcept;
 
     const BoundsProxy& _proxy;
     std::array<BlendedBlock, kMostBlocks> _blocks;
     BlendedBox _about; ///< where the skin is about
 };
 
-HWY_INLINE BlendedPieces::BlendedPieces(const BoundsProxy& proxy,
-                                        const JointMotions& motions) noexcept
-    : _proxy(proxy), _about(blendBoxes(proxy, motions, _blocks.data())) {}
+HWY_INLINE BlendedPieces::BlendedPieces(const BoundsProxy& proxy, const JointMotions& motions,
+                                        const float* weights) noexcept
+    : _proxy(proxy), _about(blendBoxes(proxy, motions, weights, _blocks.data())) {}
 
-HWY_INLINE void BlendedPieces::look(std::size_t block, std::size_t lane, const BlendedBox& wanted,
-                                    const PosedPieces& pieces) noexcept {
+HWY_INLINE void BlendedPieces::look(std::size_t block, std::size_t lane, const PosedPieces& pieces,
+                                    BlendedBox& wanted) noexcept {
+    BlendedBlock& boxes = _blocks[block];
+    bool isInside = true;
+    for (int axis = 0; axis < 3; ++axis)
+        isInside = isInside && boxes.low[axis].lane[lane] >= wanted.low[axis] &&
+                   boxes.high[axis].lane[lane] <= wanted.high[axis];
+    if (isInside) return;
     const BoundsProxy::Block& of = _proxy.blocks[block];
     // Those that are missing are the first one again.
     const BoundsProxy::Piece& piece =
         _proxy.pieces[of.firstPiece + (lane < of.pieceCount ? lane : 0)];
-    BlendedBlock& boxes = _blocks[block];
-    const float corrected = pieces.corrected(piece);
-    // In most poses correctives are far from what they can be at most.
-    bool isInside = piece.corrected > 0.0f;
+    const FourBox turned = pieces.turned(piece, boxes.corrected.lane[lane]);
     for (int axis = 0; axis < 3; ++axis) {
         float& low = boxes.low[axis].lane[lane];
         float& high = boxes.high[axis].lane[lane];
-        low += piece.corrected - corrected;
-        high -= piece.corrected - corrected;
-        isInside = isInside && low >= wanted.low[axis] && high <= wanted.high[axis];
-    }
-    if (isInside) return;
-    const FourBox turned = pieces.turned(piece, corrected);
-    for (int axis = 0; axis < 3; ++axis) {
-        boxes.low[axis].lane[lane] = std::max(turned.low[axis], boxes.low[axis].lane[lane]);
-        boxes.high[axis].lane[lane] = std::min(turned.high[axis], boxes.high[axis].lane[lane]);
+        low = std::max(turned.low[axis], low);
+        high = std::min(turned.high[axis], high);
+        wanted.low[axis] = std::min(wanted.low[axis], low);
+        wanted.high[axis] = std::max(wanted.high[axis], high);
     }
 }
 
@@ -93,7 +94,7 @@ HWY_INLINE FourBox BlendedPieces::box(const PosedPieces& pieces) noexcept {
     findOutside(_blocks.data(), count, wanted, outside.data());
     for (std::size_t block = 0; block < count; ++block)
         for (unsigned int lanes = outside[block], lane = 0; lanes != 0; lanes >>= 1, ++lane)
-            if (lanes & 1u) look(block, lane, wanted, pieces);
+            if (lanes & 1u) look(block, lane, pieces, wanted);
     const BlendedBox all = boxAround(_blocks.data(), count);
     return {four(all.low[0], all.low[1], all.low[2], 0.0f),
             four(all.high[0], all.high[1], all.high[2], 0.0f)};

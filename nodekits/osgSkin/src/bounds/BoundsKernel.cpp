@@ -17,16 +17,19 @@ HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
-FourBox box(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
-            CorrectiveStray* corrections) {
+FourBox box(const BoundsProxy& proxy, const Pose& pose, JointMotion* room, const float* weights) {
     const JointMotions motions(proxy, pose, room);
-    const PosedPieces pieces(proxy, motions, corrections);
-    if (motions.isPlain()) return BlendedPieces(proxy, motions).box(pieces);
+    const PosedPieces pieces(proxy, motions);
+    if (motions.isPlain()) return BlendedPieces(proxy, motions, weights).box(pieces);
     FourBox box{all(std::numeric_limits<float>::max()), all(-std::numeric_limits<float>::max())};
-    for (const BoundsProxy::Piece& piece : proxy.pieces) {
-        const FourBox of = pieces.turned(piece, pieces.corrected(piece));
-        box.low = min(box.low, of.low);
-        box.high = max(box.high, of.high);
+    for (const BoundsProxy::Block& block : proxy.blocks) {
+        const BoundsProxy::Lanes corrected = correctedBy(proxy, block, weights);
+        for (std::size_t lane = 0; lane < block.pieceCount; ++lane) {
+            const FourBox of =
+                pieces.turned(proxy.pieces[block.firstPiece + lane], corrected.lane[lane]);
+            box.low = min(box.low, of.low);
+            box.high = max(box.high, of.high);
+        }
     }
     return box;
 }
@@ -41,8 +44,8 @@ namespace osgSkin {
 HWY_EXPORT(box);
 
 FourBox boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
-              CorrectiveStray* corrections) noexcept {
-    return HWY_DYNAMIC_DISPATCH(box)(proxy, pose, room, corrections);
+              const float* weights) noexcept {
+    return HWY_DYNAMIC_DISPATCH(box)(proxy, pose, room, weights);
 }
 
 } // namespace osgSkin

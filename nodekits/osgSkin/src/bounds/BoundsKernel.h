@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "bounds/CorrectiveStray.h"
 #include "bounds/JointMotion.h"
 #include "model/BoundsProxy.h"
 
@@ -19,8 +18,8 @@ struct FourBox {
 /// \param proxy of the pose's model
 /// \param pose of the model's joints
 /// \param room for as many as the pose has joints
-/// \param corrections null where there are none
+/// \param weights CorrectiveStray's; null where there are no correctives
 FourBox boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
-              CorrectiveStray* corrections) noexcept;
+              const float* weights) noexcept;
 
 } // namespace osgSkin

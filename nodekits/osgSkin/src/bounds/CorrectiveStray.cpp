@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "bounds/CorrectiveStray.h"
 
+#include "correctives/CorrectiveWeights.h"
+
 #include <cmath>
 
 namespace osgSkin {
 
-float CorrectiveStray::of(const BoundsProxy::Piece& piece) noexcept {
-    float stray = 0.0f;
-    const BoundsProxy::Correction* next = _proxy.corrections.data() + piece.firstCorrection;
-    for (const auto* end = next + piece.correctionCount; next != end; ++next) {
-        const CorrectiveWeights::Weights* now = _weights.of(next->joint);
-        if (!now) continue;
-        const float* reach = _proxy.reach.data() + next->firstReach;
-        for (std::size_t k = 0; k < _weights.modesOf(next->joint); ++k)
-            stray += std::abs(now->positions[k]) * reach[k];
+CorrectiveStray::CorrectiveStray(const SkinModel& model, const Pose& pose) noexcept {
+    CorrectiveWeights weights(model, pose);
+    const std::size_t joints = SkinModelAccess::correctives(model)->joints.size();
+    for (std::uint32_t joint = 0; joint < joints; ++joint) {
+        const CorrectiveWeights::Weights* now = weights.of(joint);
+        float* const to = &_weights[BoundsProxy::weightOf(joint, 0)];
+        for (std::size_t k = 0; k < weights.modesOf(joint); ++k)
+            to[k] = now ? std::abs(now->positions[k]) : 0.0f;
     }
-    return stray;
 }
 
 } // namespace osgSkin

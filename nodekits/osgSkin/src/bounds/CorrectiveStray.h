@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "correctives/CorrectiveWeights.h"
 #include "model/BoundsProxy.h"
+
+#include <osgSkin/Pose>
+
+#include <array>
 
 namespace osgSkin {
 
-/// How far correctives take the vertices of pieces in a pose: turns keep that distance, whatever
-/// the vertex's ratios.
+/// How much the modes of a skin's correctives weigh in a pose: what BoundsProxy::Reach is to be
+/// multiplied by, for how far they take vertices. Turns keep that distance, whatever the vertex's
+/// ratios.
 class CorrectiveStray {
 public:
-    CorrectiveStray(const BoundsProxy& proxy, const SkinModel& model, const Pose& pose) noexcept
-        : _proxy(proxy), _weights(model, pose) {}
+    /// \pre the model has correctives
+    CorrectiveStray(const SkinModel& model, const Pose& pose) noexcept;
 
-    float of(const BoundsProxy::Piece& piece) noexcept;
+    /// By BoundsProxy::weightOf(); set of the modes that there are.
+    const float* weights() const { return _weights.data(); }
 
 private:
-    const BoundsProxy& _proxy;
-    CorrectiveWeights _weights;
+    std::array<float, BoundsProxy::kMostWeights> _weights;
 };
 
 } // namespace osgSkin

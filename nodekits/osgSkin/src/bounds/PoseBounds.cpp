@@ -2,6 +2,7 @@
 #include <osgSkin/PoseBounds>
 
 #include "bounds/BoundsKernel.h"
+#include "bounds/CorrectiveStray.h"
 #include "model/SkinModelAccess.h"
 
 #include <osgSkin/GlmTypes>
@@ -20,8 +21,8 @@ float bounded(float side, float otherwise) {
 
 FourBox boxOfCorrected(const BoundsProxy& proxy, const SkinModel& model, const Pose& pose,
                        JointMotion* room) {
-    CorrectiveStray corrections(proxy, model, pose);
-    return boxOf(proxy, pose, room, &corrections);
+    const CorrectiveStray corrections(model, pose);
+    return boxOf(proxy, pose, room, corrections.weights());
 }
 
 } // namespace

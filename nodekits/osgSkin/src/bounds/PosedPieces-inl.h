@@ -41,20 +41,13 @@ class PosedPieces {
 public:
     /// \param proxy of the pose's model
     /// \param motions the pose's
-    /// \param corrections null where there are none
-    PosedPieces(const BoundsProxy& proxy, const JointMotions& motions,
-                CorrectiveStray* corrections) noexcept
-        : _proxy(proxy), _motions(motions), _corrections(corrections) {}
-
-    /// How far correctives take a piece's vertices.
-    float corrected(const BoundsProxy::Piece& piece) const noexcept {
-        return _corrections ? _corrections->of(piece) : 0.0f;
-    }
+    PosedPieces(const BoundsProxy& proxy, const JointMotions& motions) noexcept
+        : _proxy(proxy), _motions(motions) {}
 
     /// The box of a piece that is turned as its vertices are.
     ///
     /// \param piece of the proxy
-    /// \param corrected of the piece
+    /// \param corrected how far correctives take its vertices
     FourBox turned(const BoundsProxy::Piece& piece, float corrected) const noexcept;
 
 private:
@@ -68,7 +61,6 @@ private:
 
     const BoundsProxy& _proxy;
     const JointMotions& _motions;
-    CorrectiveStray* _corrections;
 };
 
 /// \tparam Plain whether no joint is moved or scaled

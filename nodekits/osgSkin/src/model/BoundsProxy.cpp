@@ -212,79 +212,38 @@ float lengthOf(const CorrectiveRow* block, std::size_t mode, std::size_t lane) {
     return std::sqrt(sum);
 }
 
-/// What |beta_k| of a joint cannot exceed: its coordinates are clamped, splines add up to 1.
-float mostOf(const CorrectiveJoint& joint, std::size_t mode) {
-    using Basis = CorrectiveJoint::Basis;
-    const std::size_t functions = joint.functionCount();
-    const double* c = joint.coefficients.data() + mode * functions;
-    const double x = std::max(std::abs(joint.low.x), std::abs(joint.high.x));
-    if (joint.basis == Basis::Input) return static_cast<float>(std::abs(c[0]) * x);
-    const double y = std::max(std::abs(joint.low.y), std::abs(joint.high.y));
-    double most = 0.0;
-    if (joint.basis == Basis::Ball) {
-        const double all[] = {x,         y,         x * x,     x * y,    y * y,
-                              x * x * x, x * x * y, x * y * y, y * y * y};
-        for (std::size_t i = 0; i < functions; ++i) most += std::abs(c[i]) * all[i];
-        return static_cast<float>(most);
-    }
-    const bool hinge = joint.basis == Basis::Hinge;
-    const std::size_t splines = hinge ? functions - 3 : functions / 7;
-    const double r = std::sqrt(x * x + y * y);
-    double low = c[0], high = c[0], powers = 0.0;
-    for (std::size_t i = 0; i < splines; ++i) {
-        const double* of = hinge ? c + i : c + 7 * i;
-        low = std::min(low, of[0]);
-        high = std::max(high, of[0]);
-        if (hinge) continue;
-        powers = std::max(powers, (std::abs(of[1]) + std::abs(of[2])) * r +
-                                      (std::abs(of[3]) + std::abs(of[4])) * r * r +
-                                      (std::abs(of[5]) + std::abs(of[6])) * r * r * r);
-    }
-    if (hinge)
-        powers = std::abs(c[splines]) * y + std::abs(c[splines + 1]) * x * y +
-                 std::abs(c[splines + 2]) * y * y;
-    return static_cast<float>(high - low + powers);
-}
+/// How far the modes of correctives take the vertices of a piece, by BoundsProxy::weightOf().
+using Reaches = std::map<std::uint32_t, float>;
 
-/// Adds how far correctives can take the vertices of a piece.
-void addCorrections(const PieceVertices& vertices, const Rows& rows, BoundsProxy& proxy,
-                    BoundsProxy::Piece& piece) {
+Reaches reachesOf(const PieceVertices& vertices, const Rows& rows) {
+    Reaches result;
     const CorrectiveBlocks* blocks = SkinModelAccess::correctives(vertices.model);
-    if (!blocks) return;
-    std::vector<std::vector<float>> reach(blocks->joints.size());
+    if (!blocks) return result;
     for (const std::uint32_t row : rows) {
         const std::uint32_t group = vertices.group(row), inGroup = vertices.rowInGroup(row);
         for (std::uint32_t i = blocks->firstRange[group]; i < blocks->firstRange[group + 1]; ++i) {
             const CorrectiveBlocks::Range& range = blocks->ranges[i];
             const CorrectiveRow* block = blocks->blockOf(range, inGroup);
             if (!block) continue;
-            std::vector<float>& of = reach[range.joint];
-            of.resize(blocks->joints[range.joint].modes, 0.0f);
-            for (std::size_t k = 0; k < of.size(); ++k)
-                of[k] = std::max(of[k], lengthOf(block, k, inGroup % kBlock));
+            for (std::size_t k = 0; k < blocks->joints[range.joint].modes; ++k) {
+                const float length = lengthOf(block, k, inGroup % kBlock);
+                if (length == 0.0f) continue;
+                float& most = result[BoundsProxy::weightOf(range.joint, k)];
+                most = std::max(most, length);
+            }
         }
     }
-    piece.firstCorrection = static_cast<std::uint32_t>(proxy.corrections.size());
-    for (std::uint32_t joint = 0; joint < reach.size(); ++joint) {
-        const std::vector<float>& of = reach[joint];
-        if (std::all_of(of.begin(), of.end(), [](float length) { return length == 0.0f; }))
-            continue;
-        proxy.corrections.push_back({joint, static_cast<std::uint32_t>(proxy.reach.size())});
-        proxy.reach.insert(proxy.reach.end(), of.begin(), of.end());
-        ++piece.correctionCount;
-        for (std::size_t k = 0; k < of.size(); ++k)
-            piece.corrected += 1.0001f * mostOf(blocks->joints[joint], k) * of[k] /
-                               static_cast<float>(Correctives::kUnit);
-    }
+    return result;
 }
 
 /// A piece on its way into a block.
 struct CutPiece {
     SkinPiece cut;
     PieceTerms terms;
+    Reaches reaches;
 
     CutPiece(const PieceVertices& vertices, SkinPiece&& piece)
-        : cut(std::move(piece)), terms(vertices, cut) {}
+        : cut(std::move(piece)), terms(vertices, cut), reaches(reachesOf(vertices, cut.rows)) {}
 
     /// The joints that it moves with.
     std::set<std::uint32_t> joints() const {
@@ -326,6 +285,7 @@ void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::s
     block.firstPiece = static_cast<std::uint32_t>(first);
     block.pieceCount = static_cast<std::uint32_t>(count);
     std::map<std::uint32_t, BoundsProxy::Share> shares;
+    std::map<std::uint32_t, BoundsProxy::Reach> reaches;
     for (std::size_t lane = 0; lane < BoundsProxy::kAtOnce; ++lane) {
         const std::size_t i = lane < count ? lane : 0;
         const BoundsProxy::Piece& piece = proxy.pieces[first + i];
@@ -334,7 +294,11 @@ void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::s
             for (int side = 0; side < 3; ++side)
                 block.axes[side][axis].lane[lane] = piece.axes[side][axis];
         }
-        block.corrected.lane[lane] = piece.corrected;
+        for (const auto& [weight, length] : pieces[i]->reaches) {
+            BoundsProxy::Reach& reach = reaches[weight];
+            reach.weight = weight;
+            reach.length.lane[lane] = length;
+        }
         for (const auto& [joint, of] : pieces[i]->terms.jointShares()) {
             BoundsProxy::Share& share = shares[joint];
             share.joint = joint;
@@ -355,6 +319,9 @@ void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::s
         const auto now = static_cast<std::uint32_t>(proxy.shares.size()) - block.firstShare;
         (weighted ? block.weighted : block.shareCount) = now;
     }
+    block.firstReach = static_cast<std::uint32_t>(proxy.reaches.size());
+    block.reachCount = static_cast<std::uint32_t>(reaches.size());
+    for (const auto& [weight, reach] : reaches) proxy.reaches.push_back(reach);
     proxy.blocks.push_back(block);
 }
 
@@ -390,11 +357,9 @@ std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
     proxy->noTravel = 2e-6f * largest;
     proxy->rounding = 1.5e-5f * largest;
     const PieceVertices vertices(model);
-    const std::size_t most =
-        SkinModelAccess::correctives(model) ? BoundsProxy::kMostCorrected : BoundsProxy::kMost;
     CutPieces pieces;
-    for (SkinPiece& piece :
-         cutSkin(vertices, extent, std::min(most, model.vertexCount() / kLeastVertices)))
+    for (SkinPiece& piece : cutSkin(
+             vertices, extent, std::min(BoundsProxy::kMost, model.vertexCount() / kLeastVertices)))
         pieces.push_back(std::make_unique<CutPiece>(vertices, std::move(piece)));
     orderByJoints(pieces);
     for (const std::unique_ptr<CutPiece>& from : pieces) {
@@ -402,7 +367,6 @@ std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
         piece.centre = four(from->cut.shape.centre);
         for (int side = 0; side < 3; ++side) piece.axes[side] = four(from->cut.shape.axes[side]);
         from->terms.addTo(*proxy, piece);
-        addCorrections(vertices, from->cut.rows, *proxy, piece);
         proxy->pieces.push_back(piece);
     }
     for (std::size_t first = 0; first < pieces.size(); first += BoundsProxy::kAtOnce)

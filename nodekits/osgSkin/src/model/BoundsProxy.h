@@ -3,6 +3,7 @@
 
 #include "points/Four.h"
 
+#include <osgSkin/Correctives>
 #include <osgSkin/SkinModel>
 
 #include <cstddef>
@@ -61,17 +62,10 @@ struct BoundsProxy {
         float bendMove, twistMove;
         float mostHigh; ///< the largest `high` whatever they do, but move and scale
     };
-    /// That vertices of a piece follow the correctives of a joint.
-    struct Correction {
-        std::uint32_t joint;      ///< of the correctives'
-        std::uint32_t firstReach; ///< in `reach`: one for each mode
-    };
     struct Piece {
         Four centre, axes[3]; ///< an EllipticCylinder
-        float corrected;      ///< how far correctives can take a vertex in any pose, or more
         std::uint32_t anchor;
         std::uint32_t firstTerm, termCount; ///< innermost (applied first) first
-        std::uint32_t firstCorrection, correctionCount;
     };
 
     static constexpr std::size_t kAtOnce = 8; ///< pieces of a Block
@@ -86,26 +80,37 @@ struct BoundsProxy {
         Lanes square;      ///< and a squared radian of their sum
         std::uint32_t joint;
     };
+    /// How far a mode of correctives takes a block's pieces.
+    struct Reach {
+        Lanes length;         ///< of the largest shares of a piece, as they are held
+        std::uint32_t weight; ///< which of the modes: weightOf()
+    };
+    /// Of a joint of the correctives' and one of its modes.
+    static std::uint32_t weightOf(std::uint32_t joint, std::size_t mode) {
+        return joint * std::uint32_t{CorrectiveJoint::kMostModes} +
+               static_cast<std::uint32_t>(mode);
+    }
+    static constexpr std::size_t kMostWeights =
+        Correctives::kMostJoints * CorrectiveJoint::kMostModes;
     /// Pieces that are worked on at once; missing ones are the first again.
     struct Block {
         Lanes centre[3], axes[3][3]; ///< of the cylinders
-        Lanes corrected;
         std::uint32_t firstPiece, pieceCount;
+        std::uint32_t firstReach, reachCount;
         std::uint32_t firstShare, weighted, shareCount; ///< first those with weights
     };
 
-    /// Pieces that a skin is cut into at most, without correctives and with them.
-    static constexpr std::size_t kMost = 128, kMostCorrected = 160;
+    /// Pieces that a skin is cut into at most.
+    static constexpr std::size_t kMost = 128;
 
     std::vector<Joint> joints; ///< the model's
     std::vector<Block> blocks;
     std::vector<Share> shares;
     std::vector<Piece> pieces; ///< in the blocks' order
     std::vector<Term> terms;
-    std::vector<Correction> corrections;
-    std::vector<float> reach; ///< length of a piece's largest shares, as they are held
-    float noTravel;           ///< a joint's translation up to this may be a rounding error
-    float rounding;           ///< what those may put a vertex off by, near the origin
+    std::vector<Reach> reaches;
+    float noTravel; ///< a joint's translation up to this may be a rounding error
+    float rounding; ///< what those may put a vertex off by, near the origin
 };
 
 /// Cuts a model's vertices into pieces; null for a model without vertices.
