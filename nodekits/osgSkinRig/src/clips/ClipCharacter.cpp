@@ -13,6 +13,7 @@
 #include <osgAnimation/BasicAnimationManager>
 
 #include <array>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -121,11 +122,19 @@ void ClipCharacter::bake(const SampledClip* clip) {
     };
     constexpr std::size_t parts = BakedClip::kParts;
     std::vector<std::array<SkinMoment, parts + 1>> ways(_skins.size());
+    const auto lookAt = [&](std::size_t k) {
+        for (std::size_t i = 0; i < _skins.size(); ++i)
+            ways[i][k] = momentOf(*player._skins[i].skin);
+    };
+    poseAt(0.0);
+    lookAt(parts);
     for (std::size_t sample = 0; sample < clip->sampleCount(); ++sample) {
-        for (std::size_t k = parts + 1; k-- > 0;) { // the sample itself last
+        for (std::size_t i = 0; i < _rigids.size(); ++i)
+            baked->rigids[i].push_back(player._rigids[i].transform->getMatrix());
+        for (auto& way : ways) std::swap(way.front(), way.back()); // the way before ended here
+        for (std::size_t k = 1; k <= parts; ++k) { // up to the next sample, or the first one again
             poseAt(double(sample) + double(k) / double(parts));
-            for (std::size_t i = 0; i < _skins.size(); ++i)
-                ways[i][k] = momentOf(*player._skins[i].skin);
+            lookAt(k);
         }
         for (std::size_t i = 0; i < _skins.size(); ++i) {
             BakedClip::Skin& skin = baked->skins[i];
@@ -136,8 +145,6 @@ void ClipCharacter::bake(const SampledClip* clip) {
             for (unsigned int corner = 0; corner < 8; ++corner)
                 _bakedBounds.expandBy(box.corner(corner) * _skins[i].toCharacter);
         }
-        for (std::size_t i = 0; i < _rigids.size(); ++i)
-            baked->rigids[i].push_back(player._rigids[i].transform->getMatrix());
     }
     _baked.push_back(baked);
 }
