@@ -72,8 +72,8 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
     }
     const float* HWY_RESTRICT ratio = rows + 6 * kBlock;
     bool inJointFrame = !call.lead;
-    for (const KernelLink* link = call.links + call.linkCount; link-- != call.links;
-         ratio += 2 * kBlock, inJointFrame = false) {
+    for (std::size_t l = call.linkCount; l-- != 0; ratio += 2 * kBlock, inJointFrame = false) {
+        const KernelLink* const link = call.links + l;
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
         sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
@@ -192,7 +192,8 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         turn(call.outs[last->out], tx, ty, tz);
     }
     ratio += 2 * kBlock;
-    while (link-- != call.links) {
+    while (link != call.links) {
+        --link;
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
         sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);

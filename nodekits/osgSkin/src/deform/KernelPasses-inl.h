@@ -379,8 +379,9 @@ HWY_INLINE void deformByLinks(const KernelCall& call) {
 
         bool inJointFrame = !call.lead;
         if (call.lead) streams(*call.lead, nullptr, call.linkCount == 0);
-        for (const KernelLink* link = call.links + call.linkCount; link-- != call.links;
+        for (std::size_t l = call.linkCount; l-- != 0;
              chunk.ratios += 2 * kBlock, inJointFrame = false) {
+            const KernelLink* const link = call.links + l;
             const auto twist = inJointFrame ? turnShares<true> : turnShares<false>;
             twist(call.joints->twistOf(link->joint), call, *link, chunk, chunk.ratios + kBlock,
                   chunk.twistSine, chunk.twistCosine);
