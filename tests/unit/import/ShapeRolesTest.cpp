@@ -38,6 +38,21 @@ std::string wrongByShape(const RestSkeleton& body, const JointRoles& told) {
     return result;
 }
 
+/// A body with 60 chains of three bones around its hips, as long as its thighs.
+RestSkeleton skirted(RestSkeleton body, const JointRoles& roles, double length) {
+    const int hips = roles.joints.at("Hips")[0];
+    const glm::dvec3 from = body.joints[std::size_t(hips)].centre;
+    for (int i = 0; i < 60; ++i) {
+        const double angle = glm::radians(6.0 * i);
+        const glm::dvec3 way(0.4 * std::cos(angle), -0.9, 0.4 * std::sin(angle));
+        int parent = hips;
+        for (int part = 1; part <= 3; ++part)
+            parent = body.add("skirt" + std::to_string(i) + "_" + std::to_string(part), parent,
+                              from + length * part / 3.0 * glm::normalize(way));
+    }
+    return body;
+}
+
 class ShapeRoles : public testing::TestWithParam<const char*> {
 protected:
     RestSkeleton body() const {
@@ -57,6 +72,17 @@ TEST_P(ShapeRoles, TellsTheMainJoints) {
     const RestSkeleton standing = body();
     const JointRoles told = recogniseJoints(nameless(standing));
     EXPECT_EQ(told.family, kToldByShape);
+    EXPECT_EQ(wrongByShape(standing, told), "");
+}
+
+TEST_P(ShapeRoles, OfABodyInASkirtOfManyBones) {
+    if (missing()) GTEST_SKIP() << "needs " << GetParam();
+    RestSkeleton standing = body();
+    const JointRoles bare = recogniseJoints(standing);
+    const glm::dvec3 hips = standing.joints[std::size_t(bare.joints.at("Hips")[0])].centre;
+    const int knee = bare.joints.at("LeftLowerLeg")[0];
+    const double length = glm::distance(hips, standing.joints[std::size_t(knee)].centre);
+    const JointRoles told = recogniseJoints(nameless(skirted(standing, bare, length)));
     EXPECT_EQ(wrongByShape(standing, told), "");
 }
 
@@ -83,6 +109,20 @@ INSTANTIATE_TEST_SUITE_P(Bodies, ShapeRoles,
                                  if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
                              return name;
                          });
+
+/// Any two of its limbs mirror each other.
+TEST(ShapeRolesOf, AStarOfThreeThousandLimbsIsNone) {
+    RestSkeleton star;
+    star.add("middle", -1, glm::dvec3(0));
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec3 way(std::cos(i), std::sin(i), 0.001 * i);
+        int parent = 0;
+        for (int part = 1; part <= 3; ++part)
+            parent = star.add("b" + std::to_string(i) + "_" + std::to_string(part), parent,
+                              double(part) * glm::normalize(way));
+    }
+    EXPECT_FALSE(recogniseJoints(star).known());
+}
 
 TEST(ShapeRolesOf, ThingsThatAreNoPersonAreNone) {
     RestSkeleton snake;

@@ -18,6 +18,9 @@ constexpr double kShortestLimb = 0.15; ///< of a limb, in the skeleton's reach
 constexpr double kUpright = 0.64;      ///< cosine between trunk and legs: a quadruped's is near 0
 constexpr double kApart = 0.12;        ///< of the twins of a limb's first joint, in its length
 constexpr double kToesPoint = 0.05;    ///< leg lengths
+// Hair and skirts are many, but shorter than limbs: whatever the skeleton, it takes no time.
+constexpr std::size_t kMostLimbs = 24;  ///< of one joint, the longest
+constexpr std::size_t kMostPairs = 256; ///< the longest
 
 using Chain = std::vector<int>;
 
@@ -95,18 +98,39 @@ private:
 
     void findPairs() {
         for (int base = 0; base < _tree.size(); ++base) {
-            const std::vector<int>& children = _tree.children(base);
-            for (std::size_t i = 0; i < children.size(); ++i)
-                for (std::size_t k = i + 1; k < children.size(); ++k) {
-                    const double length = std::min(through(children[i]), through(children[k]));
-                    const double longer = std::max(through(children[i]), through(children[k]));
-                    if (length < kShortestLimb * _tree.reach() || longer > (1.0 + kAlike) * length)
-                        continue;
-                    const Chain a = chainFrom(children[i]), b = chainFrom(children[k]);
-                    if (a.size() >= 3 && b.size() >= 3 && mirror(base, a, b, length))
+            const std::vector<Chain> limbs = limbsOf(base);
+            for (std::size_t i = 0; i < limbs.size(); ++i)
+                for (std::size_t k = i + 1; k < limbs.size(); ++k) {
+                    const Chain &a = limbs[i], &b = limbs[k];
+                    const double length = std::min(through(a.front()), through(b.front()));
+                    const double longer = std::max(through(a.front()), through(b.front()));
+                    if (longer <= (1.0 + kAlike) * length && mirror(base, a, b, length))
                         _pairs.push_back({base, a, b, length, upperOf(a, b, length)});
                 }
         }
+        keepLongest(_pairs, kMostPairs, [](const Pair& pair) { return pair.length; });
+    }
+
+    /// The chains below a joint that are long enough for limbs.
+    std::vector<Chain> limbsOf(int base) const {
+        std::vector<Chain> limbs;
+        for (const int child : _tree.children(base))
+            if (through(child) >= kShortestLimb * _tree.reach()) limbs.push_back({child});
+        keepLongest(limbs, kMostLimbs, [&](const Chain& limb) { return through(limb.front()); });
+        for (Chain& limb : limbs) limb = chainFrom(limb.front());
+        limbs.erase(std::remove_if(limbs.begin(), limbs.end(),
+                                   [](const Chain& limb) { return limb.size() < 3; }),
+                    limbs.end());
+        return limbs;
+    }
+
+    /// Leaves so many, the longest first; where there are no more, in their order.
+    template <typename Item, typename Length>
+    static void keepLongest(std::vector<Item>& items, std::size_t most, const Length& length) {
+        if (items.size() <= most) return;
+        std::stable_sort(items.begin(), items.end(),
+                         [&](const Item& a, const Item& b) { return length(a) > length(b); });
+        items.erase(items.begin() + static_cast<std::ptrdiff_t>(most), items.end());
     }
 
     glm::dvec3 upOf(const Pair& legs) const {
