@@ -2,6 +2,7 @@
 #include "regions/TrimRegions.h"
 
 #include "limbs/LimbRadius.h"
+#include "regions/FacesLimb.h"
 
 #include <glm/geometric.hpp>
 
@@ -32,11 +33,15 @@ void trimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints
         const glm::dvec3 normal = planeNormal(joints[j]);
         const double reach = reachFromBone(joints[j], radii);
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
-        for (std::size_t v = 0; v < jointOf.size(); ++v)
-            if (jointOf[v] == j &&
-                (distanceToBone(joints[j], mesh.positions[v]) > reach ||
-                 glm::dot(mesh.positions[v] - joints[j].centre, normal) < -kReachAbove * radii[j]))
+        const bool leavesTrunk = joints[above].trunk && isLimb(joints[j], radii[j]);
+        for (std::size_t v = 0; v < jointOf.size(); ++v) {
+            if (jointOf[v] != j) continue;
+            const glm::dvec3& p = mesh.positions[v];
+            if (distanceToBone(joints[j], p) > reach ||
+                glm::dot(p - joints[j].centre, normal) < -kReachAbove * radii[j] ||
+                (leavesTrunk && facesLimb(joints[j], radii[j], p, mesh.normals[v])))
                 jointOf[v] = above;
+        }
     }
 }
 
