@@ -113,6 +113,21 @@ TEST(GuardedCharacter, DescriptionsAreRefusedWithTheirPlace) {
     EXPECT_EQ(refusal(kCharacter + "good.skin", "formats=skin,obj,bvh"), "read");
 }
 
+TEST(GuardedCharacter, DescriptionsMayBeLongAndHaveBracketsInNames) {
+    const std::string folder = test::makeTestFolder();
+    std::string joints;
+    for (int i = 0; i < 100'000; ++i)
+        joints += (i == 0 ? "\"" : ", \"") + std::to_string(i) + "\": {\"skip\": true}";
+    const std::string both = parts(kCharacter + "body.obj", kCharacter + "rig.bvh");
+    expectSays(refusal(skin(folder, "long", both + ", \"joints\": {" + joints + "}")),
+               "\"0\" is not in the skeleton");
+    const std::string brackets = "\\\"" + std::string(100, '[') + "\\\\";
+    EXPECT_EQ(refusal(skin(folder, "brackets",
+                           both + ", \"motions\": [{\"file\": \"" + kCharacter +
+                               "move.bvh\", \"name\": \"" + brackets + "\"}]")),
+              "read");
+}
+
 TEST(GuardedCharacter, LandmarksAreInTheBody) {
     const std::string folder = test::makeTestFolder();
     for (const char* place : {"1e30", "-1e6", "-1e9"})

@@ -12,7 +12,7 @@ namespace osgSkin {
 namespace {
 
 /// How deep lists and objects may stand in each other; a description has 4 levels.
-constexpr int kDeepest = 64;
+constexpr std::size_t kDeepest = 64;
 
 /// "line 3, column 7", from 1, of a byte.
 std::string placeOf(const std::string& text, std::size_t byte) {
@@ -24,21 +24,31 @@ std::string placeOf(const std::string& text, std::size_t byte) {
     return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
+/// How deep lists and objects of a JSON text stand in each other. Its parser could tell, too, but
+/// looks through a list again after each of its objects then.
+std::size_t depthOf(const std::string& text) {
+    std::size_t depth = 0, deepest = 0;
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') inString = !inString;
+        if (inString && c == '\\') ++i; // what follows ends no string
+        if (inString) continue;
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if ((c == ']' || c == '}') && depth > 0) --depth;
+    }
+    return deepest;
+}
+
 } // namespace
 
 nlohmann::json JsonReader::parseFile(const std::string& file, const ReadLimits& limits) {
     const std::string text = readWholeFile(file, limits.textMegabytes, "maxTextMB");
-    bool tooDeep = false;
-    const auto onEvent = [&tooDeep](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-        tooDeep = tooDeep || depth > kDeepest;
-        return !tooDeep; // what lies deeper is not kept
-    };
+    if (depthOf(text) > kDeepest)
+        throw Error(file + ": lists and objects stand in each other more than " +
+                    std::to_string(kDeepest) + " deep");
     try {
-        nlohmann::json json = nlohmann::json::parse(text, onEvent);
-        if (tooDeep)
-            throw Error(file + ": lists and objects stand in each other more than " +
-                        std::to_string(kDeepest) + " deep");
-        return json;
+        return nlohmann::json::parse(text);
     } catch (const nlohmann::json::parse_error& error) {
         throw Error(file + ": " + placeOf(text, error.byte > 0 ? error.byte - 1 : 0) +
                     ": malformed JSON");
