@@ -91,9 +91,18 @@ HWY_INLINE void skinDirections(const KernelCall& call, std::size_t first, V nx, 
                                V& uy, V& uz, V& vx, V& vy, V& vz) {
     const D d;
     const float* across = call.across[first / kBlock].across;
-    cross(nx, ny, nz, hn::Set(d, across[0]), hn::Set(d, across[1]), hn::Set(d, across[2]), vx, vy,
-          vz);
-    cross(vx, vy, vz, nx, ny, nz, ux, uy, uz);
+    if (HWY_LIKELY(across[2] == kAlongFrame.across[2])) { // the same with fewer steps
+        vx = hn::Neg(ny);
+        vy = nx;
+        vz = hn::Zero(d);
+        ux = hn::Mul(nx, nz);
+        uy = hn::Mul(ny, nz);
+        uz = hn::NegMulSub(ny, ny, hn::Mul(nx, nx));
+    } else {
+        cross(nx, ny, nz, hn::Set(d, across[0]), hn::Set(d, across[1]), hn::Set(d, across[2]), vx,
+              vy, vz);
+        cross(vx, vy, vz, nx, ny, nz, ux, uy, uz);
+    }
     if (HWY_LIKELY(call.correctionCount == 0)) return;
     V alongU, alongV;
     if (!tilts(call, first, alongU, alongV)) return;

@@ -83,17 +83,25 @@ glm::dvec3 vectorOf(const BlockAcross& across) {
     return {across.across[0], across.across[1], across.across[2]};
 }
 
-/// The direction that is farthest from being along any of the normals.
+/// The least square of the sine of the angle between a direction and the normals.
+double leastAngle(const std::vector<glm::dvec3>& normals, const BlockAcross& direction) {
+    double least = 1.0;
+    for (const glm::dvec3& n : normals) {
+        const glm::dvec3 v = glm::cross(n, vectorOf(direction));
+        if (n != glm::dvec3(0.0)) least = std::min(least, glm::dot(v, v));
+    }
+    return least;
+}
+
+/// kAlongFrame where it is at least 30 degrees from being along any of the normals, else the
+/// direction that is farthest from it.
 BlockAcross acrossAll(const std::vector<glm::dvec3>& normals) {
+    if (leastAngle(normals, kAlongFrame) >= 0.25) return kAlongFrame;
     BlockAcross best{};
     double bestLeast = -1.0;
     for (int i = 0; i < kDirections; ++i) {
         const BlockAcross candidate = directionAt(i);
-        double least = 1.0;
-        for (const glm::dvec3& n : normals) {
-            const glm::dvec3 v = glm::cross(n, vectorOf(candidate));
-            if (n != glm::dvec3(0.0)) least = std::min(least, glm::dot(v, v));
-        }
+        const double least = leastAngle(normals, candidate);
         if (least <= bestLeast) continue;
         bestLeast = least;
         best = candidate;

@@ -24,6 +24,10 @@ struct BlockAcross {
     float across[3];
 };
 
+/// The one that blocks have where it is far enough from their normals: a limb's skin looks across
+/// the limb's axis, which is the third one of a joint's frame. The kernel needs fewer steps then.
+constexpr BlockAcross kAlongFrame{{0.0f, 0.0f, -1.0f}};
+
 /// Two directions along the skin at a vertex that its gradients are held by: v = n x across and
 /// u = v x n, perpendicular and of one length.
 struct SkinDirections {
