@@ -106,3 +106,28 @@ TEST(ShapeFit, IsPackedForEveryCopyAndLeavesOutWhatHardlyMoves) {
                     fit.vectors[7 * packed.joints[0].modes + i / 3][static_cast<int>(i % 3)], 2e-5);
     }
 }
+
+TEST(ShapeFit, IsPackedWithoutTheLastModesThatMakeNoDifference) {
+    const JointShapes shapes = shapesOfHinge();
+    FittedShapes fit = fitShapes(shapes, 6, kTolerance);
+    fit.tolerance = 0.1; // more than what bends to the side do
+    std::vector<std::uint32_t> weldedOf;
+    for (std::uint32_t v = 0; v < shapes.vertices.size(); ++v) weldedOf.push_back(v);
+    const Correctives packed = packShapes({fit}, weldedOf);
+    const std::size_t modes = fit.functions.modes, last = 3 * (modes - 1);
+    ASSERT_GE(modes, 3u);
+    std::size_t leftOut = 0;
+    for (std::uint32_t v = 0; v < weldedOf.size(); ++v) {
+        const std::uint32_t entry = packed.firstEntry[v];
+        ASSERT_EQ(packed.firstEntry[v + 1], entry + 1);
+        const std::int16_t* shares = &packed.shares[packed.entries[entry].firstShare];
+        if (std::all_of(shares + last, shares + last + 3, [](auto share) { return share == 0; }))
+            ++leftOut;
+        FittedShapes now = fit;
+        for (std::size_t i = 0; i < 3 * modes; ++i)
+            now.vectors[v * modes + i / 3][static_cast<int>(i % 3)] = shares[i] / 32767.0;
+        for (const glm::dvec2& xy : shapes.samples)
+            EXPECT_LE(glm::distance(fittedAt(now, v, xy), fittedAt(fit, v, xy)), 0.1001) << v;
+    }
+    EXPECT_EQ(leftOut, weldedOf.size());
+}

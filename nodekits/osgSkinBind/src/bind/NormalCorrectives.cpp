@@ -26,6 +26,9 @@ constexpr int kOutwards = 12;
 
 constexpr double kRidge = 1e-6;
 
+/// By how much a normal may be off in any bend for needing fewer modes, radians.
+constexpr double kTolerance = 2e-2;
+
 /// Where the skin has folded over, its normals are followed no further: least cosine.
 constexpr double kLeastCosine = 0.15;
 
@@ -231,6 +234,25 @@ Eigen::MatrixXd fit(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts
     return length.cwiseInverse().asDiagonal() * normal.ldlt().solve(unit.transpose() * tilts);
 }
 
+/// The same with as few of the first modes for each vertex as that allows; 0 for the others.
+Eigen::MatrixXd fitWithFewest(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts) {
+    Eigen::MatrixXd modes = fit(weights, tilts);
+    const Eigen::MatrixXd all = weights * modes;
+    std::vector<bool> open(std::size_t(tilts.cols() / 3), true);
+    for (Eigen::Index count = weights.cols(); count-- > 0;) {
+        Eigen::MatrixXd fewer = Eigen::MatrixXd::Zero(modes.rows(), modes.cols());
+        if (count > 0) fewer.topRows(count) = fit(weights.leftCols(count), tilts);
+        const Eigen::MatrixXd off = weights * fewer - all;
+        for (std::size_t v = 0; v < open.size(); ++v) {
+            const auto column = Eigen::Index(3 * v);
+            open[v] =
+                open[v] && off.middleCols<3>(column).rowwise().norm().maxCoeff() <= kTolerance;
+            if (open[v]) modes.middleCols<3>(column) = fewer.middleCols<3>(column);
+        }
+    }
+    return modes;
+}
+
 } // namespace
 
 void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
@@ -266,7 +288,7 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
                 for (int axis = 0; axis < 3; ++axis)
                     tilts(s, Eigen::Index(3 * v) + axis) = wanted[v][axis];
         }
-        const Eigen::MatrixXd modes = fit(weights, tilts);
+        const Eigen::MatrixXd modes = fitWithFewest(weights, tilts);
         std::vector<double>& scale = scales.emplace_back();
         for (std::size_t k = 0; k < joint.modes; ++k) {
             const double most =

@@ -11,13 +11,20 @@
 namespace osgSkin {
 namespace {
 
-/// Modes that are kept of a joint's shapes. A joint between limbs that may bend in any direction
-/// has as many shapes as directions.
-constexpr std::size_t kModes = 3;
-constexpr std::size_t kRoundModes = CorrectiveJoint::kMostModes;
+/// Modes that are kept of a joint's shapes. With two, knees at 120 degrees would still cut through
+/// themselves; shoulders and hips gain next to nothing by a second one, which every vertex there
+/// would pay for. A joint between limbs that may bend in any direction has as many shapes as
+/// directions.
+std::size_t modesOf(CorrectiveJoint::Basis basis) {
+    return basis == CorrectiveJoint::Basis::Hinge  ? 3
+           : basis == CorrectiveJoint::Basis::Ball ? 1
+                                                   : CorrectiveJoint::kMostModes;
+}
 
-/// What makes no difference, in radii of the limb.
+/// What makes no difference, in radii of the limb: of a mode to all vertices, and of its last modes
+/// to a vertex, where they are not as many as directions.
 constexpr double kFitTolerance = 1e-2;
+constexpr double kVertexTolerance = 2e-2;
 
 JointShapes shapesOf(const ShapedJoint& joint) {
     JointShapes shapes;
@@ -49,8 +56,10 @@ JointShapes shapesOf(const ShapedJoint& joint) {
 } // namespace
 
 FittedShapes fastShapesOf(const ShapedJoint& joint) {
-    const bool round = joint.functions.basis == CorrectiveJoint::Basis::Round;
-    return fitShapes(shapesOf(joint), round ? kRoundModes : kModes, kFitTolerance * joint.radius);
+    const CorrectiveJoint::Basis basis = joint.functions.basis;
+    FittedShapes shapes = fitShapes(shapesOf(joint), modesOf(basis), kFitTolerance * joint.radius);
+    if (basis != CorrectiveJoint::Basis::Round) shapes.tolerance = kVertexTolerance * joint.radius;
+    return shapes;
 }
 
 Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,

@@ -29,9 +29,21 @@ std::vector<double> largestWeights(const CorrectiveJoint& joint) {
     return largest;
 }
 
+/// How many modes a vertex needs: what the others would move it by makes no difference.
+std::size_t modesNeeded(const glm::dvec3* vectors, const std::vector<double>& largest,
+                        double tolerance) {
+    double rest = 0.0;
+    for (std::size_t modes = largest.size(); modes > 0; --modes) {
+        rest += largest[modes - 1] * glm::length(vectors[modes - 1]);
+        if (rest > tolerance) return modes;
+    }
+    return 0;
+}
+
 struct VertexEntry {
     std::uint32_t joint; ///< of the correctives'
     std::size_t first;   ///< in the joint's vectors
+    std::size_t modes;   ///< that the vertex needs
 };
 
 } // namespace
@@ -48,12 +60,11 @@ Correctives packShapes(const std::vector<FittedShapes>& joints,
         if (modes == 0 || kept.size() == Correctives::kMostJoints) continue;
         const std::vector<double> largest = largestWeights(joint.functions);
         for (std::size_t v = 0; v < joint.vertices.size(); ++v) {
-            double most = 0.0;
-            for (std::size_t k = 0; k < modes; ++k)
-                most += largest[k] * glm::length(joint.vectors[v * modes + k]);
-            if (most > joint.tolerance)
+            const std::size_t needed =
+                modesNeeded(&joint.vectors[v * modes], largest, joint.tolerance);
+            if (needed > 0)
                 entries[joint.vertices[v]].push_back(
-                    {static_cast<std::uint32_t>(kept.size()), v * modes});
+                    {static_cast<std::uint32_t>(kept.size()), v * modes, needed});
         }
         kept.push_back(&joint);
         result.joints.push_back(joint.functions);
@@ -65,10 +76,12 @@ Correctives packShapes(const std::vector<FittedShapes>& joints,
             result.entries.push_back(
                 {entry.joint, static_cast<std::uint32_t>(result.shares.size())});
             const glm::dvec3* vector = &kept[entry.joint]->vectors[entry.first];
-            for (std::size_t k = 0; k < result.joints[entry.joint].modes; ++k)
+            for (std::size_t k = 0; k < entry.modes; ++k)
                 for (int axis = 0; axis < 3; ++axis)
                     result.shares.push_back(static_cast<std::int16_t>(
                         std::lrint(Correctives::kUnit * vector[k][axis])));
+            result.shares.resize(result.entries.back().firstShare + result.sharesOf(entry.joint),
+                                 0);
         }
         result.firstEntry.push_back(static_cast<std::uint32_t>(result.entries.size()));
     }
