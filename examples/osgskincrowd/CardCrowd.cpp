@@ -4,11 +4,14 @@
 #include "CardCharacter.h"
 
 #include <osg/FrameStamp>
+#include <osg/NodeCallback>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <sstream>
+#include <utility>
 
 namespace {
 
@@ -20,17 +23,24 @@ double millisecondsSince(Clock::time_point start) {
 
 } // namespace
 
-class CardCrowd::TimeCull : public osg::NodeCallback {
+/// Holds the crowd by reference: the crowd holds the scene that holds this.
+class CardCrowd::Timed : public osg::NodeCallback {
 public:
-    explicit TimeCull(double& milliseconds) : _milliseconds(milliseconds) {}
+    using Step = std::function<void(double)>; ///< with the simulation time in seconds
+
+    Timed(double& milliseconds, Step first)
+        : _milliseconds(milliseconds), _first(std::move(first)) {}
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         const auto start = Clock::now();
+        const bool timed = nv && nv->getFrameStamp();
+        if (_first) _first(timed ? nv->getFrameStamp()->getSimulationTime() : 0.0);
         traverse(node, nv);
         _milliseconds = millisecondsSince(start);
     }
 
 private:
     double& _milliseconds;
+    Step _first;
 };
 
 CardCrowd::CardCrowd(const std::vector<std::string>& files, std::size_t count)
@@ -65,8 +75,15 @@ CardCrowd::CardCrowd(const std::vector<std::string>& files, std::size_t count)
         _crowds.back()->setInstances(members[i]);
         _scene->addChild(_crowds.back());
     }
-    _scene->setUpdateCallback(this);
-    _scene->setCullCallback(new TimeCull(_cullTime));
+    _scene->setUpdateCallback(new Timed(_updateTime, [this](double time) {
+        for (const osg::ref_ptr<osgSkin::GpuCrowd>& crowd : _crowds) crowd->setTime(time);
+    }));
+    _scene->setCullCallback(new Timed(_cullTime, {}));
+}
+
+CardCrowd::~CardCrowd() {
+    _scene->setUpdateCallback(nullptr);
+    _scene->setCullCallback(nullptr);
 }
 
 std::string CardCrowd::summary() const {
@@ -83,12 +100,4 @@ std::string CardCrowd::summary() const {
     }
     out << "; " << osgSkin::CrowdInstance::kTexels * 16 << " bytes a member";
     return out.str();
-}
-
-void CardCrowd::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    const auto start = Clock::now();
-    const double time = nv && nv->getFrameStamp() ? nv->getFrameStamp()->getSimulationTime() : 0.0;
-    for (const osg::ref_ptr<osgSkin::GpuCrowd>& crowd : _crowds) crowd->setTime(time);
-    traverse(node, nv);
-    _updateTime = millisecondsSince(start);
 }

@@ -4,7 +4,7 @@
 #include <osgSkinGpu/GpuCrowd>
 
 #include <osg/Group>
-#include <osg/NodeCallback>
+#include <osg/Referenced>
 #include <osg/ref_ptr>
 
 #include <string>
@@ -13,9 +13,10 @@
 /// Characters side by side on the graphics card, each in its own phase of its clip, in a colour and
 /// at a speed of its own.
 ///
-/// The update callback of its own scene: it tells the crowds the time, which is all that the
-/// processor does for them but culling each as a whole; it notes how long both take.
-class CardCrowd : public osg::NodeCallback {
+/// Callbacks of its scene tell the crowds the time, which is all that the processor does for them
+/// but culling each as a whole, and note how long both take. The scene stands still once this is
+/// gone.
+class CardCrowd : public osg::Referenced {
 public:
     /// \param files of characters, which take turns
     /// \throw std::runtime_error where one cannot be read
@@ -30,10 +31,11 @@ public:
     /// Milliseconds that the last update and cull took the processor.
     double getProcessorTime() const { return _updateTime + _cullTime; }
 
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+protected:
+    ~CardCrowd() override;
 
 private:
-    class TimeCull;
+    class Timed;
 
     osg::ref_ptr<osg::Group> _scene;
     std::vector<osg::ref_ptr<osgSkin::CrowdCharacter>> _characters;

@@ -4,10 +4,29 @@
 #include <osgSkin/ParallelDeformCallback>
 
 #include <osg/MatrixTransform>
+#include <osg/NodeCallback>
 #include <osg/Timer>
 
 #include <algorithm>
 #include <cmath>
+
+namespace {
+
+/// Holds the crowd by reference: the crowd holds the scene that holds this.
+class UpdateCrowd : public osg::NodeCallback {
+public:
+    explicit UpdateCrowd(Crowd& crowd) : _crowd(crowd) {}
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        const bool timed = nv && nv->getFrameStamp();
+        _crowd.update(timed ? nv->getFrameStamp()->getSimulationTime() : 0.0,
+                      [&] { traverse(node, nv); });
+    }
+
+private:
+    Crowd& _crowd;
+};
+
+} // namespace
 
 Crowd::Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
              osgSkin::DeformPool* pool)
@@ -40,13 +59,16 @@ Crowd::Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
         _vertices += source.vertices;
         phase += 37;
     }
-    _scene->setUpdateCallback(this);
+    _scene->setUpdateCallback(new UpdateCrowd(*this));
     // Nested in ours, which it therefore follows.
     _scene->addUpdateCallback(new osgSkin::ParallelDeformCallback(pool));
 }
 
-void Crowd::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    const double time = nv && nv->getFrameStamp() ? nv->getFrameStamp()->getSimulationTime() : 0.0;
+Crowd::~Crowd() {
+    _scene->setUpdateCallback(nullptr);
+}
+
+void Crowd::update(double time, const std::function<void()>& deform) {
     const double passed = _time < 0.0 ? 0.0 : time - _time;
     const osg::Timer_t start = osg::Timer::instance()->tick();
     // What the members have in common is marked here; each thread then marks only what is its
@@ -57,7 +79,7 @@ void Crowd::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         _players[i]->pose();
     });
     const osg::Timer_t posed = osg::Timer::instance()->tick();
-    traverse(node, nv);
+    deform();
     const osg::Timer_t end = osg::Timer::instance()->tick();
     if (time != _time) _poseTime = _deformTime = 0.0;
     _time = time;

@@ -6,18 +6,20 @@
 #include <osgSkin/DeformPool>
 
 #include <osg/Group>
-#include <osg/NodeCallback>
+#include <osg/Referenced>
 #include <osg/ref_ptr>
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 /// Characters side by side, each in its own phase of its clip; all that come from one file share
 /// its skin models.
 ///
-/// The update callback of its own scene: it has the players pose on the pool's threads, and with
-/// the same threads an osgSkin::ParallelDeformCallback deforms the skins that are in view.
-class Crowd : public osg::NodeCallback {
+/// A callback of its scene has the players pose on the pool's threads, and with the same threads an
+/// osgSkin::ParallelDeformCallback deforms the skins that are in view. The scene stands still once
+/// the crowd is gone.
+class Crowd : public osg::Referenced {
 public:
     /// \param characters at least one; they take turns
     Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
@@ -31,7 +33,14 @@ public:
     double getPoseTime() const { return _poseTime; }
     double getDeformTime() const { return _deformTime; }
 
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+    /// One update of the scene.
+    ///
+    /// \param time simulation time in seconds
+    /// \param deform deforms what has been posed
+    void update(double time, const std::function<void()>& deform);
+
+protected:
+    ~Crowd() override;
 
 private:
     osg::ref_ptr<osg::Group> _scene;

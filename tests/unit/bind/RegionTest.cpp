@@ -237,5 +237,4 @@ TEST(Regions, ReportSaysWhatWasFound) {
     EXPECT_NE(text.find("region leftElbow: "), std::string::npos) << text;
     EXPECT_EQ(text.back(), '\n');
     EXPECT_GT(report.seconds, 0.0);
-    EXPECT_LT(report.seconds, 10.0);
 }
