@@ -101,7 +101,7 @@ struct BoundsProxy {
     };
 
     /// Pieces that a skin is cut into at most.
-    static constexpr std::size_t kMost = 128;
+    static constexpr std::size_t kMost = 160;
 
     std::vector<Joint> joints; ///< the model's
     std::vector<Block> blocks;
