@@ -93,6 +93,38 @@ TEST(VertexOrder, SmallGroupsJoinOthersByRatiosOfNothingAndAll) {
     EXPECT_EQ(seen, tube.source.size());
 }
 
+/// As painted weights may be: hardly two of 30,000 vertices follow the same three of 60 joints.
+TEST(VertexOrder, ManySignaturesAreGroupedInNoTime) {
+    constexpr std::uint32_t kJoints = 60;
+    Binding binding;
+    for (std::uint32_t j = 0; j < kJoints; ++j) {
+        BoundJoint joint;
+        joint.name = std::to_string(j);
+        joint.parent = j == 0 ? -1 : 0;
+        joint.boneAxis = joint.twistAxis = {0.0, 1.0, 0.0};
+        binding.joints.push_back(joint);
+    }
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> source;
+    binding.firstInfluence = {0};
+    for (std::uint32_t a = 1; a < kJoints; ++a)
+        for (std::uint32_t b = a + 1; b < kJoints; ++b)
+            for (std::uint32_t c = b + 1; c < kJoints; ++c) {
+                binding.influences.push_back({0, 1.0f, 1.0f});
+                for (const std::uint32_t joint : {a, b, c})
+                    binding.influences.push_back({joint, 0.3f, 0.3f});
+                binding.firstInfluence.push_back(
+                    static_cast<std::uint32_t>(binding.influences.size()));
+                source.push_back(static_cast<std::uint32_t>(positions.size()));
+                positions.emplace_back(0.0f);
+            }
+    binding.regions.assign(positions.size(), 0);
+    const std::vector<glm::vec3> normals(positions.size(), glm::vec3(0, 1, 0));
+    const auto model = SkinModel::create(binding, positions, normals, source);
+    EXPECT_EQ(model->vertexCount(), positions.size());
+    EXPECT_LT(model->groups().size(), positions.size() / 2);
+}
+
 TEST(VertexOrder, RefusesWhatCreateRefuses) {
     test::Tube tube;
     tube.normals.pop_back();
