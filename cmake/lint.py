@@ -71,7 +71,10 @@ def own_names(files):
 
 
 def units(entries):
-    """[(flags, files)]: files of one unit are compiled alike and share no name of their own."""
+    """Lists of (flags, files): a unit as a whole, and where it is of several, each target's part of it.
+
+    Files of one unit share no name of their own.
+    """
     names = own_names([e["file"] for e in entries])
     made = collections.defaultdict(list)  # flags -> [(files, names, lines)]
     for entry in entries:
@@ -85,12 +88,14 @@ def units(entries):
                 break
         else:
             made[flags_of(entry)].append([[file], set(names[file]), lines])
-    result = []  # [flags, files, names, lines]
-    parts = [[list(flags), *unit] for flags, list_ in made.items() for unit in list_]
+    result = []  # [flags, files, names, lines, parts]
+    parts = [[list(flags), *unit, [(list(flags), list(unit[0]))]] for flags, list_ in made.items()
+             for unit in list_]
     for part in sorted(parts, key=lambda part: -part[3]):
         if not any(join(unit, part) for unit in result):
             result.append(part)
-    return sorted(((part[0], part[1]) for part in result), key=lambda unit: -len(unit[1]))  # the longest first
+    result.sort(key=lambda unit: -len(unit[1]))  # the longest first
+    return [[(unit[0], unit[1]), *(unit[4] if len(unit[4]) > 1 else [])] for unit in result]
 
 
 def join(unit, part):
@@ -112,6 +117,7 @@ def join(unit, part):
     unit[1] += part[1]
     unit[2] |= part[2]
     unit[3] += part[3]
+    unit[4] += part[4]
     return True
 
 
@@ -143,19 +149,22 @@ def run(folder, flags, files, checks):
     return done.returncode, done.stdout or done.stderr
 
 
-def tidy(folder, flags, files):
-    """Complaints about one unit."""
+def tidy(folder, whole, *parts):
+    """Complaints about one unit; part by part where that does not compile as a whole."""
+    flags, files = whole
     status, found = run(folder, flags, files, "-bugprone-suspicious-include" if len(files) > 1 else "")
     if status == 0:
         return ""
     if len(files) == 1 or "[clang-diagnostic-error]" not in found:
         return found
+    if parts:
+        return "".join(tidy(folder / str(number), part) for number, part in enumerate(parts))
     blamed = [f for f in files if re.search(rf"^{re.escape(f)}:\d+:\d+: error: .*\[clang-diagnostic-error\]",
                                             found, re.M)] or files
     rest = [f for f in files if f not in blamed]
     print("by themselves: " + " ".join(pathlib.Path(f).name for f in blamed), flush=True)
-    texts = [tidy(folder / pathlib.Path(file).stem, flags, [file]) for file in blamed]
-    return "".join(texts) + (tidy(folder, flags, rest) if rest else "")
+    texts = [tidy(folder / pathlib.Path(file).stem, (flags, [file])) for file in blamed]
+    return "".join(texts) + (tidy(folder, (flags, rest)) if rest else "")
 
 
 def main():
