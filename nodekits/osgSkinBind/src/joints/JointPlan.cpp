@@ -96,10 +96,12 @@ double distanceToBone(const PlannedJoint& joint, const glm::dvec3& point) {
     return glm::length(d - along * joint.boneAxis);
 }
 
-bool isBelow(const std::vector<PlannedJoint>& joints, std::size_t joint, std::size_t above) {
-    for (int j = joints[joint].parent; j >= 0; j = joints[static_cast<std::size_t>(j)].parent)
-        if (static_cast<std::size_t>(j) == above) return true;
-    return false;
+std::vector<bool> subtreeOf(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    std::vector<bool> inside(joints.size(), false);
+    inside[joint] = true;
+    for (std::size_t j = joint + 1; j < joints.size(); ++j) // parents first
+        if (joints[j].parent >= 0) inside[j] = inside[static_cast<std::size_t>(joints[j].parent)];
+    return inside;
 }
 
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint) {

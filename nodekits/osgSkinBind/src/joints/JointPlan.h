@@ -47,8 +47,8 @@ glm::dvec3 planeNormal(const PlannedJoint& joint);
 /// Distance of a point, rest space, to the joint's bone, which may have no length.
 double distanceToBone(const PlannedJoint& joint, const glm::dvec3& point);
 
-/// True where `joint` is below `above` in the tree; a joint is not below itself.
-bool isBelow(const std::vector<PlannedJoint>& joints, std::size_t joint, std::size_t above);
+/// For each joint whether it is `joint` itself or below it in the tree.
+std::vector<bool> subtreeOf(const std::vector<PlannedJoint>& joints, std::size_t joint);
 
 /// The nearest joint above that has a region; the root where none has.
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint);

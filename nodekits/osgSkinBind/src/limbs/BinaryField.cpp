@@ -10,12 +10,9 @@
 namespace osgSkin {
 
 std::vector<double> BinaryField::subtree(std::size_t joint) const {
-    std::vector<double> inside(joints.size());
-    inside[joint] = 1.0;
-    for (std::size_t r = joint + 1; r < joints.size(); ++r) // parents first
-        if (joints[r].parent >= 0) inside[r] = inside[static_cast<std::size_t>(joints[r].parent)];
+    const std::vector<bool> inside = subtreeOf(joints, joint);
     std::vector<double> field(mesh.vertexCount());
-    for (std::size_t v = 0; v < field.size(); ++v) field[v] = inside[regions[v]];
+    for (std::size_t v = 0; v < field.size(); ++v) field[v] = inside[regions[v]] ? 1.0 : 0.0;
     return field;
 }
 

@@ -22,8 +22,9 @@ std::size_t regionBelow(const std::vector<PlannedJoint>& joints, std::size_t joi
 /// For each region how it follows the joint.
 std::vector<Follows> followersOf(const std::vector<PlannedJoint>& joints, std::size_t joint) {
     std::vector<Follows> regions(joints.size(), Follows::Nothing);
+    const std::vector<bool> inside = subtreeOf(joints, joint);
     for (std::size_t r = 0; r < joints.size(); ++r)
-        if (isBelow(joints, r, joint)) regions[r] = Follows::Fully;
+        if (inside[r]) regions[r] = Follows::Fully;
     for (const std::size_t r : {regionAbove(joints, joint), joint, regionBelow(joints, joint)})
         regions[r] = Follows::Planes;
     return regions;
