@@ -77,7 +77,6 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, double smal
     const DoubleTag d;
     const FloatTag floats;
     const StepTag steps;
-    const std::size_t lanes = hn::Lanes(d);
     const Doubles zero = hn::Zero(d), one = allOf(1.0), two = allOf(2.0);
     const auto own = [&](std::size_t row)
                          HWY_ATTR { return hn::LoadU(d, rows.own + row * rows.stride + first); };
@@ -136,10 +135,8 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, double smal
     put(sine, joints.azimuthSine);
 
     // Where the joint is moved; the root's centre has nothing to be moved against.
-    double hasParent[4];
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-        hasParent[lane] = rows.parents[first + lane] < 0 ? 0.0 : 1.0;
-    const Doubles from = hn::LoadU(d, hasParent);
+    const Doubles parents = hn::PromoteTo(d, hn::LoadU(steps, rows.parents + first));
+    const Doubles from = hn::IfThenElseZero(hn::Ge(parents, zero), one);
     Doubles move[3], square = zero;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Doubles row[3] = {turn[0][axis], turn[1][axis], turn[2][axis]};

@@ -10,22 +10,22 @@
 namespace osgSkin {
 
 glm::dvec2 CorrectiveWeights::coordinatesOf(std::uint32_t joint) const noexcept {
-    const CorrectiveJoint& of = _blocks.joints[joint];
+    const CorrectiveJoint& of = _blocks->joints[joint];
     if (of.basis == CorrectiveJoint::Basis::Input) return {double(_pose.input(of.joint)), 0.0};
     const PoseAccess::Split split = PoseAccess::split(_pose, of.joint);
     const glm::dvec2 axis(split.azimuthCosine, split.azimuthSine);
     return std::sin(0.5 * split.bendAngle) * PoseAccess::kAzimuthStep *
-           (_blocks.tables[joint].toAxes * axis);
+           (_blocks->tables[joint].toAxes * axis);
 }
 
 const CorrectiveWeights::Weights* CorrectiveWeights::of(std::uint32_t joint) noexcept {
     State& state = _states[joint];
     Weights& weights = _weights[joint];
     if (state == State::Unknown) {
-        const CorrectiveJoint& from = _blocks.joints[joint];
+        const CorrectiveJoint& from = _blocks->joints[joint];
         static_assert(CorrectiveJoint::kMostModes % CorrectiveTable::kAtOnce == 0);
         double beta[CorrectiveJoint::kMostModes];
-        WeightTerms(from, _blocks.tables[joint], coordinatesOf(joint)).sum(beta);
+        WeightTerms(from, _blocks->tables[joint], coordinatesOf(joint)).sum(beta);
         state = State::Nothing;
         for (std::size_t k = 0; k < from.modes; ++k) {
             // A rest pose read from matrices is one up to rounding errors.
@@ -34,7 +34,7 @@ const CorrectiveWeights::Weights* CorrectiveWeights::of(std::uint32_t joint) noe
             const double unit = beta[k] / Correctives::kUnit;
             weights.positions[k] = static_cast<float>(unit);
             weights.normals[k] =
-                static_cast<float>(_blocks.hasNormals ? unit * from.normalScales[k] : 0.0);
+                static_cast<float>(_blocks->hasNormals ? unit * from.normalScales[k] : 0.0);
         }
     }
     return state == State::Something ? &weights : nullptr;

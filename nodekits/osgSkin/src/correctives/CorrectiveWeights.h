@@ -20,14 +20,17 @@ public:
         std::array<float, CorrectiveJoint::kMostModes> normals;
     };
 
-    /// \pre the model has correctives
     CorrectiveWeights(const SkinModel& model, const Pose& pose) noexcept
-        : _model(model), _pose(pose), _blocks(*SkinModelAccess::correctives(model)) {}
+        : _model(model), _pose(pose), _blocks(SkinModelAccess::correctives(model)) {}
+
+    /// Whether the model has correctives.
+    bool any() const noexcept { return _blocks; }
 
     /// Null where the correctives of `joint`, an index of theirs, do nothing in this pose.
+    /// \pre any()
     const Weights* of(std::uint32_t joint) noexcept;
 
-    std::size_t modesOf(std::uint32_t joint) const noexcept { return _blocks.joints[joint].modes; }
+    std::size_t modesOf(std::uint32_t joint) const noexcept { return _blocks->joints[joint].modes; }
 
 private:
     enum class State : unsigned char { Unknown, Nothing, Something };
@@ -36,7 +39,7 @@ private:
 
     const SkinModel& _model;
     const Pose& _pose;
-    const CorrectiveBlocks& _blocks;
+    const CorrectiveBlocks* _blocks; ///< null without correctives
     std::array<State, Correctives::kMostJoints> _states{};
     std::array<Weights, Correctives::kMostJoints> _weights;
 };

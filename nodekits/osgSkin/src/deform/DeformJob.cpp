@@ -45,10 +45,10 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
     call.outs = chains.outs;
     call.correctionCount = 0;
     call.gradients = nullptr;
-    std::optional<KernelCorrections> corrections;
-    if (SkinModelAccess::correctives(model)) corrections.emplace(model, *job.pose);
-    std::optional<KernelSlopes> slopes;
-    if (job.normals && SkinModelAccess::gradients(model)) slopes.emplace(model);
+    // Not std::optional: GCC 12 fills one with zeros where it begins.
+    KernelCorrections corrections(model, *job.pose);
+    KernelSlopes slopes(model);
+    const bool hasSlopes = job.normals && SkinModelAccess::gradients(model);
     const std::size_t firstGroup = first < end ? groupOf(blocks, first) : model.groups().size();
     const std::size_t endGroup = first < end ? groupOf(blocks, end - 1) + 1 : firstGroup;
     const ChainPlan::Section* section = blocks.plan.sections.data();
@@ -57,7 +57,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
             while (section->endGroup <= g) ++section;
             chains.set(model, *job.pose, *section, g,
                        std::min<std::size_t>(section->endGroup, endGroup));
-            if (slopes) slopes->take(chains.joints, section->jointCount);
+            if (hasSlopes) slopes.take(chains.joints, section->jointCount);
         }
         const SkinModel::Group& group = model.groups()[g];
         const ChainPlan::Group& planned = blocks.plan.groups[g];
@@ -68,8 +68,8 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
         call.linkCount = group.partialCount;
         call.links = blocks.plan.links.data() + planned.firstLink;
         call.lead = planned.lead == ChainPlan::kNoLead ? nullptr : &chains.outs[planned.lead];
-        if (corrections) corrections->prepare(g, from, call);
-        if (slopes) slopes->prepare(g, from, call);
+        if (corrections.any()) corrections.prepare(g, from, call);
+        if (hasSlopes) slopes.prepare(g, from, call);
         call.rows =
             &blocks.rows[blocks.firstRow[g] + from * SkinBlocks::rowsPerBlock(group.partialCount)];
         call.vertexCount = std::min<std::size_t>(group.vertexCount, to * kBlock) - from * kBlock;

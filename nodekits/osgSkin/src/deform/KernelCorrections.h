@@ -10,12 +10,15 @@ namespace osgSkin {
 /// on the stack.
 class KernelCorrections {
 public:
-    /// \pre the model has correctives
     KernelCorrections(const SkinModel& model, const Pose& pose) noexcept
         : _model(model), _weights(model, pose) {}
 
+    /// Whether the model has correctives.
+    bool any() const noexcept { return _weights.any(); }
+
     /// Sets the corrections of `call`; they are good until the next call.
     ///
+    /// \pre any()
     /// \param group an index
     /// \param firstBlock of the group's, with which the call begins
     /// \param call changed

@@ -9,10 +9,10 @@
 
 namespace osgSkin {
 
-/// Tells the kernel which of a group's links tilt its normals in one pose; on the stack.
+/// Tells the kernel which of a group's links tilt its normals in one pose; on the stack. Of a model
+/// that has gradients.
 class KernelSlopes {
 public:
-    /// \pre the model has gradients
     explicit KernelSlopes(const SkinModel& model) noexcept : _model(model) {}
 
     /// Takes what the joints of a section do; before its groups.
