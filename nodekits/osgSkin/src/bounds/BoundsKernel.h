@@ -17,7 +17,7 @@ struct FourBox {
 ///
 /// \param proxy of the pose's model
 /// \param pose of the model's joints
-/// \param room for as many as the pose has joints
+/// \param room for as many as the pose has joints, and at least PoseAccess::kAtOnce
 /// \param weights CorrectiveStray's; null where there are no correctives
 FourBox boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
               const float* weights) noexcept;
