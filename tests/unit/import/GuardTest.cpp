@@ -146,6 +146,18 @@ INSTANTIATE_TEST_SUITE_P(
         Guarded{"sparse_floats.gltf", sparse(10, 5126),
                 "malformed glTF: accessors[0], meshes[0].primitives[0].POSITION: expected sparse "
                 "indices"},
+        Guarded{"kind.gltf",
+                R"({"asset": {"version": "2.0"},
+                    "accessors": [{"count": 1, "componentType": 5126, "type": 7}]})",
+                "malformed glTF: accessors[0]: type must be string, but is number"},
+        Guarded{"member.gltf", R"({"asset": {"version": "2.0"}, "animations": [{"samplers": []}]})",
+                "malformed glTF: animations[0]: key 'channels' not found"},
+        Guarded{"packed.gltf",
+                R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4}], "bufferViews": [
+                    {"buffer": 0, "byteLength": 4, "extensions":
+                     {"EXT_meshopt_compression": {"buffer": 0, "byteLength": "4"}}}]})",
+                "malformed glTF: bufferViews[0].EXT_meshopt_compression: type must be number, but "
+                "is string"},
         Guarded{"copies.gltf", kManyCopies,
                 "malformed glTF: nodes, bones, materials and channels: expected at most"},
         Guarded{"digits.off", "OFF\n500000000x 500000000 0\n0 0 0\n", "\"500000000x\""},

@@ -85,4 +85,10 @@ std::string GltfFile::bytes() const {
     return result + chunks;
 }
 
+std::string reasonOf(const nlohmann::json::exception& error) {
+    const std::string text = error.what(); // "[json.exception.KIND.NUMBER] REASON"
+    const std::size_t end = text.find("] ");
+    return end == std::string::npos ? text : text.substr(end + 2);
+}
+
 } // namespace osgSkin

@@ -29,6 +29,9 @@ struct GltfFile {
     std::string bytes() const;
 };
 
+/// What the JSON library says of a member that is not there or of another kind, without its number.
+std::string reasonOf(const nlohmann::json::exception& error);
+
 } // namespace osgSkin
 
 #endif

@@ -70,7 +70,11 @@ void GltfParts::forEach(const char* list,
     for (std::size_t i = 0; i < size(list); ++i) {
         const std::string where = std::string(list) + "[" + std::to_string(i) + "]";
         if (!at(list)[i].is_object()) fail(where, "an object");
-        visit(at(list)[i], where);
+        try {
+            visit(at(list)[i], where);
+        } catch (const json::exception& error) { // of a member that is not there, or another kind
+            failFile(_file.path, "malformed glTF: " + where + ": " + reasonOf(error));
+        }
     }
 }
 

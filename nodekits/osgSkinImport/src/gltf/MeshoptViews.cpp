@@ -89,8 +89,17 @@ public:
 
     /// \param name of the extension
     /// \param number of the view
-    void unpack(json& view, const std::string& name, std::size_t number) {
+    void unpackAt(json& view, const std::string& name, std::size_t number) {
         _where = "bufferViews[" + std::to_string(number) + "]." + name;
+        try {
+            unpack(view, name);
+        } catch (const json::exception& error) { // of a member that is not there, or another kind
+            failFile(_file.path, "malformed glTF: " + _where + ": " + reasonOf(error));
+        }
+    }
+
+private:
+    void unpack(json& view, const std::string& name) {
         const Packed packed(view.at("extensions").at(name));
         if (!packed.hasMode()) fail("a mode ATTRIBUTES, TRIANGLES or INDICES");
         if (!packed.hasStride()) fail("a stride that its mode can have");
@@ -112,7 +121,6 @@ public:
         replace(view, packed, bytes);
     }
 
-private:
     void replace(json& view, const Packed& packed, const std::string& bytes) {
         _room -= bytes.size();
         _file.size += bytes.size(); // what else the file may ask for goes by what it says unpacked
@@ -162,7 +170,7 @@ void unpackMeshopt(GltfFile& file) {
         if (hasContent(file, views[i]))
             views[i].erase("extensions");
         else
-            unpacker.unpack(views[i], name, i);
+            unpacker.unpackAt(views[i], name, i);
     }
 }
 

@@ -143,7 +143,7 @@ std::optional<PlainGltf> plainGltf(const std::string& path, const ReadLimits& li
         Plainer(*file).run();
         return PlainGltf{file->bytes(), backwards};
     } catch (const json::exception& error) {
-        failFile(path, std::string("malformed glTF: ") + error.what());
+        failFile(path, "malformed glTF: " + reasonOf(error));
     }
 }
 
