@@ -3,8 +3,8 @@
 
 namespace osgSkin {
 
-void ReferenceCorrections::apply(std::size_t group, std::uint32_t row, glm::vec3& position,
-                                 glm::vec3& tilt) noexcept {
+void ReferenceCorrections::apply(std::size_t group, std::uint32_t row, glm::dvec3& position,
+                                 glm::dvec3& tilt) noexcept {
     for (std::uint32_t i = _blocks.firstRange[group]; i < _blocks.firstRange[group + 1]; ++i) {
         const CorrectiveBlocks::Range& range = _blocks.ranges[i];
         const CorrectiveRow* from = _blocks.blockOf(range, row);
@@ -13,12 +13,12 @@ void ReferenceCorrections::apply(std::size_t group, std::uint32_t row, glm::vec3
         if (!weights) continue;
         for (std::size_t k = 0; k < _blocks.joints[range.joint].modes; ++k)
             for (int axis = 0; axis < 3; ++axis, ++from)
-                position[axis] += weights->positions[k] * float(from->lane[row % kBlock]);
+                position[axis] += double(weights->positions[k]) * double(from->lane[row % kBlock]);
         from = _blocks.normalBlockOf(range, row);
         if (!from) continue;
         for (std::size_t k = 0; k < _blocks.joints[range.joint].modes; ++k)
             for (int axis = 0; axis < 3; ++axis, ++from)
-                tilt[axis] += weights->normals[k] * float(from->lane[row % kBlock]);
+                tilt[axis] += double(weights->normals[k]) * double(from->lane[row % kBlock]);
     }
 }
 

@@ -21,7 +21,8 @@ public:
     /// \param row of the group
     /// \param position rest space; changed
     /// \param tilt what its rest normal gets, added to
-    void apply(std::size_t group, std::uint32_t row, glm::vec3& position, glm::vec3& tilt) noexcept;
+    void apply(std::size_t group, std::uint32_t row, glm::dvec3& position,
+               glm::dvec3& tilt) noexcept;
 
 private:
     const CorrectiveBlocks& _blocks;

@@ -147,23 +147,24 @@ bool DeformJob::runReference() const noexcept {
         const std::uint32_t* order = model->order().data() + group.firstVertex;
         for (std::uint32_t i = 0; i < group.vertexCount; ++i, ratios += group.partialCount) {
             const std::uint32_t v = order[i];
-            glm::vec3 position = model->positions()[v];
+            glm::dvec3 rest = model->positions()[v];
+            glm::dvec3 tilt(0.0); // of the rest normal
+            if (corrections) corrections->apply(g, i, rest, tilt);
+            glm::vec3 position = rest;
             glm::vec3 normal = model->normals()[v];
-            glm::vec3 tilt(0.0f); // of the rest normal
-            if (corrections) corrections->apply(g, i, position, tilt);
-            const glm::vec4 rest = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
-            glm::vec3 tangent(rest);
+            const glm::vec4 restTangent = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
+            glm::vec3 tangent(restTangent);
             if (normals && surface) {
-                surface->apply(i, ratios, position, normal, tilt, tangents ? &tangent : nullptr);
+                surface->apply(i, ratios, rest, normal, tilt, tangents ? &tangent : nullptr);
                 chain.apply(ratios, position, nullptr);
             } else {
-                if (tilt != glm::vec3(0.0f)) tiltNormal(tilt, normal, tangent);
+                if (tilt != glm::dvec3(0.0)) tiltNormal(tilt, normal, tangent);
                 chain.apply(ratios, position, normals ? &normal : nullptr,
                             tangents ? &tangent : nullptr);
             }
             positions[v] = position;
             if (normals) normals[v] = normal;
-            if (tangents) tangents[v] = glm::vec4(tangent, rest.w);
+            if (tangents) tangents[v] = glm::vec4(tangent, restTangent.w);
         }
     }
     return true;

@@ -39,7 +39,7 @@ SurfaceChain::SurfaceChain(const SkinModel& model, std::size_t group, const Pose
 }
 
 void SurfaceChain::apply(std::uint32_t row, const SkinModel::Ratio* ratios,
-                         const glm::vec3& position, glm::vec3& normal, const glm::vec3& tilt,
+                         const glm::dvec3& position, glm::vec3& normal, const glm::dvec3& tilt,
                          glm::vec3* tangent) const noexcept {
     const GradientBlocks& blocks = *SkinModelAccess::gradients(_model);
     const SkinModel::Group& group = _model.groups()[_group];
@@ -47,9 +47,9 @@ void SurfaceChain::apply(std::uint32_t row, const SkinModel::Ratio* ratios,
     const auto gradient = [&]() { return blocks.unit * double((gradients++)->lane[row % kBlock]); };
     const SkinDirections rest =
         skinDirections(normal, _frame, blocks.acrossOf(_model, _group, row));
-    glm::dvec3 x(position);
-    glm::dvec3 u = rest.u - glm::dot(glm::dvec3(tilt), rest.u) * glm::dvec3(normal);
-    glm::dvec3 v = rest.v - glm::dot(glm::dvec3(tilt), rest.v) * glm::dvec3(normal);
+    glm::dvec3 x = position;
+    glm::dvec3 u = rest.u - glm::dot(tilt, rest.u) * glm::dvec3(normal);
+    glm::dvec3 v = rest.v - glm::dot(tilt, rest.v) * glm::dvec3(normal);
     std::size_t k = group.partialCount;
     for (std::uint32_t i = group.firstLink + group.linkCount; i-- > group.firstLink;) {
         const SkinModel::Link& link = _model.links()[i];
@@ -86,8 +86,8 @@ void SurfaceChain::apply(std::uint32_t row, const SkinModel::Ratio* ratios,
     normal = scaledTo(glm::cross(u, v), 1.0);
 }
 
-void tiltNormal(const glm::vec3& tilt, glm::vec3& normal, glm::vec3& tangent) noexcept {
-    const glm::dvec3 n = scaledTo(glm::dvec3(normal) + glm::dvec3(tilt), 1.0);
+void tiltNormal(const glm::dvec3& tilt, glm::vec3& normal, glm::vec3& tangent) noexcept {
+    const glm::dvec3 n = scaledTo(glm::dvec3(normal) + tilt, 1.0);
     const glm::dvec3 t(tangent);
     normal = n;
     tangent = scaledTo(t - glm::dot(t, n) * n, glm::length(t));

@@ -37,8 +37,8 @@ public:
     /// \param normal changed
     /// \param tilt what correctives add to the normal
     /// \param tangent changed; may be null
-    void apply(std::uint32_t row, const SkinModel::Ratio* ratios, const glm::vec3& position,
-               glm::vec3& normal, const glm::vec3& tilt, glm::vec3* tangent) const noexcept;
+    void apply(std::uint32_t row, const SkinModel::Ratio* ratios, const glm::dvec3& position,
+               glm::vec3& normal, const glm::dvec3& tilt, glm::vec3* tangent) const noexcept;
 
 private:
     const SkinModel& _model;
@@ -51,6 +51,6 @@ private:
 
 /// Adds what correctives add to a rest normal, which keeps its length, and keeps its tangent
 /// upright.
-void tiltNormal(const glm::vec3& tilt, glm::vec3& normal, glm::vec3& tangent) noexcept;
+void tiltNormal(const glm::dvec3& tilt, glm::vec3& normal, glm::vec3& tangent) noexcept;
 
 } // namespace osgSkin
