@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 namespace test {
 namespace {
@@ -62,17 +63,24 @@ osg::ref_ptr<osgSkin::DeformableSkin> movingTube() {
     return skin;
 }
 
-osg::ref_ptr<osg::Node> readBody(std::string& reason) {
-    const std::string shared = OSGSKIN_SHARED_DATA;
-    if (!std::filesystem::exists(shared + "/makehuman")) {
-        reason = "third-party data is not here: " + shared + "/makehuman";
-        return nullptr;
-    }
-    const std::string file = std::string(OSGSKIN_TEST_OUTPUT) + "/body4k.skin";
-    std::ofstream(file) << "{ \"osgskin\": 1, \"shapes\": \"fast\", \"mesh\": \"" << shared
-                        << "/makehuman/body/body4k_neutral.obj\", \"skeleton\": \"" << shared
-                        << "/makehuman/rig/cmu_mb_neutral.bvh\", \"motions\": [ { \"file\": \""
-                        << shared << "/cmu/mb/01_01.bvh\", \"name\": \"climb\" } ] }";
+/// A body that climbs, as people were recorded.
+///
+/// \param name of the file that is written
+/// \param body its mesh and, behind that, its skeleton
+osg::ref_ptr<osg::Node> readClimber(const std::string& name,
+                                    const std::pair<std::string, std::string>& body,
+                                    std::string& reason) {
+    const std::string motion = std::string(OSGSKIN_SHARED_DATA) + "/cmu/mb/01_01.bvh";
+    for (const std::string& needed : {body.first, body.second, motion})
+        if (!std::filesystem::exists(needed)) {
+            reason = "third-party data is not here: " + needed;
+            return nullptr;
+        }
+    const std::string file = std::string(OSGSKIN_TEST_OUTPUT) + "/" + name + ".skin";
+    std::ofstream(file) << "{ \"osgskin\": 1, \"shapes\": \"fast\", \"mesh\": \"" << body.first
+                        << "\", \"skeleton\": \"" << body.second
+                        << "\", \"motions\": [ { \"file\": \"" << motion
+                        << "\", \"name\": \"climb\", \"skipFrames\": 1 } ] }";
     return osgDB::readRefNodeFile(file);
 }
 
@@ -96,10 +104,13 @@ GpuSubject::GpuSubject(const std::string& name) {
     if (name == "tube") node = movingTube();
     if (name == "thrower")
         node = osgDB::readRefNodeFile(std::string(OSGSKIN_DATA) + "/thrower.skin");
-    if (name == "surface")
-        node = osgDB::readRefNodeFile(std::string(OSGSKIN_DATA) + "/thrower.skin",
-                                      new osgDB::Options("normals=surface shapes=fast"));
-    if (name == "body") node = readBody(reason);
+    const std::string data = OSGSKIN_DATA, human = std::string(OSGSKIN_SHARED_DATA) + "/makehuman";
+    if (name == "climber")
+        node = readClimber(name, {data + "/thrower.obj", data + "/thrower.bvh"}, reason);
+    if (name == "body")
+        node = readClimber(
+            name, {human + "/body/body4k_neutral.obj", human + "/rig/cmu_mb_neutral.bvh"}, reason);
+    if (name == "climber" || name == "body") seconds = 22.0;
     if (name == "painted") node = readPainted(reason);
     if (std::filesystem::exists(name)) node = osgDB::readRefNodeFile(name);
     if (!node) {
@@ -107,6 +118,7 @@ GpuSubject::GpuSubject(const std::string& name) {
         return;
     }
     if (const char* named = std::getenv("OSGSKIN_GPU_POSES")) poses = std::atoi(named);
+    if (const char* named = std::getenv("OSGSKIN_GPU_SECONDS")) seconds = std::atof(named);
     scene->addChild(node);
     skins = skinsIn(*node);
 }

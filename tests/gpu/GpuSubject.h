@@ -13,8 +13,8 @@ namespace test {
 /// A scene with skins that move with the simulation time.
 struct GpuSubject {
     /// \param name tube (random turns, correctives, tangents, a moved and scaled joint), thrower,
-    ///        surface (the thrower with normals of the deformed surface), body (MakeHuman's, with
-    ///        shapes) or painted (a rig with painted weights), or a file
+    ///        climber (the thrower's body in a motion that it was not made for), body (MakeHuman's,
+    ///        with shapes, in the same motion) or painted (a rig with painted weights), or a file
     explicit GpuSubject(const std::string& name);
 
     double timeOf(int pose) const { return seconds * pose / poses; }
@@ -22,8 +22,8 @@ struct GpuSubject {
     std::string reason; ///< why there is none here
     osg::ref_ptr<osg::Group> scene = new osg::Group;
     std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins;
-    int poses = 4;
-    double seconds = 1.6; ///< over which the poses are spread
+    int poses = 4;        ///< OSGSKIN_GPU_POSES
+    double seconds = 1.6; ///< over which the poses are spread; OSGSKIN_GPU_SECONDS
 };
 
 /// The skins below a node.

@@ -39,6 +39,11 @@ struct PackedChain {
 
     unsigned int anchor = kNone;
     std::vector<Link> links;
+
+    /// What the i-th link turns about; rest space's origin behind the last one.
+    glm::dvec3 centre(const SkinModel& model, std::size_t i) const {
+        return i < links.size() ? model.joints()[links[i].joint].centre : glm::dvec3(0.0);
+    }
 };
 
 PackedChain chainOf(const SkinModel& model, const SkinModel::Group& group) {
@@ -84,8 +89,9 @@ public:
             for (std::uint32_t row = 0; row < group.vertexCount;
                  ++row, ratios += group.partialCount) {
                 const std::uint32_t v = _model.order()[group.firstVertex + row];
+                const glm::dvec3 from = _model.positions()[v];
                 (*_texels)[vertices + 2 * std::size_t(v)] =
-                    packedTexel(_model.positions()[v], word(chainTexels[g]));
+                    packedTexel(from - chains[g].centre(_model, 0), word(chainTexels[g]));
                 (*_texels)[vertices + 2 * std::size_t(v) + 1] =
                     packedTexel(_model.normals()[v], word(_texels->size()));
                 addLinks(chains[g], ratios);
@@ -110,6 +116,9 @@ private:
                 reach = _slopes.reach[link.link];
             _texels->push_back({link.joint, floatBits(reach.x), floatBits(reach.y), 0});
         }
+        for (std::size_t i = 0; i < chain.links.size(); ++i)
+            _texels->push_back(
+                packedTexel(chain.centre(_model, i) - chain.centre(_model, i + 1), 0));
     }
 
     void addLinks(const PackedChain& chain, const SkinModel::Ratio* ratios) {

@@ -58,7 +58,9 @@ vec3 osgSkin_scaledTo(vec3 x, float size) {
 )";
 
 // Two directions along the skin go through the chain where the model has its ratios' gradients and
-// a joint tilts the group's normals; else normals turn as their vertices do.
+// a joint tilts the group's normals; else normals turn as their vertices do. A vertex's place is
+// told from the centre of the joint that it is about to turn about: the levers of folded skin's
+// normals need the digits that its distance from rest space's origin would take.
 const char* const kDeform = R"(
 /// By the skinning matrix G of a joint.
 void osgSkin_follow(int joint, inout vec3 x, inout vec3 n, inout vec3 t) {
@@ -82,7 +84,8 @@ vec2 osgSkin_shorts(uint word) {
   return vec2(float(int(word << 16u) >> 16), float(int(word) >> 16));
 }
 
-void osgSkin_correct(int texel, inout vec3 position, inout vec3 tilt) {
+void osgSkin_correct(int texel, out vec3 correction, out vec3 tilt) {
+  correction = tilt = vec3(0.0);
   int entries = int(osgSkin_words(texel++).x);
   for (int i = 0; i < entries; ++i) {
     uvec4 entry = osgSkin_words(texel++);
@@ -91,7 +94,7 @@ void osgSkin_correct(int texel, inout vec3 position, inout vec3 tilt) {
       uvec4 shares = osgSkin_words(texel++);
       vec4 two = osgSkin_palette(int(entry.x) + (k >> 1));
       vec2 weights = (k & 1) == 0 ? two.xy : two.zw;
-      position += weights.x * vec3(osgSkin_shorts(shares.x), osgSkin_shorts(shares.y).x);
+      correction += weights.x * vec3(osgSkin_shorts(shares.x), osgSkin_shorts(shares.y).x);
       tilt += weights.y * vec3(osgSkin_shorts(shares.z), osgSkin_shorts(shares.w).x);
     }
   }
@@ -104,14 +107,15 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
   uvec4 b = osgSkin_words(int(head.y) + 2 * vertex + 1);
   uvec4 chain = osgSkin_words(int(a.w));
   int links = int(chain.y);
-  vec3 x = uintBitsToFloat(a.xyz);
+  vec3 x = uintBitsToFloat(a.xyz); // from the first link's centre
   vec3 n = uintBitsToFloat(b.xyz);
   vec3 t = tangent;
   float tangentLength = length(t);
-  vec3 tilt = vec3(0.0);
+  vec3 correction = vec3(0.0), tilt = vec3(0.0);
   bool hasGradients = (chain.z & 2u) != 0u;
   if ((chain.z & 1u) != 0u)
-    osgSkin_correct(int(b.w) + (hasGradients ? 2 * links : links), x, tilt);
+    osgSkin_correct(int(b.w) + (hasGradients ? 2 * links : links), correction, tilt);
+  x += correction;
 
   bool tilts = false;
   if (hasGradients)
@@ -139,30 +143,34 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
     uvec4 own = osgSkin_words(int(b.w) + i);
     vec2 ratio = uintBitsToFloat(own.xy);
     int joint = int(link.x);
-    vec3 centre = uintBitsToFloat(osgSkin_words(1 + 2 * joint).xyz);
+    vec3 next = uintBitsToFloat(osgSkin_words(int(a.w) + 1 + links + i).xyz);
     vec3 pole = uintBitsToFloat(osgSkin_words(2 + 2 * joint).xyz);
     vec4 turn = osgSkin_palette(4 * joint + 2); // psi v, phi
     vec4 move = osgSkin_palette(4 * joint + 3);
-    vec4 bent = osgSkin_turn(0.5 * ratio.x * turn.xyz);
-    vec4 q = osgSkin_product(bent, osgSkin_twist(pole, 0.25 * ratio.y * turn.w));
+    vec4 twist = osgSkin_twist(pole, 0.25 * ratio.y * turn.w);
+    vec4 q = osgSkin_product(osgSkin_turn(0.5 * ratio.x * turn.xyz), twist);
     float factor = 1.0 + ratio.x * move.w;
-    vec3 from = osgSkin_rotate(q, x - centre);
+    vec3 from = osgSkin_rotate(q, x);
     if (tilts) {
+      // Added before the turn: where skin folds little is left, which turning then keeps the digits
+      // of.
       vec2 reach = uintBitsToFloat(link.yz);
       vec3 byBend = vec3(0.0), byTwist = vec3(0.0);
-      if (length(turn.xyz) * reach.x > 1e-3) byBend = factor * cross(turn.xyz, from);
-      if (abs(turn.w) * reach.y > 1e-3)
-        byTwist = turn.w * cross(osgSkin_rotate(bent, pole), from);
-      byBend += move.w * from + move.xyz;
+      if (length(turn.xyz) * reach.x > 1e-3)
+        byBend = cross(osgSkin_rotate(vec4(-twist.xyz, twist.w), turn.xyz), x);
+      if (abs(turn.w) * reach.y > 1e-3) byTwist = turn.w * cross(pole, x);
       // Of the bend ratio along u and along v, of the twist ratio the same.
       vec4 slope = uintBitsToFloat(osgSkin_words(int(b.w) + links + i));
-      u = factor * (osgSkin_rotate(q, u) + slope.z * byTwist) + slope.x * byBend;
-      v = factor * (osgSkin_rotate(q, v) + slope.w * byTwist) + slope.y * byBend;
+      u += slope.z * byTwist + slope.x * byBend;
+      v += slope.w * byTwist + slope.y * byBend;
+      vec3 byMove = move.w * from + move.xyz;
+      u = factor * osgSkin_rotate(q, u) + slope.x * byMove;
+      v = factor * osgSkin_rotate(q, v) + slope.y * byMove;
     } else {
       n = osgSkin_rotate(q, n);
       t = osgSkin_rotate(q, t);
     }
-    x = centre + ratio.x * move.xyz + factor * from;
+    x = (factor * from + ratio.x * move.xyz) + next;
   }
 
   if (tilts) {
