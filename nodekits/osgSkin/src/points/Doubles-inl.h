@@ -27,11 +27,13 @@ HWY_INLINE Doubles allOf(double x) {
     return hn::Set(DoubleTag(), x);
 }
 
-HWY_INLINE Doubles dot(const Doubles (&a)[3], const Doubles (&b)[3]) {
+template <typename V>
+HWY_INLINE V dot(const V (&a)[3], const V (&b)[3]) {
     return hn::MulAdd(a[2], b[2], hn::MulAdd(a[1], b[1], hn::Mul(a[0], b[0])));
 }
 
-HWY_INLINE void cross(const Doubles (&a)[3], const Doubles (&b)[3], Doubles (&to)[3]) {
+template <typename V>
+HWY_INLINE void cross(const V (&a)[3], const V (&b)[3], V (&to)[3]) {
     to[0] = hn::MulSub(a[1], b[2], hn::Mul(a[2], b[1]));
     to[1] = hn::MulSub(a[2], b[0], hn::Mul(a[0], b[2]));
     to[2] = hn::MulSub(a[0], b[1], hn::Mul(a[1], b[0]));
@@ -108,30 +110,31 @@ HWY_INLINE Doubles loadEach(const double* row, const int* at) {
 ///
 /// \param y as long as it is wide
 /// \param x not below 0; not 0 where y is
-HWY_INLINE Doubles angleOf(const Doubles& y, const Doubles& x) {
-    const Doubles up = hn::Abs(y);
+template <typename V>
+HWY_INLINE V angleOf(const V& y, const V& x) {
+    const auto all = [](double number) HWY_ATTR { return hn::Set(hn::DFromV<V>(), number); };
+    const V up = hn::Abs(y);
     // Into the middle half of an eighth of a turn: tan(a - pi / 4) = (tan a - 1) / (tan a + 1).
-    const DoubleMask steep = hn::Gt(up, x);
-    const Doubles low = hn::Min(up, x), high = hn::Max(up, x);
-    const DoubleMask far = hn::Gt(low, hn::Mul(allOf(0.41421356237309503), high));
-    const Doubles t = hn::Div(hn::IfThenElse(far, hn::Sub(low, high), low),
-                              hn::IfThenElse(far, hn::Add(low, high), high));
+    const auto steep = hn::Gt(up, x);
+    const V low = hn::Min(up, x), high = hn::Max(up, x);
+    const auto far = hn::Gt(low, hn::Mul(all(0.41421356237309503), high));
+    const V t = hn::Div(hn::IfThenElse(far, hn::Sub(low, high), low),
+                        hn::IfThenElse(far, hn::Add(low, high), high));
     // Chebyshev's fit of atan(t) / t to t^2 there, within 4e-17; even and odd powers at a time.
-    const Doubles z = hn::Mul(t, t), zz = hn::Mul(z, z);
-    const auto sum = [zz](std::initializer_list<double> terms) HWY_ATTR {
+    const V z = hn::Mul(t, t), zz = hn::Mul(z, z);
+    const auto sum = [&](std::initializer_list<double> terms) HWY_ATTR {
         const double* c = terms.begin();
-        Doubles result = allOf(*c++);
-        while (c != terms.end()) result = hn::MulAdd(result, zz, allOf(*c++));
+        V result = all(*c++);
+        while (c != terms.end()) result = hn::MulAdd(result, zz, all(*c++));
         return result;
     };
-    const Doubles odd = sum({0.0211353731576932452, 0.05688349226809010479, 0.07689953496306857756,
-                             0.1111110618045594522, 0.1999999999885511013});
-    const Doubles even =
-        sum({-0.04348052215716462478, -0.06640233930429408589, -0.0909077307480841379,
-             -0.1428571418097646683, -0.3333333333332843857});
-    Doubles angle = hn::MulAdd(t, hn::Mul(z, hn::MulAdd(odd, z, even)), t);
-    angle = hn::Add(angle, hn::IfThenElseZero(far, allOf(0.78539816339744831)));
-    angle = hn::IfThenElse(steep, hn::Sub(allOf(1.5707963267948966), angle), angle);
+    const V odd = sum({0.0211353731576932452, 0.05688349226809010479, 0.07689953496306857756,
+                       0.1111110618045594522, 0.1999999999885511013});
+    const V even = sum({-0.04348052215716462478, -0.06640233930429408589, -0.0909077307480841379,
+                        -0.1428571418097646683, -0.3333333333332843857});
+    V angle = hn::MulAdd(t, hn::Mul(z, hn::MulAdd(odd, z, even)), t);
+    angle = hn::Add(angle, hn::IfThenElseZero(far, all(0.78539816339744831)));
+    angle = hn::IfThenElse(steep, hn::Sub(all(1.5707963267948966), angle), angle);
     return hn::CopySign(angle, y);
 }
 

@@ -39,10 +39,10 @@ bool isScale(double scale) noexcept {
     return scale >= kSmallestScale && scale <= 1.0 / kSmallestScale; // false for NaN
 }
 
-constexpr std::size_t kAtOnce = PoseAccess::kAtOnce;
-
 /// Fewer joints than are worked on at a time: a copy, with the last one over again.
 class FewJoints {
+    static constexpr std::size_t kAtOnce = PoseCall::kAtOnce;
+
 public:
     explicit FewJoints(const PoseCall& of) : _of(of) {
         for (std::size_t j = 0; j < kAtOnce; ++j) {
@@ -131,7 +131,7 @@ PoseCall Pose::callFor(Twist twist) noexcept {
 bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool* changed) noexcept {
     if (count != size()) return false;
     bool other = false;
-    if (count >= kAtOnce) {
+    if (count >= PoseCall::kAtOnce) {
         if (!setFrom(skinning, callFor(twist), other)) return false;
     } else if (count > 0) {
         FewJoints few(callFor(twist));
@@ -159,7 +159,7 @@ bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* change
             return false;
     }
     bool other = false;
-    if (count >= kAtOnce) {
+    if (count >= PoseCall::kAtOnce) {
         other = splitMaps(callFor(twist), own);
     } else if (count > 0) {
         FewJoints few(callFor(twist));

@@ -21,90 +21,133 @@ HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
+/// A number of up to eight joints each: what waits for roots and quotients is done beside each
+/// other.
+using JointTag = hn::CappedTag<double, PoseCall::kAtOnce>;
+using Joints = hn::Vec<JointTag>;
+using JointMask = hn::Mask<JointTag>;
+
+HWY_INLINE Joints each(double x) {
+    return hn::Set(JointTag(), x);
+}
+
+/// loadFour() of all lanes.
+HWY_INLINE void loadFourOf(const double* const* from, std::size_t at, Joints (&to)[4]) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    Doubles low[4], high[4];
+    loadFour(from, at, low);
+    loadFour(from + 4, at, high);
+    for (std::size_t i = 0; i < 4; ++i) to[i] = hn::Combine(JointTag(), high[i], low[i]);
+#else
+    loadFour(from, at, to);
+#endif
+}
+
+/// loadEach() of all lanes.
+HWY_INLINE Joints loadEachOf(const double* row, const int* at) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    return hn::Combine(JointTag(), loadEach(row, at + 4), loadEach(row, at));
+#else
+    return loadEach(row, at);
+#endif
+}
+
 /// What is read of a frame or a map.
 struct Turns {
-    Doubles turn[3][3]; ///< columns
-    Doubles offset[3];
-    Doubles scale;
+    Joints turn[3][3]; ///< columns
+    Joints offset[3];
+    Joints scale;
 };
 
 struct Quaternions {
-    Doubles w, x, y, z;
+    Joints w, x, y, z;
 };
 
 struct Angles {
-    Doubles bend, twist, cosine, sine; ///< the latter of the bend axis, from e1 to e2
+    Joints bend, twist, cosine, sine; ///< the latter of the bend axis, from e1 to e2
 };
 
 /// Cube roots of what volumes are far from 1. Numbers of a file or rotation are rounded, which is
 /// no scale; and a root takes its time.
-HWY_INLINE Doubles scaleOf(const Doubles& volume) {
-    const DoubleTag d;
-    const Doubles one = allOf(1.0);
-    const DoubleMask even = hn::Lt(hn::Abs(hn::Sub(volume, one)), allOf(3e-6));
+HWY_INLINE Joints scaleOf(const Joints& volume) {
+    const JointTag d;
+    const Joints one = each(1.0);
+    const JointMask even = hn::Lt(hn::Abs(hn::Sub(volume, one)), each(3e-6));
     if (HWY_LIKELY(hn::AllTrue(d, even))) return one;
-    double lanes[4];
+    double lanes[PoseCall::kAtOnce];
     hn::StoreU(volume, d, lanes);
     for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) lanes[lane] = std::cbrt(lanes[lane]);
     return hn::IfThenElse(even, one, hn::LoadU(d, lanes));
 }
 
+/// 1 / sqrt(square), to the last few bits; exact for 1. Axes of bones that are not scaled are of
+/// length 1 but for rounding: no division then, and no root.
+HWY_INLINE Joints inverseRoot(const Joints& square) {
+    const JointTag d;
+    const Joints one = each(1.0), more = hn::Sub(square, one);
+    if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Lt(hn::Abs(more), each(1e-4))))) // NaN too
+        return hn::Div(one, hn::Sqrt(square));
+    const Joints terms = hn::MulAdd(more, hn::MulAdd(more, each(-0.3125), each(0.375)), each(-0.5));
+    return hn::MulAdd(more, terms, one);
+}
+
 bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFrames& frames) {
-    const DoubleTag d;
+    const JointTag d;
     const std::size_t lanes = hn::Lanes(d);
-    const Doubles zero = hn::Zero(d), one = allOf(1.0), most = allOf(DBL_MAX);
-    const Doubles rounding = allOf(1e-3), farthest = allOf(kLargestCoordinate);
-    DoubleMask good = hn::Eq(zero, zero);
-    const auto require = [&good](const DoubleMask& that) HWY_ATTR { good = hn::And(good, that); };
+    const Joints zero = hn::Zero(d), one = each(1.0), most = each(DBL_MAX);
+    const Joints rounding = each(1e-3), farthest = each(kLargestCoordinate);
+    JointMask good = hn::Eq(zero, zero);
+    const auto require = [&good](const JointMask& that) HWY_ATTR { good = hn::And(good, that); };
     for (std::size_t row = 0; row < kFrameRows; ++row) // no turn
         frames.rows[row * frames.stride - 1] = row == 0 || row == 4 || row == 8 || row == 12;
     for (std::size_t next = 0; next < call.count; next += lanes) {
         const std::size_t first = HWY_MIN(next, call.count - lanes); // the last ones overlap
-        const double* from[4];
+        const double* from[PoseCall::kAtOnce];
         for (std::size_t lane = 0; lane < lanes; ++lane) from[lane] = &skinning[first + lane][0][0];
-        Doubles m[4][4];
-        for (std::size_t column = 0; column < 4; ++column) loadFour(from, 4 * column, m[column]);
+        Joints m[4][4];
+        for (std::size_t column = 0; column < 4; ++column) loadFourOf(from, 4 * column, m[column]);
         // Written so that NaN is refused.
         for (std::size_t column = 0; column < 3; ++column)
             require(hn::Lt(hn::Abs(m[column][3]), rounding));
         require(hn::Lt(hn::Abs(hn::Sub(m[3][3], one)), rounding));
 
-        Doubles x[3] = {m[0][0], m[0][1], m[0][2]}, y[3] = {m[1][0], m[1][1], m[1][2]};
-        const Doubles z[3] = {m[2][0], m[2][1], m[2][2]};
-        const Doubles xx = dot(x, x);
+        Joints x[3] = {m[0][0], m[0][1], m[0][2]}, y[3] = {m[1][0], m[1][1], m[1][2]};
+        const Joints z[3] = {m[2][0], m[2][1], m[2][2]};
+        const Joints xx = dot(x, x);
         require(hn::And(hn::Gt(xx, zero), hn::Le(xx, most)));
-        const Doubles share = hn::Div(dot(x, y), xx);
+        const Joints xLength = inverseRoot(xx);
+        const Joints share = hn::Mul(hn::Mul(dot(x, y), xLength), xLength);
         for (std::size_t axis = 0; axis < 3; ++axis)
             y[axis] = hn::NegMulAdd(x[axis], share, y[axis]);
-        const Doubles yy = dot(y, y);
-        require(hn::And(hn::Gt(yy, hn::Mul(allOf(1e-24), xx)), hn::Le(yy, most)));
-        Doubles across[3];
+        const Joints yy = dot(y, y);
+        require(hn::And(hn::Gt(yy, hn::Mul(each(1e-24), xx)), hn::Le(yy, most)));
+        Joints across[3];
         cross(x, y, across);
-        const Doubles volume = hn::Abs(dot(across, z));
-        require(hn::And(hn::Ge(volume, allOf(kSmallestVolume)),
-                        hn::Le(volume, allOf(1.0 / kSmallestVolume))));
-        const Doubles scale = scaleOf(volume);
-        const Doubles xLength = hn::Div(one, hn::Sqrt(xx)), yLength = hn::Div(one, hn::Sqrt(yy));
+        const Joints volume = hn::Abs(dot(across, z));
+        require(hn::And(hn::Ge(volume, each(kSmallestVolume)),
+                        hn::Le(volume, each(1.0 / kSmallestVolume))));
+        const Joints scale = scaleOf(volume);
+        const Joints yLength = inverseRoot(yy);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             x[axis] = hn::Mul(x[axis], xLength);
             y[axis] = hn::Mul(y[axis], yLength);
         }
         cross(x, y, across);
 
-        const auto store = [&](std::size_t row, const Doubles& value) HWY_ATTR {
+        const auto store = [&](std::size_t row, const Joints& value) HWY_ATTR {
             hn::StoreU(value, d, frames.rows + row * frames.stride + first);
         };
         const auto rest = [&](std::size_t row) HWY_ATTR {
             return hn::LoadU(d, call.rest + row * call.count + first);
         };
-        const Doubles centre[3] = {rest(PoseAccess::RestRow::kCentre),
-                                   rest(PoseAccess::RestRow::kCentre + 1),
-                                   rest(PoseAccess::RestRow::kCentre + 2)};
+        const Joints centre[3] = {rest(PoseAccess::RestRow::kCentre),
+                                  rest(PoseAccess::RestRow::kCentre + 1),
+                                  rest(PoseAccess::RestRow::kCentre + 2)};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             // The joint centre goes where the whole matrix, non-uniform scale included, puts it.
-            const Doubles all[3] = {m[0][axis], m[1][axis], m[2][axis]};
-            const Doubles turn[3] = {x[axis], y[axis], across[axis]};
-            const Doubles offset =
+            const Joints all[3] = {m[0][axis], m[1][axis], m[2][axis]};
+            const Joints turn[3] = {x[axis], y[axis], across[axis]};
+            const Joints offset =
                 hn::NegMulAdd(scale, dot(turn, centre), hn::Add(dot(all, centre), m[3][axis]));
             require(hn::Le(hn::Abs(offset), farthest));
             store(axis, x[axis]);
@@ -118,26 +161,26 @@ bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFram
 }
 
 /// Of a rotation, with that part found first which is largest.
-HWY_INLINE Quaternions quaternionsOf(const Doubles (&m)[3][3]) {
-    const DoubleTag d;
-    const Doubles one = allOf(1.0), half = allOf(0.5), quarter = allOf(0.25);
-    const Doubles xPlusY = hn::Add(m[0][0], m[1][1]), xLessY = hn::Sub(m[0][0], m[1][1]);
-    const Doubles forW = hn::Add(xPlusY, m[2][2]), forX = hn::Sub(xLessY, m[2][2]);
-    const Doubles forY = hn::Neg(hn::Add(xLessY, m[2][2])), forZ = hn::Sub(m[2][2], xPlusY);
-    const Doubles largestAxis = hn::Max(forX, hn::Max(forY, forZ));
-    const Doubles largest = hn::Mul(half, hn::Sqrt(hn::Add(hn::Max(forW, largestAxis), one)));
-    const Doubles factor = hn::Div(quarter, largest);
-    const Doubles lessX = hn::Mul(factor, hn::Sub(m[1][2], m[2][1]));
-    const Doubles lessY = hn::Mul(factor, hn::Sub(m[2][0], m[0][2]));
-    const Doubles lessZ = hn::Mul(factor, hn::Sub(m[0][1], m[1][0]));
-    const DoubleMask isW = hn::Ge(forW, largestAxis);
+HWY_INLINE Quaternions quaternionsOf(const Joints (&m)[3][3]) {
+    const JointTag d;
+    const Joints one = each(1.0), half = each(0.5), quarter = each(0.25);
+    const Joints xPlusY = hn::Add(m[0][0], m[1][1]), xLessY = hn::Sub(m[0][0], m[1][1]);
+    const Joints forW = hn::Add(xPlusY, m[2][2]), forX = hn::Sub(xLessY, m[2][2]);
+    const Joints forY = hn::Neg(hn::Add(xLessY, m[2][2])), forZ = hn::Sub(m[2][2], xPlusY);
+    const Joints largestAxis = hn::Max(forX, hn::Max(forY, forZ));
+    const Joints largest = hn::Mul(half, hn::Sqrt(hn::Add(hn::Max(forW, largestAxis), one)));
+    const Joints factor = hn::Div(quarter, largest);
+    const Joints lessX = hn::Mul(factor, hn::Sub(m[1][2], m[2][1]));
+    const Joints lessY = hn::Mul(factor, hn::Sub(m[2][0], m[0][2]));
+    const Joints lessZ = hn::Mul(factor, hn::Sub(m[0][1], m[1][0]));
+    const JointMask isW = hn::Ge(forW, largestAxis);
     Quaternions q{largest, lessX, lessY, lessZ};
     if (HWY_LIKELY(hn::AllTrue(d, isW))) return q;
-    const Doubles xy = hn::Mul(factor, hn::Add(m[0][1], m[1][0]));
-    const Doubles yz = hn::Mul(factor, hn::Add(m[1][2], m[2][1]));
-    const Doubles zx = hn::Mul(factor, hn::Add(m[2][0], m[0][2]));
-    const DoubleMask isX = hn::Eq(forX, largestAxis), isY = hn::Eq(forY, largestAxis);
-    const auto choose = [&](Doubles w, Doubles x, Doubles y, Doubles z) HWY_ATTR {
+    const Joints xy = hn::Mul(factor, hn::Add(m[0][1], m[1][0]));
+    const Joints yz = hn::Mul(factor, hn::Add(m[1][2], m[2][1]));
+    const Joints zx = hn::Mul(factor, hn::Add(m[2][0], m[0][2]));
+    const JointMask isX = hn::Eq(forX, largestAxis), isY = hn::Eq(forY, largestAxis);
+    const auto choose = [&](Joints w, Joints x, Joints y, Joints z) HWY_ATTR {
         return hn::IfThenElse(isW, w, hn::IfThenElse(isX, x, hn::IfThenElse(isY, y, z)));
     };
     q.w = choose(q.w, lessX, lessY, lessZ);
@@ -161,9 +204,10 @@ HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t joint, const doub
     angles[3] = glm::dot(split.bendAxis, rest(PoseAccess::RestRow::kE2));
 }
 
-HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t first, const double (&q)[4][4],
-                             const double* alone, double (&angles)[4][4]) {
-    for (std::size_t lane = 0; lane < hn::Lanes(DoubleTag()); ++lane) {
+HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t first,
+                             const double (&q)[4][PoseCall::kAtOnce], const double* alone,
+                             double (&angles)[4][PoseCall::kAtOnce]) {
+    for (std::size_t lane = 0; lane < hn::Lanes(JointTag()); ++lane) {
         if (alone[lane] == 0.0) continue;
         double own[4];
         splitAlone(call, first + lane, {q[0][lane], q[1][lane], q[2][lane], q[3][lane]}, own);
@@ -177,39 +221,40 @@ HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternio
     constexpr double kNoBend = 1e-100;
     /// Below this cosine of half the bend, its axis and the twist are not told apart.
     constexpr double kHalfTurn = 1e-12;
-    const DoubleTag d;
-    const Doubles zero = hn::Zero(d), one = allOf(1.0), two = allOf(2.0);
-    const Doubles xyz[3] = {q.x, q.y, q.z};
+    const JointTag d;
+    const Joints zero = hn::Zero(d), one = each(1.0), two = each(2.0);
+    const Joints xyz[3] = {q.x, q.y, q.z};
     const auto along = [&](std::size_t row) HWY_ATTR {
         const double* at = call.rest + row * call.count + first;
-        const Doubles axis[3] = {hn::LoadU(d, at), hn::LoadU(d, at + call.count),
-                                 hn::LoadU(d, at + 2 * call.count)};
+        const Joints axis[3] = {hn::LoadU(d, at), hn::LoadU(d, at + call.count),
+                                hn::LoadU(d, at + 2 * call.count)};
         return dot(xyz, axis);
     };
     // c + s w is the twist, u1 e1 + u2 e2 what is perpendicular to w; of q and -q the one where c
     // is positive.
-    const Doubles sign = hn::And(q.w, hn::SignBit(d));
-    const Doubles c = hn::Xor(q.w, sign);
-    const Doubles s = hn::Xor(along(PoseAccess::RestRow::kPole), sign);
-    const Doubles u1 = hn::Xor(along(PoseAccess::RestRow::kE1), sign);
-    const Doubles u2 = hn::Xor(along(PoseAccess::RestRow::kE2), sign);
-    const Doubles cosine = hn::Sqrt(hn::MulAdd(c, c, hn::Mul(s, s)));
-    const Doubles sine = hn::Sqrt(hn::MulAdd(u1, u1, hn::Mul(u2, u2)));
-    const DoubleMask bends = hn::Ge(sine, allOf(kNoBend));
+    const Joints sign = hn::And(q.w, hn::SignBit(d));
+    const Joints c = hn::Xor(q.w, sign);
+    const Joints s = hn::Xor(along(PoseAccess::RestRow::kPole), sign);
+    const Joints u1 = hn::Xor(along(PoseAccess::RestRow::kE1), sign);
+    const Joints u2 = hn::Xor(along(PoseAccess::RestRow::kE2), sign);
+    const Joints cosine = hn::Sqrt(hn::MulAdd(c, c, hn::Mul(s, s)));
+    const Joints sine = hn::Sqrt(hn::MulAdd(u1, u1, hn::Mul(u2, u2)));
+    const JointMask bends = hn::Ge(sine, each(kNoBend));
     Angles angles;
     angles.bend = hn::IfThenElseZero(bends, hn::Mul(two, angleOf(sine, cosine)));
     angles.twist = hn::Mul(two, angleOf(s, c));
     // q times the inverse twist: eq. 3.
-    const Doubles length = hn::Div(one, hn::Mul(sine, cosine));
+    const Joints length = hn::Div(one, hn::Mul(sine, cosine));
     angles.cosine = hn::Mul(hn::MulSub(c, u1, hn::Mul(s, u2)), length);
     angles.sine = hn::Mul(hn::MulAdd(c, u2, hn::Mul(s, u1)), length);
     angles.cosine = hn::IfThenElse(bends, angles.cosine, one);
     angles.sine = hn::IfThenElseZero(bends, angles.sine);
-    const DoubleMask alone = hn::Or(hn::Eq(c, zero), hn::Lt(cosine, allOf(kHalfTurn)));
+    const JointMask alone = hn::Or(hn::Eq(c, zero), hn::Lt(cosine, each(kHalfTurn)));
     if (HWY_LIKELY(hn::AllFalse(d, alone))) return angles;
-    double quaternions[4][4], all[4][4], which[4];
-    Doubles* const parts[4] = {&angles.bend, &angles.twist, &angles.cosine, &angles.sine};
-    const Doubles* const from[4] = {&q.w, &q.x, &q.y, &q.z};
+    constexpr std::size_t kAtOnce = PoseCall::kAtOnce;
+    double quaternions[4][kAtOnce], all[4][kAtOnce], which[kAtOnce];
+    Joints* const parts[4] = {&angles.bend, &angles.twist, &angles.cosine, &angles.sine};
+    const Joints* const from[4] = {&q.w, &q.x, &q.y, &q.z};
     for (std::size_t i = 0; i < 4; ++i) {
         hn::StoreU(*from[i], d, quaternions[i]);
         hn::StoreU(*parts[i], d, all[i]);
@@ -221,11 +266,11 @@ HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternio
 }
 
 /// `twist` or 2 pi more or less, see Pose::Twist.
-HWY_INLINE Doubles continued(const Doubles& before, const Doubles& twist) {
-    const Doubles turn = allOf(6.283185307179586477), near = allOf(0.25 * 6.283185307179586477);
-    Doubles result = twist;
-    const auto choose = [&](const Doubles& angle) HWY_ATTR {
-        const DoubleMask good =
+HWY_INLINE Joints continued(const Joints& before, const Joints& twist) {
+    const Joints turn = each(6.283185307179586477), near = each(0.25 * 6.283185307179586477);
+    Joints result = twist;
+    const auto choose = [&](const Joints& angle) HWY_ATTR {
+        const JointMask good =
             hn::And(hn::Lt(hn::Abs(angle), turn), hn::Le(hn::Abs(hn::Sub(angle, before)), near));
         result = hn::IfThenElse(good, angle, result);
     };
@@ -237,17 +282,17 @@ HWY_INLINE Doubles continued(const Doubles& before, const Doubles& twist) {
 }
 
 /// Writes joints of a pose; returns where they are others than before.
-HWY_INLINE DoubleMask write(const PoseCall& call, std::size_t first, const Quaternions& q,
-                            const Doubles (&offset)[3], const Doubles& scale) {
+HWY_INLINE JointMask write(const PoseCall& call, std::size_t first, const Quaternions& q,
+                           const Joints (&offset)[3], const Joints& scale) {
     using Access = PoseAccess::Row;
-    const DoubleTag d;
-    const hn::Rebind<std::int32_t, DoubleTag> steps;
+    const JointTag d;
+    const hn::Rebind<std::int32_t, JointTag> steps;
     double* const at = call.rows + first;
     Angles angles = split(call, first, q);
     if (HWY_UNLIKELY(call.continued))
         angles.twist = continued(hn::LoadU(d, at + Access::kTwist * call.count), angles.twist);
-    DoubleMask other = hn::Ne(angles.twist, hn::LoadU(d, at + Access::kTwist * call.count));
-    const auto put = [&](std::size_t row, const Doubles& value) HWY_ATTR {
+    JointMask other = hn::Ne(angles.twist, hn::LoadU(d, at + Access::kTwist * call.count));
+    const auto put = [&](std::size_t row, const Joints& value) HWY_ATTR {
         double* const to = at + row * call.count;
         other = hn::Or(other, hn::Ne(value, hn::LoadU(d, to)));
         hn::StoreU(value, d, to);
@@ -261,9 +306,9 @@ HWY_INLINE DoubleMask write(const PoseCall& call, std::size_t first, const Quate
     hn::StoreU(angles.bend, d, at + Access::kBend * call.count);
     hn::StoreU(angles.twist, d, at + Access::kTwist * call.count);
     // As good as the kernel's floats, in half of a double's room.
-    const auto inSteps = [&](const Doubles& x) HWY_ATTR {
-        const Doubles of = hn::Mul(x, allOf(1.0 / PoseAccess::kAzimuthStep));
-        return hn::DemoteTo(steps, hn::Add(of, hn::CopySign(allOf(0.5), of)));
+    const auto inSteps = [&](const Joints& x) HWY_ATTR {
+        const Joints of = hn::Mul(x, each(1.0 / PoseAccess::kAzimuthStep));
+        return hn::DemoteTo(steps, hn::Add(of, hn::CopySign(each(0.5), of)));
     };
     // Read and written as vectors and bytes only, which may be anything.
     auto* const azimuths =
@@ -274,9 +319,9 @@ HWY_INLINE DoubleMask write(const PoseCall& call, std::size_t first, const Quate
 }
 
 bool splitFrames(const PoseCall& call, const PoseFrames& frames) {
-    const DoubleTag d;
-    const Doubles one = allOf(1.0);
-    DoubleMask other = hn::Lt(one, one);
+    const JointTag d;
+    const Joints one = each(1.0);
+    JointMask other = hn::Lt(one, one);
     for (std::size_t next = 0; next < call.count; next += hn::Lanes(d)) {
         const std::size_t first = HWY_MIN(next, call.count - hn::Lanes(d)); // the last ones overlap
         const int* parents = call.parents + first;
@@ -284,25 +329,25 @@ bool splitFrames(const PoseCall& call, const PoseFrames& frames) {
             return hn::LoadU(d, frames.rows + row * frames.stride + first);
         };
         const auto above = [&](std::size_t row) HWY_ATTR {
-            return loadEach(frames.rows + row * frames.stride, parents);
+            return loadEachOf(frames.rows + row * frames.stride, parents);
         };
-        Doubles turn[3][3], offset[3], shift[3];
-        const Doubles turned[3][3] = {
+        Joints turn[3][3], offset[3], shift[3];
+        const Joints turned[3][3] = {
             {own(0), own(1), own(2)}, {own(3), own(4), own(5)}, {own(6), own(7), own(8)}};
         for (std::size_t axis = 0; axis < 3; ++axis)
             shift[axis] = hn::Sub(own(9 + axis), above(9 + axis));
         for (std::size_t row = 0; row < 3; ++row) {
-            const Doubles back[3] = {above(3 * row), above(3 * row + 1), above(3 * row + 2)};
+            const Joints back[3] = {above(3 * row), above(3 * row + 1), above(3 * row + 2)};
             for (std::size_t column = 0; column < 3; ++column)
                 turn[column][row] = dot(back, turned[column]);
             offset[row] = dot(back, shift);
         }
-        Doubles scale = own(12);
-        const Doubles before = above(12);
+        Joints scale = own(12);
+        const Joints before = above(12);
         if (HWY_UNLIKELY(!hn::AllTrue(d, hn::And(hn::Eq(scale, one), hn::Eq(before, one))))) {
-            for (Doubles& axis : offset) axis = hn::Div(axis, before);
+            for (Joints& axis : offset) axis = hn::Div(axis, before);
             scale = hn::Div(scale, before);
-            scale = hn::IfThenElse(hn::Lt(hn::Abs(hn::Sub(scale, one)), allOf(1e-6)), one, scale);
+            scale = hn::IfThenElse(hn::Lt(hn::Abs(hn::Sub(scale, one)), each(1e-6)), one, scale);
         }
         other = hn::Or(other, write(call, first, quaternionsOf(turn), offset, scale));
     }
@@ -311,17 +356,17 @@ bool splitFrames(const PoseCall& call, const PoseFrames& frames) {
 
 bool splitMaps(const PoseCall& call, const JointMap* own) {
     static_assert(isPacked<JointMap, double, 8>() && offsetof(JointMap, offset) == 32);
-    const DoubleTag d;
-    DoubleMask other = hn::Lt(allOf(1.0), allOf(1.0));
+    const JointTag d;
+    JointMask other = hn::Lt(each(1.0), each(1.0));
     for (std::size_t next = 0; next < call.count; next += hn::Lanes(d)) {
         const std::size_t first = HWY_MIN(next, call.count - hn::Lanes(d)); // the last ones overlap
-        const double* from[4];
+        const double* from[PoseCall::kAtOnce];
         for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
             from[lane] = reinterpret_cast<const double*>(&own[first + lane].rotation.x);
-        Doubles q[4], rest[4]; // x, y, z, w
-        loadFour(from, 0, q);
-        loadFour(from, 4, rest);
-        const Doubles offset[3] = {rest[0], rest[1], rest[2]};
+        Joints q[4], rest[4]; // x, y, z, w
+        loadFourOf(from, 0, q);
+        loadFourOf(from, 4, rest);
+        const Joints offset[3] = {rest[0], rest[1], rest[2]};
         other = hn::Or(other, write(call, first, {q[3], q[0], q[1], q[2]}, offset, rest[3]));
     }
     return !hn::AllFalse(d, other);

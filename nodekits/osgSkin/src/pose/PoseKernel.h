@@ -12,7 +12,9 @@ namespace osgSkin {
 
 /// A pose that is being set, several joints at a time.
 struct PoseCall {
-    std::size_t count; ///< joints, and numbers in a row; at least PoseAccess::kAtOnce
+    static constexpr std::size_t kAtOnce = 8; ///< joints, at most
+
+    std::size_t count; ///< joints, and numbers in a row; at least kAtOnce
     const int* parents;
     const double* rest; ///< by PoseAccess::RestRow
     double* rows;       ///< by PoseAccess::Row
@@ -34,7 +36,7 @@ struct PoseFrames {
     std::size_t stride;
 
     /// Numbers before joint 0 of each row; the last of them is what has no parent's parent.
-    static constexpr std::size_t kBefore = PoseAccess::kAtOnce;
+    static constexpr std::size_t kBefore = PoseCall::kAtOnce;
 };
 
 /// Takes skinning matrices G_j apart.
