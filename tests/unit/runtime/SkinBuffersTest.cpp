@@ -4,6 +4,8 @@
 
 #include <osgSkin/Error>
 
+#include <osg/Point>
+
 #include <gtest/gtest.h>
 
 namespace {
@@ -94,6 +96,31 @@ TEST(SkinBuffers, FollowTheVertexBufferSetting) {
     skin->setUseVertexArrayObject(true);
     test::bend(*skin, 0.4);
     EXPECT_TRUE(skin->getDeformedGeometry()->getUseVertexArrayObject());
+}
+
+/// What one skin lets go, others may be drawing with, in this very moment.
+TEST(SkinBuffers, LeaveAloneWhatOthersDrawWith) {
+    static int releases;
+    releases = 0;
+    struct Counted : osg::Point {
+        void releaseGLObjects(osg::State*) const override { ++releases; }
+    };
+    struct CountedBuffer : osg::VertexBufferObject {
+        void releaseGLObjects(osg::State*) const override { ++releases; }
+    };
+    const osg::ref_ptr<osg::Geometry> rest = makeRich();
+    rest->getOrCreateStateSet()->setAttribute(new Counted);
+    const osg::ref_ptr<CountedBuffer> shared = new CountedBuffer;
+    rest->getTexCoordArray(0)->setVertexBufferObject(shared);
+    const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    skin->setSkin(rest, test::Tube().model());
+    osg::ref_ptr<osgSkin::DeformableSkin> copy = osg::clone(skin.get());
+    copy->setTangentAttribute(kTangents);
+    copy->setSkin(rest, test::Tube().model());
+    copy = nullptr;
+    EXPECT_EQ(releases, 0);
+    skin->releaseGLObjects(nullptr); // by order
+    EXPECT_GT(releases, 0);
 }
 
 TEST(SkinBuffers, KeepEverythingElse) {

@@ -131,7 +131,8 @@ osg::ref_ptr<osg::Geometry> DeformableSkin::makeDrawnGeometry() const {
 }
 
 void DeformableSkin::makeBuffers() {
-    releaseGLObjects();
+    // The buffers' own objects go with them. Textures, programs and arrays may be others' too, and
+    // a draw thread may be using them: nothing is released here.
     _buffers = {};
     _current = 0;
     _handedOut = false;
