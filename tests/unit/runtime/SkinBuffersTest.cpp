@@ -123,6 +123,21 @@ TEST(SkinBuffers, LeaveAloneWhatOthersDrawWith) {
     EXPECT_GT(releases, 0);
 }
 
+TEST(SkinBuffers, FollowTheDrawCallback) {
+    struct Nothing : osg::Drawable::DrawCallback {};
+    const osg::ref_ptr<Nothing> callback = new Nothing, ofRest = new Nothing;
+    const osg::ref_ptr<osg::Geometry> rest = makeRich();
+    rest->setDrawCallback(ofRest);
+    const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    skin->setDrawCallback(callback); // before the skin, too
+    skin->setSkin(rest, test::Tube().model());
+    EXPECT_EQ(skin->getDeformedGeometry()->getDrawCallback(), callback);
+    skin->setDrawCallback(nullptr);
+    EXPECT_EQ(skin->getDeformedGeometry()->getDrawCallback(), ofRest);
+    skin->setDrawCallback(callback); // and where no pose follows
+    EXPECT_EQ(skin->getDeformedGeometry()->getDrawCallback(), callback);
+}
+
 TEST(SkinBuffers, KeepEverythingElse) {
     const auto skin = makeRichSkin();
     test::bend(*skin, 1.0);

@@ -196,12 +196,19 @@ float DeformableSkin::getActivation(const std::string& input) const {
 
 /// Makes the buffers draw as the outer drawable is set to.
 void DeformableSkin::applyDrawSettings() {
+    if (!_rest) return;
+    osg::Drawable::DrawCallback* const callback =
+        getDrawCallback() ? getDrawCallback() : _rest->getDrawCallback();
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
         if (buffer->getUseVertexArrayObject() != getUseVertexArrayObject())
             buffer->setUseVertexArrayObject(getUseVertexArrayObject());
-        osg::Drawable::DrawCallback* callback = getDrawCallback();
-        if (callback && buffer->getDrawCallback() != callback) buffer->setDrawCallback(callback);
+        if (buffer->getDrawCallback() != callback) buffer->setDrawCallback(callback);
     }
+}
+
+void DeformableSkin::setDrawCallback(DrawCallback* callback) {
+    osg::Drawable::setDrawCallback(callback);
+    applyDrawSettings();
 }
 
 void DeformableSkin::poseChanged() {
