@@ -4,6 +4,7 @@
 #include <osgSkinRig/SampledClip>
 
 #include <osgSkin/Pose>
+#include <osgSkin/SkinModel>
 
 #include <osg/BoundingBox>
 #include <osg/Matrixd>
@@ -23,6 +24,7 @@ public:
     static constexpr std::size_t kParts = 4;
 
     struct Skin {
+        osg::ref_ptr<const SkinModel> model;  ///< whose joints were posed
         std::vector<Pose> poses;              ///< of each sample
         std::vector<osg::BoundingBox> bounds; ///< of each sample
         std::vector<osg::BoundingBox> ways;   ///< [sample * kParts + part]; see boundWay()

@@ -114,6 +114,8 @@ void ClipCharacter::bake(const SampledClip* clip) {
     baked->clip = clip;
     baked->skins.resize(_skins.size());
     baked->rigids.resize(_rigids.size());
+    for (std::size_t i = 0; i < _skins.size(); ++i)
+        baked->skins[i].model = _skins[i].skin->getModel();
     player._baked.clear();
     const auto poseAt = [&](double samples) {
         player.setTrack(0, {clip, samples * clip->step(), 0.0, true});
@@ -126,6 +128,7 @@ void ClipCharacter::bake(const SampledClip* clip) {
         for (std::size_t i = 0; i < _skins.size(); ++i)
             ways[i][k] = momentOf(*player._skins[i].skin);
     };
+    osg::BoundingBox bounds = _bakedBounds;
     poseAt(0.0);
     lookAt(parts);
     for (std::size_t sample = 0; sample < clip->sampleCount(); ++sample) {
@@ -143,10 +146,11 @@ void ClipCharacter::bake(const SampledClip* clip) {
             boundWay(ways[i], skin.ways);
             const osg::BoundingBox& box = skin.bounds.back();
             for (unsigned int corner = 0; corner < 8; ++corner)
-                _bakedBounds.expandBy(box.corner(corner) * _skins[i].toCharacter);
+                bounds.expandBy(box.corner(corner) * _skins[i].toCharacter);
         }
     }
     _baked.push_back(baked);
+    _bakedBounds = bounds;
 }
 
 ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {

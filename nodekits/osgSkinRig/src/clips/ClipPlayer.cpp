@@ -83,12 +83,14 @@ osg::Vec3d ClipPlayer::takeRootMotion() {
 }
 
 void ClipPlayer::addSkin(DeformableSkin* skin) {
-    _skins.push_back({skin, {}, false});
+    if (!skin) return;
+    _skins.push_back({skin, nullptr, {}, false});
     _found[0] = nullptr;
 }
 
 void ClipPlayer::addRigid(osg::MatrixTransform* transform, const std::string& joint,
                           const osg::Matrixd& toParent) {
+    if (!transform) return;
     _rigids.push_back({transform, joint, toParent, -1});
     _found[0] = nullptr;
 }
@@ -128,10 +130,17 @@ void ClipPlayer::advance(double seconds) {
     }
 }
 
+bool ClipPlayer::knowsJoints() const {
+    return _found[0].get() == _tracks[0].clip.get() && _found[1].get() == _tracks[1].clip.get() &&
+           std::all_of(_skins.begin(), _skins.end(),
+                       [](const Skin& skin) { return skin.model.get() == skin.skin->getModel(); });
+}
+
 void ClipPlayer::findJoints() {
     const SampledClip& clip = *_tracks[0].clip;
     _needsWhole = !_rigids.empty();
     for (Skin& skin : _skins) {
+        skin.model = skin.skin->getModel();
         skin.joints.clear();
         skin.direct = skin.same = true;
         if (!skin.skin->getModel()) continue;
@@ -158,7 +167,7 @@ void ClipPlayer::findJoints() {
             std::equal(others.begin(), others.end(), clip.joints().begin(), clip.joints().end(),
                        [](const auto& a, const auto& b) { return a.name == b.name; });
     }
-    _found = {_tracks[0].clip.get(), _tracks[1].clip.get()};
+    for (std::size_t i = 0; i < _found.size(); ++i) _found[i] = _tracks[i].clip.get();
 }
 
 void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
@@ -229,8 +238,10 @@ const BakedClip* ClipPlayer::findBaked() const {
     if (baked == _baked.end() || (*baked)->skins.size() != _skins.size() ||
         (*baked)->rigids.size() != _rigids.size())
         return nullptr;
-    for (const Skin& skin : _skins)
-        if (isActivated(*skin.skin)) return nullptr;
+    for (std::size_t i = 0; i < _skins.size(); ++i) {
+        const DeformableSkin& skin = *_skins[i].skin;
+        if (skin.getModel() != (*baked)->skins[i].model || isActivated(skin)) return nullptr;
+    }
     return baked->get();
 }
 
@@ -254,7 +265,7 @@ bool ClipPlayer::pose() {
         at = track.clip->place(track.time, track.loop);
         if ((!_interpolated || at.share == 0.0) && poseBaked(*baked, at.from)) return true;
     }
-    if (_found[0] != _tracks[0].clip.get() || _found[1] != _tracks[1].clip.get()) findJoints();
+    if (!knowsJoints()) findJoints();
     static thread_local std::vector<JointSample> samples;
     static thread_local std::vector<JointMap> own, whole;
     sampleJoints(samples);

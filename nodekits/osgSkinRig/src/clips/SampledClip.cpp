@@ -13,6 +13,12 @@
 #include <cmath>
 
 namespace osgSkin {
+namespace {
+
+/// Of all joints together, 640 MB: a figure of 100 joints for half an hour.
+constexpr double kMostJointSamples = 1e7;
+
+} // namespace
 
 JointSample blend(const JointSample& a, const JointSample& b, double share) noexcept {
     return SampleBlend(share)(a, b);
@@ -44,6 +50,11 @@ osg::ref_ptr<const SampledClip> SampledClip::create(const osgAnimation::Animatio
     BoneSampler sampler(animation, skeleton);
     const double seconds = sampler.duration();
     const double samples = std::max(1.0, std::ceil(seconds * samplesPerSecond - 1e-6));
+    const double joints = static_cast<double>(sampler.joints().size());
+    if (!(samples * joints <= kMostJointSamples)) // for NaN, too
+        throw Error("sampled clip: animation \"" + animation.getName() + "\" of " +
+                    std::to_string(seconds) +
+                    " s has more than 10,000,000 samples of all joints together");
     const osg::ref_ptr<SampledClip> result = new SampledClip;
     result->_name = animation.getName();
     result->_joints = sampler.joints();

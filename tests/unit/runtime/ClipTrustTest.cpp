@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// What a player of clips is given may change, or be none.
+#include <osgSkin/Error>
+#include <osgSkinRig/ClipCharacter>
+#include <osgSkinRig/ClipPlayer>
+#include <osgSkinRig/MakeAnimation>
+#include <osgSkinRig/MakeSkeleton>
+
+#include "TubeSkin.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+using osgSkin::ClipPlayer;
+using osgSkin::DeformableSkin;
+using osgSkin::SampledClip;
+
+namespace {
+
+/// The tube's joints; with `swapped` names of the last two.
+osgSkin::RestSkeleton namedRig(bool swapped) {
+    osgSkin::RestSkeleton rig;
+    rig.add("root", -1, glm::dvec3(0, 0, 0));
+    rig.add(swapped ? "end" : "middle", 0, glm::dvec3(0, 2, 0));
+    rig.add(swapped ? "middle" : "end", 1, glm::dvec3(0, 4, 0));
+    return rig;
+}
+
+/// Each joint bends by another angle.
+osgSkin::Clip bentMotion() {
+    osgSkin::Clip clip;
+    clip.frameTime = 0.1;
+    clip.frames = 2;
+    clip.joints = 3;
+    for (std::size_t f = 0; f < clip.frames; ++f) {
+        for (const double angle : {0.1, 0.4, 0.9})
+            clip.rotations.push_back(glm::angleAxis(angle, glm::dvec3(1, 0, 0)));
+        clip.rootPositions.emplace_back(0, 0, 0);
+    }
+    return clip;
+}
+
+osg::ref_ptr<const SampledClip> bentClip(bool swapped) {
+    return SampledClip::create(bentMotion(), namedRig(swapped));
+}
+
+std::vector<osg::Vec3> skinPosedBy(ClipPlayer& player, const DeformableSkin& skin) {
+    EXPECT_TRUE(player.pose());
+    return static_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray())
+        .asVector();
+}
+
+/// What a player shows that has never played anything else.
+std::vector<osg::Vec3> posedAfresh(const osg::ref_ptr<const osgSkin::SkinModel>& model,
+                                   const osg::ref_ptr<const SampledClip>& clip) {
+    const auto skin = test::makeSkin();
+    skin->setSkin(test::makeGeometry(test::Tube()), model);
+    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    player->addSkin(skin);
+    player->setTrack(0, {clip});
+    return skinPosedBy(*player, *skin);
+}
+
+osg::ref_ptr<const osgSkin::SkinModel> modelWithOtherNames() {
+    test::Tube tube;
+    std::swap(tube.binding.joints[1].name, tube.binding.joints[2].name);
+    return tube.model();
+}
+
+} // namespace
+
+/// Memory is given out again: a new clip may stand where another one stood.
+TEST(ClipTrust, AClipIsNotItsAddress) {
+    const auto skin = test::makeSkin();
+    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    player->addSkin(skin);
+    osg::ref_ptr<const SampledClip> clip = bentClip(false);
+    player->setTrack(0, {clip});
+    const std::vector<osg::Vec3> before = skinPosedBy(*player, *skin);
+    const void* const place = clip.get();
+    player->setTrack(0, {});
+    EXPECT_FALSE(player->pose()); // nothing plays
+    clip = nullptr;
+    std::vector<osg::ref_ptr<const SampledClip>> others;
+    do others.push_back(bentClip(true));
+    while (others.back() != place && others.size() < 3000);
+    player->setTrack(0, {others.back()});
+    EXPECT_EQ(skinPosedBy(*player, *skin), posedAfresh(skin->getModel(), others.back()));
+    EXPECT_NE(skinPosedBy(*player, *skin), before);
+    RecordProperty("clipsUntilThen", static_cast<int>(others.size()));
+}
+
+TEST(ClipTrust, ASkinMayGetItsModelLater) {
+    const osg::ref_ptr<DeformableSkin> skin = new DeformableSkin;
+    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    player->addSkin(skin);
+    player->setTrack(0, {bentClip(false)});
+    EXPECT_FALSE(player->pose());
+    skin->setSkin(test::makeGeometry(test::Tube()), test::Tube().model());
+    EXPECT_EQ(skinPosedBy(*player, *skin), posedAfresh(skin->getModel(), bentClip(false)));
+    skin->setSkin(test::makeGeometry(test::Tube()), modelWithOtherNames());
+    EXPECT_EQ(skinPosedBy(*player, *skin), posedAfresh(skin->getModel(), bentClip(false)));
+}
+
+/// What was baked is of the model that the character had then.
+TEST(ClipTrust, ABakedSkinMayGetAnotherModel) {
+    const auto skeleton = test::makeBones();
+    skeleton->addChild(test::makeSkin());
+    const auto character = osgSkin::ClipCharacter::create(*skeleton);
+    const auto clip = bentClip(false);
+    character->bake(clip);
+    const auto copy = character->makeInstance(false);
+    auto& skin = dynamic_cast<DeformableSkin&>(*copy.node->getChild(0)->asGroup()->getChild(0));
+    copy.player->setTrack(0, {clip});
+    EXPECT_EQ(skinPosedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
+    skin.setSkin(test::makeGeometry(test::Tube()), modelWithOtherNames());
+    EXPECT_EQ(skinPosedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
+}
+
+TEST(ClipTrust, NothingIsNotAdded) {
+    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    player->addSkin(nullptr);
+    player->addRigid(nullptr, "root", osg::Matrixd());
+    player->setTrack(0, {bentClip(false)});
+    EXPECT_TRUE(player->pose());
+}
+
+TEST(ClipTrust, ABakeThatFailsLeavesAllAsItWas) {
+    const auto skeleton = test::makeBones();
+    skeleton->addChild(test::makeSkin());
+    const auto character = osgSkin::ClipCharacter::create(*skeleton);
+    osgSkin::Clip bad = bentMotion();
+    bad.rotations.back().w = std::nan(""); // of the last sample
+    EXPECT_THROW(character->bake(SampledClip::create(bad, namedRig(false))), osgSkin::Error);
+    EXPECT_FALSE(character->bakedBounds().valid());
+    character->bake(bentClip(false));
+    EXPECT_TRUE(character->bakedBounds().valid());
+}
+
+/// A key that stands at the end of all times must not fill the memory.
+TEST(ClipTrust, EndlessClipsAreNotSampled) {
+    osgSkin::Clip slow = bentMotion();
+    slow.frameTime = 1e12;
+    const auto animation = osgSkin::makeAnimation(slow, namedRig(false));
+    const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
+    EXPECT_THROW(SampledClip::create(*animation, *skeleton), osgSkin::Error);
+    slow.frameTime = 0.1;
+    const auto good = osgSkin::makeAnimation(slow, namedRig(false));
+    EXPECT_THROW(SampledClip::create(*good, *skeleton, 1e300), osgSkin::Error);
+    EXPECT_EQ(SampledClip::create(*good, *skeleton, 10.0)->sampleCount(), 2u);
+}
