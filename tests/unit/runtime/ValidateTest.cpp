@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Error>
+#include <osgSkinRig/Prop>
 #include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/Retarget>
 #include <osgSkinRig/SkinMesh>
 
 #include "Tube.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace {
@@ -59,6 +62,47 @@ TEST(RestSkeleton, KnowsItsTree) {
     EXPECT_TRUE(skeleton.isInSubtree(2, 1));
     EXPECT_TRUE(skeleton.isInSubtree(2, 2));
     EXPECT_FALSE(skeleton.isInSubtree(3, 1));
+}
+
+TEST(Motion, WhatIsNotWholeIsRefused) {
+    osgSkin::Motion good;
+    good.name = "wave";
+    good.skeleton.add("a", -1, glm::dvec3(0, 1, 0));
+    good.skeleton.add("b", 0, glm::dvec3(0, 2, 0));
+    good.frameTime = 0.1;
+    const std::vector<glm::dquat> still(2, glm::dquat(1, 0, 0, 0));
+    for (int f = 0; f < 3; ++f) good.addFrame(glm::dvec3(0, 1, 0), still);
+    ASSERT_EQ(complaint(good), "");
+    struct Case {
+        const char* name;
+        void (*spoil)(osgSkin::Motion&);
+        const char* names;
+    };
+    const Case cases[] = {
+        {"skeleton", [](osgSkin::Motion& m) { m.skeleton.joints[1].parent = 1; }, "\"b\""},
+        {"no frame", [](osgSkin::Motion& m) { m.frames = 0; }, "no frame"},
+        {"no time", [](osgSkin::Motion& m) { m.frameTime = 0.0; }, "frame time"},
+        {"time", [](osgSkin::Motion& m) { m.frameTime = kNan; }, "frame time"},
+        {"endless", [](osgSkin::Motion& m) { m.frameTime = HUGE_VAL; }, "frame time"},
+        {"more frames", [](osgSkin::Motion& m) { m.frames = 4; }, "do not fit 4"},
+        {"fewer roots", [](osgSkin::Motion& m) { m.rootPositions.pop_back(); }, "do not fit"},
+        {"fewer turns", [](osgSkin::Motion& m) { m.rotations.pop_back(); }, "do not fit"},
+        {"root", [](osgSkin::Motion& m) { m.rootPositions[2].x = kNan; }, "frame 2: the root"},
+        {"far", [](osgSkin::Motion& m) { m.rootPositions[1].y = 1e300; }, "frame 1: the root"},
+        {"turn", [](osgSkin::Motion& m) { m.rotations[3].w = kNan; }, "frame 1: joint \"b\""},
+        {"longer", [](osgSkin::Motion& m) { m.rotations[4].w = 2.0; }, "frame 2: joint \"a\""},
+    };
+    for (const Case& c : cases) {
+        osgSkin::Motion motion = good;
+        c.spoil(motion);
+        EXPECT_NE(complaint(motion).find(c.names), std::string::npos)
+            << c.name << ": " << complaint(motion);
+        osgSkin::RetargetReport report;
+        EXPECT_THROW(osgSkin::retarget(motion, good.skeleton, {}, &report), osgSkin::Error);
+        const osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+        EXPECT_THROW(osgSkin::makeProp("ball", {}, motion, report, *animation), osgSkin::Error);
+        EXPECT_TRUE(animation->getChannels().empty());
+    }
 }
 
 TEST(SkinMesh, ValidateNamesThePlace) {

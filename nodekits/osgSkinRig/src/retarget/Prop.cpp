@@ -32,6 +32,7 @@ osg::ref_ptr<osg::MatrixTransform> makeProp(const std::string& name,
                                             const std::vector<MeshPart>& parts,
                                             const Motion& motion, const RetargetReport& report,
                                             osgAnimation::Animation& animation) {
+    motion.validate();
     osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
     node->setName(name);
     node->setDataVariance(osg::Object::DYNAMIC);
@@ -45,9 +46,9 @@ osg::ref_ptr<osg::MatrixTransform> makeProp(const std::string& name,
     for (const MeshPart& part : parts) node->addChild(part.geometry);
 
     const Clip clip = inSkeletonSpace(motion, report);
-    if (clip.frames > 0) // where it is before the first update
-        node->setMatrix(osg::Matrix::rotate(toOsg(clip.rotations[0])) *
-                        osg::Matrix::translate(toOsg(clip.rootPositions[0])));
+    // Where it is before the first update.
+    node->setMatrix(osg::Matrix::rotate(toOsg(clip.rotations[0])) *
+                    osg::Matrix::translate(toOsg(clip.rootPositions[0])));
     for (const auto& channel : {rootChannel(clip), rotationChannel(clip, 0)}) {
         channel->setTargetName(name);
         animation.addChannel(channel);

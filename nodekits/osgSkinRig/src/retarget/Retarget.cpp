@@ -158,7 +158,7 @@ Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& ma
 Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptions& options,
               RetargetReport* report) {
     rig.validate();
-    motion.skeleton.validate();
+    motion.validate();
     const JointPairs map = mapJoints(rig, motion.skeleton, options);
     const StandingPose pose = findStandingPose(motion, rig, map.motionJoint, map.rig, map.motion);
     Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, report)
