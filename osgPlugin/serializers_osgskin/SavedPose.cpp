@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr double kLargestScale = 1e6;   ///< its inverse is the smallest
+constexpr double kLargestScale = 1e9;   ///< its inverse is the smallest, as in Pose::set()
 constexpr double kLargestNumber = 1e18; ///< its square is a float still
 
 } // namespace
