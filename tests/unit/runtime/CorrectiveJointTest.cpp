@@ -116,6 +116,7 @@ TEST(Correctives, AreRefusedWithAReason) {
         {"two inputs", [](auto& c) { c.inputs.push_back(c.inputs.front()); }},
         {"each mode and function", [](auto& c) { c.joints[0].coefficients.pop_back(); }},
         {"not finite", [](auto& c) { c.joints[0].coefficients[0] = std::nan(""); }},
+        {"beyond", [](auto& c) { c.joints[0].coefficients[0] = -1e30; }},
         {"scale of normals", [](auto& c) { c.joints[0].normalScales = {1.0}; }},
         {"offsets", [](auto& c) { c.firstEntry.pop_back(); }},
         {"no joint's modes", [](auto& c) { c.entries[0].joint = 7; }},

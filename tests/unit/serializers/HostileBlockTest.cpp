@@ -20,7 +20,9 @@ using Words = std::vector<std::uint32_t>;
 // Where things stand in the tube's block: joint 0 is "root", one word of name.
 constexpr std::size_t kJoints = 1, kParent = 2, kNameSize = 3, kCentre = 5, kBoneAxis = 11;
 constexpr std::uint32_t kNan = 0x7fc00000u;
-constexpr std::uint32_t kTwo = 0x40000000u; // 2.0f
+constexpr std::uint32_t kTwo = 0x40000000u;  // 2.0f
+constexpr std::uint32_t kHuge = 0x7f7fffffu; // 3.4e38f
+constexpr std::uint32_t kThousand = 0x447a0000u;
 
 std::size_t vertexCountAt() {
     return 2 + 20 + 1 + 20 + 2 + 20 + 1; // "root", "middle", "end"
@@ -59,6 +61,10 @@ const std::vector<BadBlock> kBad = {
     {"PositionNan", "position that is not finite", [](Words& w) { w[vertexCountAt() + 1] = kNan; }},
     {"NormalInfinite", "normal that is not finite",
      [](Words& w) { w[influencesAt(w) - 1] = 0x7f800000u; }},
+    {"PositionHuge", "position that is not finite, or beyond",
+     [](Words& w) { w[vertexCountAt() + 1] = kHuge; }},
+    {"NormalLong", "normal that is not finite, or longer than 10",
+     [](Words& w) { w[influencesAt(w) - 1] = kThousand; }},
     {"NoInfluence", "", [](Words& w) { w[influencesAt(w)] = 0; }},
     {"ManyInfluences", "influences have no room",
      [](Words& w) { w[influencesAt(w)] = 0x55555556u; }},

@@ -36,8 +36,10 @@ double clampedAlone(double x, double low, double high) noexcept {
     return softClamp(shareOf(x, low, high)) * (x > 0.0 ? high : low);
 }
 
-bool areFinite(const std::vector<double>& numbers) {
-    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+/// False for NaN.
+bool areInRange(const std::vector<double>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(),
+                       [](double x) { return std::abs(x) <= kLargestCoordinate; });
 }
 
 void checkKnots(const CorrectiveJoint& joint, const std::string& place) {
@@ -100,8 +102,8 @@ void checkJoint(const CorrectiveJoint& joint, const Correctives& correctives,
         throw Error(place + " need a coefficient for each mode and function");
     if (joint.normalScales.size() != (hasNormals ? joint.modes : 0))
         throw Error(place + " need a scale of normals for each mode, or none of them");
-    if (!areFinite(joint.coefficients) || !areFinite(joint.normalScales))
-        throw Error(place + " have a coefficient that is not finite");
+    if (!areInRange(joint.coefficients) || !areInRange(joint.normalScales))
+        throw Error(place + " have a coefficient that is not finite, or beyond -1e18 to 1e18");
 }
 
 } // namespace

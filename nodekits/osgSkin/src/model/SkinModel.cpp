@@ -10,6 +10,8 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 
+#include <glm/geometric.hpp>
+
 namespace osgSkin {
 namespace {
 
@@ -28,10 +30,21 @@ void addRatios(const VertexGroups& vertices, const VertexGroups::Group& group,
     }
 }
 
-void checkSizes(const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
-                const std::vector<std::uint32_t>& source) {
+/// Products of longer normals leave single precision.
+constexpr float kLongestNormal = 10.0f;
+
+/// Written so that NaN is refused.
+void checkVertices(const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
+                   const std::vector<std::uint32_t>& source) {
     if (positions.size() != source.size() || normals.size() != source.size())
         throw Error("skin model: expected one position, one normal and one source per vertex");
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        const bool isPlace = isInRange(positions[v]);
+        if (isPlace && glm::length(normals[v]) <= kLongestNormal) continue;
+        throw Error("skin model: vertex " + std::to_string(v) +
+                    (isPlace ? " has a normal that is not finite, or longer than 10"
+                             : " has a position that is not finite, or beyond -1e18 to 1e18"));
+    }
 }
 
 std::vector<glm::vec3> gather(const std::vector<glm::vec3>& vectors,
@@ -73,7 +86,7 @@ osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
                                                 std::vector<glm::vec3> positions,
                                                 std::vector<glm::vec3> normals,
                                                 const std::vector<std::uint32_t>& source) {
-    checkSizes(positions, normals, source);
+    checkVertices(positions, normals, source);
     const osg::ref_ptr<SkinModel> model =
         arrange(VertexGroups(binding, source), std::move(positions), std::move(normals));
     model->_boundsProxy = makeBoundsProxy(*model);
@@ -95,7 +108,7 @@ SkinModel::Ordered SkinModel::createInBestOrder(const Binding& binding,
                                                 const std::vector<glm::vec3>& positions,
                                                 const std::vector<glm::vec3>& normals,
                                                 const std::vector<std::uint32_t>& source) {
-    checkSizes(positions, normals, source);
+    checkVertices(positions, normals, source);
     VertexGroups vertices(binding, source);
     const std::vector<std::uint32_t> order = vertices.order();
     vertices.reorder();

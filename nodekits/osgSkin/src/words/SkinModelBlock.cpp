@@ -6,19 +6,13 @@
 #include "model/SkinModelAccess.h"
 #include "words/CorrectivesWords.h"
 
-#include <cmath>
-
 namespace osgSkin {
 namespace {
 
-std::vector<glm::vec3> readVectors(WordReader& in, std::uint32_t count, const char* what) {
+std::vector<glm::vec3> readVectors(WordReader& in, std::uint32_t count) {
     std::vector<glm::vec3> vectors(count);
-    for (std::uint32_t v = 0; v < count; ++v)
-        for (glm::length_t axis = 0; axis < 3; ++axis) {
-            vectors[v][axis] = in.real();
-            if (!std::isfinite(vectors[v][axis]))
-                in.fail("vertex " + std::to_string(v) + " has a " + what + " that is not finite");
-        }
+    for (glm::vec3& vector : vectors)
+        for (glm::length_t axis = 0; axis < 3; ++axis) vector[axis] = in.real();
     return vectors;
 }
 
@@ -137,8 +131,8 @@ osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& 
     for (std::uint32_t j = 0; j < joints; ++j) binding.joints.push_back(readJoint(in));
     const std::uint32_t vertices = in.count("vertices", 10);
     if (vertices == 0) in.fail("it has no vertex");
-    std::vector<glm::vec3> positions = readVectors(in, vertices, "position");
-    std::vector<glm::vec3> normals = readVectors(in, vertices, "normal");
+    std::vector<glm::vec3> positions = readVectors(in, vertices);
+    std::vector<glm::vec3> normals = readVectors(in, vertices);
     std::vector<std::uint32_t> source;
     binding.firstInfluence.push_back(0);
     for (std::uint32_t v = 0; v < vertices; ++v) {
@@ -162,7 +156,7 @@ osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& 
     }
     if (version == 2) binding.correctives = takeCorrectives(in, vertices);
     if (!in.atEnd()) in.fail("there is more in it than a model");
-    // Indices, ratios, axes and the tree of joints are checked there.
+    // Numbers, indices, ratios, axes and the tree of joints are checked there.
     return SkinModel::create(binding, std::move(positions), std::move(normals), source);
 }
 
