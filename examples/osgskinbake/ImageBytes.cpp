@@ -6,9 +6,11 @@
 #include <osgDB/Options>
 #include <osgDB/Registry>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <system_error>
 
 namespace bake {
 namespace {
@@ -23,6 +25,9 @@ std::optional<ImageBytes> readBytes(const osg::Image& image, const std::string& 
     options->getDatabasePathList().push_front(folder);
     ImageBytes result;
     result.file = osgDB::findDataFile(image.getFileName(), options);
+    // A scene may call a picture that stands in it as it likes, as a pipe or a device, too.
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(result.file, failure)) return std::nullopt;
     std::ifstream in(result.file, std::ios::binary);
     result.data.assign(std::istreambuf_iterator<char>(in), {});
     result.isJpeg = begins(result.data, "\xff\xd8\xff");

@@ -6,6 +6,7 @@
 #include <osgSkinImport/ImportMesh>
 
 #include <osg/AlphaFunc>
+#include <osg/Geode>
 #include <osg/Material>
 #include <osg/Texture2D>
 #include <osgDB/ReadFile>
@@ -14,9 +15,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace {
 
@@ -307,4 +314,40 @@ TEST(BakeMaterials, VertexColoursGoAlong) {
                 expectNear((*colours)[v], {0.25f, places[v].y() / 4.0f, 0.75f, 1.0f}, 0.0025f);
         }
     }
+}
+
+/// A picture that stands in a scene may be called as a pipe beside it is.
+TEST(BakeMaterials, NothingButFilesIsOpenedForTextures) {
+    const std::string folder = test::makeTestFolder();
+    texturedCharacter(folder, false);
+    const osgSkin::ImportedMesh body = osgSkin::importMesh(folder + "/body.obj");
+    const osg::ref_ptr<osg::Geode> scene = new osg::Geode;
+    for (const osgSkin::MeshPart& part : body.parts) scene->addDrawable(part.geometry);
+    auto& texture =
+        dynamic_cast<osg::Texture2D&>(*body.parts[0].geometry->getStateSet()->getTextureAttribute(
+            0, osg::StateAttribute::TEXTURE));
+    texture.getImage()->setFileName("pipe.png");
+    const osg::ref_ptr<osgDB::Options> inlined = new osgDB::Options("WriteImageHint=IncludeData");
+    ASSERT_TRUE(osgDB::writeNodeFile(*scene, folder + "/body.osgt", inlined));
+    nlohmann::json skin = test::readJson(folder + "/body.skin");
+    skin["mesh"] = "body.osgt";
+    std::ofstream(folder + "/body.skin") << skin;
+
+    const std::string pipe = folder + "/pipe.png";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::atomic<bool> baked{false}, wasOpened{false};
+    std::thread other([&] { // waits for whoever opens the pipe, who would wait for it
+        const int end = ::open(pipe.c_str(), O_WRONLY);
+        wasOpened = !baked;
+        ::close(end);
+    });
+    bake("body.skin --frames 0 --out baked.glb", folder);
+    baked = true;
+    const int end = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    other.join();
+    ::close(end);
+    EXPECT_FALSE(wasOpened);
+    const osgSkin::ImportedMesh after = osgSkin::importMesh(folder + "/baked.glb");
+    ASSERT_NE(textureOf(after.parts.at(0)), nullptr);
+    expectSamePixels(*textureOf(after.parts[0])->getImage(), *smallImage());
 }
