@@ -6,8 +6,11 @@
 #include <osgSkinImport/ImportMesh>
 
 #include <osg/Array>
+#include <osg/Material>
 
+#include <filesystem>
 #include <fstream>
+#include <vector>
 
 namespace {
 
@@ -78,4 +81,37 @@ TEST(MeshTrust, MissingMaterialsAreOneLine) {
     const test::Notices notices;
     osgSkin::importMesh(cube("unmade.obj", 1.0, "no_such.mtl"));
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
+}
+
+/// The colours of an OBJ mesh's parts, red, green and blue, in the order of its faces.
+static std::vector<osg::Vec4> coloursOf(const osgSkin::ImportedMesh& mesh) {
+    std::vector<osg::Vec4> result;
+    for (const osgSkin::MeshPart& part : mesh.parts)
+        result.push_back(
+            dynamic_cast<const osg::Material&>(
+                *part.geometry->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL))
+                .getDiffuse(osg::Material::FRONT));
+    return result;
+}
+
+TEST(MeshTrust, NamesOfMaterialsAndLibrariesMayHaveBlanks) {
+    const std::string folder = testing::TempDir() + "blanks/";
+    std::filesystem::create_directories(folder + "a b");
+    std::ofstream(folder + "a b/my looks.mtl")
+        << "newmtl skin\nKd 0 0 1\nnewmtl skin of the face\nKd 1 0 0\r\n"
+           "newmtl  skin of the hands \nKd 0 1 0\n";
+    for (const char* library :
+         {"a b/my looks.mtl", "a b\\my looks.mtl", " .\\a b\\my looks.mtl "}) {
+        std::ofstream(folder + "mesh.obj")
+            << "mtllib " << library
+            << "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl skin of the face\nf 1 2 3\n"
+               "usemtl skin of the hands\t\nf 1 2 3\nusemtl skin\nf 1 2 3\n";
+        const test::Notices notices;
+        const std::vector<osg::Vec4> colours = coloursOf(osgSkin::importMesh(folder + "mesh.obj"));
+        EXPECT_EQ(notices.text(), "");
+        ASSERT_EQ(colours.size(), 3u) << library;
+        EXPECT_EQ(colours[0], osg::Vec4(1, 0, 0, 1));
+        EXPECT_EQ(colours[1], osg::Vec4(0, 1, 0, 1));
+        EXPECT_EQ(colours[2], osg::Vec4(0, 0, 1, 1));
+    }
 }

@@ -3,6 +3,8 @@
 
 #include "text/FileText.h"
 
+#include <osgDB/FileNameUtils>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -28,6 +30,41 @@ std::string_view takeWord(std::string_view& line) {
     const std::string_view word = line.substr(0, line.find_first_of(" \t"));
     line.remove_prefix(word.size());
     return word;
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = std::min(text.size(), text.find_first_not_of(" \t"));
+    return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
+/// A material's name, which may have blanks: tinyobjloader would take a face's for the first word.
+std::string materialName(std::string_view rest) {
+    std::string name;
+    for (const char c : trimmed(rest).substr(0, kLongestName))
+        if (c == ' ' || c == '\t')
+            name += "\xc2\xa0"; // a blank that no word ends at
+        else
+            name += c;
+    return name;
+}
+
+/// The libraries that a line names, as tinyobjloader takes them apart: one, where there is a file
+/// of the whole name, with blanks or another system's separators.
+std::string libraryNames(std::string_view rest, const std::string& folder) {
+    const std::string name(trimmed(rest).substr(0, kLongestName));
+    for (const std::string& whole : {name, osgDB::convertFileNameToUnixStyle(name)}) {
+        if (!isRegularFile(folder.empty() || osgDB::isAbsolutePath(whole)
+                               ? whole
+                               : osgDB::concatPaths(folder, whole)))
+            continue;
+        std::string escaped;
+        for (const char c : whole) {
+            if (c == ' ' || c == '\\') escaped += '\\';
+            escaped += c;
+        }
+        return escaped;
+    }
+    return name;
 }
 
 /// Adds a number as it stands; one that tinyobjloader would overflow at as 0.
@@ -76,9 +113,10 @@ public:
         } else if (keyword == "f") {
             face(rest);
             keep(keyword, rest);
-        } else if (keyword == "usemtl" ||
-                   (keyword == "mtllib" && _libraries.emplace(rest).second)) {
-            keep(keyword, rest);
+        } else if (keyword == "usemtl") {
+            keep(keyword, ' ' + materialName(rest));
+        } else if (keyword == "mtllib" && !rest.empty() && _libraries.emplace(rest).second) {
+            keep(keyword, ' ' + libraryNames(rest, osgDB::getFilePath(_path)));
         }
     }
 
@@ -190,7 +228,10 @@ std::string checkMtl(std::string_view text) {
                 if (!parseNumber(word, value) || !std::isfinite(value)) value = 0.0;
                 addNumber(word, value, line);
             }
-            if (known.numbers == 0) line += rest.substr(0, kLongestName);
+            if (keyword == "newmtl")
+                line += ' ' + materialName(rest);
+            else if (known.numbers == 0)
+                line += rest.substr(0, kLongestName);
             if (known.numbers > 0 || !hasOverflow(rest)) checked += line + '\n';
         }
     });
