@@ -20,18 +20,25 @@ bool isInvertible(const aiMatrix4x4& matrix) {
     return std::isfinite(determinant) && determinant != 0.0f;
 }
 
+using Nodes = std::map<std::string, aiNode*>;
+
+/// A scene's nodes by their names; of those called alike, the first from the top.
+Nodes nodesOf(const aiScene& scene) {
+    Nodes nodes;
+    std::vector<aiNode*> open{scene.mRootNode};
+    while (!open.empty()) {
+        aiNode* node = open.back();
+        open.pop_back();
+        nodes.emplace(nameOf(*node), node);
+        open.insert(open.end(), node->mChildren, node->mChildren + node->mNumChildren);
+    }
+    return nodes;
+}
+
 /// A mesh's bones without a node, and how much each shares with bones that have one.
 class MissingBones {
 public:
-    MissingBones(aiScene& scene, const aiMesh& mesh) : _weightsOf(mesh.mNumVertices) {
-        std::map<std::string, aiNode*> nodes;
-        std::vector<aiNode*> open{scene.mRootNode};
-        while (!open.empty()) {
-            aiNode* node = open.back();
-            open.pop_back();
-            nodes.emplace(nameOf(*node), node);
-            open.insert(open.end(), node->mChildren, node->mChildren + node->mNumChildren);
-        }
+    MissingBones(const Nodes& nodes, const aiMesh& mesh) : _weightsOf(mesh.mNumVertices) {
         for (unsigned b = 0; b < mesh.mNumBones; ++b) {
             const aiBone& bone = *mesh.mBones[b];
             if (!isInvertible(bone.mOffsetMatrix)) continue;
@@ -106,8 +113,10 @@ private:
 } // namespace
 
 void addMissingBones(aiScene& scene, const std::string& path) {
+    Nodes nodes = nodesOf(scene);
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-        MissingBones missing(scene, *scene.mMeshes[m]);
+        if (scene.mMeshes[m]->mNumBones == 0) continue;
+        MissingBones missing(nodes, *scene.mMeshes[m]);
         aiNode* parent = nullptr;
         const aiBone* above = nullptr;
         while (const aiBone* bone = missing.next(parent, above)) {
@@ -116,6 +125,7 @@ void addMissingBones(aiScene& scene, const std::string& path) {
             aiMatrix4x4 bind = bone->mOffsetMatrix;
             node->mTransformation = above->mOffsetMatrix * bind.Inverse();
             parent->addChildren(1, &node);
+            nodes.emplace(nameOf(*node), node);
             missing.found(node);
             OSG_NOTICE << path << ": bone \"" << nameOf(*bone)
                        << "\" has weights and no place in the skeleton; it follows \""

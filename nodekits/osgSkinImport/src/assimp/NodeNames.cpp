@@ -55,14 +55,14 @@ void separateNames(aiScene& scene, const std::string& path) {
     NodesOfName nodes = nodesOf(scene);
     if (osgDB::getLowerCaseFileExtension(path) == "fbx")
         for (const std::string& bone : boneNames(scene)) exchangeWithTwin(bone, nodes);
-    std::set<std::string> taken;
-    for (const auto& [name, same] : nodes) taken.insert(name);
+    UniqueNames taken;
+    for (const auto& [name, same] : nodes) taken.take(name);
     for (auto& [name, same] : nodes) {
         const auto meant = std::find_if(same.begin(), same.end(),
                                         [](const aiNode* node) { return node->mNumMeshes == 0; });
         const aiNode* keeper = meant == same.end() ? same.front() : *meant;
         for (aiNode* node : same)
-            if (node != keeper) node->mName = uniqueName(name, taken);
+            if (node != keeper) node->mName = taken.unique(name);
     }
 }
 

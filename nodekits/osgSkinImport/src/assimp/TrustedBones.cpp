@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace osgSkin {
 namespace {
@@ -45,20 +46,52 @@ std::vector<Seat> seatsOf(const aiMesh& mesh, const SceneBind& bind) {
     return result;
 }
 
-bool isAbove(const aiNode* above, const aiNode* node, const SceneBind& bind) {
-    while (node != nullptr && node != above) node = bind.parent(*node);
-    return node != nullptr;
-}
+/// The weighted bones, found from any node.
+class Neighbours {
+public:
+    Neighbours(const std::vector<Seat>& weighted, const SceneBind& bind)
+        : _weighted(weighted), _bind(bind) {
+        for (const Seat& seat : weighted) {
+            _at.emplace(seat.node, &seat);
+            // Above a node that is reached all are.
+            for (const aiNode* node = seat.node;
+                 node != nullptr && _firstBelow.emplace(node, &seat).second;)
+                node = bind.parent(*node);
+        }
+    }
 
-/// Of the weighted bones the next one above, else the first one below, else the first one.
-const Seat& neighbour(const Seat& bone, const std::vector<Seat>& weighted, const SceneBind& bind) {
-    for (const aiNode* node = bind.parent(*bone.node); node != nullptr; node = bind.parent(*node))
-        for (const Seat& other : weighted)
-            if (other.node == node) return other;
-    for (const Seat& other : weighted)
-        if (isAbove(bone.node, other.node, bind)) return other;
-    return weighted.front();
-}
+    /// Of the weighted bones the next one above, else the first one below, else the first one.
+    const Seat& of(const Seat& bone) {
+        if (const Seat* above = nextAbove(_bind.parent(*bone.node))) return *above;
+        const auto below = _firstBelow.find(bone.node);
+        return below != _firstBelow.end() ? *below->second : _weighted.front();
+    }
+
+private:
+    /// A weighted bone at `node`, or the next one above; what is found is kept for all on the way.
+    const Seat* nextAbove(const aiNode* node) {
+        std::vector<const aiNode*> way;
+        const Seat* result = nullptr;
+        for (; node != nullptr; node = _bind.parent(*node)) {
+            const auto known = _above.find(node);
+            if (known != _above.end()) {
+                result = known->second;
+                break;
+            }
+            way.push_back(node);
+            const auto here = _at.find(node);
+            if (here == _at.end()) continue;
+            result = here->second;
+            break;
+        }
+        for (const aiNode* passed : way) _above[passed] = result;
+        return result;
+    }
+
+    const std::vector<Seat>& _weighted;
+    const SceneBind& _bind;
+    std::unordered_map<const aiNode*, const Seat*> _at, _firstBelow, _above;
+};
 
 bool agrees(const Seat& bone, const Seat& other, double size, const SceneBind& bind) {
     if (std::abs(bone.size() - size) > kSize * size) return false;
@@ -89,10 +122,11 @@ std::vector<const aiBone*> trustedBones(const aiMesh& mesh, const SceneBind& bin
         std::nth_element(sizes.begin(), middle, sizes.end());
         size = *middle;
     }
+    Neighbours neighbours(weighted, bind);
     std::vector<const aiBone*> result;
     for (const Seat& seat : seats)
         if (weighted.empty() || isWeighted(*seat.bone) ||
-            agrees(seat, neighbour(seat, weighted, bind), size, bind))
+            agrees(seat, neighbours.of(seat), size, bind))
             result.push_back(seat.bone);
     return result;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 namespace osgSkin {
@@ -130,6 +131,28 @@ private:
         }
     }
 
+    void countTargets(const json& mesh) {
+        std::size_t most = 0, all = 0;
+        for (const json& primitive : mesh.at("primitives")) {
+            const auto found = primitive.find("targets");
+            if (found == primitive.end()) continue;
+            most = std::max(most, found->size());
+            all += found->size();
+        }
+        _targets.push_back(most);
+        _allTargets.push_back(all);
+    }
+
+    /// Drops weights that no target of a mesh or node goes by.
+    static void cutWeights(std::size_t targets, json& part) {
+        const auto found = part.find("weights");
+        if (found == part.end() || found->size() <= targets) return;
+        if (targets == 0)
+            part.erase(found);
+        else
+            found->get_ref<json::array_t&>().resize(targets);
+    }
+
     void addMeshes(json& result) {
         _parts.forEach("meshes", [&](const json& from, const std::string& where) {
             json mesh = {{"primitives", json::array()}};
@@ -144,6 +167,8 @@ private:
                              mesh["primitives"]);
             if (mesh["primitives"].empty())
                 _parts.fail(where + ".primitives", "at least one with positions");
+            countTargets(mesh);
+            cutWeights(_targets.back(), mesh);
             _primitives.push_back(mesh["primitives"].size());
             _parts.addEntries(mesh["primitives"].size());
             result["meshes"].push_back(mesh);
@@ -163,6 +188,7 @@ private:
                 const std::size_t accessor = _parts.accessor(from.at("inverseBindMatrices"), place);
                 _parts.requireType(accessor, {"MAT4"}, place);
                 skin["inverseBindMatrices"] = accessor;
+                _parts.take(4 * _parts.count(accessor), place); // 16 numbers each
             }
             _joints.push_back(joints.size());
             _parts.addEntries(joints.size());
@@ -183,8 +209,11 @@ private:
             _parts.copyWeights(from, where, node);
             if (from.contains("mesh"))
                 node["mesh"] = _parts.indexOf(from.at("mesh"), "meshes", where + ".mesh");
+            cutWeights(node.contains("mesh") ? _targets[node["mesh"].get<std::size_t>()] : 0, node);
             // Every node that shows a mesh makes a copy of it.
             if (node.contains("mesh")) {
+                if (!_shown.insert(node["mesh"].get<std::size_t>()).second)
+                    _parts.addEntries(_allTargets[node["mesh"].get<std::size_t>()]);
                 _parts.take(_elements[node["mesh"].get<std::size_t>()], where + ".mesh");
                 _parts.addEntries(_primitives[node["mesh"].get<std::size_t>()]);
             }
@@ -292,6 +321,9 @@ private:
 
     GltfParts _parts;
     std::vector<std::size_t> _primitives, _elements; ///< of each mesh
+    std::vector<std::size_t> _targets;               ///< of each mesh: the most of a primitive
+    std::vector<std::size_t> _allTargets;            ///< of each mesh: those of all primitives
+    std::set<std::size_t> _shown;                    ///< meshes, by the nodes so far
     std::vector<std::size_t> _joints;                ///< of each skin
     std::vector<std::ptrdiff_t> _above;              ///< each node's parent
 };

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <set>
 #include <vector>
 
 namespace osgSkin {
@@ -53,18 +52,18 @@ void nameNodes(GltfFile& file) {
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
-    std::set<std::string> taken;
+    UniqueNames taken;
     std::vector<std::size_t> twins;
     for (const std::size_t n : order) {
         const std::string name = givenName(nodes[n], n);
-        if (taken.insert(name).second)
+        if (taken.take(name))
             nodes[n]["name"] = name;
         else
             twins.push_back(n);
     }
     std::vector<std::string> renamed;
     for (const std::size_t n : twins) {
-        nodes[n]["name"] = uniqueName(givenName(nodes[n], n), taken);
+        nodes[n]["name"] = taken.unique(givenName(nodes[n], n));
         if (ranks[n] == 0) renamed.push_back(nodes[n]["name"].get<std::string>());
     }
     if (!renamed.empty())
@@ -73,7 +72,7 @@ void nameNodes(GltfFile& file) {
     if (!file.json.contains("scenes")) return;
     for (json& scene : file.json.at("scenes")) {
         if (scene.value("nodes", json::array()).size() < 2) continue;
-        nodes.push_back({{"name", uniqueName("scene", taken)}, {"children", scene.at("nodes")}});
+        nodes.push_back({{"name", taken.unique("scene")}, {"children", scene.at("nodes")}});
         scene["nodes"] = json::array({nodes.size() - 1});
     }
 }

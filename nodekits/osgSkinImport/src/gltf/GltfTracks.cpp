@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -149,9 +150,13 @@ void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
     }
     if (morphs)
         OSG_NOTICE << file.path << ": morph targets are animated, which is not played" << std::endl;
-    for (std::size_t a = animations->size(); a-- > 0;)
-        if (animations->at(a).at("channels").empty()) animations->erase(a);
-    if (animations->empty()) file.json.erase("animations");
+    json kept = json::array();
+    for (json& animation : *animations)
+        if (!animation.at("channels").empty()) kept.push_back(std::move(animation));
+    if (kept.empty())
+        file.json.erase("animations");
+    else
+        *animations = std::move(kept);
 }
 
 } // namespace osgSkin

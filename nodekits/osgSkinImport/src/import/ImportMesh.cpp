@@ -11,6 +11,8 @@
 
 #include <osgDB/FileNameUtils>
 
+#include <utility>
+
 namespace osgSkin {
 namespace {
 
@@ -27,7 +29,9 @@ CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
 } // namespace
 
 ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) {
-    return finishMesh(readMesh(path, options), path);
+    CornerMesh read = readMesh(path, options);
+    checkMaterials(read, path, ReadLimits::of(options));
+    return finishMesh(std::move(read), path);
 }
 
 } // namespace osgSkin

@@ -12,6 +12,8 @@
 #include <osg/Math>
 #include <osgDB/FileNameUtils>
 
+#include <utility>
+
 namespace osgSkin {
 namespace {
 
@@ -61,7 +63,9 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     if (!isRigged(scene)) failFile(path, "no mesh with bones, expected a rigged character");
 
     ImportedRig result;
-    result.body = finishMesh(readSceneMesh(scene, path, options), path);
+    CornerMesh body = readSceneMesh(scene, path, options);
+    checkMaterials(body, path, limits);
+    result.body = finishMesh(std::move(body), path);
     const SceneSkeleton joints = readSceneSkeleton(scene, path, limits);
     result.rest = joints.rest;
     result.skeleton = makeBones(joints, movedJoints(scene, joints));

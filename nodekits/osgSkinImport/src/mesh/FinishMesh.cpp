@@ -12,10 +12,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
+#include <system_error>
 #include <utility>
 
 namespace osgSkin {
 namespace {
+
+constexpr std::size_t kSamplesOfMaterial = 500; ///< what is drawn by itself takes 50 kilobytes
 
 /// Makes all normals unit vectors; false where some are missing.
 bool normalise(std::vector<glm::vec3>& normals) {
@@ -28,6 +33,16 @@ bool normalise(std::vector<glm::vec3>& normals) {
 }
 
 } // namespace
+
+void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits) {
+    std::error_code failure;
+    const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(path, failure));
+    const std::size_t most = limits.samplesOf(failure ? 0 : bytes) / kSamplesOfMaterial;
+    const std::set<std::uint32_t> used(mesh.materials.begin(), mesh.materials.end());
+    if (used.size() > most)
+        failFile(path, std::to_string(used.size()) + " materials, expected at most " +
+                           std::to_string(most) + " (option maxSamples)");
+}
 
 ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
     if (read.mesh.faceSizes.empty()) failFile(path, "no face, expected at least one");

@@ -5,10 +5,15 @@
 #include "mesh/CornerMesh.h"
 
 #include <osgSkinImport/ImportedMesh>
+#include <osgSkinImport/ReadLimits>
 
 #include <string>
 
 namespace osgSkin {
+
+/// Each material that faces have becomes a drawable of its own, whatever bytes name it.
+/// \throw osgSkin::Error where there are more than a file of this size may have
+void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits);
 
 /// Checks a mesh as a whole, completes its normals and makes its parts.
 /// \throw osgSkin::Error with the file and the place in it

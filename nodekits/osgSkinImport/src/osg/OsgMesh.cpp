@@ -16,6 +16,9 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -153,22 +156,29 @@ private:
             _result.colours.resize(_result.normals.size(), glm::vec4(1.0f));
     }
 
-    /// The state that all nodes down to this one set together.
+    /// The state that all nodes down to this one set together; the same for all below the same.
     std::uint32_t materialHere(bool coloured) {
+        std::vector<const osg::StateSet*> states;
+        for (const osg::Node* node : getNodePath())
+            if (node->getStateSet() != nullptr) states.push_back(node->getStateSet());
+        const auto [entry, isNew] = _materials.emplace(
+            std::make_pair(states, coloured), static_cast<std::uint32_t>(_result.stateSets.size()));
+        if (!isNew) return entry->second;
         osg::ref_ptr<osg::StateSet> merged;
-        for (const osg::Node* node : getNodePath()) {
-            if (node->getStateSet() == nullptr) continue;
+        for (const osg::StateSet* state : states) {
             if (!merged) merged = new osg::StateSet;
-            merged->merge(*node->getStateSet());
+            merged->merge(*state);
         }
         Material material;
         material.vertexColours = coloured;
         _result.stateSets.push_back(merged.valid() ? merged : makeStateSet(material));
-        return static_cast<std::uint32_t>(_result.stateSets.size() - 1);
+        return entry->second;
     }
 
     const std::string& _path;
     CornerMesh& _result;
+    /// By the states down to a geometry, and whether it has colours.
+    std::map<std::pair<std::vector<const osg::StateSet*>, bool>, std::uint32_t> _materials;
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <set>
 
 namespace osgSkin {
@@ -12,11 +13,11 @@ namespace osgSkin {
 std::vector<std::string> clipNames(const aiScene& scene) {
     std::vector<std::string> result;
     std::set<std::string> taken;
+    std::map<std::string, int> copies; // of each name that several have
     for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
         const std::string given = scene.mAnimations[a]->mName.C_Str();
         std::string name = given.empty() ? "clip" + std::to_string(a) : given;
-        for (int copy = 2; !taken.insert(name).second; ++copy)
-            name = given + " " + std::to_string(copy);
+        while (!taken.insert(name).second) name = given + " " + std::to_string(1 + ++copies[given]);
         result.push_back(name);
     }
     return result;

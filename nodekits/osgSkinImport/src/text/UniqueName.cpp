@@ -3,13 +3,15 @@
 
 namespace osgSkin {
 
-std::string uniqueName(const std::string& wanted, std::set<std::string>& taken) {
-    std::string name = wanted;
-    for (int copy = 1; !taken.insert(name).second; ++copy) {
-        const std::string digits = std::to_string(copy);
-        name = wanted + "." + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits;
+std::string UniqueNames::unique(const std::string& wanted) {
+    if (take(wanted)) return wanted;
+    for (int& copy = _copies[wanted];;) {
+        const std::string digits = std::to_string(++copy);
+        const std::string padding(digits.size() < 3 ? 3 - digits.size() : 0, '0');
+        std::string name = wanted;
+        name += '.' + padding + digits;
+        if (take(name)) return name;
     }
-    return name;
 }
 
 } // namespace osgSkin
