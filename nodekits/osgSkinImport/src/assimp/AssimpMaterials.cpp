@@ -94,7 +94,7 @@ void addGltf(const aiMaterial& source, Material& material) {
 }
 
 Material readMaterial(const aiScene& scene, const aiMaterial& source, const std::string& path,
-                      const osgDB::Options* options, MissingTextures& missing) {
+                      const osgDB::Options* options, TextureReads& reads) {
     Material material;
     material.diffuse = colour(source, AI_MATKEY_COLOR_DIFFUSE, material.diffuse);
     material.specular = colour(source, AI_MATKEY_COLOR_SPECULAR, material.specular);
@@ -106,10 +106,9 @@ Material readMaterial(const aiScene& scene, const aiMaterial& source, const std:
     aiString name;
     if (source.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS) return material;
     const aiTexture* embedded = scene.GetEmbeddedTexture(name.C_Str());
-    if (embedded == nullptr)
-        material.image = readTexture(name.C_Str(), path, options, missing);
-    else if (!(material.image = embeddedImage(*embedded)).valid())
-        missing.add(name.C_Str());
+    material.image = embedded == nullptr
+                         ? readTexture(name.C_Str(), path, options, reads)
+                         : reads.once(name.C_Str(), [&] { return embeddedImage(*embedded); });
     material.wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE);
     material.wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE);
     return material;
@@ -121,9 +120,9 @@ AssimpMaterials::AssimpMaterials(const aiScene& scene, const std::string& path,
                                  const osgDB::Options* options) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         _hasColours = _hasColours || scene.mMeshes[m]->HasVertexColors(0);
-    MissingTextures missing(path);
+    TextureReads reads(path);
     for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
-        _materials.push_back(readMaterial(scene, *scene.mMaterials[m], path, options, missing));
+        _materials.push_back(readMaterial(scene, *scene.mMaterials[m], path, options, reads));
         _isLinear.push_back(isLinear(*scene.mMaterials[m]));
         int set = 0;
         scene.mMaterials[m]->Get(AI_MATKEY_UVWSRC_DIFFUSE(0), set);

@@ -47,6 +47,9 @@ public:
         _parts.checkAccessors(result);
         _parts.checkLooks(result);
         addMeshes(result);
+        // Assimp reads compressed meshes where the file says so, or says that it reads none.
+        for (const char* said : {"extensionsUsed", "extensionsRequired"})
+            if (_isCompressed) result[said] = json::array({"KHR_draco_mesh_compression"});
         addSkins(result);
         addNodes(result);
         addScenes(result);
@@ -95,7 +98,10 @@ private:
         if (from.contains("material"))
             primitive["material"] = _parts.indexOf(from.at("material"), "materials", where);
         _parts.addDraco(from, where, primitive);
-        if (!primitive.contains("extensions")) requireIndices(primitive, where);
+        if (primitive.contains("extensions"))
+            _isCompressed = true;
+        else
+            requireIndices(primitive, where);
         addTargets(from, vertices, where, primitive);
         _parts.take(vertices + corners, where);
         _elements.back() += vertices + corners;
@@ -324,6 +330,7 @@ private:
     std::vector<std::size_t> _targets;               ///< of each mesh: the most of a primitive
     std::vector<std::size_t> _allTargets;            ///< of each mesh: those of all primitives
     std::set<std::size_t> _shown;                    ///< meshes, by the nodes so far
+    bool _isCompressed = false;                      ///< some mesh, by Draco
     std::vector<std::size_t> _joints;                ///< of each skin
     std::vector<std::ptrdiff_t> _above;              ///< each node's parent
 };

@@ -4,6 +4,11 @@
 #include <osg/Notify>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -30,7 +35,62 @@ bool isHarmless(const std::string& extension) {
                        [&](const char* start) { return extension.rfind(start, 0) == 0; });
 }
 
+/// The texture that a primitive's surface is coloured by; null where there is none.
+const nlohmann::json* textureOf(const nlohmann::json& gltf, const nlohmann::json& primitive) {
+    if (!primitive.contains("material")) return nullptr;
+    const nlohmann::json& material =
+        gltf.at("materials").at(primitive.at("material").get<std::size_t>());
+    const auto pbr = material.find("pbrMetallicRoughness");
+    if (pbr == material.end() || !pbr->contains("baseColorTexture")) return nullptr;
+    return &pbr->at("baseColorTexture");
+}
+
+/// Scaled, turned and moved, in the file's texture space: v goes down, and the turn is
+/// counter-clockwise where it is looked at.
+void moveEach(const nlohmann::json& transform, std::vector<double>& texCoords) {
+    const auto offset = transform.value("offset", std::vector<double>{0.0, 0.0});
+    const auto scale = transform.value("scale", std::vector<double>{1.0, 1.0});
+    const double turn = transform.value("rotation", 0.0);
+    const double cosine = std::cos(turn), sine = std::sin(turn);
+    for (std::size_t i = 0; i + 1 < texCoords.size(); i += 2) {
+        const double u = scale[0] * texCoords[i], v = scale[1] * texCoords[i + 1];
+        texCoords[i] = offset[0] + cosine * u + sine * v;
+        texCoords[i + 1] = offset[1] - sine * u + cosine * v;
+    }
+}
+
 } // namespace
+
+void moveTexCoords(GltfFile& file, GltfAccessors& accessors) {
+    if (!file.json.contains("meshes")) return;
+    std::map<std::pair<std::size_t, nlohmann::json>, std::size_t> moved; // what several share
+    bool isCompressed = false;
+    for (nlohmann::json& mesh : file.json.at("meshes"))
+        for (nlohmann::json& primitive : mesh.at("primitives")) {
+            const nlohmann::json* const texture = textureOf(file.json, primitive);
+            if (texture == nullptr || !texture->contains("extensions")) continue;
+            const nlohmann::json transform = texture->at("extensions").at("KHR_texture_transform");
+            const std::string name = "TEXCOORD_" + std::to_string(texture->value("texCoord", 0));
+            nlohmann::json& attributes = primitive.at("attributes");
+            if (!attributes.contains(name)) continue;
+            const auto own = attributes.at(name).get<std::size_t>();
+            if (primitive.contains("extensions") && !accessors.hasValues(own)) {
+                isCompressed = true;
+                continue;
+            }
+            const auto [entry, isNew] = moved.emplace(std::make_pair(own, transform), 0);
+            if (isNew) {
+                std::vector<double> texCoords = accessors.values(own);
+                moveEach(transform, texCoords);
+                entry->second = accessors.add("VEC2", texCoords);
+            }
+            attributes[name] = entry->second;
+        }
+    if (isCompressed)
+        OSG_NOTICE << file.path
+                   << ": textures are moved on meshes compressed by Draco, which is not read"
+                   << std::endl;
+}
 
 void noteExtensions(const GltfFile& file) {
     const nlohmann::json none = nlohmann::json::array();

@@ -106,6 +106,15 @@ void GltfParts::copyNumbers(const json& from, const char* key, std::size_t count
     to[key] = *found;
 }
 
+void GltfParts::copyNumber(const json& from, const char* key, const std::string& where,
+                           json& to) const {
+    if (!from.contains(key)) return;
+    const json list = json::array({from.at(key)});
+    json checked;
+    copyNumbers({{key, list}}, key, 1, where, checked);
+    to[key] = from.at(key);
+}
+
 void GltfParts::copyWeights(const json& from, const std::string& where, json& to) const {
     const auto found = from.find("weights");
     if (found != from.end() && found->is_array())
@@ -296,43 +305,49 @@ void GltfParts::addDraco(const json& from, const std::string& where, json& primi
 json GltfParts::textureInfo(const json& from, const std::string& where) const {
     json info = {{"index", indexOf(from.at("index"), "textures", where)}};
     if (from.contains("texCoord")) info["texCoord"] = index(from.at("texCoord"), 8, where);
+    const json none = json::object();
+    const json extensions = from.value("extensions", none);
+    const auto moved = extensions.find("KHR_texture_transform");
+    if (moved == extensions.end()) return info;
+    json& to = info["extensions"]["KHR_texture_transform"] = json::object();
+    copyNumbers(*moved, "offset", 2, where, to);
+    copyNumbers(*moved, "scale", 2, where, to);
+    copyNumber(*moved, "rotation", where, to);
+    if (moved->contains("texCoord")) info["texCoord"] = index(moved->at("texCoord"), 8, where);
     return info;
 }
 
 json GltfParts::material(const json& from, const std::string& where) const {
     json result = json::object();
     copyName(from, result);
-    const auto copyFactor = [&](const json& object, const char* key, json& to) {
-        if (!object.contains(key)) return;
-        const json list = json::array({object.at(key)});
-        json checked;
-        copyNumbers({{key, list}}, key, 1, where, checked);
-        to[key] = object.at(key);
-    };
     if (from.contains("pbrMetallicRoughness")) {
         const json& pbr = from.at("pbrMetallicRoughness");
         json& to = result["pbrMetallicRoughness"] = json::object();
         copyNumbers(pbr, "baseColorFactor", 4, where, to);
-        copyFactor(pbr, "metallicFactor", to);
-        copyFactor(pbr, "roughnessFactor", to);
+        copyNumber(pbr, "metallicFactor", where, to);
+        copyNumber(pbr, "roughnessFactor", where, to);
         if (pbr.contains("baseColorTexture"))
             to["baseColorTexture"] = textureInfo(pbr.at("baseColorTexture"), where);
     }
     copyNumbers(from, "emissiveFactor", 3, where, result);
     if (from.contains("alphaMode") && isWord(osgDB::convertToLowerCase(from.at("alphaMode"))))
         result["alphaMode"] = from.at("alphaMode");
-    copyFactor(from, "alphaCutoff", result);
+    copyNumber(from, "alphaCutoff", where, result);
     if (from.contains("doubleSided")) result["doubleSided"] = from.at("doubleSided").get<bool>();
     const json none = json::object();
     const json extensions = from.value("extensions", none);
+    // An older way to say what a surface is like, which goes before the other where both are there.
     const auto glossy = extensions.find("KHR_materials_pbrSpecularGlossiness");
     if (glossy != extensions.end()) {
-        json& to = result["extensions"]["KHR_materials_pbrSpecularGlossiness"] = json::object();
-        copyNumbers(*glossy, "diffuseFactor", 4, where, to);
-        copyNumbers(*glossy, "specularFactor", 3, where, to);
-        copyFactor(*glossy, "glossinessFactor", to);
+        json checked = json::object();
+        copyNumbers(*glossy, "diffuseFactor", 4, where, checked);
+        copyNumber(*glossy, "glossinessFactor", where, checked);
+        json& to = result["pbrMetallicRoughness"] = {
+            {"metallicFactor", 0.0},
+            {"roughnessFactor", 1.0 - checked.value("glossinessFactor", 1.0)}};
+        if (checked.contains("diffuseFactor")) to["baseColorFactor"] = checked["diffuseFactor"];
         if (glossy->contains("diffuseTexture"))
-            to["diffuseTexture"] = textureInfo(glossy->at("diffuseTexture"), where);
+            to["baseColorTexture"] = textureInfo(glossy->at("diffuseTexture"), where);
     }
     if (extensions.contains("KHR_materials_unlit"))
         result["extensions"]["KHR_materials_unlit"] = json::object();

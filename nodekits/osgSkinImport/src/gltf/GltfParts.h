@@ -44,6 +44,10 @@ public:
     void copyNumbers(const nlohmann::json& from, const char* key, std::size_t count,
                      const std::string& where, nlohmann::json& to) const;
 
+    /// Copies one finite number where there is one.
+    void copyNumber(const nlohmann::json& from, const char* key, const std::string& where,
+                    nlohmann::json& to) const;
+
     /// Copies the weights of morph targets where there are some.
     void copyWeights(const nlohmann::json& from, const std::string& where,
                      nlohmann::json& to) const;

@@ -15,6 +15,7 @@
 
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -36,6 +37,7 @@ public:
         separateMeshes();
         applyMorphs(_file, _accessors);
         nameNodes(_file);
+        moveTexCoords(_file, _accessors);
         for (json& skin : list("skins")) addBindMatrices(skin);
         for (json& mesh : list("meshes"))
             for (json& primitive : mesh.at("primitives")) makeFloats(primitive);
@@ -100,16 +102,31 @@ private:
         for (auto& [name, index] : primitive.at("attributes").items()) {
             if (!isTakenForFloats(name)) continue;
             const auto accessor = index.get<std::size_t>();
-            if (_accessors.isPlain(accessor) || (isCompressed && !_accessors.hasValues(accessor)))
-                continue;
-            const auto known = _floats.find(accessor);
-            if (known == _floats.end()) {
-                const std::string type =
-                    _file.json.at("accessors").at(accessor).at("type").get<std::string>();
-                _floats[accessor] = _accessors.add(type, _accessors.values(accessor));
-            }
-            index = _floats.at(accessor);
+            if (isCompressed && !_accessors.hasValues(accessor)) continue;
+            // Assimp takes colours without opacity for transparent ones.
+            const bool isOpaque = name.rfind("COLOR_", 0) == 0 && _accessors.width(accessor) == 3;
+            if (_accessors.isPlain(accessor) && !isOpaque) continue;
+            const auto [entry, isNew] = _floats.emplace(std::make_pair(accessor, isOpaque), 0);
+            if (isNew) entry->second = isOpaque ? addOpaque(accessor) : addFloats(accessor);
+            index = entry->second;
         }
+    }
+
+    std::size_t addFloats(std::size_t accessor) {
+        const std::string type =
+            _file.json.at("accessors").at(accessor).at("type").get<std::string>();
+        return _accessors.add(type, _accessors.values(accessor));
+    }
+
+    std::size_t addOpaque(std::size_t accessor) {
+        const std::vector<double> colours = _accessors.values(accessor);
+        std::vector<double> result;
+        result.reserve(colours.size() / 3 * 4);
+        for (std::size_t i = 0; i < colours.size(); ++i) {
+            result.push_back(colours[i]);
+            if (i % 3 == 2) result.push_back(1.0);
+        }
+        return _accessors.add("VEC4", result);
     }
 
     /// "my%20file.png" is called "my file.png".
@@ -121,7 +138,8 @@ private:
 
     GltfFile& _file;
     GltfAccessors _accessors;
-    std::map<std::size_t, std::size_t> _floats; ///< accessors that have been converted
+    /// Accessors that have been converted, and whether to opaque colours.
+    std::map<std::pair<std::size_t, bool>, std::size_t> _floats;
     json _none = json::array();
 };
 

@@ -41,6 +41,20 @@ void setAlpha(osg::StateSet& state, const Material& material) {
     state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
 }
 
+osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::string& meshPath,
+                                       const osgDB::Options* options) {
+    osg::ref_ptr<osgDB::Options> local =
+        options != nullptr ? options->cloneOptions() : new osgDB::Options;
+    local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
+    const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
+    // Nothing is fetched from a network or run, and what is no regular file may never end.
+    if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName) ||
+        !isRegularFile(osgDB::findDataFile(fileName, local)))
+        return nullptr;
+    // osgDB::readImageFile() would warn of each by itself.
+    return osgDB::Registry::instance()->readImage(fileName, local).getImage();
+}
+
 } // namespace
 
 osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material) {
@@ -66,23 +80,9 @@ osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material) {
 }
 
 osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string& meshPath,
-                                     const osgDB::Options* options, MissingTextures& missing) {
+                                     const osgDB::Options* options, TextureReads& reads) {
     if (name.empty()) return nullptr;
-    osg::ref_ptr<osgDB::Options> local =
-        options != nullptr ? options->cloneOptions() : new osgDB::Options;
-    local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
-    const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
-    // Nothing is fetched from a network or run, and what is no regular file may never end.
-    if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName) ||
-        !isRegularFile(osgDB::findDataFile(fileName, local))) {
-        missing.add(name);
-        return nullptr;
-    }
-    // osgDB::readImageFile() would warn of each by itself.
-    osg::ref_ptr<osg::Image> image =
-        osgDB::Registry::instance()->readImage(fileName, local).getImage();
-    if (!image) missing.add(name);
-    return image;
+    return reads.once(name, [&] { return readImageFile(name, meshPath, options); });
 }
 
 } // namespace osgSkin

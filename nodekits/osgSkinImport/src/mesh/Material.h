@@ -2,7 +2,7 @@
 #ifndef OSGSKINIMPORT_MATERIAL_H
 #define OSGSKINIMPORT_MATERIAL_H 1
 
-#include "mesh/MissingTextures.h"
+#include "mesh/TextureReads.h"
 
 #include <osg/Image>
 #include <osg/StateSet>
@@ -38,10 +38,10 @@ struct Material {
 /// is transparent. Back faces are culled where the format says that there are none.
 osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material);
 
-/// Reads a texture that the mesh file `meshPath` names. Null where it cannot be read; `missing`
-/// then has its name.
+/// A texture that the mesh file `meshPath` names, or null where it cannot be read.
+/// \param reads of that file's textures
 osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string& meshPath,
-                                     const osgDB::Options* options, MissingTextures& missing);
+                                     const osgDB::Options* options, TextureReads& reads);
 
 } // namespace osgSkin
 

@@ -27,13 +27,13 @@ osg::Vec4 colour(const tinyobj::real_t (&rgb)[3], double alpha = 1.0) {
 }
 
 Material readMaterial(const tinyobj::material_t& source, const std::string& path,
-                      const osgDB::Options* options, MissingTextures& missing) {
+                      const osgDB::Options* options, TextureReads& reads) {
     Material material;
     material.diffuse = colour(source.diffuse, source.dissolve);
     material.specular = colour(source.specular);
     material.emission = colour(source.emission);
     material.shininess = static_cast<float>(source.shininess);
-    material.image = readTexture(source.diffuse_texname, path, options, missing);
+    material.image = readTexture(source.diffuse_texname, path, options, reads);
     return material;
 }
 
@@ -43,7 +43,7 @@ public:
     MaterialTable(const std::vector<tinyobj::material_t>& materials, const std::string& path,
                   const osgDB::Options* options, bool vertexColours, CornerMesh& mesh)
         : _materials(materials), _path(path), _options(options), _vertexColours(vertexColours),
-          _mesh(mesh), _missing(path) {}
+          _mesh(mesh), _reads(path) {}
 
     std::uint32_t index(int number) {
         const auto [entry, isNew] =
@@ -53,7 +53,7 @@ public:
             Material material;
             if (known)
                 material = readMaterial(_materials[static_cast<std::size_t>(number)], _path,
-                                        _options, _missing);
+                                        _options, _reads);
             material.vertexColours = _vertexColours;
             _mesh.stateSets.push_back(makeStateSet(material));
         }
@@ -67,7 +67,7 @@ private:
     bool _vertexColours;
     CornerMesh& _mesh;
     std::map<int, std::uint32_t> _indices;
-    MissingTextures _missing;
+    TextureReads _reads;
 };
 
 /// Reads a material library as it is when checked.

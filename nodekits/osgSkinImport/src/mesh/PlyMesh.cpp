@@ -161,10 +161,10 @@ CornerMesh readPlyMesh(const std::string& path, const osgDB::Options* options) {
                 [&](const PlyHeader::Element& element, std::size_t index, const PlyValues& values) {
                     collector.take(element, index, values);
                 });
-    MissingTextures missing(path);
+    TextureReads reads(path);
     Material material;
     material.vertexColours = collector.hasColours();
-    material.image = readTexture(header.texture, path, options, missing);
+    material.image = readTexture(header.texture, path, options, reads);
     CornerMesh result = collector.finish();
     result.stateSets.push_back(makeStateSet(material));
     return result;

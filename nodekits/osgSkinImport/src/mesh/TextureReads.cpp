@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/TextureReads.h"
+
+#include <osg/Notify>
+
+#include <cstddef>
+
+namespace osgSkin {
+
+osg::ref_ptr<osg::Image> TextureReads::once(const std::string& name,
+                                            const std::function<osg::ref_ptr<osg::Image>()>& read) {
+    const auto [entry, isNew] = _images.emplace(name, nullptr);
+    if (isNew) entry->second = read();
+    return entry->second;
+}
+
+TextureReads::~TextureReads() {
+    std::size_t missing = 0;
+    std::string first;
+    for (const auto& [name, image] : _images) {
+        if (image.valid()) continue;
+        if (missing++ == 0) first = name;
+    }
+    if (missing == 0) return;
+    std::string what = "texture \"" + first + '"';
+    if (missing > 1) what = std::to_string(missing) + " textures, \"" + first + "\" among them,";
+    OSG_NOTICE << _path << ": " << what << " cannot be read; drawn without" << std::endl;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_TEXTUREREADS_H
+#define OSGSKINIMPORT_TEXTUREREADS_H 1
+
+#include <osg/Image>
+#include <osg/ref_ptr>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace osgSkin {
+
+/// The textures that a file names: each is read once, however many materials share it, and those
+/// that cannot be read are told of in one notice when this goes.
+class TextureReads {
+public:
+    /// \param path of the file that names the textures
+    explicit TextureReads(std::string path) : _path(std::move(path)) {}
+    ~TextureReads();
+    TextureReads(const TextureReads&) = delete;
+    TextureReads& operator=(const TextureReads&) = delete;
+
+    /// The texture called `name`; null where it cannot be read.
+    /// \param read is called the first time, and returns null where it fails
+    osg::ref_ptr<osg::Image> once(const std::string& name,
+                                  const std::function<osg::ref_ptr<osg::Image>()>& read);
+
+private:
+    const std::string _path;
+    std::map<std::string, osg::ref_ptr<osg::Image>> _images; ///< by their names
+};
+
+} // namespace osgSkin
+
+#endif

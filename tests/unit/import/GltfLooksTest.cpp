@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// What glTF files say of surfaces in ways that Assimp passes over.
+#include "GltfBuilder.h"
+#include "Paths.h"
+
+#include <osgSkin/Error>
+#include <osgSkinImport/ImportMesh>
+
+#include <osg/Array>
+#include <osg/Image>
+#include <osg/Material>
+#include <osg/Texture2D>
+#include <osgDB/WriteFile>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+namespace {
+
+using nlohmann::json;
+using osgSkin::ImportedMesh;
+using test::GltfColumn;
+
+/// Gives the column a material.
+void paint(GltfColumn& column, const json& material) {
+    column.json["materials"] = {material};
+    column.json["meshes"][0]["primitives"][0]["material"] = 0;
+}
+
+/// Gives the column a texture, of 2 by 2 texels.
+void addTexture(GltfColumn& column) {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 2, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    std::fill(image->data(), image->data() + image->getTotalSizeInBytes(), 200);
+    ASSERT_TRUE(osgDB::writeImageFile(*image, testing::TempDir() + "looks.bmp"));
+    column.json["images"] = {{{"uri", "looks.bmp"}}};
+    column.json["textures"] = {{{"source", 0}}};
+}
+
+template <typename Attribute>
+const Attribute& stateOf(const ImportedMesh& mesh, std::size_t part,
+                         osg::StateAttribute::Type type) {
+    return dynamic_cast<const Attribute&>(
+        *mesh.parts.at(part).geometry->getStateSet()->getAttribute(type));
+}
+
+} // namespace
+
+TEST(GltfLooks, TexturesAreMovedAsTheirMaterialsSay) {
+    GltfColumn column;
+    addTexture(column);
+    std::vector<double> texCoords; // in 12 bits, as packers store them
+    for (int v = 0; v < 24; ++v) texCoords.insert(texCoords.end(), {v % 2 ? 4095.0 : 0.0, 1365.0});
+    column.attributes()["TEXCOORD_0"] =
+        column.accessor("VEC2", std::vector<double>(48, 7.0)); // of another texture
+    column.attributes()["TEXCOORD_1"] = column.accessor("VEC2", texCoords, 5123);
+    const json transform = {{"offset", {0.25, 0.5}},
+                            {"rotation", std::acos(0.0)},
+                            {"scale", {1.0 / 4095.0, 1.5 / 4095.0}},
+                            {"texCoord", 1}};
+    paint(column, {{"pbrMetallicRoughness",
+                    {{"baseColorTexture",
+                      {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}}});
+    const ImportedMesh mesh = osgSkin::importMesh(column.save("moved.gltf"));
+    ASSERT_EQ(mesh.parts.size(), 1u);
+    const auto& found =
+        dynamic_cast<const osg::Vec2Array&>(*mesh.parts[0].geometry->getTexCoordArray(0));
+    std::set<int> columns;
+    for (const osg::Vec2& texCoord : found) {
+        EXPECT_NEAR(texCoord.x(), 0.25 + 0.5, 1e-6);
+        // A quarter turn; v goes up from here on.
+        const double up = 1.0 - texCoord.y();
+        EXPECT_NEAR(up, up < 0.0 ? 0.5 - 1.0 : 0.5, 1e-6);
+        columns.insert(up < 0.0 ? 1 : 0);
+    }
+    EXPECT_EQ(columns.size(), 2u);
+}
+
+TEST(GltfLooks, ColoursWithoutOpacityAreOpaque) {
+    for (const int component : {5126, 5121}) {
+        GltfColumn column;
+        std::vector<double> colours;
+        for (int v = 0; v < 24; ++v) colours.insert(colours.end(), {1.0, 0.0, 0.0});
+        column.attributes()["COLOR_0"] =
+            column.accessor("VEC3", colours, component, component != 5126);
+        paint(column, {{"alphaMode", "BLEND"}});
+        const ImportedMesh mesh = osgSkin::importMesh(column.save("opaque.gltf"));
+        ASSERT_EQ(mesh.parts.size(), 1u);
+        for (const osg::Vec4& colour :
+             dynamic_cast<const osg::Vec4Array&>(*mesh.parts[0].geometry->getColorArray())) {
+            EXPECT_NEAR(colour.r(), 1.0, 1e-5);
+            EXPECT_NEAR(colour.g(), 0.0, 1e-5);
+            EXPECT_EQ(colour.a(), 1.0f);
+        }
+    }
+}
+
+TEST(GltfLooks, GlossySurfacesHaveTheirColour) {
+    GltfColumn column;
+    addTexture(column);
+    const json glossy = {{"diffuseFactor", {1.0, 0.0, 0.0, 0.5}},
+                         {"glossinessFactor", 0.0},
+                         {"diffuseTexture", {{"index", 0}}}};
+    paint(column, {{"alphaMode", "BLEND"},
+                   {"extensions", {{"KHR_materials_pbrSpecularGlossiness", glossy}}}});
+    const ImportedMesh mesh = osgSkin::importMesh(column.save("glossy.gltf"));
+    ASSERT_EQ(mesh.parts.size(), 1u);
+    const auto& material = stateOf<osg::Material>(mesh, 0, osg::StateAttribute::MATERIAL);
+    const osg::Vec4 red(1.0f, 0.0f, 0.0f, 0.5f);
+    EXPECT_LT((material.getDiffuse(osg::Material::FRONT) - red).length(), 1e-5f);
+    EXPECT_NE(
+        mesh.parts[0].geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE),
+        nullptr);
+}
+
+TEST(GltfLooks, ATextureThatMaterialsShareIsReadOnce) {
+    GltfColumn column;
+    addTexture(column);
+    json& primitives = column.json["meshes"][0]["primitives"];
+    const json texture = {{"baseColorTexture", {{"index", 0}}}};
+    column.json["materials"] = {{{"pbrMetallicRoughness", texture}},
+                                {{"pbrMetallicRoughness", texture}}};
+    primitives.push_back(primitives[0]);
+    for (std::size_t p = 0; p < 2; ++p) primitives[p]["material"] = p;
+    const ImportedMesh mesh = osgSkin::importMesh(column.save("shared.gltf"));
+    ASSERT_EQ(mesh.parts.size(), 2u);
+    std::set<const osg::Image*> images;
+    for (const osgSkin::MeshPart& part : mesh.parts)
+        images.insert(
+            dynamic_cast<const osg::Texture2D&>(
+                *part.geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE))
+                .getImage());
+    EXPECT_EQ(images.size(), 1u);
+    EXPECT_EQ(images.count(nullptr), 0u);
+}
+
+TEST(GltfLooks, MeshesMayBeCompressedByDraco) {
+    // Two triangles of four vertices, as draco::Encoder writes them.
+    const std::string file = testing::TempDir() + "packed.gltf";
+    std::ofstream(file)
+        << R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],
+"extensionsUsed":["KHR_draco_mesh_compression"],
+"extensionsRequired":["KHR_draco_mesh_compression"],
+"buffers":[{"byteLength":76,"uri":"data:;base64,RFJBQ08CAgEAAAACBAEAAQIAAgMBAQAJAwAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPw=="}],
+"bufferViews":[{"buffer":0,"byteLength":76}],
+"accessors":[{"componentType":5126,"type":"VEC3","count":4},
+             {"componentType":5123,"type":"SCALAR","count":6}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":{
+    "KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]}]})";
+    try {
+        const ImportedMesh mesh = osgSkin::importMesh(file);
+        ASSERT_EQ(mesh.mesh.faceSizes.size(), 2u);
+        double furthest = 0.0;
+        for (const glm::dvec3& place : mesh.mesh.positions)
+            furthest = std::max(furthest, place.x + place.y + place.z);
+        EXPECT_NEAR(furthest, 1.0, 1e-3);
+    } catch (const osgSkin::Error& error) {
+        const std::string why = error.what();
+        ASSERT_NE(why.find("raco"), std::string::npos) << why;
+        GTEST_SKIP() << "this build of Assimp has no Draco";
+    }
+}
