@@ -105,6 +105,21 @@ TEST(Retarget, JointsWithoutADirectionFollowTheLimb) {
     EXPECT_LT(angleBetween(clip.rotations[6], {1, 0, 0, 0}), 1e-9);
 }
 
+/// Exporters write a bone without a length as rounding leaves it, in metres or in centimetres.
+TEST(Retarget, RoundingErrorsAreNoDirection) {
+    for (const double unit : {0.01, 1.0, 100.0}) {
+        RestSkeleton rig = makeFigure(48.0), zeroPose = makeFigure(0.0);
+        zeroPose.joints[6].tip = zeroPose.joints[6].centre + glm::dvec3(0.0, 3e-7, 2e-7);
+        for (RestSkeleton* skeleton : {&rig, &zeroPose})
+            for (osgSkin::RestJoint& joint : skeleton->joints) {
+                joint.centre *= unit;
+                if (joint.tip) *joint.tip *= unit;
+            }
+        const Clip clip = osgSkin::retarget(standStill(zeroPose, 1), rig);
+        EXPECT_LT(angleBetween(clip.rotations[6], {1, 0, 0, 0}), 1e-9) << unit;
+    }
+}
+
 TEST(Retarget, HandsPointToTheFingersNotTheThumb) {
     RestSkeleton rig = makeFigure(0.0);
     const glm::dvec3 hand = rig.joints[6].centre;

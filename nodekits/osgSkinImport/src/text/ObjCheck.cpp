@@ -51,7 +51,7 @@ std::string materialName(std::string_view rest) {
 /// The libraries that a line names, as tinyobjloader takes them apart: one, where there is a file
 /// of the whole name, with blanks or another system's separators.
 std::string libraryNames(std::string_view rest, const std::string& folder) {
-    const std::string name(trimmed(rest).substr(0, kLongestName));
+    std::string name(trimmed(rest).substr(0, kLongestName));
     for (const std::string& whole : {name, osgDB::convertFileNameToUnixStyle(name)}) {
         if (!isRegularFile(folder.empty() || osgDB::isAbsolutePath(whole)
                                ? whole
