@@ -13,6 +13,9 @@
 #include <functional>
 #include <limits>
 #include <ostream>
+#include <string>
+
+#include <sys/resource.h>
 
 using namespace osgSkin;
 
@@ -69,6 +72,36 @@ TEST(BindWeights, RegionIsTheHeaviestJoint) {
     EXPECT_EQ(report.shells, 1u);
     EXPECT_EQ(report.unassigned, 0u);
     EXPECT_TRUE(report.notes.empty()) << report.text();
+}
+
+/// A row of every joint for every vertex would be 400 MB.
+TEST(BindWeights, TakeMemoryAsTheyAreManyNotAsJointsAre) {
+    const auto most = [] {
+        rusage use{};
+        getrusage(RUSAGE_SELF, &use);
+        return use.ru_maxrss / 1024; // MB
+    };
+    const SkinMesh mesh = shapes::cylinder(80.0);
+    RestSkeleton skeleton = shapes::chainAlongY({1.0, 40.0}, 79.0);
+    while (skeleton.joints.size() < 10000) {
+        RestJoint joint;
+        joint.name = "j" + std::to_string(skeleton.joints.size());
+        joint.parent = 0;
+        joint.centre.y = 1.0;
+        skeleton.joints.push_back(joint);
+    }
+    VertexWeights weights;
+    for (const glm::dvec3& p : mesh.positions) weights.push_back({{p.y > 40.0 ? 1u : 0u, 1.0}});
+    ASSERT_GT(weights.size(), 5000u);
+    const auto before = most();
+    const Binding binding = bindWeights(mesh, skeleton, weights);
+#ifndef __SANITIZE_ADDRESS__ // which keeps what is freed for a while
+    EXPECT_LT(most() - before, 200);
+#else
+    static_cast<void>(before);
+#endif
+    EXPECT_EQ(binding.regions.front(), 0u);
+    EXPECT_EQ(binding.regions.back(), 1u);
 }
 
 TEST(BindWeights, ScaleOfTheWeightsDoesNotMatter) {

@@ -14,13 +14,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <set>
 
 namespace osgSkin {
 namespace {
 
-/// For each welded vertex, each joint's weight; they sum to 1. Empty where nothing is painted.
-using WeightRows = std::vector<std::vector<double>>;
+struct JointShare {
+    std::uint32_t joint;
+    double weight;
+};
+/// For each welded vertex, the joints that have weights there, in their order; they sum to 1. Empty
+/// where nothing is painted.
+using WeightRows = std::vector<std::vector<JointShare>>;
 
 double checkedSum(const std::vector<JointWeight>& entries, std::size_t vertex, std::size_t joints) {
     const std::string where = "bind: weights of vertex " + std::to_string(vertex);
@@ -37,6 +43,20 @@ double checkedSum(const std::vector<JointWeight>& entries, std::size_t vertex, s
     return sum;
 }
 
+/// Makes one of a joint's several entries.
+void addUp(std::vector<JointShare>& row) {
+    std::stable_sort(row.begin(), row.end(),
+                     [](const JointShare& a, const JointShare& b) { return a.joint < b.joint; });
+    std::size_t count = 0;
+    for (const JointShare& share : row) {
+        if (count > 0 && row[count - 1].joint == share.joint)
+            row[count - 1].weight += share.weight;
+        else
+            row[count++] = share;
+    }
+    row.resize(count);
+}
+
 /// Copies of a vertex at a seam must move alike, so they take the mean of what each was given.
 WeightRows weldedWeights(const WeldedMesh& skin, const VertexWeights& weights, std::size_t joints) {
     WeightRows rows(skin.vertexCount());
@@ -44,13 +64,15 @@ WeightRows weldedWeights(const WeldedMesh& skin, const VertexWeights& weights, s
     for (std::size_t v = 0; v < weights.size(); ++v) {
         const double sum = checkedSum(weights[v], v, joints);
         if (!(sum > 0.0)) continue;
-        std::vector<double>& row = rows[skin.weldedOf[v]];
-        row.resize(joints, 0.0);
-        for (const JointWeight& entry : weights[v]) row[entry.joint] += entry.weight / sum;
+        std::vector<JointShare>& row = rows[skin.weldedOf[v]];
+        for (const JointWeight& entry : weights[v])
+            row.push_back({entry.joint, entry.weight / sum});
         copies[skin.weldedOf[v]] += 1.0;
     }
-    for (std::size_t v = 0; v < rows.size(); ++v)
-        for (double& weight : rows[v]) weight /= copies[v];
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+        addUp(rows[v]);
+        for (JointShare& share : rows[v]) share.weight /= copies[v];
+    }
     return rows;
 }
 
@@ -64,17 +86,29 @@ std::size_t fillGaps(const WeldedMesh& skin, WeightRows& rows) {
     return gaps.size();
 }
 
-/// The ratio of each joint is what its subtree has of the weights. Adding up from the leaves keeps
-/// it at or below the parent's, to the last bit.
-JointFields ratiosFrom(const std::vector<double>& weights,
-                       const std::vector<PlannedJoint>& joints) {
-    std::vector<double> sums = weights;
-    for (std::size_t j = joints.size(); j-- > 1;)
-        sums[static_cast<std::size_t>(joints[j].parent)] += sums[j];
-    JointFields fields(joints.size(), std::vector<double>(1, 1.0));
-    for (std::size_t j = 1; j < joints.size(); ++j) fields[j][0] = sums[j] / sums[0];
-    return fields;
-}
+/// One vertex's ratios, in memory that the next one's are written over.
+class VertexRatios {
+public:
+    explicit VertexRatios(const std::vector<PlannedJoint>& joints)
+        : _joints(joints), _sums(joints.size()),
+          _fields(joints.size(), std::vector<double>(1, 1.0)) {}
+
+    /// The ratio of each joint is what its subtree has of the weights. Adding up from the leaves
+    /// keeps it at or below the parent's, to the last bit.
+    const JointFields& of(const std::vector<JointShare>& weights) {
+        std::fill(_sums.begin(), _sums.end(), 0.0);
+        for (const JointShare& share : weights) _sums[share.joint] = share.weight;
+        for (std::size_t j = _joints.size(); j-- > 1;)
+            _sums[static_cast<std::size_t>(_joints[j].parent)] += _sums[j];
+        for (std::size_t j = 1; j < _joints.size(); ++j) _fields[j][0] = _sums[j] / _sums[0];
+        return _fields;
+    }
+
+private:
+    const std::vector<PlannedJoint>& _joints;
+    std::vector<double> _sums;
+    JointFields _fields;
+};
 
 std::vector<BindReport::Region> regionsOf(const Binding& binding) {
     std::vector<BindReport::Region> all(binding.joints.size());
@@ -130,12 +164,15 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
     Binding binding;
     binding.joints = boundJoints(skeleton, joints);
     binding.firstInfluence.push_back(0);
+    VertexRatios ratios(joints);
     std::size_t partial = 0;
     for (const std::uint32_t v : skin.weldedOf) {
-        const auto heaviest = std::max_element(rows[v].begin(), rows[v].end());
-        binding.regions.push_back(static_cast<std::uint32_t>(heaviest - rows[v].begin()));
-        const JointFields ratios = ratiosFrom(rows[v], joints);
-        if (packInfluences(joints, ratios, ratios, 0, options.maxPartialInfluences,
+        const auto heaviest = std::max_element(
+            rows[v].begin(), rows[v].end(),
+            [](const JointShare& a, const JointShare& b) { return a.weight < b.weight; });
+        binding.regions.push_back(heaviest->joint);
+        const JointFields& fields = ratios.of(rows[v]);
+        if (packInfluences(joints, fields, fields, 0, options.maxPartialInfluences,
                            binding.influences))
             ++found.cappedVertices;
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
