@@ -99,6 +99,22 @@ TEST(GltfLooks, ColoursWithoutOpacityAreOpaque) {
     }
 }
 
+/// The file's numbers are linear light, ours sRGB: 0.52252 is 0.75, and 0.21404 is 0.5.
+TEST(GltfLooks, ColoursOfVerticesAreTakenTimesTheMaterials) {
+    GltfColumn column;
+    std::vector<double> colours;
+    for (int v = 0; v < 24; ++v) colours.insert(colours.end(), {0.52252, 1.0, 0.0});
+    column.attributes()["COLOR_0"] = column.accessor("VEC3", colours, 5126, false);
+    paint(column, {{"alphaMode", "BLEND"},
+                   {"pbrMetallicRoughness", {{"baseColorFactor", {0.21404, 0.52252, 1.0, 0.5}}}}});
+    const ImportedMesh mesh = osgSkin::importMesh(column.save("times.gltf"));
+    ASSERT_EQ(mesh.parts.size(), 1u);
+    const auto& all = dynamic_cast<const osg::Vec4Array&>(*mesh.parts[0].geometry->getColorArray());
+    ASSERT_FALSE(all.empty());
+    for (const osg::Vec4& colour : all)
+        EXPECT_LT((colour - osg::Vec4(0.375f, 0.75f, 0.0f, 0.5f)).length(), 1e-4f);
+}
+
 TEST(GltfLooks, GlossySurfacesHaveTheirColour) {
     GltfColumn column;
     addTexture(column);
