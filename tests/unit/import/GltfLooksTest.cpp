@@ -18,6 +18,7 @@
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <string>
 
 namespace {
 
@@ -36,8 +37,11 @@ void addTexture(GltfColumn& column) {
     const osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(2, 2, 1, GL_RGB, GL_UNSIGNED_BYTE);
     std::fill(image->data(), image->data() + image->getTotalSizeInBytes(), 200);
-    ASSERT_TRUE(osgDB::writeImageFile(*image, testing::TempDir() + "looks.bmp"));
-    column.json["images"] = {{{"uri", "looks.bmp"}}};
+    // Of its own: tests run beside each other.
+    const std::string name =
+        std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".bmp";
+    ASSERT_TRUE(osgDB::writeImageFile(*image, testing::TempDir() + name));
+    column.json["images"] = {{{"uri", name}}};
     column.json["textures"] = {{{"source", 0}}};
 }
 
