@@ -9,7 +9,10 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <ctime>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace {
@@ -156,4 +159,35 @@ TEST(PoseBounds, ContainEveryVertexByEveryInstructionSet) {
 TEST(PoseBounds, ContainEveryVertexOfScaledJoints) {
     EXPECT_LE(checkBounds(1.2), 2.2);
     checkBounds(4.0);
+}
+
+/// Thousands of joints below a long chain, one a vertex: pieces are cut by what their vertices
+/// follow differently, which must not be looked for in all that they follow, again and again.
+TEST(PoseBounds, AreMadeOfManyJointsInSeconds) {
+    constexpr std::uint32_t kChain = 900, kLeaves = 4'000;
+    osgSkin::Binding binding;
+    for (std::uint32_t j = 0; j < kChain + kLeaves; ++j) {
+        osgSkin::BoundJoint joint;
+        joint.name = std::to_string(j);
+        joint.parent = static_cast<int>(std::min(j, kChain)) - 1;
+        joint.boneAxis = joint.twistAxis = {0.0, 1.0, 0.0};
+        binding.joints.push_back(joint);
+    }
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> source;
+    binding.firstInfluence = {0};
+    for (std::uint32_t v = 0; v < kLeaves; ++v) {
+        for (std::uint32_t j = 0; j < kChain; ++j) binding.influences.push_back({j, 1.0f, 1.0f});
+        binding.influences.push_back({kChain + v, 1.0f, 1.0f});
+        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+        source.push_back(v);
+        positions.emplace_back(v % 7, static_cast<float>(v) / 500.0f, v % 5);
+    }
+    binding.regions.assign(positions.size(), 0);
+    const std::vector<glm::vec3> normals(positions.size(), glm::vec3(0, 1, 0));
+    const std::clock_t begin = std::clock();
+    const auto model = osgSkin::SkinModel::create(binding, positions, normals, source);
+    const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
+    EXPECT_EQ(model->vertexCount(), kLeaves);
+    EXPECT_LT(seconds, 8.0) << "of this program's own, with sanitizers, too";
 }

@@ -67,11 +67,11 @@ double costOf(const Signature& signature, std::size_t vertices) {
 }
 
 /// Lets small groups join others, where that takes less time than the padding of both and one group
-/// more. Of many, a group looks at those that are most like it in order: painted weights make
-/// thousands.
+/// more. Of many, a group looks at those that are most like it in order, and at fewer where each
+/// has a long chain of joints: painted weights make thousands.
 void joinSmall(Members& members) {
     constexpr std::size_t kSmall = 2 * kBlock;
-    constexpr int kTriedOnASide = 64;
+    constexpr std::size_t kTriedOnASide = 64, kJointsTried = 64 * kTriedOnASide;
     struct Small {
         std::size_t vertices;
         Signature signature;
@@ -88,11 +88,13 @@ void joinSmall(Members& members) {
         const auto own = members.find(one.signature);
         if (own == members.end() || own->second.size() >= kSmall) continue;
         const std::size_t count = own->second.size();
+        const std::size_t tried =
+            std::min(kTriedOnASide, kJointsTried / std::max<std::size_t>(one.signature.size(), 1));
         double most = 0.0;
         auto with = members.end();
         auto other = own, last = own;
-        for (int i = 0; i < kTriedOnASide && other != members.begin(); ++i) --other;
-        for (int i = 0; i <= kTriedOnASide && last != members.end(); ++i) ++last;
+        for (std::size_t i = 0; i < tried && other != members.begin(); ++i) --other;
+        for (std::size_t i = 0; i <= tried && last != members.end(); ++i) ++last;
         for (; other != last; ++other) {
             if (other == own) continue;
             unite(one.signature, other->first, united);
