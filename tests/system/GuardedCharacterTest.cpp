@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -174,6 +175,23 @@ TEST(GuardedCharacter, AFileIsNamedSoOftenAtMost) {
     expectSays(refusal(skin(folder, "props",
                             both + ", \"motions\": [" + one + "], \"props\": [" + props + "]")),
                "props[100]");
+}
+
+/// As many clips as a megabyte names; each was compared with all before it.
+TEST(GuardedCharacter, MotionsMayBeMany) {
+    constexpr std::size_t kClips = 20'000;
+    test::GltfBuilder file = triangle();
+    const std::size_t times = file.accessor("SCALAR", {0, 1});
+    const std::size_t turns = file.accessor("VEC4", {0, 0, 0, 1, 0, 0, 0.6, 0.8});
+    const nlohmann::json clip = {
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}},
+        {"samplers", {{{"input", times}, {"output", turns}}}}};
+    file.json["animations"] = nlohmann::json::array_t(kClips, clip);
+    const std::clock_t begin = std::clock();
+    const osgSkin::Character character = osgSkin::loadCharacter(file.save("clips.gltf"));
+    EXPECT_EQ(character.motions.size(), kClips);
+    EXPECT_EQ(character.manager->getAnimationList().size(), kClips);
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 8.0);
 }
 
 TEST(GuardedCharacter, GltfIsCheckedBeforeItIsRead) {

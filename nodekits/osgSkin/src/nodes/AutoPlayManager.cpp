@@ -11,6 +11,12 @@ AutoPlayManager::AutoPlayManager(const AutoPlayManager& other, const osg::CopyOp
     // A copy plays nothing yet, so it starts by itself too.
 }
 
+void AutoPlayManager::registerAnimations(const osgAnimation::AnimationList& animations) {
+    if (animations.empty()) return;
+    _animations.insert(_animations.end(), animations.begin(), animations.end() - 1);
+    registerAnimation(animations.back());
+}
+
 void AutoPlayManager::update(double time) {
     if (!_started) {
         _started = true;

@@ -68,11 +68,10 @@ void manageFromRoot(const Managers::Entry& entry, const osgAnimation::AnimationL
     character.root->setName(scene->getName());
     character.root->addChild(scene);
     character.root->setInitialBound(playedBounds(*character.root, clips));
-    character.manager = new AutoPlayManager;
-    for (const auto& clip : clips) {
-        character.manager->registerAnimation(clip);
-        character.motions.emplace_back().animation = clip;
-    }
+    const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
+    manager->registerAnimations(clips);
+    character.manager = manager;
+    for (const auto& clip : clips) character.motions.emplace_back().animation = clip;
     character.root->setUpdateCallback(character.manager);
     character.manager->playAnimation(clips.front());
 }

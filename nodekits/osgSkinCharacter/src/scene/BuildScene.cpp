@@ -53,9 +53,12 @@ void takeAnimations(const CharacterSource& source, Character& character) {
 
 void play(Character& character) {
     if (character.motions.empty()) return;
-    character.manager = new AutoPlayManager; // one that plays again when saved and read
-    for (const CharacterMotion& motion : character.motions)
-        character.manager->registerAnimation(motion.animation);
+    osgAnimation::AnimationList clips;
+    for (const CharacterMotion& motion : character.motions) clips.push_back(motion.animation);
+    const osg::ref_ptr<AutoPlayManager> manager =
+        new AutoPlayManager; // plays again when saved and read
+    manager->registerAnimations(clips);
+    character.manager = manager;
     character.root->setUpdateCallback(character.manager);
     character.manager->playAnimation(character.motions.front().animation);
 }
