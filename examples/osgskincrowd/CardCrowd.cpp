@@ -63,8 +63,7 @@ CardCrowd::CardCrowd(const std::vector<std::string>& files, std::size_t count)
                               0.5 * static_cast<double>(side);
         osgSkin::CrowdInstance member;
         member.position = osg::Vec3d(column, row, 0.0) * static_cast<double>(width);
-        member.phase =
-            static_cast<float>(std::fmod(0.617 * static_cast<double>(i), 1.0) * seconds[kind]);
+        member.phase = std::fmod(0.617 * static_cast<double>(i), 1.0) * seconds[kind];
         member.speed = 0.9f + 0.02f * static_cast<float>(i % 11);
         const float shade = 0.7f + 0.03f * static_cast<float>(i % 10);
         member.colour = osg::Vec4(shade, 0.9f * shade, 1.0f - 0.3f * shade, 1.0f);

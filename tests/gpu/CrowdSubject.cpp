@@ -21,7 +21,7 @@ osg::ref_ptr<osgSkin::DeformableSkin> tubeSkin() {
     return skin;
 }
 
-osg::ref_ptr<osg::Geometry> knob() {
+osg::ref_ptr<osg::Geometry> makeKnob() {
     Tube tube(7, 12);
     for (glm::vec3& p : tube.positions) p = p * 0.3f + glm::vec3(0.0f, 6.2f, 0.0f);
     return makeGeometry(tube);
@@ -29,7 +29,7 @@ osg::ref_ptr<osg::Geometry> knob() {
 
 } // namespace
 
-CrowdSubject::CrowdSubject(std::size_t count) : _skin(tubeSkin()), _knob(knob()) {
+CrowdSubject::CrowdSubject(std::size_t count) : _skin(tubeSkin()), _knob(makeKnob()) {
     for (std::size_t i = 0; i < count; ++i) {
         osgSkin::CrowdInstance member;
         const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(double(count))));
@@ -38,7 +38,7 @@ CrowdSubject::CrowdSubject(std::size_t count) : _skin(tubeSkin()), _knob(knob())
         member.rotation = osg::Quat(0.7 * double(i), osg::Vec3d(0, 0, 1));
         member.scale = 0.6f + 0.1f * static_cast<float>(i % 5);
         member.clip = static_cast<unsigned int>(i % 2);
-        member.phase = static_cast<float>(double(i % kSamples) / kSamplesPerSecond);
+        member.phase = double(i % kSamples) / kSamplesPerSecond;
         members.push_back(member);
     }
 }
@@ -54,10 +54,11 @@ std::vector<glm::dmat4> CrowdSubject::skinning(unsigned int clip, std::size_t sa
                         glm::dvec3(0.0, 0.2 * std::sin(angle), 0.0));
 }
 
-osg::ref_ptr<osgSkin::CrowdCharacter> CrowdSubject::character(double time) const {
+osg::ref_ptr<osgSkin::CrowdCharacter> CrowdSubject::character(double time,
+                                                              osg::StateSet* knobs) const {
     osg::ref_ptr<osgSkin::CrowdCharacter> result = new osgSkin::CrowdCharacter;
     const std::size_t skin = result->addSkin(*_skin, _upright);
-    result->addRigid(*_knob, nullptr, skin, "end");
+    result->addRigid(*_knob, knobs, skin, "end");
     for (unsigned int clip = 0; clip < 2; ++clip) {
         osgSkin::CrowdCharacter::Samples samples(1);
         for (std::size_t i = 0; i < kSamples; ++i) samples[0].push_back(skinning(clip, i));
@@ -78,14 +79,14 @@ std::vector<osgSkin::CrowdInstance> CrowdSubject::posedMembers() const {
     std::vector<osgSkin::CrowdInstance> posed = members;
     for (std::size_t i = 0; i < posed.size(); ++i) {
         posed[i].clip = 2;
-        posed[i].phase = static_cast<float>(i);
+        posed[i].phase = double(i);
         posed[i].speed = 0.0f;
     }
     return posed;
 }
 
 std::size_t CrowdSubject::sampleOf(const osgSkin::CrowdInstance& member, double time) const {
-    const double at = (double(member.phase) + double(member.speed) * time) * kSamplesPerSecond;
+    const double at = (member.phase + double(member.speed) * time) * kSamplesPerSecond;
     return static_cast<std::size_t>(std::lround(at)) % kSamples;
 }
 

@@ -19,7 +19,11 @@ struct CrowdSubject {
     explicit CrowdSubject(std::size_t count);
 
     /// A character with two clips, and a third with a sample for each member, as it is at `time`.
-    osg::ref_ptr<osgSkin::CrowdCharacter> character(double time = 0.0) const;
+    ///
+    /// \param knobs what its rigid part is drawn with; may be null
+    osg::ref_ptr<osgSkin::CrowdCharacter> character(double time = 0.0,
+                                                    osg::StateSet* knobs = nullptr) const;
+    osg::Geometry& knob() const { return *_knob; }
     /// The members, each in its own phase of one of the clips, all on samples at whole times.
     std::vector<osgSkin::CrowdInstance> members;
     /// The same, each in its own sample of the third clip.

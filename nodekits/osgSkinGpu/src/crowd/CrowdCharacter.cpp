@@ -5,6 +5,7 @@
 #include "model/PackRigid.h"
 #include "shader/CrowdText.h"
 
+#include <osgSkinGpu/GpuCrowd>
 #include <osgSkinGpu/GpuPalette>
 
 #include <osgSkin/Error>
@@ -14,6 +15,7 @@
 #include <osg/BufferObject>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace osgSkin {
@@ -21,6 +23,8 @@ namespace {
 
 /// Texels that floats can number.
 constexpr std::size_t kMostTexels = std::size_t(1) << 24;
+/// Clips that a CrowdInstance can name.
+constexpr std::size_t kMostClips = 65536;
 
 osg::ref_ptr<osg::TextureBuffer> textureOf(osg::Array& array, GLint format) {
     array.setVertexBufferObject(new osg::VertexBufferObject);
@@ -34,6 +38,13 @@ void expandBy(osg::BoundingBox& all, const osg::BoundingBox& box, const osg::Mat
     for (unsigned int corner = 0; corner < 8; ++corner) all.expandBy(box.corner(corner) * matrix);
 }
 
+bool isUsable(const osg::Matrixd& matrix) {
+    const auto row = [&](int i) { return osg::Vec3d(matrix(i, 0), matrix(i, 1), matrix(i, 2)); };
+    return std::all_of(matrix.ptr(), matrix.ptr() + 16,
+                       [](double x) { return std::isfinite(x); }) &&
+           std::isnormal((row(0) ^ row(1)) * row(2));
+}
+
 const osg::Vec3Array* vectors(const osg::Array* array) {
     return dynamic_cast<const osg::Vec3Array*>(array);
 }
@@ -45,22 +56,26 @@ CrowdCharacter::CrowdCharacter() : _sizes{std::numeric_limits<float>::infinity()
 CrowdCharacter::~CrowdCharacter() = default;
 
 std::size_t CrowdCharacter::addSkin(const DeformableSkin& skin, const osg::Matrixd& toCharacter) {
+    requireNoCrowd();
     if (!skin.getModel()) throw Error("crowd: the skin \"" + skin.getName() + "\" has no model");
     if (!_clips.empty()) throw Error("crowd: skins are added before clips");
+    if (!isUsable(toCharacter))
+        throw Error("crowd: the matrix of the skin \"" + skin.getName() +
+                    "\" is singular or not finite");
     const osg::ref_ptr<const GpuModel> model = GpuModel::of(*skin.getModel());
+    addPart({new osg::Geometry(*skin.getRestGeometry(), osg::CopyOp::SHALLOW_COPY),
+             const_cast<osg::StateSet*>(skin.getStateSet()),
+             model->texture(),
+             _skins.size(),
+             -1,
+             {}});
     _skins.push_back({model, toCharacter, nullptr, nullptr});
-    Part part{new osg::Geometry(*skin.getRestGeometry(), osg::CopyOp::SHALLOW_COPY),
-              const_cast<osg::StateSet*>(skin.getStateSet()),
-              model->texture(),
-              _skins.size() - 1,
-              -1,
-              {}};
-    addPart(part);
     return _skins.size() - 1;
 }
 
 void CrowdCharacter::addRigid(const osg::Geometry& geometry, osg::StateSet* state, std::size_t skin,
                               const std::string& joint) {
+    requireNoCrowd();
     if (skin >= _skins.size()) throw Error("crowd: there is no skin " + std::to_string(skin));
     const std::vector<BoundJoint>& joints = _skins[skin].model->model().joints();
     const auto found = std::find_if(joints.begin(), joints.end(),
@@ -74,43 +89,47 @@ void CrowdCharacter::addRigid(const osg::Geometry& geometry, osg::StateSet* stat
     const auto index = static_cast<int>(found - joints.begin());
     const osg::ref_ptr<osg::Vec4uiArray> texels =
         packRigid(joints, static_cast<unsigned int>(index), *positions, *normals);
-    Part part{new osg::Geometry(geometry, osg::CopyOp::SHALLOW_COPY),
-              state,
-              textureOf(*texels, GL_RGBA32UI_EXT),
-              skin,
-              index,
-              {}};
-    addPart(part);
+    addPart({new osg::Geometry(geometry, osg::CopyOp::SHALLOW_COPY),
+             state,
+             textureOf(*texels, GL_RGBA32UI_EXT),
+             skin,
+             index,
+             {}});
 }
 
-void CrowdCharacter::addPart(Part& part) {
+void CrowdCharacter::addPart(Part part) {
     if (_sizes.size() > 1) throw Error("crowd: parts are added before levels of detail");
     part.indices.push_back(trianglesOf(*part.rest));
-    _parts.push_back(part);
+    _parts.push_back(std::move(part));
 }
 
-void CrowdCharacter::addBounds(const Samples& samples) {
-    for (const Part& part : _parts) {
-        const Skin& skin = _skins[part.skin];
-        if (part.joint >= 0)
-            for (const std::vector<glm::dmat4>& sample : samples[part.skin])
-                expandBy(_bounds, part.rest->getBoundingBox(),
-                         toOsg(sample[static_cast<std::size_t>(part.joint)]) * skin.toCharacter);
+void CrowdCharacter::expandByRigids(osg::BoundingBox& bounds, std::size_t skin,
+                                    const std::vector<glm::dmat4>& skinning) const {
+    for (const Part& part : _parts)
+        if (part.skin == skin && part.joint >= 0)
+            expandBy(bounds, part.rest->getBoundingBox(),
+                     toOsg(skinning[static_cast<std::size_t>(part.joint)]) *
+                         _skins[skin].toCharacter);
+}
+
+void CrowdCharacter::requireRoomFor(std::size_t samples) const {
+    if (_clips.size() >= kMostClips) throw Error("crowd: there are 65,536 clips already");
+    for (const Skin& skin : _skins) {
+        std::size_t all = samples;
+        for (const Clip& clip : _clips) all += clip.samples;
+        const std::size_t texels = skin.model->paletteSize();
+        if (all > (kMostTexels - _clips.size() - 1) / texels)
+            throw Error("crowd: all clips together have more than 16,777,216 texels");
     }
 }
 
-unsigned int CrowdCharacter::addClip(const Samples& samples, double samplesPerSecond, bool loops) {
-    if (_skins.empty() || samples.size() != _skins.size() || samples.front().empty() ||
-        !(samplesPerSecond > 0.0))
-        throw Error("crowd: a clip needs samples of each skin, and some a second");
+CrowdCharacter::Clip CrowdCharacter::bake(const Samples& samples, double samplesPerSecond,
+                                          bool loops, osg::BoundingBox& bounds) const {
     Clip clip{samples.front().size(), samplesPerSecond, loops, {}};
-    osg::BoundingBox bounds = _bounds;
     for (std::size_t s = 0; s < _skins.size(); ++s) {
         const GpuModel& model = *_skins[s].model;
         Pose pose(model.model().joints(), model.model().inputs().size());
         clip.palettes.emplace_back(clip.samples * model.paletteSize());
-        if (samples[s].size() != clip.samples)
-            throw Error("crowd: a clip needs as many samples of each skin");
         for (std::size_t i = 0; i < clip.samples; ++i) {
             const std::vector<glm::dmat4>& skinning = samples[s][i];
             // So that what lies between two samples does not turn the long way round.
@@ -119,30 +138,53 @@ unsigned int CrowdCharacter::addClip(const Samples& samples, double samplesPerSe
                 throw Error("crowd: sample " + std::to_string(i) + " of a clip cannot be used");
             writePalette(model, pose, &clip.palettes.back()[i * model.paletteSize()]);
             expandBy(bounds, toOsg(computePoseBounds(model.model(), pose)), _skins[s].toCharacter);
+            expandByRigids(bounds, s, skinning);
         }
     }
-    _bounds = bounds;
-    addBounds(samples);
+    return clip;
+}
+
+unsigned int CrowdCharacter::addClip(const Samples& samples, double samplesPerSecond, bool loops) {
+    requireNoCrowd();
+    const auto rate = static_cast<float>(samplesPerSecond); // as shaders have it
+    if (_skins.empty() || samples.size() != _skins.size() || samples.front().empty() ||
+        !std::isnormal(rate) || rate < 0.0f)
+        throw Error("crowd: a clip needs samples of each skin, and some a second");
+    for (const auto& ofSkin : samples)
+        if (ofSkin.size() != samples.front().size())
+            throw Error("crowd: a clip needs as many samples of each skin");
+    requireRoomFor(samples.front().size());
+    osg::BoundingBox bounds = _bounds;
+    Clip clip = bake(samples, double(rate), loops, bounds);
+    std::vector<Skin> skins = _skins;
+    writeClips(clip, skins);
     _clips.push_back(std::move(clip));
-    writeClips();
+    _skins.swap(skins);
+    _bounds = bounds;
     return static_cast<unsigned int>(_clips.size() - 1);
 }
 
-void CrowdCharacter::writeClips() {
-    for (std::size_t s = 0; s < _skins.size(); ++s) {
+void CrowdCharacter::writeClips(const Clip& last, std::vector<Skin>& skins) const {
+    std::vector<const Clip*> clips;
+    for (const Clip& clip : _clips) clips.push_back(&clip);
+    clips.push_back(&last);
+    for (std::size_t s = 0; s < skins.size(); ++s) {
         const osg::ref_ptr<osg::Vec4Array> texels =
-            new osg::Vec4Array(static_cast<unsigned int>(_clips.size()));
-        for (std::size_t c = 0; c < _clips.size(); ++c) {
-            const Clip& clip = _clips[c];
+            new osg::Vec4Array(static_cast<unsigned int>(clips.size()));
+        for (std::size_t c = 0; c < clips.size(); ++c) {
+            const Clip& clip = *clips[c];
             (*texels)[c] = {static_cast<float>(texels->size()), static_cast<float>(clip.samples),
                             static_cast<float>(clip.samplesPerSecond), clip.loops ? 1.0f : 0.0f};
             texels->insert(texels->end(), clip.palettes[s].begin(), clip.palettes[s].end());
         }
-        if (texels->size() > kMostTexels)
-            throw Error("crowd: all clips together have more than 16,777,216 texels");
-        _skins[s].samples = texels;
-        _skins[s].clips = textureOf(*texels, GL_RGBA32F_ARB);
+        skins[s].samples = texels;
+        skins[s].clips = textureOf(*texels, GL_RGBA32F_ARB);
     }
+}
+
+double CrowdCharacter::loopSeconds(unsigned int clip) const {
+    const Clip& of = _clips[clip];
+    return of.loops ? static_cast<double>(of.samples) / of.samplesPerSecond : 0.0;
 }
 
 bool CrowdCharacter::setSample(unsigned int clip, std::size_t sample, std::size_t skin,
@@ -154,11 +196,39 @@ bool CrowdCharacter::setSample(unsigned int clip, std::size_t sample, std::size_
     const auto first = static_cast<std::size_t>(texels[clip].x());
     if (!writePalette(model, pose, &texels[first + sample * model.paletteSize()])) return false;
     texels.dirty();
+    const osg::BoundingBox before = _bounds;
+    expandBy(_bounds, toOsg(computePoseBounds(model.model(), pose)), _skins[skin].toCharacter);
+    expandByRigids(_bounds, skin, pose.skinning());
+    if (_bounds == before) return true;
+    const std::lock_guard<std::mutex> lock(_mutex);
+    for (const osg::observer_ptr<GpuCrowd>& crowd : _crowds) {
+        osg::ref_ptr<GpuCrowd> living;
+        if (crowd.lock(living)) living->boundsChanged();
+    }
     return true;
 }
 
+void CrowdCharacter::requireNoCrowd() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    if (_hasCrowd) throw Error("crowd: a character that a crowd is made of stays as it is");
+}
+
+void CrowdCharacter::addCrowd(GpuCrowd& crowd) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _crowds.erase(std::remove_if(_crowds.begin(), _crowds.end(),
+                                 [](const auto& known) { return !known.valid(); }),
+                  _crowds.end());
+    _crowds.emplace_back(&crowd);
+    _hasCrowd = true;
+}
+
 std::size_t CrowdCharacter::addLevel(double triangles, double size) {
+    requireNoCrowd();
     if (_sizes.size() >= kMostLevels) throw Error("crowd: there are eight levels already");
+    const auto below = static_cast<float>(size); // as shaders have it
+    if (!(triangles >= 0.0 && triangles < _share && below >= 0.0f && below < _sizes.back()))
+        throw Error("crowd: a level of detail needs fewer triangles, and a smaller size, than the "
+                    "one before");
     std::vector<osg::Vec3> positions;
     std::vector<GLuint> indices;
     std::vector<std::size_t> ends;
@@ -182,7 +252,8 @@ std::size_t CrowdCharacter::addLevel(double triangles, double size) {
                     own.push_back(kept[k] - static_cast<GLuint>(first));
         _parts[p].indices.push_back(own);
     }
-    _sizes.push_back(static_cast<float>(size));
+    _sizes.push_back(below);
+    _share = triangles;
     return triangleCount(_sizes.size() - 1);
 }
 

@@ -4,6 +4,7 @@
 #include "crowd/CrowdView.h"
 #include "shader/CrowdText.h"
 #include "skin/ContextSupport.h"
+#include "skin/SharedBarrier.h"
 
 #include <osg/BufferIndexBinding>
 #include <osg/GLExtensions>
@@ -22,24 +23,32 @@ namespace osgSkin {
 
 CrowdCull::CrowdCull(const CrowdCharacter& character, const CrowdDraws& draws,
                      osg::TextureBuffer* instances)
-    : _draws(draws), _sphere(character.bounds().center().x(), character.bounds().center().y(),
-                             character.bounds().center().z(), character.bounds().radius()),
-      _sizes(character.levelSizes()), _parts(static_cast<int>(character.parts().size())),
+    : _commands(draws.commands()), _sizes(character.levelSizes()),
+      _parts(static_cast<int>(character.parts().size())),
       _capacity(static_cast<int>(draws.list().size() / character.levelCount())),
       _state(new osg::StateSet) {
     setUseDisplayList(false);
     setSupportsDisplayList(false);
     const auto ours =
         osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
-    _state->setRenderBinDetails(-1000, "RenderBin");
-    _state->setNestRenderBins(false);
+    setBounds(character.bounds());
+    setUpBin(*_state, kComputeBin);
     _state->setAttribute(cullProgram(), ours);
     _state->setTextureAttribute(kCrowdInstanceUnit, instances, ours);
     _state->addUniform(new osg::Uniform("osgSkinInstances", static_cast<int>(kCrowdInstanceUnit)),
                        ours);
-    _state->setAttribute(new osg::ShaderStorageBufferBinding(kCommandBuffer, draws.commands()),
-                         ours);
+    _state->setAttribute(new osg::ShaderStorageBufferBinding(kCommandBuffer, _commands), ours);
     _state->setAttribute(new osg::ShaderStorageBufferBinding(kVisibleBuffer, &draws.list()), ours);
+}
+
+bool CrowdCull::isIn(osgUtil::CullVisitor& cv) const {
+    const auto& bins = cv.getCurrentRenderBin()->getStage()->getRenderBinList();
+    const auto bin = bins.find(kComputeBin);
+    if (bin == bins.end()) return false;
+    for (const osgUtil::StateGraph* graph : bin->second->getStateGraphList())
+        for (const auto& leaf : graph->_leaves)
+            if (leaf->getDrawable() == this) return true;
+    return false;
 }
 
 void CrowdCull::drawImplementation(osg::RenderInfo& renderInfo) const {
@@ -53,12 +62,12 @@ void CrowdCull::drawImplementation(osg::RenderInfo& renderInfo) const {
         return;
     }
     const osg::GLBufferObject* commands =
-        _draws.commands()->getBufferObject()->getGLBufferObject(state.getContextID());
+        _commands->getBufferObject()->getGLBufferObject(state.getContextID());
     if (!commands) return;
     state.unbindVertexBufferObject();
     gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, commands->getGLObjectID());
-    gl.glBufferSubData(GL_ARRAY_BUFFER_ARB, 0, _draws.commands()->getTotalDataSize(),
-                       _draws.commands()->getDataPointer());
+    gl.glBufferSubData(GL_ARRAY_BUFFER_ARB, 0, _commands->getTotalDataSize(),
+                       _commands->getDataPointer());
     gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
 
     const CrowdView view(state.getModelViewMatrix(), state.getProjectionMatrix());

@@ -12,7 +12,7 @@ namespace osgSkin {
 /// it is drawn by.
 class CrowdCull : public osg::Drawable {
 public:
-    /// \param draws indirect ones, which outlive this
+    /// \param draws indirect ones
     CrowdCull(const CrowdCharacter& character, const CrowdDraws& draws,
               osg::TextureBuffer* instances);
 
@@ -22,13 +22,22 @@ public:
     ///
     /// \param count members
     void setCount(std::size_t count) { _count = static_cast<int>(count); }
+    /// In no thread's draw.
+    ///
+    /// \param bounds of a member about its place
+    void setBounds(const osg::BoundingBox& bounds) {
+        _sphere = osg::Vec4f(bounds.center(), bounds.radius());
+    }
+
+    /// Whether a cull's render stage has this already: what it would write is one place's.
+    bool isIn(osgUtil::CullVisitor& cv) const;
 
     osg::Object* cloneType() const override { return nullptr; }
     osg::Object* clone(const osg::CopyOp&) const override { return nullptr; }
     void drawImplementation(osg::RenderInfo& renderInfo) const override;
 
 private:
-    const CrowdDraws& _draws;
+    osg::ref_ptr<osg::DefaultIndirectCommandDrawElements> _commands;
     osg::Vec4f _sphere;
     std::vector<float> _sizes;
     int _parts, _capacity, _count = 0;

@@ -6,11 +6,20 @@
 #include <osg/BufferObject>
 #include <osg/Uniform>
 
+#include <algorithm>
+
 #ifndef GL_R32UI
 #define GL_R32UI 0x8236
 #endif
 
 namespace osgSkin {
+namespace {
+
+bool hasTexture(const osg::StateSet* state) {
+    return state && state->getTextureAttribute(0, osg::StateAttribute::TEXTURE);
+}
+
+} // namespace
 
 CrowdDraws::CrowdDraws(const CrowdCharacter& character, std::size_t capacity, Count count)
     : _capacity(capacity),
@@ -59,10 +68,13 @@ CrowdDraws::Draw CrowdDraws::makeDraw(const CrowdCharacter& character,
     state->addUniform(
         new osg::Uniform("osgSkinPaletteSize", static_cast<int>(skin.model->paletteSize())));
     state->addUniform(new osg::Uniform("osgSkinStand", osg::Matrixf(skin.toCharacter)));
-    if (part.state && part.state->getTextureAttribute(0, osg::StateAttribute::TEXTURE))
-        state->setDefine("OSGSKIN_TEXTURE");
+    // A skin's rest geometry has the state that the skin took from it, unless it has another one.
+    const osg::ref_ptr<osg::StateSet> own =
+        part.joint >= 0 && part.rest->getStateSet() != part.state ? part.rest->getStateSet()
+                                                                  : nullptr;
+    if (hasTexture(part.state) || hasTexture(own)) state->setDefine("OSGSKIN_TEXTURE");
     geometry->setStateSet(state);
-    return {part.state, geometry, level, indices.empty() || count == Count::Direct};
+    return {part.state, own, geometry, level, indices.empty() || count == Count::Direct};
 }
 
 void CrowdDraws::setCount(std::size_t level, std::size_t members) {
@@ -81,13 +93,29 @@ void CrowdDraws::setBound(const osg::BoundingBox& box) {
     }
 }
 
+bool CrowdDraws::isFree() const {
+    return std::all_of(_draws.begin(), _draws.end(),
+                       [](const Draw& draw) { return draw.geometry->referenceCount() == 1; });
+}
+
 void CrowdDraws::cull(osgUtil::CullVisitor& cv) const {
-    for (const Draw& draw : _draws) {
-        if (draw.isEmpty) continue;
-        if (draw.material) cv.pushStateSet(draw.material);
-        draw.geometry->accept(cv);
-        if (draw.material) cv.popStateSet();
-    }
+    // Its primitives are those of the rest pose at the origin: they say nothing of near and far.
+    const osg::CullSettings::ComputeNearFarMode mode = cv.getComputeNearFarMode();
+    const auto inherited = cv.getInheritanceMask();
+    cv.setComputeNearFarMode(
+        std::min(mode, osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES));
+    for (const Draw& draw : _draws)
+        if (!draw.isEmpty) cullDraw(draw, cv);
+    cv.setComputeNearFarMode(mode);
+    cv.setInheritanceMask(inherited);
+}
+
+void CrowdDraws::cullDraw(const Draw& draw, osgUtil::CullVisitor& cv) {
+    if (draw.material) cv.pushStateSet(draw.material);
+    if (draw.own) cv.pushStateSet(draw.own);
+    draw.geometry->accept(cv);
+    if (draw.own) cv.popStateSet();
+    if (draw.material) cv.popStateSet();
 }
 
 void CrowdDraws::resizeGLObjectBuffers(unsigned int maxSize) {

@@ -29,6 +29,10 @@ public:
     /// A command for each part in each level, all of no member; Indirect alone.
     osg::DefaultIndirectCommandDrawElements* commands() const { return _commands.get(); }
 
+    /// Whether no cull's leaves hold them any more: they are let go when the cull traversal that
+    /// they were added by begins anew, after its draw.
+    bool isFree() const;
+
     void setBound(const osg::BoundingBox& box);
     void cull(osgUtil::CullVisitor& cv) const;
     void resizeGLObjectBuffers(unsigned int maxSize);
@@ -37,10 +41,12 @@ public:
 private:
     struct Draw {
         osg::ref_ptr<osg::StateSet> material; ///< may be null
+        osg::ref_ptr<osg::StateSet> own;      ///< of a rigid part's geometry; may be null
         osg::ref_ptr<osg::Geometry> geometry;
         std::size_t level;
         bool isEmpty;
     };
+    static void cullDraw(const Draw& draw, osgUtil::CullVisitor& cv);
     Draw makeDraw(const CrowdCharacter& character, const CrowdCharacter::Part& part,
                   std::size_t level, Count count);
 

@@ -26,7 +26,7 @@ void CrowdInstance::pack(osg::Vec4ui* texels) const {
                  bitsOf(double(scale))};
     texels[1] = {bitsOf(rotation.x()), bitsOf(rotation.y()), bitsOf(rotation.z()),
                  bitsOf(rotation.w())};
-    texels[2] = {bitsOf(double(phase)), bitsOf(double(speed)), bitsOf(double(otherPhase)),
+    texels[2] = {bitsOf(phase), bitsOf(double(speed)), bitsOf(otherPhase),
                  bitsOf(double(otherSpeed))};
     texels[3] = {(clip & 0xffffu) | otherClip << 16, bitsOf(double(blend)),
                  byteOf(colour.x()) | byteOf(colour.y()) << 8 | byteOf(colour.z()) << 16 |

@@ -4,7 +4,7 @@
 #include "crowd/CrowdCull.h"
 #include "crowd/CrowdDraws.h"
 #include "crowd/CrowdMembers.h"
-#include "crowd/CrowdView.h"
+#include "crowd/ListedDraws.h"
 #include "shader/CrowdText.h"
 #include "skin/ContextSupport.h"
 #include "skin/SharedBarrier.h"
@@ -16,62 +16,55 @@
 #include <osg/Uniform>
 
 #include <atomic>
+#include <cmath>
 #include <mutex>
 
 namespace osgSkin {
 
-struct GpuCrowd::Inside {
-    /// Draws whose list the processor fills, for one camera in one frame.
-    struct Listed {
-        CrowdDraws draws;
-        unsigned int frame; ///< in which it was last drawn
-    };
+namespace {
 
+/// Seconds of single precision: after so many, shaders count from another time. A step of it is
+/// then 15 us.
+constexpr double kMostSeconds = 256.0;
+
+} // namespace
+
+struct GpuCrowd::Inside {
     osg::ref_ptr<CrowdCharacter> character;
     std::unique_ptr<CrowdMembers> members;
     std::unique_ptr<CrowdDraws> indirect;
     osg::ref_ptr<CrowdCull> cull;
-    std::mutex mutex;
-    std::vector<std::unique_ptr<Listed>> listed;
+    std::unique_ptr<ListedDraws> listed;
+    std::mutex mutex; ///< of bounds
+    std::atomic<bool> areBoundsOld{false};
+    double seconds = 0.0;
     osg::ref_ptr<osg::Uniform> time = new osg::Uniform("osgSkinTime", 0.0f);
     Culling culling = Culling::Automatic;
 
     void rebuild(const std::vector<CrowdInstance>& instances) {
-        members = std::make_unique<CrowdMembers>(instances, character->bounds());
-        listed.clear();
-        cull = nullptr;
+        listed = nullptr;
+        members = std::make_unique<CrowdMembers>(*character, instances, seconds);
+        listed = std::make_unique<ListedDraws>(*character, *members);
         indirect =
             std::make_unique<CrowdDraws>(*character, instances.size(), CrowdDraws::Count::Indirect);
         cull = new CrowdCull(*character, *indirect, members->texture());
         cull->setCount(instances.size());
+        tellTime();
     }
 
-    /// Draws that no draw thread can still be reading: no cull begins before the draw of the frame
-    /// before the last one has ended.
-    CrowdDraws& freeDraws(unsigned int frame) {
+    void tellTime() const {
+        time->set(static_cast<float>(seconds - (members ? members->since() : 0.0)));
+    }
+
+    /// Takes the character's where they have grown; any thread.
+    void findBounds() {
+        if (!areBoundsOld || !members) return;
         const std::lock_guard<std::mutex> lock(mutex);
-        for (const std::unique_ptr<Listed>& old : listed)
-            if (old->frame + 2 <= frame) {
-                old->frame = frame;
-                return old->draws;
-            }
-        listed.push_back(std::make_unique<Listed>(
-            Listed{CrowdDraws(*character, members->size(), CrowdDraws::Count::Direct), frame}));
-        return listed.back()->draws;
-    }
-
-    void list(const CrowdView& view, CrowdDraws& draws) const {
-        const std::vector<osg::Vec4f>& spheres = members->spheres();
-        std::vector<std::size_t> counts(character->levelCount(), 0);
-        osg::UIntArray& places = draws.list();
-        for (std::size_t i = 0; i < spheres.size(); ++i) {
-            if (!view.sees(spheres[i])) continue;
-            const std::size_t level = view.levelOf(spheres[i], character->levelSizes());
-            places[level * spheres.size() + counts[level]++] = static_cast<GLuint>(i);
-        }
-        places.dirty();
-        for (std::size_t level = 0; level < counts.size(); ++level)
-            draws.setCount(level, counts[level]);
+        if (!areBoundsOld) return;
+        members->findSpheres();
+        cull->setBounds(character->bounds());
+        indirect->setBound(members->box());
+        areBoundsOld = false;
     }
 };
 
@@ -84,18 +77,33 @@ GpuCrowd::GpuCrowd(CrowdCharacter* character) : _inside(std::make_unique<Inside>
     state.setDataVariance(osg::Object::DYNAMIC);
     state.setAttribute(plainCrowdProgram());
     state.setDefine("OSGSKIN");
-    state.addUniform(_inside->time);
     state.addUniform(new osg::Uniform("osgSkinModel", static_cast<int>(kCrowdModelUnit)));
     state.addUniform(new osg::Uniform("osgSkinClips", static_cast<int>(kCrowdClipUnit)));
     state.addUniform(new osg::Uniform("osgSkinInstances", static_cast<int>(kCrowdInstanceUnit)));
     state.addUniform(new osg::Uniform("osgSkinVisible", static_cast<int>(kCrowdVisibleUnit)));
     state.addUniform(new osg::Uniform("osgSkinImage", 0));
+    state.addUniform(_inside->time);
+    character->addCrowd(*this);
+}
+
+GpuCrowd::GpuCrowd(const GpuCrowd& other, const osg::CopyOp& copyop)
+    : osg::Node(other, copyop), _inside(std::make_unique<Inside>()) {
+    const Inside& from = *other._inside;
+    _inside->character = from.character;
+    _inside->culling = from.culling;
+    _inside->seconds = from.seconds;
+    // Its members and their time are its own.
+    setStateSet(new osg::StateSet(*other.getStateSet(), osg::CopyOp::SHALLOW_COPY));
+    getStateSet()->addUniform(_inside->time);
+    from.character->addCrowd(*this);
+    if (from.members) setInstances(from.members->instances());
 }
 
 GpuCrowd::~GpuCrowd() = default;
 
 void GpuCrowd::setInstances(const std::vector<CrowdInstance>& instances) {
     Inside& in = *_inside;
+    checkMembers(*in.character, instances);
     if (in.members && in.members->size() == instances.size()) {
         in.members->set(instances);
     } else {
@@ -111,7 +119,17 @@ std::size_t GpuCrowd::getInstanceCount() const {
 }
 
 void GpuCrowd::setTime(double seconds) {
-    _inside->time->set(static_cast<float>(seconds));
+    if (!std::isfinite(seconds)) return;
+    Inside& in = *_inside;
+    in.seconds = seconds;
+    if (in.members && std::abs(seconds - in.members->since()) > kMostSeconds)
+        in.members->setSince(seconds);
+    in.tellTime();
+}
+
+void GpuCrowd::boundsChanged() {
+    _inside->areBoundsOld = true;
+    dirtyBound();
 }
 
 void GpuCrowd::setCulling(Culling culling) {
@@ -131,34 +149,34 @@ void GpuCrowd::traverse(osg::NodeVisitor& nv) {
             OSG_WARN << "osgSkin: crowds need OpenGL 3.3; nothing of them is drawn" << std::endl;
         return;
     }
-    if (in.culling == Culling::Automatic && canCompute(state)) {
+    in.findBounds();
+    if (in.culling == Culling::Automatic && canCompute(state) && !in.cull->isIn(*cv)) {
         addToStage(*cv, *in.cull, in.cull->state());
         in.indirect->cull(*cv);
-        return;
+    } else {
+        in.listed->cull(*cv);
     }
-    const osg::FrameStamp* stamp = nv.getFrameStamp();
-    CrowdDraws& draws = in.freeDraws(stamp ? stamp->getFrameNumber() : 0);
-    in.list(CrowdView(*cv->getModelViewMatrix(), *cv->getProjectionMatrix()), draws);
-    draws.setBound(in.members->box());
-    draws.cull(*cv);
 }
 
 osg::BoundingSphere GpuCrowd::computeBound() const {
+    _inside->findBounds();
     return _inside->members ? osg::BoundingSphere(_inside->members->box()) : osg::BoundingSphere();
 }
 
 void GpuCrowd::resizeGLObjectBuffers(unsigned int maxSize) {
     osg::Node::resizeGLObjectBuffers(maxSize);
-    if (_inside->indirect) _inside->indirect->resizeGLObjectBuffers(maxSize);
-    if (_inside->cull) _inside->cull->state().resizeGLObjectBuffers(maxSize);
-    for (const auto& listed : _inside->listed) listed->draws.resizeGLObjectBuffers(maxSize);
+    if (!_inside->members) return;
+    _inside->indirect->resizeGLObjectBuffers(maxSize);
+    _inside->cull->state().resizeGLObjectBuffers(maxSize);
+    _inside->listed->resizeGLObjectBuffers(maxSize);
 }
 
 void GpuCrowd::releaseGLObjects(osg::State* state) const {
     osg::Node::releaseGLObjects(state);
-    if (_inside->indirect) _inside->indirect->releaseGLObjects(state);
-    if (_inside->cull) _inside->cull->state().releaseGLObjects(state);
-    for (const auto& listed : _inside->listed) listed->draws.releaseGLObjects(state);
+    if (!_inside->members) return;
+    _inside->indirect->releaseGLObjects(state);
+    _inside->cull->state().releaseGLObjects(state);
+    _inside->listed->releaseGLObjects(state);
 }
 
 osg::ref_ptr<osg::Shader> crowdVertexShader() {

@@ -9,6 +9,9 @@
 namespace osgSkin {
 
 /// Indices of the triangles that a geometry draws.
+///
+/// \param geometry with as many vertices as its array has
+/// \throw osgSkin::Error where a primitive names another vertex, or ends within a triangle
 std::vector<GLuint> trianglesOf(const osg::Geometry& geometry);
 
 /// Fewer triangles between the same vertices.

@@ -22,8 +22,7 @@ SharedBarrier& SharedBarrier::instance() {
 SharedBarrier::SharedBarrier() : _place(new osg::StateSet) {
     setUseDisplayList(false);
     setSupportsDisplayList(false);
-    _place->setRenderBinDetails(-999, "RenderBin");
-    _place->setNestRenderBins(false);
+    setUpBin(*_place, kBarrierBin);
 }
 
 void SharedBarrier::addTo(osgUtil::CullVisitor& cv) {
@@ -37,6 +36,11 @@ void SharedBarrier::drawImplementation(osg::RenderInfo& renderInfo) const {
     renderInfo.getState()->get<osg::GLExtensions>()->glMemoryBarrier(
         GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     ++_count;
+}
+
+void setUpBin(osg::StateSet& state, ComputeBin bin) {
+    state.setRenderBinDetails(bin, "RenderBin", osg::StateSet::PROTECTED_RENDERBIN_DETAILS);
+    state.setNestRenderBins(false);
 }
 
 void addToStage(osgUtil::CullVisitor& cv, osg::Drawable& drawable, osg::StateSet& state) {

@@ -39,6 +39,12 @@ private:
     mutable std::atomic<unsigned int> _count{0};
 };
 
+/// The render bins of what is computed before a stage's draws, and of what makes these wait.
+enum ComputeBin { kComputeBin = -1000, kBarrierBin };
+
+/// Lets what has a state be drawn in one of them, whatever a state above it says of bins.
+void setUpBin(osg::StateSet& state, ComputeBin bin);
+
 /// Puts a drawable, which no camera moves, into a cull's render stage by its own state alone.
 void addToStage(osgUtil::CullVisitor& cv, osg::Drawable& drawable, osg::StateSet& state);
 

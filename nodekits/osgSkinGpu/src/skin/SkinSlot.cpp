@@ -2,6 +2,7 @@
 #include "skin/SkinSlot.h"
 
 #include "shader/ComputeProgram.h"
+#include "skin/SharedBarrier.h"
 
 #include <osgSkinGpu/GpuPalette>
 
@@ -46,8 +47,7 @@ SkinSlot::SkinSlot(const DeformableSkin& skin, const osg::ref_ptr<const GpuModel
       _palette(new osg::Vec4Array(static_cast<unsigned int>(model->paletteSize()))),
       _dispatch(new SkinDispatch(model)), _state(new osg::StateSet) {
     const int attribute = skin.getTangentAttribute();
-    _state->setRenderBinDetails(-1000, "RenderBin");
-    _state->setNestRenderBins(false);
+    setUpBin(*_state, kComputeBin);
     _state->setAttribute(computeProgram(attribute >= 0), kOurs);
     addInput(kModelUnit, "osgSkinModel", model->texture());
     addInput(kPaletteUnit, "osgSkinPalette", readable(*_palette, GL_STREAM_DRAW_ARB));
