@@ -30,7 +30,7 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::show(const osgSkin::ProgressStep& step) {
     if (_quiet) return;
-    const std::string text = _title + ": " + step.what + ", " +
+    const std::string text = osgSkin::onOneLine(_title + ": " + step.what) + ", " +
                              std::to_string(static_cast<int>(100.0 * step.fraction + 1e-9)) + " %";
     if (_thread.joinable()) {
         const std::lock_guard<std::mutex> lock(_mutex);

@@ -86,8 +86,9 @@ void bakeFrames(const Arguments& arguments, Character& character) {
     if (writer) writer->finish();
     if (!arguments.pose.empty()) bake::writeJson(arguments.pose, poses);
     if (!arguments.quiet)
-        std::cerr << total << " frames of \"" << motion.name << "\", largest seam gap "
-                  << seamGap / character.body.mesh.size() << " of the body's size\n"
+        std::cerr << total << " frames of \"" << osgSkin::onOneLine(motion.name)
+                  << "\", largest seam gap " << seamGap / character.body.mesh.size()
+                  << " of the body's size\n"
                   << motion.notes << std::flush;
 }
 
@@ -113,9 +114,9 @@ void tellOtherThings(const Character& character) {
     OtherThings others;
     character.root->accept(others);
     if (others.count > 0)
-        std::cerr << character.file << ": " << others.count
+        std::cerr << osgSkin::onOneLine(character.file) << ": " << others.count
                   << (others.count == 1 ? " geometry" : " geometries")
-                  << " beside the body left out: \"" << others.first
+                  << " beside the body left out: \"" << osgSkin::onOneLine(others.first)
                   << (others.count == 1 ? "\"\n" : "\", ...\n") << std::flush;
 }
 

@@ -52,7 +52,8 @@ void takePictures(viewer::Stage& stage, const std::string& keys, const std::stri
             example::pictureName(folder, "viewer", static_cast<unsigned int>(i));
         snapshots.write(stage.simulationTime(), file);
         std::cout << file << ": " << (i > 0 ? std::string("'") + keys[i - 1] + "' " : "")
-                  << stage.summary() << (times ? "; " + stage.times() : "") << std::endl;
+                  << osgSkin::onOneLine(stage.summary()) << (times ? "; " + stage.times() : "")
+                  << std::endl;
     }
 }
 

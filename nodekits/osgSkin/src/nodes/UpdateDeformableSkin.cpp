@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/UpdateDeformableSkin>
 
+#include <osgSkin/Error>
+
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
 #include <osg/Notify>
@@ -51,17 +53,18 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
         // A root over several bones, as readSkeleton() adds one, has none and stays at rest.
         for (const std::string& joint : _reader.missing())
             if (joint != model->joints().front().name)
-                OSG_WARN << "osgSkin: skin \"" << skin.getName() << "\": skeleton \""
-                         << skeleton.getName() << "\" has no bone \"" << joint
-                         << "\"; the joint moves with its parent" << std::endl;
+                OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
+                                      skeleton.getName() + "\" has no bone \"" + joint +
+                                      "\"; the joint moves with its parent")
+                         << std::endl;
     }
     const std::vector<glm::dmat4>& skinning = _reader.read();
     if (!skin.setPose(skinning.data(), skinning.size(), _twist)) {
         if (!_warned)
-            OSG_WARN << "osgSkin: skin \"" << skin.getName() << "\": skeleton \""
-                     << skeleton.getName()
-                     << "\" has a bone whose matrix is singular, not finite or out of range; the "
-                        "last pose stays"
+            OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
+                                  skeleton.getName() +
+                                  "\" has a bone whose matrix is singular, not finite or out of "
+                                  "range; the last pose stays")
                      << std::endl;
         _warned = true;
         return false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/BindReport>
 
+#include <osgSkin/Error>
+
 #include <iomanip>
 #include <sstream>
 
@@ -16,9 +18,9 @@ std::string BindReport::text() const {
         << ", capped vertices " << cappedVertices << ", " << std::setprecision(3) << seconds
         << " s\n";
     for (const Region& region : regions)
-        out << "region " << region.joint << ": " << region.vertices << " vertices, " << region.seeds
-            << " seeds\n";
-    for (const std::string& note : notes) out << "note: " << note << "\n";
+        out << "region " << onOneLine(region.joint) << ": " << region.vertices << " vertices, "
+            << region.seeds << " seeds\n";
+    for (const std::string& note : notes) out << "note: " << onOneLine(note) << "\n";
     return out.str();
 }
 

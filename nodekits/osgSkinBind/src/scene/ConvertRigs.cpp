@@ -152,7 +152,8 @@ ConvertReport convertRigs(osg::Node& scene, const ConvertOptions& options) {
                 report.notes.push_back(nameOf(*rig) + " is left as it is: " + error.what());
         }
     }
-    for (const std::string& note : report.notes) OSG_NOTICE << "osgSkin: " << note << std::endl;
+    for (const std::string& note : report.notes)
+        OSG_NOTICE << "osgSkin: " << onOneLine(note) << std::endl;
     return report;
 }
 

@@ -142,7 +142,8 @@ void JsonReader::forEachMember(
 void JsonReader::warnUnknown(std::initializer_list<const char*> known) const {
     forEachMember([&](const std::string& key, const JsonReader& member) {
         if (std::find(known.begin(), known.end(), key) == known.end())
-            OSG_WARN << _file << ": " << member._path << ": not known, passed over" << std::endl;
+            OSG_WARN << onOneLine(_file + ": " + member._path + ": not known, passed over")
+                     << std::endl;
     });
 }
 

@@ -3,35 +3,12 @@
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/ProgressOption>
+#include <osgSkinImport/ReadLimits>
 
 #include <sstream>
 
 namespace osgSkin {
 namespace {
-
-using Words = std::vector<std::pair<std::string, std::string>>;
-
-/// key=value and key="value with spaces", in order.
-Words wordsOf(const std::string& text) {
-    Words words;
-    std::size_t at = 0;
-    while ((at = text.find_first_not_of(" \t", at)) != std::string::npos) {
-        const std::size_t stop = text.find_first_of(" \t=", at);
-        const std::string key = text.substr(at, stop - at);
-        std::string value;
-        at = stop;
-        if (stop != std::string::npos && text[stop] == '=') {
-            const bool isQuoted = stop + 1 < text.size() && text[stop + 1] == '"';
-            const std::size_t first = stop + (isQuoted ? 2 : 1);
-            const std::size_t end = text.find_first_of(isQuoted ? "\"" : " \t", first);
-            value = text.substr(first, end - first);
-            at = end == std::string::npos ? end : end + 1;
-        }
-        words.emplace_back(key, value);
-        if (at == std::string::npos) break;
-    }
-    return words;
-}
 
 [[noreturn]] void fail(const std::string& key, const std::string& value, const char* expected) {
     throw Error("option " + key + "=" + value + ": expected " + expected);
@@ -78,7 +55,7 @@ LoadOptions toLoadOptions(const osgDB::Options* options) {
     if (options == nullptr) return result;
     result.readOptions = options;
     result.progress = getProgress(options);
-    for (const auto& [key, value] : wordsOf(options->getOptionString())) {
+    for (const auto& [key, value] : optionValues(options->getOptionString())) {
         if (key == "bind") result.method = methodOf(value);
         if (key == "shapes") result.shapes = shapesOf(value);
         if (key == "muscles") result.muscles = switchOf(key, value);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <osgSkin/Error>
+
 #include <osg/Notify>
 
 #include <string>
@@ -10,8 +12,8 @@ namespace osgSkin {
 
 /// Keeps a line on something unusual for the caller, and tells OSG's notify handler too.
 inline void takeNote(std::vector<std::string>& notes, const std::string& line) {
-    OSG_NOTICE << line << std::endl;
-    notes.push_back(line);
+    notes.push_back(onOneLine(line));
+    OSG_NOTICE << notes.back() << std::endl;
 }
 
 } // namespace osgSkin

@@ -8,7 +8,6 @@
 #include "assimp/Scenery.h"
 #include "text/FileText.h"
 
-#include <osg/Notify>
 #include <osgDB/FileNameUtils>
 
 #include <assimp/scene.h>
@@ -123,8 +122,8 @@ CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,
             addWeights(mesh, above, first, where, result);
         }
     if (!leftOut.empty())
-        OSG_NOTICE << path << ": " << leftOut.size() << " things beside the figure are left out, \""
-                   << *leftOut.begin() << "\" among them" << std::endl;
+        tellOf(path, std::to_string(leftOut.size()) + " things beside the figure are left out, \"" +
+                         *leftOut.begin() + "\" among them");
     return result;
 }
 

@@ -2,8 +2,7 @@
 #include "assimp/MissingBones.h"
 
 #include "assimp/SceneBind.h"
-
-#include <osg/Notify>
+#include "text/FileText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,9 +126,9 @@ void addMissingBones(aiScene& scene, const std::string& path) {
             parent->addChildren(1, &node);
             nodes.emplace(nameOf(*node), node);
             missing.found(node);
-            OSG_NOTICE << path << ": bone \"" << nameOf(*bone)
-                       << "\" has weights and no place in the skeleton; it follows \""
-                       << nameOf(*above) << "\"" << std::endl;
+            tellOf(path, "bone \"" + nameOf(*bone) +
+                             "\" has weights and no place in the skeleton; it follows \"" +
+                             nameOf(*above) + '"');
         }
     }
 }

@@ -3,8 +3,6 @@
 
 #include "text/FileText.h"
 
-#include <osg/Notify>
-
 namespace osgSkin {
 namespace {
 
@@ -68,9 +66,10 @@ void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::
                    " frame(s), expected the declared " + std::to_string(file.frames));
     // Some recorders count from 0 here: what is declared can be read.
     if (rows.size() > file.frames)
-        OSG_NOTICE << path << ": line " << rows[file.frames].line << ": "
-                   << rows.size() - file.frames << " frame(s) beyond the declared " << file.frames
-                   << ", passed over" << std::endl;
+        tellOf(path, "line " + std::to_string(rows[file.frames].line) + ": " +
+                         std::to_string(rows.size() - file.frames) +
+                         " frame(s) beyond the declared " + std::to_string(file.frames) +
+                         ", passed over");
 }
 
 } // namespace

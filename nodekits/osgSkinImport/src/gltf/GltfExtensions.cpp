@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfExtensions.h"
 
-#include <osg/Notify>
+#include "text/FileText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,9 +87,7 @@ void moveTexCoords(GltfFile& file, GltfAccessors& accessors) {
             attributes[name] = entry->second;
         }
     if (isCompressed)
-        OSG_NOTICE << file.path
-                   << ": textures are moved on meshes compressed by Draco, which is not read"
-                   << std::endl;
+        tellOf(file.path, "textures are moved on meshes compressed by Draco, which is not read");
 }
 
 void noteExtensions(const GltfFile& file) {
@@ -97,8 +95,8 @@ void noteExtensions(const GltfFile& file) {
     for (const nlohmann::json& required : file.json.value("extensionsRequired", none)) {
         const std::string extension = required.get<std::string>();
         if (!isHarmless(extension))
-            OSG_NOTICE << file.path << ": requires the extension \"" << extension
-                       << "\", which is not known; read without it" << std::endl;
+            tellOf(file.path, "requires the extension \"" + extension +
+                                  "\", which is not known; read without it");
     }
 }
 

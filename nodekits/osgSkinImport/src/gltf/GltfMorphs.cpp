@@ -3,8 +3,6 @@
 
 #include "text/FileText.h"
 
-#include <osg/Notify>
-
 #include <algorithm>
 #include <set>
 #include <string>
@@ -62,9 +60,9 @@ std::size_t countMoved(const json& root) {
 
 void applyMorphs(GltfFile& file, GltfAccessors& accessors) {
     if (const std::size_t moved = countMoved(file.json))
-        OSG_NOTICE << file.path << ": clips change the shape of " << moved
-                   << (moved == 1 ? " mesh" : " meshes")
-                   << " by morph targets, which are left as they are at rest" << std::endl;
+        tellOf(file.path, "clips change the shape of " + std::to_string(moved) +
+                              (moved == 1 ? " mesh" : " meshes") +
+                              " by morph targets, which are left as they are at rest");
     if (!file.json.contains("meshes")) return;
     double left = 64.0 * double(file.limits.samplesOf(file.size)); // for a second or so
     for (json& mesh : file.json.at("meshes")) {

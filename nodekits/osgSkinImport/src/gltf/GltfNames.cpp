@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfNames.h"
 
+#include "text/FileText.h"
 #include "text/UniqueName.h"
-
-#include <osg/Notify>
 
 #include <algorithm>
 #include <numeric>
@@ -67,8 +66,8 @@ void nameNodes(GltfFile& file) {
         if (ranks[n] == 0) renamed.push_back(nodes[n]["name"].get<std::string>());
     }
     if (!renamed.empty())
-        OSG_NOTICE << file.path << ": joints are called alike; " << renamed.size()
-                   << " got a name of their own, as \"" << renamed.front() << '"' << std::endl;
+        tellOf(file.path, "joints are called alike; " + std::to_string(renamed.size()) +
+                              " got a name of their own, as \"" + renamed.front() + '"');
     if (!file.json.contains("scenes")) return;
     for (json& scene : file.json.at("scenes")) {
         if (scene.value("nodes", json::array()).size() < 2) continue;

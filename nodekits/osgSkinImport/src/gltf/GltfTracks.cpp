@@ -3,8 +3,6 @@
 
 #include "text/FileText.h"
 
-#include <osg/Notify>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -148,8 +146,7 @@ void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
         }
         animation["channels"] = kept;
     }
-    if (morphs)
-        OSG_NOTICE << file.path << ": morph targets are animated, which is not played" << std::endl;
+    if (morphs) tellOf(file.path, "morph targets are animated, which is not played");
     json kept = json::array();
     for (json& animation : *animations)
         if (!animation.at("channels").empty()) kept.push_back(std::move(animation));

@@ -12,7 +12,6 @@
 
 #include <osgSkin/GlmTypes>
 
-#include <osg/Notify>
 #include <osgDB/FileNameUtils>
 
 #include <cmath>
@@ -51,8 +50,8 @@ Motion readAssimpMotion(const std::string& path, const std::string& clip,
     if (scene.mNumAnimations == 0) failFile(path, "no animation, expected at least one");
     const std::vector<std::string> names = clipNames(scene);
     if (clip.empty() && names.size() > 1)
-        OSG_NOTICE << path << ": " << names.size() << " animations, of which the first, \""
-                   << names[0] << "\", is read" << std::endl;
+        tellOf(path, std::to_string(names.size()) + " animations, of which the first, \"" +
+                         names[0] + "\", is read");
     const std::size_t chosen = clip.empty() ? 0 : findClip(names, clip, path);
     auto& owned = const_cast<aiScene&>(scene); // the importer's, which nobody else sees
     takeTrackOffsets(*scene.mAnimations[chosen], *owned.mRootNode);

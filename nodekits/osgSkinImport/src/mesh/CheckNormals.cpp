@@ -2,8 +2,7 @@
 #include "mesh/CheckNormals.h"
 
 #include "mesh/SmoothNormals.h"
-
-#include <osg/Notify>
+#include "text/FileText.h"
 
 #include <glm/geometric.hpp>
 
@@ -60,8 +59,9 @@ void mendNormals(CornerMesh& mesh, const std::string& path) {
         ++faces;
     }
     if (faces > 0)
-        OSG_NOTICE << path << ": the normals of " << faces << " of " << mesh.mesh.faceSizes.size()
-                   << " faces point to the faces' back; computed anew" << std::endl;
+        tellOf(path, "the normals of " + std::to_string(faces) + " of " +
+                         std::to_string(mesh.mesh.faceSizes.size()) +
+                         " faces point to the faces' back; computed anew");
 }
 
 } // namespace osgSkin

@@ -32,6 +32,27 @@ bool normalise(std::vector<glm::vec3>& normals) {
     return true;
 }
 
+/// Some write whole numbers up to 255 where numbers up to 1 are expected: colours, or alpha.
+bool countsTo255(const std::vector<glm::vec4>& colours, int first, int end) {
+    float most = 0.0f;
+    for (const glm::vec4& colour : colours)
+        for (int k = first; k < end; ++k) {
+            if (colour[k] != std::floor(colour[k])) return false; // or not a number
+            most = std::max(most, colour[k]);
+        }
+    return most > 1.0f && most <= 255.0f;
+}
+
+void finishColours(std::vector<glm::vec4>& colours) {
+    const float rgb = countsTo255(colours, 0, 3) ? 255.0f : 1.0f;
+    const float alpha = countsTo255(colours, 3, 4) ? 255.0f : 1.0f;
+    for (glm::vec4& colour : colours) {
+        colour /= glm::vec4(rgb, rgb, rgb, alpha);
+        for (int k = 0; k < 4; ++k)
+            colour[k] = std::isfinite(colour[k]) ? std::clamp(colour[k], 0.0f, 1.0f) : 1.0f;
+    }
+}
+
 } // namespace
 
 void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits) {
@@ -57,9 +78,7 @@ ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
         read.normals = smoothNormals(read.mesh);
     for (glm::vec2& t : read.texCoords)
         if (!std::isfinite(t.x) || !std::isfinite(t.y)) t = glm::vec2(0.0f);
-    for (glm::vec4& c : read.colours)
-        for (int k = 0; k < 4; ++k)
-            c[k] = std::isfinite(c[k]) ? std::clamp(c[k], 0.0f, 1.0f) : 1.0f;
+    finishColours(read.colours);
 
     ImportedMesh result;
     result.parts = makeMeshParts(read);

@@ -7,8 +7,6 @@
 
 #include <osgSkin/Error>
 
-#include <osg/Notify>
-
 #include <osgDB/FileNameUtils>
 
 #include <tiny_obj_loader.h>
@@ -150,7 +148,7 @@ CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
     if (lines > 0)
         warning =
             warning.substr(0, warning.find('\n')) + " (and " + std::to_string(lines) + " more)";
-    if (!warning.empty()) OSG_NOTICE << path << ": " << warning << std::endl;
+    if (!warning.empty()) tellOf(path, warning);
 
     CornerMesh result;
     for (std::size_t k = 0; k + 2 < attributes.vertices.size(); k += 3)

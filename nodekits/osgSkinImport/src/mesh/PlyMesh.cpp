@@ -7,6 +7,9 @@
 #include "text/PlyHeader.h"
 
 #include <array>
+#include <cmath>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -15,15 +18,19 @@ namespace {
 
 using Place = std::optional<std::size_t>;
 
+constexpr double kNoTexture = -1.0; ///< whatever number stands for a texture that is not there
+
 /// Collects vertices and faces from the entries of a file, in any order of the elements.
 class PlyCollector {
 public:
-    PlyCollector(const std::string& path, const PlyHeader& header) : _path(path) {
+    PlyCollector(const std::string& path, const PlyHeader& header)
+        : _path(path), _textureCount(static_cast<double>(header.textures.size())) {
         for (const PlyHeader::Element& element : header.elements) {
             if (element.name == "vertex") placeVertex(element);
             if (element.name == "face") {
                 _indices = element.find({"vertex_indices", "vertex_index"});
                 _cornerTexCoords = element.find({"texcoord"});
+                _texture = element.find({"texnumber"});
             }
             if (element.name == "tristrips")
                 _strips = element.find({"vertex_indices", "vertex_index"});
@@ -35,20 +42,28 @@ public:
             addVertex(values);
         else if (element.name == "face" && _indices)
             addFace(index, values[*_indices],
-                    _cornerTexCoords ? values[*_cornerTexCoords] : std::vector<double>());
+                    _cornerTexCoords ? values[*_cornerTexCoords] : std::vector<double>(),
+                    _texture ? at(values, _texture) : 0.0);
         else if (element.name == "tristrips" && _strips)
             addStrips(values[*_strips]);
     }
 
     bool hasColours() const { return !_colours.empty(); }
 
-    CornerMesh finish() {
+    /// \param addMaterial makes one with a texture, by its number, and returns its own number
+    CornerMesh finish(const std::function<std::uint32_t(double)>& addMaterial) {
         CornerMesh result;
+        std::map<double, std::uint32_t> materials; // by their textures' numbers
         result.mesh.positions = std::move(_positions);
         const std::size_t vertices = result.mesh.positions.size();
         std::size_t corner = 0;
-        for (const std::uint32_t size : _faceSizes) {
-            result.addFace(0);
+        for (std::size_t f = 0; f < _faceSizes.size(); ++f) {
+            const std::uint32_t size = _faceSizes[f];
+            const double texture = _textures.empty() ? 0.0 : _textures[f];
+            auto material = materials.find(texture);
+            if (material == materials.end())
+                material = materials.emplace(texture, addMaterial(texture)).first;
+            result.addFace(material->second);
             for (std::uint32_t k = 0; k < size; ++k, ++corner) {
                 const std::uint32_t v = _corners[corner];
                 if (v >= vertices)
@@ -111,8 +126,11 @@ private:
     }
 
     void addFace(std::size_t index, const std::vector<double>& corners,
-                 const std::vector<double>& texCoords) {
+                 const std::vector<double>& texCoords, double texture) {
         if (corners.size() < 3) return; // points and lines
+        if (_texture)
+            _textures.push_back(texture >= 0.0 && texture < _textureCount ? std::floor(texture)
+                                                                          : kNoTexture);
         _faceSizes.push_back(static_cast<std::uint32_t>(corners.size()));
         for (const double corner : corners)
             _corners.push_back(indexOf(corner, "face " + std::to_string(index)));
@@ -131,6 +149,7 @@ private:
             if (strip[k] < 0.0 || k < begin + 2) continue;
             const bool odd = (k - begin) % 2 != 0;
             _faceSizes.push_back(3);
+            if (_texture) _textures.push_back(0.0);
             for (const std::size_t c : {odd ? k - 1 : k - 2, odd ? k - 2 : k - 1, k})
                 _corners.push_back(indexOf(strip[c], "a strip"));
             // Faces beside strips may have them.
@@ -139,16 +158,18 @@ private:
     }
 
     const std::string& _path;
+    const double _textureCount;
     std::array<Place, 3> _x, _n;
     std::array<Place, 2> _t;
     std::array<Place, 4> _c;
     std::array<double, 4> _full{1.0, 1.0, 1.0, 1.0}; ///< what stands for a colour of 1
-    Place _indices, _cornerTexCoords, _strips;
+    Place _indices, _cornerTexCoords, _texture, _strips;
     std::vector<glm::dvec3> _positions;
     std::vector<glm::vec3> _normals;
     std::vector<glm::vec2> _texCoords, _faceTexCoords;
     std::vector<glm::vec4> _colours;
     std::vector<std::uint32_t> _faceSizes, _corners;
+    std::vector<double> _textures; ///< of each face its texture's number; of the header's list
 };
 
 } // namespace
@@ -162,11 +183,17 @@ CornerMesh readPlyMesh(const std::string& path, const osgDB::Options* options) {
                     collector.take(element, index, values);
                 });
     TextureReads reads(path);
-    Material material;
-    material.vertexColours = collector.hasColours();
-    material.image = readTexture(header.texture, path, options, reads);
-    CornerMesh result = collector.finish();
-    result.stateSets.push_back(makeStateSet(material));
+    std::vector<osg::ref_ptr<osg::StateSet>> stateSets;
+    CornerMesh result = collector.finish([&](double texture) {
+        Material material;
+        material.vertexColours = collector.hasColours();
+        if (texture >= 0.0 && texture < double(header.textures.size()))
+            material.image = readTexture(header.textures[static_cast<std::size_t>(texture)], path,
+                                         options, reads);
+        stateSets.push_back(makeStateSet(material));
+        return static_cast<std::uint32_t>(stateSets.size() - 1);
+    });
+    result.stateSets = stateSets;
     return result;
 }
 

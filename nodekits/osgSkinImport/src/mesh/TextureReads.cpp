@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/TextureReads.h"
 
-#include <osg/Notify>
+#include "text/FileText.h"
 
 #include <cstddef>
 
@@ -24,7 +24,7 @@ TextureReads::~TextureReads() {
     if (missing == 0) return;
     std::string what = "texture \"" + first + '"';
     if (missing > 1) what = std::to_string(missing) + " textures, \"" + first + "\" among them,";
-    OSG_NOTICE << _path << ": " << what << " cannot be read; drawn without" << std::endl;
+    tellOf(_path, what + " cannot be read; drawn without");
 }
 
 } // namespace osgSkin

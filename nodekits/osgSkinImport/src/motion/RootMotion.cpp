@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "motion/RootMotion.h"
 
-#include <osg/Notify>
+#include "text/FileText.h"
 
 #include <glm/geometric.hpp>
 
@@ -35,9 +35,9 @@ void noticeUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& mo
                        std::size_t root, const std::string& path) {
     for (std::size_t j = root + 1; j < moved.size(); ++j) {
         if (!moved[j]) continue;
-        OSG_NOTICE << path << ": joint \"" << skeleton.joints[j].name
-                   << "\" moves from its place; only moves of \"" << skeleton.joints[root].name
-                   << "\" are used" << std::endl;
+        tellOf(path, "joint \"" + skeleton.joints[j].name +
+                         "\" moves from its place; only moves of \"" + skeleton.joints[root].name +
+                         "\" are used");
         return;
     }
 }

@@ -5,6 +5,8 @@
 
 #include <osgSkin/Error>
 
+#include <osg/Notify>
+
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -18,14 +20,6 @@ namespace {
 constexpr std::size_t kMegabyte = 1 << 20;
 
 } // namespace
-
-std::string onOneLine(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' '))
-        text.pop_back();
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    return text;
-}
 
 std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
                        std::size_t& size) {
@@ -52,7 +46,11 @@ std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const
 }
 
 void failFile(const std::string& path, const std::string& message) {
-    throw Error(onOneLine(path + ": " + message));
+    throw Error(path + ": " + message);
+}
+
+void tellOf(const std::string& path, const std::string& message) {
+    OSG_NOTICE << onOneLine(path + ": " + message) << std::endl;
 }
 
 void failLine(const std::string& path, std::size_t line, const std::string& message) {

@@ -36,8 +36,8 @@ bool isRegularFile(const std::string& path);
 /// or infinity.
 bool parseNumber(std::string_view token, double& value);
 
-/// All of a text on one line, control characters replaced.
-std::string onOneLine(std::string text);
+/// Tells OSG's notify handler what of a file is left out or read otherwise, on one line.
+void tellOf(const std::string& path, const std::string& message);
 
 /// `token` in quotes, cut short and with control characters replaced, for an error message.
 std::string inQuotes(std::string_view token);

@@ -136,8 +136,10 @@ private:
     void readComment(std::istream& words) {
         std::string keyword;
         words >> keyword >> std::ws;
-        if (keyword == "TextureFile" && _header.texture.empty())
-            std::getline(words, _header.texture);
+        if (keyword != "TextureFile") return;
+        std::string texture;
+        std::getline(words, texture);
+        if (!texture.empty()) _header.textures.push_back(texture);
     }
 
     const std::string& _path;

@@ -32,8 +32,8 @@ struct PlyHeader {
     enum class Format { Text, LittleEndian, BigEndian };
     Format format = Format::Text;
     std::vector<Element> elements; ///< each name once, of no more entries than the file has bytes
-    std::string texture;           ///< "comment TextureFile" names it; may be empty
-    std::size_t end = 0;           ///< where the content begins
+    std::vector<std::string> textures; ///< each "comment TextureFile" names one
+    std::size_t end = 0;               ///< where the content begins
 };
 
 /// Reads the header of a PLY file.

@@ -37,6 +37,28 @@ std::vector<std::string> listOf(const std::string& key, const std::string& value
 
 } // namespace
 
+std::vector<std::pair<std::string, std::string>> optionValues(const std::string& text) {
+    const char* const blank = " \t\r\n";
+    std::vector<std::pair<std::string, std::string>> words;
+    std::size_t at = 0;
+    while ((at = text.find_first_not_of(blank, at)) != std::string::npos) {
+        const std::size_t stop = std::min(text.find_first_of(" \t\r\n=", at), text.size());
+        const std::string key = text.substr(at, stop - at);
+        std::string value;
+        at = stop;
+        if (stop < text.size() && text[stop] == '=') {
+            const bool isQuoted = stop + 1 < text.size() && text[stop + 1] == '"';
+            const std::size_t first = stop + (isQuoted ? 2 : 1);
+            const std::size_t end =
+                std::min(text.find_first_of(isQuoted ? "\"" : blank, first), text.size());
+            value = text.substr(first, end - first);
+            at = std::min(end + (isQuoted ? 1 : 0), text.size());
+        }
+        words.emplace_back(key, value);
+    }
+    return words;
+}
+
 ReadLimits ReadLimits::of(const osgDB::Options* options) {
     ReadLimits limits;
     if (options == nullptr) return limits;
@@ -44,11 +66,7 @@ ReadLimits ReadLimits::of(const osgDB::Options* options) {
         {"maxFileMB", &limits.fileMegabytes}, {"maxTextMB", &limits.textMegabytes},
         {"maxJoints", &limits.joints},        {"maxDepth", &limits.depth},
         {"maxSamples", &limits.samples},      {"maxUses", &limits.uses}};
-    std::istringstream words(options->getOptionString());
-    for (std::string word; words >> word;) {
-        const std::size_t sign = word.find('=');
-        if (sign == std::string::npos) continue;
-        const std::string key = word.substr(0, sign), value = word.substr(sign + 1);
+    for (const auto& [key, value] : optionValues(options->getOptionString())) {
         for (const auto& [name, count] : counts)
             if (key == name) *count = countOf(key, value);
         if (key == "formats") limits.formats = listOf(key, osgDB::convertToLowerCase(value));

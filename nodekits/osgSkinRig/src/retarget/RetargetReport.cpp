@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/RetargetReport>
 
+#include <osgSkin/Error>
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -21,18 +23,20 @@ std::string RetargetReport::text() const {
             << axis.z;
     }
     out << "\n";
-    for (const std::string& note : notes) out << "note: " << note << "\n";
+    for (const std::string& note : notes) out << "note: " << onOneLine(note) << "\n";
     for (const Entry& entry : entries) {
-        out << "joint " << entry.rigJoint << ": ";
+        out << "joint " << onOneLine(entry.rigJoint) << ": ";
         if (entry.motionJoint.empty())
             out << "at rest";
         else
-            out << entry.motionJoint << ", aligned by " << entry.alignmentDegrees << " degrees";
+            out << onOneLine(entry.motionJoint) << ", aligned by " << entry.alignmentDegrees
+                << " degrees";
         if (entry.rolledOver > 0)
             out << ", upside down in " << entry.rolledOver << " samples: rolled back";
         out << "\n";
     }
-    for (const std::string& joint : unusedMotionJoints) out << "not used: " << joint << "\n";
+    for (const std::string& joint : unusedMotionJoints)
+        out << "not used: " << onOneLine(joint) << "\n";
     return out.str() + feetText();
 }
 
@@ -40,7 +44,7 @@ std::string RetargetReport::feetText() const {
     std::ostringstream out;
     out << std::fixed;
     for (const FootSkate& foot : feet) {
-        out << "foot " << foot.rigJoint << ": ";
+        out << "foot " << onOneLine(foot.rigJoint) << ": ";
         const auto percent = [&](double length) {
             out << std::setprecision(1) << 100.0 * length / foot.leg << " %";
         };
