@@ -5,7 +5,9 @@
 #include "Paths.h"
 #include "UpdateAt.h"
 
+#include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
+#include <osgSkinImport/ImportSkeleton>
 
 #include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Bone>
@@ -18,6 +20,7 @@
 #include <assimp/scene.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <map>
 
@@ -239,9 +242,20 @@ TEST(ImportRig, KeepsTheBindPoseApartFromTheNodesPose) {
     EXPECT_NEAR(rig.animations[0]->getDuration(), 1.0, 1e-6);
 }
 
+/// Assimp's reader of OBJ files loses the faces that end at a vertex that is not there.
+TEST(ImportRig, DoesNotAskAssimpForRigsInMeshes) {
+    const std::string file = testing::TempDir() + "rigless_faces.obj";
+    std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 4/4 1/1 2/2\n";
+    expectError([&] { osgSkin::importRig(file); }, "no mesh with bones");
+    expectError([&] { osgSkin::importSkeleton(file); }, "no skeleton");
+    expectError([&] { osgSkin::importMotion(file); }, "no animation");
+}
+
 TEST(ImportRig, RefusesWhatIsNotRigged) {
     expectError([] { osgSkin::importRig(testData("rig/unskinned.gltf")); }, "no mesh with bones");
     expectError([] { osgSkin::importRig(testData("mesh/quads.obj")); }, "no mesh with bones");
+    expectError([] { osgSkin::importSkeleton(testData("mesh/quads.obj")); }, "no skeleton");
+    expectError([] { osgSkin::importMotion(testData("mesh/quads.obj")); }, "no animation");
     expectError([] { osgSkin::importRig(testData("rig/nowhere.glb")); }, "nowhere.glb");
     expectError([] { osgSkin::importRig(testData("mesh/unknown.format")); }, "no files of this");
 }

@@ -174,6 +174,14 @@ const Hostile kHostile[] = {
                        "PrimitiveSetList 1 {\n" + object("osg::DrawArrays", 8, "") + "}\n") +
                 "}\n"),
      "expected a primitive set"},
+    // OSG goes on without what a serializer refuses.
+    {"SetIsRefused",
+     geometry("PrimitiveSetList 1 {\n" +
+              object("osg::DrawElementsUInt", 7,
+                     "BufferObject TRUE {\n" +
+                         object("osgSkin::SharedSkinModel", 8, "Model {\n99\n}\n") + "}\n") +
+              "}\n"),
+     "a row of 99 words"},
     {"TexCoordsAreNone",
      object("osg::Geometry", 1,
             kPlaces + "TexCoordArrayList 2 {\nNULL\n" +

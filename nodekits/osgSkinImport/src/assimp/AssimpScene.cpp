@@ -29,8 +29,6 @@ void checkBefore(const std::string& path, const ReadLimits& limits) {
     // Read by readBvh(): Assimp believes any number of frames.
     if (extension == "bvh")
         failFile(path, "no face in a BVH file: it holds a skeleton and no mesh with bones");
-    // Read by readPlyMesh(), which Assimp would read out of bounds.
-    if (extension == "ply") failFile(path, "no mesh with bones: a PLY file holds none");
     if (extension == "off") checkOff(path, readText(path, limits));
 }
 
@@ -61,6 +59,11 @@ void checkAfter(aiScene& scene, const std::string& path, const ReadLimits& limit
 }
 
 } // namespace
+
+bool holdsMeshesOnly(const std::string& path) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    return extension == "obj" || extension == "ply" || extension == "off" || extension == "stl";
+}
 
 const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path,
                                const ReadLimits& limits) {

@@ -20,6 +20,10 @@ constexpr char kFacesBackwards[] = "osgSkin:facesBackwards";
 /// Whether Assimp has a reader for files with this name's extension.
 bool assimpReads(const std::string& path);
 
+/// Whether files with this name's extension hold meshes and nothing that would move them. Assimp is
+/// not asked for a rig in them: it reads PLY files out of bounds, and loses memory of OBJ files.
+bool holdsMeshesOnly(const std::string& path);
+
 /// Reads a file as it is: nothing triangulated, joined or reordered. The importer owns the scene.
 /// \throw osgSkin::Error with the file and Assimp's reason.
 const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path,

@@ -43,8 +43,7 @@ Motion readBvhMotion(const std::string& path, const std::string& clip, const Rea
 Motion readAssimpMotion(const std::string& path, const std::string& clip,
                         const ReadLimits& limits) {
     const std::size_t bytes = requireReadable(path, limits);
-    if (osgDB::getLowerCaseFileExtension(path) == "ply")
-        failFile(path, "no animation: a PLY file holds none");
+    if (holdsMeshesOnly(path)) failFile(path, "no animation, which files of its kind do not hold");
     Assimp::Importer importer;
     const aiScene& scene = readAssimpScene(importer, path, limits);
     if (scene.mNumAnimations == 0) failFile(path, "no animation, expected at least one");

@@ -58,9 +58,11 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     limits.checkFormat(path);
     const std::size_t bytes = requireReadable(path, limits);
     if (!assimpReads(path)) failFile(path, "Assimp reads no files of this kind");
+    const std::string none = "no mesh with bones, expected a rigged character";
+    if (holdsMeshesOnly(path)) failFile(path, none);
     Assimp::Importer importer;
     const aiScene& scene = readAssimpScene(importer, path, limits);
-    if (!isRigged(scene)) failFile(path, "no mesh with bones, expected a rigged character");
+    if (!isRigged(scene)) failFile(path, none);
 
     ImportedRig result;
     CornerMesh body = readSceneMesh(scene, path, options);

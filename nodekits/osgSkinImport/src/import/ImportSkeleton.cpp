@@ -19,8 +19,7 @@ RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* optio
     limits.checkFormat(path);
     if (osgDB::getLowerCaseFileExtension(path) == "bvh")
         return makeRestSkeleton(readBvh(path, limits));
-    if (osgDB::getLowerCaseFileExtension(path) == "ply")
-        failFile(path, "no skeleton: a PLY file holds none");
+    if (holdsMeshesOnly(path)) failFile(path, "no skeleton, which files of its kind do not hold");
     if (!assimpReads(path)) return readOsgSkeleton(*readScene(path, options), path);
     Assimp::Importer importer;
     return readSceneSkeleton(readAssimpScene(importer, path, limits), path, limits).rest;

@@ -90,6 +90,7 @@ void SavedBinary::readMark(osgDB::ObjectMark& mark) {
 }
 
 void SavedBinary::advanceToCurrentEndBracket() {
+    begin();
     if (!_supportBinaryBrackets || _ends.empty()) return;
     // Never back: what was read once would be read for ever.
     if (_ends.back() < _at) refuse("a block that is longer than it says");

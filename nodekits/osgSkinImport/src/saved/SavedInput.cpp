@@ -34,6 +34,12 @@ void SavedInput::refuse(const std::string& reason) {
     throw Error(reason);
 }
 
+void SavedInput::begin() {
+    _numberIsLast = false;
+    if (_inputStream != nullptr && _inputStream->getException() != nullptr)
+        refuse(_inputStream->getException()->getError());
+}
+
 void SavedInput::dropClosed() {
     const std::size_t depth = stream().fields().size();
     while (!_open.empty() && _open.back().depth >= depth) _open.pop_back();

@@ -33,9 +33,12 @@ public:
     /// \throw osgSkin::Error without the file's name
     [[noreturn]] static void refuse(const std::string& reason);
 
+    void advanceToCurrentEndBracket() override { begin(); }
+
 protected:
-    /// For each thing that is read, before it is.
-    void begin() { _numberIsLast = false; }
+    /// For each thing that is read, before it is. A serializer that refused what came before has
+    /// left nothing where OSG goes on as if something were there.
+    void begin();
     std::size_t remaining() const { return _content.size() - _at; }
 
     // What was read, to be checked. \return what OSG is to see of it
