@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ProgressLine.h"
 
+#include <osgSkin/Error>
+
 #include <iostream>
 
 #include <unistd.h>

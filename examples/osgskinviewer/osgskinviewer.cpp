@@ -2,6 +2,7 @@
 #include "Keys.h"
 #include "Stage.h"
 
+#include <osgSkin/Error>
 #include <osgSkinCharacter/OptionString>
 
 #include <osgGA/StateSetManipulator>
