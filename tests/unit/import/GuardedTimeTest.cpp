@@ -150,6 +150,23 @@ TEST_F(GuardedTime, MatricesThatASkinDoesNotNeedCount) {
 }
 
 /// Each would be drawn by itself.
+TEST_F(GuardedTime, ZerosThatStandNowhereCount) {
+    GltfColumn column;
+    const std::size_t many = 450'000;
+    json& attributes = column.json["meshes"][0]["primitives"][1]["attributes"];
+    column.json["meshes"][0]["primitives"][1]["mode"] = 0;
+    for (const auto& [name, type] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"POSITION", "VEC3"}, {"COLOR_0", "VEC4"}, {"TEXCOORD_0", "VEC2"}}) {
+        attributes[name] = column.json["accessors"].size();
+        column.json["accessors"].push_back(
+            {{"componentType", 5126}, {"type", type}, {"count", many}});
+    }
+    const std::string file = column.save("zeros.gltf");
+    expectError([&] { osgSkin::importMesh(file); }, "(option maxSamples)");
+    const osg::ref_ptr<osgDB::Options> more = new osgDB::Options("maxSamples=9000000");
+    EXPECT_EQ(osgSkin::importMesh(file, more).mesh.positions.size(), 24u);
+}
+
 TEST_F(GuardedTime, MaterialsAreInProportion) {
     const std::string folder = testing::TempDir();
     std::ofstream looks(folder + "many.mtl"), mesh(folder + "many.obj");

@@ -277,6 +277,11 @@ void GltfParts::take(std::size_t elements, const std::string& where) {
                         " in all (option maxSamples)");
 }
 
+void GltfParts::takeZeros(std::size_t accessor, const std::string& where) {
+    const Accessor& known = _accessors[accessor];
+    if (!known.stored) take(typeWidth(known.type) * known.count, where);
+}
+
 void GltfParts::checkEntries() const {
     const std::size_t most = limits().samplesOf(_bytes) / kEntriesOf;
     const std::size_t all =

@@ -74,6 +74,9 @@ public:
 
     /// Takes elements that are asked for, and things with a name, off what the file's size allows.
     void take(std::size_t elements, const std::string& where);
+    /// Does so for an accessor that stands nowhere in the file: a few letters for any number of
+    /// zeros.
+    void takeZeros(std::size_t accessor, const std::string& where);
     void addEntries(std::size_t entries) { _entries += entries; }
     void checkEntries() const;
 

@@ -87,7 +87,7 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
         last = time;
     }
     if (container->empty()) container->push_back(Keyframe(0.0, stored(otherwise)));
-    animation.addChannel(channel);
+    animation.getChannels().push_back(channel); // addChannel() would look at all others again
 }
 
 void addJoint(osgAnimation::Animation& animation, const std::string& joint, const aiNode& node,
