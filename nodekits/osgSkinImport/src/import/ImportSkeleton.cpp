@@ -19,8 +19,9 @@ RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* optio
     limits.checkFormat(path);
     if (osgDB::getLowerCaseFileExtension(path) == "bvh")
         return makeRestSkeleton(readBvh(path, limits));
-    if (holdsMeshesOnly(path)) failFile(path, "no skeleton, which files of its kind do not hold");
     if (!assimpReads(path)) return readOsgSkeleton(*readScene(path, options), path);
+    requireReadable(path, limits);
+    if (holdsMeshesOnly(path)) failFile(path, "no skeleton, which files of its kind do not hold");
     Assimp::Importer importer;
     return readSceneSkeleton(readAssimpScene(importer, path, limits), path, limits).rest;
 }
