@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What compute shaders make of skins, beside what the processor does.
 #include "GpuSubject.h"
+#include "SlopedTube.h"
+#include "TubeSkin.h"
 
 #include <osgSkinGpu/GpuSkin>
 
@@ -53,6 +55,34 @@ TEST_P(GpuSkin, PositionsNormalsAndTangentsAreTheProcessors) {
               << most.normals << " (from the reference " << most.computedError
               << ", the processor's " << most.deformedError << "), tangents " << most.tangents
               << std::endl;
+}
+
+/// Squares of what bones' limits of scale make of a direction's length are no floats.
+TEST(GpuSkinScale, NormalsAreTheProcessorsWhateverTheScale) {
+    const test::SlopedTube tube;
+    for (const double scale : {0.99e9, 1.01e-9})
+        for (const std::size_t scaled : {1u, 2u}) {
+            SCOPED_TRACE(std::to_string(scale) + " of joint " + std::to_string(scaled));
+            const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+            skin->setSkin(test::makeGeometry(tube), tube.model());
+            osgSkin::setGpu(*skin, true);
+            std::vector<osgSkin::JointMap> maps(3);
+            for (std::size_t j = 0; j < 3; ++j) {
+                const glm::dvec3& centre = tube.binding.joints[j].centre;
+                maps[j].rotation = glm::angleAxis(0.7, glm::dvec3(1, 0, 0));
+                maps[j].scale = j == scaled ? scale : 1.0;
+                maps[j].offset = centre - maps[j].scale * (maps[j].rotation * centre);
+            }
+            ASSERT_TRUE(skin->setPose(maps.data(), maps.size()));
+            GpuStage stage(skin);
+            stage.draw();
+            const GpuStage::Posed posed = stage.computed(*skin);
+            const auto& expected =
+                static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getNormalArray());
+            for (std::size_t v = 0; v < posed.normals.size(); ++v)
+                ASSERT_LE((posed.normals[v] - expected[v]).length(), 2e-3f) << v;
+            skin->releaseGLObjects(nullptr);
+        }
 }
 
 TEST(GpuOption, SwitchesTheReadersSkins) {

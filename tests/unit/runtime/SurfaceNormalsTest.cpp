@@ -118,6 +118,35 @@ TEST_P(SurfaceNormals, AreThoseOfThePosedSurface) {
         }
 }
 
+/// Squares of what bones' limits of scale make of a direction's length are no floats.
+TEST_P(SurfaceNormals, AreUnitWhateverTheScale) {
+    const test::SlopedTube tube;
+    const auto model = tube.model();
+    const auto rest = tangentsOf(tube, *model);
+    for (const double scale : {0.99e9, 1e6, 1e-6, 1.01e-9})
+        for (const std::size_t scaled : {0u, 1u, 2u}) {
+            SCOPED_TRACE(std::to_string(scale) + " of joint " + std::to_string(scaled));
+            std::vector<osgSkin::JointMap> maps(3);
+            for (std::size_t j = 0; j < 3; ++j) {
+                const glm::dvec3& centre = tube.binding.joints[j].centre;
+                maps[j].rotation = glm::angleAxis(0.7, glm::dvec3(1, 0, 0));
+                maps[j].scale = j == scaled ? scale : 1.0;
+                maps[j].offset = centre - maps[j].scale * (maps[j].rotation * centre);
+            }
+            osgSkin::Pose pose(tube.binding.joints);
+            ASSERT_TRUE(pose.set(maps.data(), maps.size()));
+            Posed posed(*model, rest.get(), pose);
+            ASSERT_TRUE(run(posed.job));
+            Posed expected(*model, rest.get(), pose);
+            ASSERT_TRUE(expected.job.runReference());
+            for (std::size_t v = 0; v < posed.normals.size(); ++v) {
+                ASSERT_LE(angleBetween(expected.normals[v], posed.normals[v]), kTolerance) << v;
+                ASSERT_NEAR(glm::length(posed.normals[v]), 1.0, 1e-5) << v;
+                ASSERT_NEAR(glm::length(glm::dvec3(posed.tangents[v])), 1.5, 1e-4) << v;
+            }
+        }
+}
+
 TEST_P(SurfaceNormals, DifferFromTurnedOnesWherePositionsDoNot) {
     std::mt19937_64 random(12);
     const test::SlopedTube tube(25, 18);

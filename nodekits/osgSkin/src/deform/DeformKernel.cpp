@@ -154,6 +154,7 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         }
         turnPlane(sine, cosine, y, z);
         if (link == last && HWY_LIKELY(!call.isAdjusted(*link))) {
+            if (HWY_UNLIKELY(call.joints->anyAdjusted)) bringIntoRange(ux, uy, uz, vx, vy, vz);
             cross(ux, uy, uz, vx, vy, vz, nx, ny, nz);
             turnPlane(sine, cosine, ny, nz);
             if (kTangents) {
@@ -174,6 +175,7 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         }
         apply(call.outs[link->out], x, y, z);
         if (link == last) {
+            bringIntoRange(ux, uy, uz, vx, vy, vz);
             cross(ux, uy, uz, vx, vy, vz, nx, ny, nz);
             if (kTangents) combine(alongU, alongV, ux, uy, uz, vx, vy, vz, tx, ty, tz);
             break;

@@ -288,19 +288,19 @@ HWY_NOINLINE void passDirection(const KernelCall& call, const Chunk& chunk, cons
 
 /// From the directions along the skin to normals and tangents, behind the last link that tilts
 /// them.
+/// \param scaled where a joint may be scaled by much
 template <bool kTangents>
-HWY_NOINLINE void crossChunk(const Chunk& chunk, const ChunkSurface& surface, ChunkStream& normals,
-                             ChunkStream& tangents) {
+HWY_NOINLINE void crossChunk(const Chunk& chunk, const ChunkSurface& surface, bool scaled,
+                             ChunkStream& normals, ChunkStream& tangents) {
     const D d;
     for (std::size_t b = 0; b < chunk.blocks; ++b)
         for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
             const std::size_t v = b * kBlock + lane, at = 3 * b * kBlock + lane;
             const float* a = surface.u.state + at;
-            const V ux = hn::Load(d, a), uy = hn::Load(d, a + kBlock),
-                    uz = hn::Load(d, a + 2 * kBlock);
+            V ux = hn::Load(d, a), uy = hn::Load(d, a + kBlock), uz = hn::Load(d, a + 2 * kBlock);
             a = surface.v.state + at;
-            const V vx = hn::Load(d, a), vy = hn::Load(d, a + kBlock),
-                    vz = hn::Load(d, a + 2 * kBlock);
+            V vx = hn::Load(d, a), vy = hn::Load(d, a + kBlock), vz = hn::Load(d, a + 2 * kBlock);
+            if (HWY_UNLIKELY(scaled)) bringIntoRange(ux, uy, uz, vx, vy, vz);
             V nx, ny, nz;
             cross(ux, uy, uz, vx, vy, vz, nx, ny, nz);
             scaleBy(inverseRoot(dot(nx, ny, nz, nx, ny, nz)), nx, ny, nz);
@@ -347,8 +347,9 @@ HWY_INLINE void deformByLinks(const KernelCall& call) {
             return;
         }
         if (alongSkin)
-            (call.tangents ? crossChunk<true> : crossChunk<false>)(chunk, surface, normals,
-                                                                   tangents);
+            (call.tangents ? crossChunk<true> : crossChunk<false>)(chunk, surface,
+                                                                   call.joints->anyAdjusted,
+                                                                   normals, tangents);
         alongSkin = false;
         if (call.normals) pass<Stream::Normals>(call, chunk, map, turned, last, normals);
         if (call.tangents) pass<Stream::Tangents>(call, chunk, map, turned, last, tangents);

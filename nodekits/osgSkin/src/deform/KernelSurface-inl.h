@@ -63,6 +63,16 @@ HWY_INLINE void cross(V ax, V ay, V az, V bx, V by, V bz, V& x, V& y, V& z) {
     z = hn::MulSub(ax, by, hn::Mul(ay, bx));
 }
 
+/// Makes the largest of two directions' coordinates 1, so that squares of squares are floats.
+HWY_INLINE void bringIntoRange(V& ux, V& uy, V& uz, V& vx, V& vy, V& vz) {
+    const D d;
+    const V u = hn::Max(hn::Abs(ux), hn::Max(hn::Abs(uy), hn::Abs(uz)));
+    const V v = hn::Max(hn::Abs(vx), hn::Max(hn::Abs(vy), hn::Abs(vz)));
+    const V by = hn::Div(hn::Set(d, 1.0f), hn::Max(hn::Max(u, v), hn::Set(d, 1e-30f)));
+    scaleBy(by, ux, uy, uz);
+    scaleBy(by, vx, vy, vz);
+}
+
 /// What the correctives add to rest normals along u and along v.
 /// \return false where that is nothing
 HWY_INLINE bool tilts(const KernelCall& call, std::size_t first, V& alongU, V& alongV) {

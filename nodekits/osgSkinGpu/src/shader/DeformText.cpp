@@ -174,6 +174,12 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
   }
 
   if (tilts) {
+    vec3 most = max(abs(u), abs(v));
+    float size = max(most.x, max(most.y, most.z));
+    if (size > 1e4 || (size > 0.0 && size < 1e-4)) { // whose squares' squares may be no floats
+      u /= size;
+      v /= size;
+    }
     n = osgSkin_scaledTo(cross(u, v), 1.0);
     t = osgSkin_scaledTo(t.x * u + t.y * v, tangentLength);
   }
