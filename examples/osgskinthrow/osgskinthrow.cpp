@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <exception>
 #include <iostream>
 
@@ -58,6 +59,10 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (!std::isfinite(from) || !std::isfinite(to)) { // passes for being in any range
+        std::cerr << "osgskinthrow: --from and --to: expected finite numbers" << std::endl;
+        return 2;
     }
     try {
         ThrowFacts facts;

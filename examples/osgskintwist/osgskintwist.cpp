@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -92,6 +93,11 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (!std::isfinite(arguments.pose.bend) ||
+        !std::isfinite(arguments.pose.twist)) { // passes for being in any range
+        std::cerr << "osgskintwist: --bend and --twist: expected finite numbers" << std::endl;
+        return 2;
     }
     try {
         return run(arguments);

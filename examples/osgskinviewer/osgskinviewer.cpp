@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <exception>
 #include <iostream>
 
@@ -100,6 +101,10 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (!std::isfinite(at)) { // passes for being in any range
+        std::cerr << "osgskinviewer: --at: expected finite numbers" << std::endl;
+        return 2;
     }
     try {
         osgSkin::LoadOptions options;

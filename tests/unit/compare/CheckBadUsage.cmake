@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Bad usage ends with 2 and says why.
-foreach(arguments "--no-such-option" "--bend;nine" "--twist;1000" "--pictures")
+foreach(arguments "--no-such-option" "--bend;nine" "--twist;1000" "--bend;nan" "--pictures")
   execute_process(COMMAND ${PROGRAM} ${arguments}
     RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE message)
   if(NOT status STREQUAL "2" OR message STREQUAL "")

@@ -88,6 +88,14 @@ TEST(DeformPool, HasTheThreadsAskedForAndNeverMore) {
     EXPECT_GE(osg::ref_ptr<DeformPool>(new DeformPool)->getThreadCount(), 1u);
 }
 
+TEST(DeformPool, OfAnyNumberOfThreadsTakesRoomForAThousand) {
+    const osg::ref_ptr<osgSkin::DeformPool> pool = new osgSkin::DeformPool(4000000000u);
+    EXPECT_LE(pool->getThreadCount(), 1024u);
+    std::atomic<std::size_t> calls{0};
+    pool->forEach(100, [&](std::size_t) { ++calls; });
+    EXPECT_EQ(calls, 100u);
+}
+
 TEST(DeformPool, CallsEachOnce) {
     const osg::ref_ptr<DeformPool> pool = new DeformPool(2);
     for (const std::size_t count : {0u, 1u, 2u, 1000u}) {

@@ -15,6 +15,9 @@ namespace osgSkin {
 
 #ifdef OSGSKIN_HAS_TBB
 
+/// An arena has room for each of its threads from the beginning.
+constexpr unsigned int kMostThreads = 1024;
+
 /// At most so many threads at a time in what is run within it, the caller's among them.
 struct DeformPool::Arena {
     explicit Arena(unsigned int count) : threads(count), arena(static_cast<int>(count)) {
@@ -31,6 +34,7 @@ bool DeformPool::hasThreads() noexcept {
 void DeformPool::setThreadCount(unsigned int threads) {
     const int processors = OpenThreads::GetNumberOfProcessors();
     if (threads == 0) threads = static_cast<unsigned int>(std::max(1, processors));
+    threads = std::min(threads, kMostThreads);
     if (!_arena || _arena->threads != threads) _arena = std::make_unique<Arena>(threads);
 }
 
