@@ -10,4 +10,7 @@ namespace osgSkin {
 /// rig of this many joints.
 void requireFits(const Clip& clip, const RestSkeleton& rig);
 
+/// The same where rotations are not unit, or the root is beyond -1e18 to 1e18.
+void requireUsable(const Clip& clip, const RestSkeleton& rig);
+
 } // namespace osgSkin

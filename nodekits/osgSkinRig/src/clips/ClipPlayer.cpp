@@ -71,8 +71,8 @@ void ClipPlayer::setWeight(double weight) {
 
 void ClipPlayer::setRoot(Root root, const osg::Vec3d& up) {
     _root = root;
-    _up = up;
-    _up.normalize();
+    osg::Vec3d unit = up;
+    if (std::isfinite(unit.normalize()) && unit.valid()) _up = unit;
     _motion.set(0.0, 0.0, 0.0);
 }
 

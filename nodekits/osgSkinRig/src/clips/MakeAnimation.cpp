@@ -7,7 +7,7 @@
 namespace osgSkin {
 
 osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const RestSkeleton& rig) {
-    requireFits(clip, rig);
+    requireUsable(clip, rig);
     osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
     animation->setName(clip.name);
     animation->setPlayMode(osgAnimation::Animation::LOOP);

@@ -25,7 +25,7 @@ JointSample blend(const JointSample& a, const JointSample& b, double share) noex
 }
 
 osg::ref_ptr<const SampledClip> SampledClip::create(const Clip& clip, const RestSkeleton& rig) {
-    requireFits(clip, rig);
+    requireUsable(clip, rig);
     const osg::ref_ptr<SampledClip> result = new SampledClip;
     result->_name = clip.name;
     result->_step = clip.frameTime;

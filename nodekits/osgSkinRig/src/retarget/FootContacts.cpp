@@ -27,9 +27,9 @@ double standingHeight(const std::vector<glm::dvec3>& positions) {
 
 std::vector<FootContact> findFootContacts(const std::vector<glm::dvec3>& positions,
                                           double frameTime, double floor, double leg) {
-    const auto reach =
-        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kHalfWindow / frameTime)));
     const std::size_t end = positions.size();
+    const auto reach = static_cast<std::size_t>(
+        std::clamp(std::round(kHalfWindow / frameTime), 1.0, static_cast<double>(end)));
     const auto isPlanted = [&](std::size_t f) {
         if (positions[f].y > floor + kLow * leg) return false;
         const std::size_t before = f - std::min(f, reach);

@@ -3,7 +3,9 @@
 
 #include "clips/ClipChannels.h"
 
+#include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/GlmTypes>
 
 #include <osgAnimation/StackedQuaternionElement>
 #include <osgAnimation/StackedTranslateElement>
@@ -33,6 +35,12 @@ osg::ref_ptr<osg::MatrixTransform> makeProp(const std::string& name,
                                             const Motion& motion, const RetargetReport& report,
                                             osgAnimation::Animation& animation) {
     motion.validate();
+    const Clip clip = inSkeletonSpace(motion, report);
+    for (const glm::dvec3& position : clip.rootPositions)
+        if (!isInRange(position))
+            throw Error("prop \"" + name +
+                        "\": a place in the figure's space is not finite, or "
+                        "beyond -1e18 to 1e18");
     osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
     node->setName(name);
     node->setDataVariance(osg::Object::DYNAMIC);
@@ -45,7 +53,6 @@ osg::ref_ptr<osg::MatrixTransform> makeProp(const std::string& name,
     node->setUpdateCallback(update);
     for (const MeshPart& part : parts) node->addChild(part.geometry);
 
-    const Clip clip = inSkeletonSpace(motion, report);
     // Where it is before the first update.
     node->setMatrix(osg::Matrix::rotate(toOsg(clip.rotations[0])) *
                     osg::Matrix::translate(toOsg(clip.rootPositions[0])));

@@ -5,6 +5,7 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
 
+#include <cmath>
 #include <set>
 
 namespace osgSkin {
@@ -52,6 +53,10 @@ void RestSkeleton::validate() const {
             throw Error(label + " has the name of another joint, expected unique names");
         if (!isFinite(joint.centre)) throw Error(label + " has a centre that is not finite");
         if (!isInRange(joint.centre)) throw Error(label + " has a centre beyond -1e18 to 1e18");
+        if (joint.tip && !isInRange(*joint.tip))
+            throw Error(label + " has a tip that is not finite, or beyond -1e18 to 1e18");
+        if (!(std::abs(glm::dot(joint.frame, joint.frame) - 1.0) <= 2e-3)) // for NaN, too
+            throw Error(label + " has axes whose rotation is not unit");
     }
 }
 
