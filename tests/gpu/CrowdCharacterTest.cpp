@@ -114,8 +114,8 @@ TEST(CrowdCharacter, RefusesTrianglesOfVerticesThatAreNotThere) {
         const osg::ref_ptr<osg::Geometry> rest =
             new osg::Geometry(*skin->getRestGeometry(), osg::CopyOp::SHALLOW_COPY);
         const GLuint last = beyond == 72u ? rest->getVertexArray()->getNumElements() : beyond;
-        rest->addPrimitiveSet(triangles({0, 1, last}));
         skin->setSkin(rest, skin->getModel());
+        rest->addPrimitiveSet(triangles({0, 1, last}));
         EXPECT_THROW(character->addSkin(*skin, osg::Matrixd()), Error);
     }
     const std::size_t skin = character->addSkin(*test::makeSkin(), osg::Matrixd());

@@ -194,8 +194,15 @@ TEST(ConvertRigs, LeaveAloneWhatTheyCannotConvertAndSayWhy) {
     const auto infinite = makeRig(blended, "infinite");
     (*static_cast<osg::Vec3Array*>(infinite->getSourceGeometry()->getVertexArray()))[3].x() =
         INFINITY;
+    const auto halved = makeRig(blended, "halved");
+    const GLuint corners[] = {0, 1, 2, 0};
+    halved->getSourceGeometry()->setPrimitiveSet(
+        0, new osg::DrawElementsUInt(GL_TRIANGLES, 4, corners));
+    const auto endless = makeRig(blended, "endless");
+    endless->getSourceGeometry()->setPrimitiveSet(0,
+                                                  new osg::DrawArrays(GL_TRIANGLES, 0, 2000000001));
     const auto lost = makeRig(blended, "lost");
-    for (const auto& rig : {morph, unpainted, stray, points, infinite})
+    for (const auto& rig : {morph, unpainted, stray, points, infinite, halved, endless})
         scene.skeleton->addChild(rig);
     scene.root->addChild(lost);
     scene.skeleton->addChild(makeRig(blended, "good"));
@@ -204,8 +211,9 @@ TEST(ConvertRigs, LeaveAloneWhatTheyCannotConvertAndSayWhy) {
     ASSERT_EQ(report.skins.size(), 1u);
     EXPECT_EQ(report.skins[0]->getName(), "good");
     const std::pair<const char*, const char*> expected[] = {
-        {"face", "morph targets"},  {"unpainted", "no weights"}, {"stray", "not there"},
-        {"points", "no triangles"}, {"infinite", "not finite"},  {"lost", "no skeleton"},
+        {"face", "morph targets"},   {"unpainted", "no weights"}, {"stray", "not there"},
+        {"points", "no triangles"},  {"infinite", "not finite"},  {"lost", "no skeleton"},
+        {"halved", "multiple of 3"}, {"endless", "names vertex"},
     };
     EXPECT_EQ(report.notes.size(), std::size(expected));
     for (const auto& pair : expected) {
@@ -218,6 +226,6 @@ TEST(ConvertRigs, LeaveAloneWhatTheyCannotConvertAndSayWhy) {
             });
         EXPECT_TRUE(found) << name << ": " << reason;
     }
-    for (const auto& rig : {morph, unpainted, stray, points, infinite})
+    for (const auto& rig : {morph, unpainted, stray, points, infinite, halved, endless})
         EXPECT_TRUE(scene.skeleton->containsNode(rig)) << rig->getName();
 }

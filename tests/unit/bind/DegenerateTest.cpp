@@ -3,11 +3,13 @@
 #include "Shapes.h"
 
 #include <osgSkinBind/Bind>
+#include <osgSkinBind/BindWeights>
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <ostream>
+#include <string>
 
 using namespace osgSkin;
 
@@ -102,6 +104,37 @@ const OddInput kCases[] = {
              first += size;
          }
      }},
+    {"ThousandJoints",
+     [](SkinMesh&, RestSkeleton& s) {
+         for (int j = 2; j < 1000; ++j)
+             s.joints.push_back({"j" + std::to_string(j), j - 1, {0, 4.1 + 0.003 * j, 0}, {}});
+         s.joints[1].tip.reset();
+     }},
+    {"ThousandLeaves",
+     [](SkinMesh&, RestSkeleton& s) {
+         for (int j = 2; j < 1000; ++j)
+             s.joints.push_back({"j" + std::to_string(j), 1, {0, 4.1, 0.001 * j}, {}});
+     }},
+    {"HundredJointsInOnePoint",
+     [](SkinMesh&, RestSkeleton& s) {
+         s.joints[1].tip.reset();
+         for (int j = 2; j < 100; ++j)
+             s.joints.push_back({"j" + std::to_string(j), j - 1, s.joints[1].centre, {}});
+     }},
+    {"TipInTheJoint", [](SkinMesh&, RestSkeleton& s) { s.joints[1].tip = s.joints[1].centre; }},
+    {"OneVertexTwiceAndAgain",
+     [](SkinMesh& m, RestSkeleton&) {
+         m = {};
+         m.positions.assign(3, {0, 4, 1});
+         addTriangle(m, 0, 1, 2);
+         addTriangle(m, 0, 0, 0);
+     }},
+    {"Huge",
+     [](SkinMesh& m, RestSkeleton& s) {
+         m = shapes::moved(m, {0, 0, 0}, 1e17);
+         for (RestJoint& joint : s.joints) joint.centre *= 1e17;
+         s.joints[1].tip = 1e17 * *s.joints[1].tip;
+     }},
     {"Tiny",
      [](SkinMesh& m, RestSkeleton& s) {
          m = shapes::moved(m, {0, 0, 0}, 1e-7);
@@ -109,6 +142,10 @@ const OddInput kCases[] = {
          s.joints[1].tip = 1e-7 * *s.joints[1].tip;
      }},
 };
+
+std::uint32_t skeletonEnd(const RestSkeleton& skeleton) {
+    return static_cast<std::uint32_t>(skeleton.joints.size() - 1);
+}
 
 class Degenerate : public testing::TestWithParam<OddInput> {};
 
@@ -118,11 +155,17 @@ TEST_P(Degenerate, IsBoundAllTheSame) {
     SkinMesh mesh = shapes::cylinder();
     RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.1}, 7.0);
     GetParam().make(mesh, skeleton);
-    BindReport report;
-    const Binding binding = bind(mesh, skeleton, {}, &report);
-    expectSound(binding);
-    EXPECT_EQ(binding.vertexCount(), mesh.positions.size());
-    EXPECT_EQ(report.unassigned, 0u);
+    BindOptions options;
+    for (const auto method : {BindOptions::Method::Smooth, BindOptions::Method::Paper}) {
+        options.method = method;
+        BindReport report;
+        const Binding binding = bind(mesh, skeleton, options, &report);
+        expectSound(binding);
+        EXPECT_EQ(binding.vertexCount(), mesh.positions.size());
+        EXPECT_EQ(report.unassigned, 0u);
+    }
+    const VertexWeights weights(mesh.positions.size(), {{0, 0.5}, {skeletonEnd(skeleton), 0.5}});
+    expectSound(bindWeights(mesh, skeleton, weights, options));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Degenerate, testing::ValuesIn(kCases),

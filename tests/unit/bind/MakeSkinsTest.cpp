@@ -109,6 +109,25 @@ TEST(MakeSkins, RefusesWhatDoesNotFit) {
     EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
     parts[1].geometry = nullptr;
     EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
+    Binding broken = body.binding;
+    broken.influences[2].joint = 9;
+    EXPECT_THROW(makeSkins(body.mesh, body.parts, broken, body.split), Error);
+}
+
+TEST(MakeSkins, RefusesPartsThatWouldBeReadBeyondTheirEnds) {
+    const PartedBody body;
+    const auto refuses = [&](void (*spoil)(MeshPart&, osg::DrawElementsUInt&)) {
+        std::vector<MeshPart> parts = {body.makePart(0.0, 100.0)};
+        spoil(parts[0],
+              static_cast<osg::DrawElementsUInt&>(*parts[0].geometry->getPrimitiveSet(0)));
+        EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
+    };
+    refuses([](MeshPart&, osg::DrawElementsUInt& elements) { elements[4] = 1000000; });
+    refuses([](MeshPart&, osg::DrawElementsUInt& elements) { elements.pop_back(); });
+    refuses([](MeshPart&, osg::DrawElementsUInt& elements) { elements.resize(9); });
+    refuses(
+        [](MeshPart&, osg::DrawElementsUInt& elements) { elements.setMode(GL_TRIANGLE_STRIP); });
+    refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.sourceFace.resize(3); });
 }
 
 TEST(PlaceSkins, HangsSkinsUnderTheSkeletonAndRigidPartsUnderTheirBones) {

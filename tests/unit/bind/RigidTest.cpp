@@ -108,4 +108,10 @@ TEST(RigidSplit, RefusesWhatDoesNotFit) {
     const Binding binding = bind(mesh, limb());
     EXPECT_THROW(splitRigid(mesh, binding, {"Foot"}), Error);
     EXPECT_THROW(splitRigid(shapes::cylinder(2.0), binding, {"Hand"}), Error);
+    Binding empty = binding;
+    std::fill(empty.firstInfluence.begin(), empty.firstInfluence.end(), 0u);
+    EXPECT_THROW(splitRigid(mesh, empty, {"Hand"}), Error);
+    SkinMesh broken = mesh;
+    broken.faceVertices.back() = 1000000;
+    EXPECT_THROW(splitRigid(broken, binding, {"Hand"}), Error);
 }

@@ -49,6 +49,14 @@ TEST(DeformableSkin, RefusesGeometryThatDoesNotFit) {
     EXPECT_THROW(skin->setSkin(nullptr, test::Tube().model()), osgSkin::Error);
     EXPECT_THROW(skin->setSkin(makeGeometry(test::Tube()), nullptr), osgSkin::Error);
     EXPECT_THROW(skin->setSkin(makeGeometry(test::Tube(9)), test::Tube().model()), osgSkin::Error);
+    // Picking would read beyond the vertices, or beyond the indices.
+    for (const std::vector<GLuint>& corners : {std::vector<GLuint>{0, 1, 1000000}, {0, 1, 2, 3}}) {
+        const osg::ref_ptr<osg::Geometry> broken = makeGeometry(test::Tube());
+        broken->addPrimitiveSet(
+            new osg::DrawElementsUInt(GL_TRIANGLES, corners.begin(), corners.end()));
+        EXPECT_THROW(skin->setSkin(broken, test::Tube().model()), osgSkin::Error);
+    }
+    EXPECT_EQ(skin->getModel(), nullptr);
 }
 
 TEST(DeformableSkin, DeformsOncePerPoseAndOnlyWhenSeen) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/DeformableSkin>
 
+#include "nodes/PrimitiveCheck.h"
+
 #include <osgSkin/DeformJob>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
@@ -20,6 +22,10 @@ std::size_t indexOf(const std::string& name, const std::vector<std::string>& nam
 }
 
 } // namespace
+
+std::string brokenPrimitive(const osg::Geometry& geometry, std::size_t vertices) {
+    return findBroken(geometry, vertices);
+}
 
 DeformableSkin::Drawer::~Drawer() = default;
 
@@ -51,6 +57,9 @@ void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinM
         throw Error("deformable skin: the geometry \"" + rest->getName() +
                     "\" needs Vec3Arrays of " + std::to_string(model->vertexCount()) +
                     " vertices and normals, as many as the model has");
+    const std::string broken = brokenPrimitive(*rest, model->vertexCount());
+    if (!broken.empty())
+        throw Error("deformable skin: the geometry \"" + rest->getName() + "\" has " + broken);
     _tangents = tangentsOf(*rest, _tangentAttribute, *model);
     _rest = rest;
     _model = model;

@@ -21,6 +21,16 @@ void check(const MeshPart& part, const Binding& binding, const RigidSplit& split
     if (!vertices || !normals || vertices->size() != part.sourceVertex.size() ||
         normals->size() != vertices->size())
         throw Error(where + " needs a vertex, a normal and a source vertex each");
+    const std::string broken = brokenPrimitive(*part.geometry, vertices->size());
+    if (!broken.empty()) throw Error(where + " has " + broken);
+    std::size_t triangles = 0;
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : part.geometry->getPrimitiveSetList()) {
+        if (set->getMode() != GL_TRIANGLES) throw Error(where + " has more than triangles");
+        triangles += set->getNumIndices() / 3;
+    }
+    if (triangles != part.sourceFace.size())
+        throw Error(where + " has " + std::to_string(triangles) +
+                    " triangles, and source faces of " + std::to_string(part.sourceFace.size()));
     for (const std::uint32_t v : part.sourceVertex)
         if (v >= binding.vertexCount()) throw Error(where + " names a vertex that is not bound");
     for (const std::uint32_t f : part.sourceFace)
@@ -56,6 +66,7 @@ SkinParts::Skin makeSkin(const MeshPart& unordered, const Binding& binding) {
 
 SkinParts makeSkins(const SkinMesh& mesh, const std::vector<MeshPart>& parts,
                     const Binding& binding, const RigidSplit& split) {
+    binding.validate();
     if (binding.vertexCount() != mesh.positions.size() ||
         split.faceJoint.size() != mesh.faceSizes.size())
         throw Error("attach skin: the binding is not one of this mesh");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/RigBody.h"
 
+#include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 
@@ -85,11 +86,11 @@ MeshPart makePart(const osgAnimation::RigGeometry& rig, const osg::Matrixd& toSk
     const osg::Geometry& source = sourceOf(rig);
     const osg::Vec3Array& given = verticesOf(source);
     checkBindings(source, given.size());
+    const std::string broken = brokenPrimitive(source, given.size());
+    if (!broken.empty()) throw Error("it has " + broken);
     osg::TriangleIndexFunctor<Triangles> triangles;
     source.accept(triangles);
     if (triangles.corners.empty()) throw Error("it has no triangles");
-    for (const unsigned int corner : triangles.corners)
-        if (corner >= given.size()) throw Error("a triangle names a vertex that is not there");
 
     MeshPart part;
     part.geometry = new osg::Geometry(source, osg::CopyOp::SHALLOW_COPY);

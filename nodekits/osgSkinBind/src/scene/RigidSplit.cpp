@@ -3,8 +3,6 @@
 
 #include <osgSkin/Error>
 
-#include <algorithm>
-
 namespace osgSkin {
 namespace {
 
@@ -29,10 +27,10 @@ std::uint32_t rigidJointOf(const Binding& binding, const std::vector<bool>& rigi
     std::uint32_t depth = 0;
     for (int j = static_cast<int>(lowest); j >= 0;
          j = binding.joints[static_cast<std::size_t>(j)].parent) {
-        const bool listed = std::any_of(
-            binding.influences.begin() + first, binding.influences.begin() + end,
-            [j](const Influence& influence) { return static_cast<int>(influence.joint) == j; });
-        if (!listed) return RigidSplit::kSkin;
+        // They are in the joints' order, as those of the chain are.
+        if (depth == end - first ||
+            static_cast<int>(binding.influences[end - 1 - depth].joint) != j)
+            return RigidSplit::kSkin;
         ++depth;
     }
     return rigid[lowest] && depth == end - first ? lowest : RigidSplit::kSkin;
@@ -45,6 +43,8 @@ RigidSplit splitRigid(const SkinMesh& mesh, const Binding& binding,
     if (mesh.positions.size() != binding.vertexCount())
         throw Error("rigid parts: the mesh has " + std::to_string(mesh.positions.size()) +
                     " vertices, expected the binding's " + std::to_string(binding.vertexCount()));
+    mesh.validate();
+    binding.validate();
     std::vector<bool> isRigid(binding.joints.size(), false);
     for (const std::string& name : rigid)
         isRigid[static_cast<std::size_t>(findJoint(binding, name))] = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crowd/Levels.h"
 
+#include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
 
 #include <osg/TriangleIndexFunctor>
@@ -21,29 +22,13 @@ struct CollectTriangles {
     }
 };
 
-/// OSG reads all corners of a triangle that is begun, and believes ranges.
-void checkPrimitives(const osg::Geometry& geometry) {
-    const std::string where = "crowd: the geometry \"" + geometry.getName() + "\" ";
-    const unsigned int vertices = geometry.getVertexArray()->getNumElements();
-    for (unsigned int s = 0; s < geometry.getNumPrimitiveSets(); ++s) {
-        const osg::PrimitiveSet* set = geometry.getPrimitiveSet(s);
-        if (!set) throw Error(where + "has a primitive set that is none");
-        const unsigned int count = set->getNumIndices();
-        if (set->getDrawElements() && set->getMode() == GL_TRIANGLES && count % 3 != 0)
-            throw Error(where + "has " + std::to_string(count) +
-                        " corners of triangles, expected a multiple of 3");
-        for (unsigned int i = 0; i < count; ++i) // ends at the first, whatever the count
-            if (set->index(i) >= vertices)
-                throw Error(where + "has a primitive that names vertex " +
-                            std::to_string(set->index(i)) + ", expected less than " +
-                            std::to_string(vertices));
-    }
-}
-
 } // namespace
 
 std::vector<GLuint> trianglesOf(const osg::Geometry& geometry) {
-    checkPrimitives(geometry);
+    const std::string broken =
+        brokenPrimitive(geometry, geometry.getVertexArray()->getNumElements());
+    if (!broken.empty())
+        throw Error("crowd: the geometry \"" + geometry.getName() + "\" has " + broken);
     osg::TriangleIndexFunctor<CollectTriangles> collect;
     geometry.accept(collect);
     return collect.indices;
