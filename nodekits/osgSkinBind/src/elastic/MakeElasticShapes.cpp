@@ -23,13 +23,21 @@ constexpr std::size_t kBallModes = 9;
 /// What makes no difference, in radii of the limb.
 constexpr double kTolerance = 2e-3;
 
+/// What a sample counts that is not good: enough that functions do not run away there, too little
+/// to spoil the bends beside it.
+constexpr double kBadCounts = 0.1;
+
 /// Of a joint with fewer good samples than this share no shapes are made.
 constexpr double kEnoughSamples = 0.5;
 
-/// The good sample that comes nearest to one that is not good and bends less; nothing where the
-/// rest pose does.
+/// Whose shape a sample takes: its own where that is good, or penetrates less than the plain skin.
+/// Else of the good sample that comes nearest to it and bends less; nothing where the rest pose
+/// does.
 std::optional<std::size_t> standInFor(const ElasticPlan& plan, const ElasticShapes& shapes,
                                       std::size_t sample) {
+    const ElasticSample& own = shapes.samples[sample];
+    if (own.reason.empty() || (!own.positions.empty() && own.crossings <= own.plainCrossings))
+        return sample;
     const double length = glm::length(plan.samples[sample]);
     std::optional<std::size_t> best;
     double nearest = length;
@@ -65,12 +73,14 @@ public:
         for (const Moved& moved : _moved) result.vertices.push_back(moved.vertex->index);
         for (std::size_t i = 0; i < _plan.samples.size(); ++i) {
             result.samples.push_back(_plan.samples[i]);
-            // Where it cannot be solved the joint keeps the shape of the way there: functions that
-            // nothing holds would run away.
-            const std::optional<std::size_t> good =
-                _solved.samples[i].reason.empty() ? i : standInFor(_plan, _solved, i);
-            result.offsets.push_back(
-                good ? offsetsAt(*good) : std::vector<glm::dvec3>(_moved.size(), glm::dvec3(0.0)));
+            // Where it cannot be solved the joint tends to the shape of the way there: functions
+            // that nothing holds would run away.
+            const std::optional<std::size_t> taken = standInFor(_plan, _solved, i);
+            result.offsets.push_back(taken
+                                         ? offsetsAt(*taken)
+                                         : std::vector<glm::dvec3>(_moved.size(), glm::dvec3(0.0)));
+            result.weights.emplace_back(_moved.size(),
+                                        _solved.samples[i].reason.empty() ? 1.0 : kBadCounts);
         }
         return result;
     }
@@ -123,8 +133,8 @@ void noteBadSamples(const ElasticShapes& solved, std::vector<std::string>& notes
     }
     if (bad == 0) return;
     notes.push_back("elastic shapes of \"" + solved.joint + "\": " + std::to_string(bad) + " of " +
-                    std::to_string(solved.samples.size()) +
-                    " bends keep a smaller one's shape, as " + reason);
+                    std::to_string(solved.samples.size()) + " bends are guessed from others, as " +
+                    reason);
 }
 
 } // namespace
