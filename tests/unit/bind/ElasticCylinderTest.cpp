@@ -63,6 +63,17 @@ TEST(ElasticCylinder, OuterSideNeitherCavesInNorSwells) {
     }
 }
 
+TEST(ElasticCylinder, ComesToTheSameFoldByAnyWay) {
+    const ElasticTube tube;
+    const ElasticShapes other = solveElasticJoint(tube.skin(), tube.joint({20, 50, 75, 98, 120}));
+    const ElasticSample &a = bent().samples.back(), &b = other.samples.back();
+    ASSERT_EQ(a.positions.size(), b.positions.size());
+    EXPECT_TRUE(a.converged);
+    EXPECT_TRUE(b.converged);
+    for (std::size_t v = 0; v < a.positions.size(); ++v)
+        EXPECT_LT(glm::length(a.positions[v] - b.positions[v]), 0.05);
+}
+
 TEST(ElasticCylinder, RimFollowsTheBones) {
     const ElasticShapes& shapes = bent();
     const double rim = shapes.reach - 1.0 / 3.0; // a cell

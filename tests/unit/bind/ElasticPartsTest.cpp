@@ -4,6 +4,7 @@
 
 #include <elastic/ElasticSamples.h>
 #include <elastic/energy/BoneCores.h>
+#include <elastic/energy/Fascia.h>
 #include <elastic/lattice/Unsolvable.h>
 #include <elastic/skin/WindingTree.h>
 #include <elastic/solve/Minimise.h>
@@ -114,6 +115,20 @@ TEST(Preconditioner, SolvesItsSystem) {
     const Points found = preconditioner.solve(gradient + moved);
     EXPECT_LT((found - way).leftCols(lattice.freeNodes()).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_EQ(found.rightCols(found.cols() - lattice.freeNodes()).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(Fascia, PullsEachNodeTowardsItsGoalByItsVolume) {
+    const ElasticTube tube;
+    const RestSkin rest(pointsOf(tube), tube.triangles);
+    const VoxelLattice lattice(rest, 1.0 / 3.0, 4.0);
+    const Fascia fascia(lattice, 3.0);
+    const Points goals = lattice.rest().colwise() + Point(0.1, -0.2, 0.05);
+    Points gradient = Points::Zero(3, goals.cols());
+    const double energy = fascia.value(lattice.rest(), goals, gradient);
+    const double volume = double(lattice.cells().size()) / 27.0;
+    EXPECT_NEAR(energy, 0.5 * 3.0 * volume * (0.01 + 0.04 + 0.0025), 1e-9);
+    EXPECT_LT((gradient.rowwise().sum() + 3.0 * volume * Point(0.1, -0.2, 0.05)).norm(), 1e-9);
+    EXPECT_EQ(fascia.value(goals, goals, gradient), 0.0);
 }
 
 TEST(Minimise, FindsTheMinimumOfACurvedValley) {

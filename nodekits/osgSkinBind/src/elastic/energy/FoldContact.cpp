@@ -15,6 +15,9 @@ namespace {
 /// second it does so fully.
 constexpr double kAcross = 0.3, kFacing = -0.5;
 
+/// Touches that weigh less are forgotten.
+constexpr double kLeastWeight = 0.01;
+
 } // namespace
 
 FoldContact::FoldContact(const VoxelLattice& lattice, const RestSkin& skin, const SkinPatch& patch,
@@ -50,19 +53,33 @@ Point FoldContact::on(std::uint32_t triangle, const Point& shares, const Points&
     return shares[0] * vertices.col(a) + shares[1] * vertices.col(b) + shares[2] * vertices.col(c);
 }
 
+void FoldContact::restart() {
+    _touches.clear();
+    _detections = 0;
+}
+
 void FoldContact::detect(const Points& nodes) {
     const DeformedCells cells(_lattice, nodes);
     const Points vertices = _patch.positions(nodes);
     const Points normals = _patch.normals(vertices);
-    _touches.clear();
+    ++_detections;
+    const double share = _detections <= _sizes.fresh
+                             ? 1.0
+                             : std::max(_sizes.leastShare, 1.0 / (_detections - _sizes.fresh + 1));
+    for (Touch& touch : _touches) touch.weight *= 1.0 - share;
+    _touches.erase(std::remove_if(_touches.begin(), _touches.end(),
+                                  [](const Touch& touch) { return touch.weight < kLeastWeight; }),
+                   _touches.end());
     for (std::uint32_t i = 0; i < _probes.size(); ++i) {
         const Probe& probe = _probes[i];
         const Point here = on(probe.triangle, probe.shares, vertices);
         const Point normal = on(probe.triangle, probe.shares, normals).normalized();
         Touch found;
         if (look(i, here, cells, normals, found) ||
-            look(i, here + (_sizes.gap + _sizes.margin) * normal, cells, normals, found))
+            look(i, here + (_sizes.gap + _sizes.margin) * normal, cells, normals, found)) {
+            found.weight = share;
             _touches.push_back(found);
+        }
     }
 }
 
@@ -103,7 +120,7 @@ bool FoldContact::touch(std::uint32_t index, const Point& rest, const Points& no
     if (apart <= 0.0 || facing <= 0.0) return false;
     // Both grow from nothing, so that nothing jumps where pairs come and go.
     const double gap = _sizes.gap * std::min(apart, 1.0) * std::min(facing, 1.0);
-    result = {index, triangle, nearest.shares, normal, gap};
+    result = {index, triangle, nearest.shares, normal, gap, 1.0};
     return true;
 }
 
@@ -118,7 +135,7 @@ double FoldContact::value(const Points& nodes, Points& gradient) const {
             on(probe.triangle, probe.shares, vertices) - on(touch.triangle, touch.shares, vertices);
         const double depth = touch.gap - touch.normal.dot(off);
         if (depth <= 0.0) continue;
-        const double stiffness = _sizes.stiffness * probe.area;
+        const double stiffness = touch.weight * _sizes.stiffness * probe.area;
         energy += 0.5 * stiffness * depth * depth;
         const Point force = stiffness * depth * touch.normal;
         for (std::size_t k = 0; k < 3; ++k) {

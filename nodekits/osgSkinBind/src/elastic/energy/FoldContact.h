@@ -14,26 +14,33 @@ struct ContactSizes {
     double stiffness = 200.0; ///< mu / r an area
     double gap = 0.12;        ///< that stays between the sides
     double margin = 0.2;      ///< beyond the gap, in which probes are watched
-    double spacing = 0.2;     ///< of the probes on the skin
+    double spacing = 0.12;    ///< of the probes on the skin
     double sides = 0.15;      ///< ratios differ by this between a fold's two sides
     double apart = 0.15;      ///< pairs this near at rest are one fold's edge, no contact
     double ramp = 0.7;        ///< beyond that, over which the gap grows to its whole
+    int fresh = 6;            ///< so many detections forget the ones before
+    double leastShare = 0.1;  ///< that a later one has in the touches
 };
 
 /// Contact between the two sides of a joint's fold, found in material space (McAdams et al. 2011):
 /// a probe on one side's skin, or a little ahead of it, that has come to lie in the other side's
 /// flesh is looked up at rest, and what is nearest on the skin there is what it has to keep off.
 /// Sides are told by how differently they follow the joint, not by the nearest bone: that would put
-/// spikes on the limb's flank. One object for each thread.
+/// spikes on the limb's flank. What is nearest jumps as flesh slides, and a minimiser that is told
+/// anew each time would never come to rest: after a few detections the touches become the mean of
+/// all since. One object for each thread.
 class FoldContact {
 public:
     FoldContact(const VoxelLattice& lattice, const RestSkin& skin, const SkinPatch& patch,
                 const Eigen::VectorXd& nodeRatios, const ContactSizes& sizes);
 
+    /// Forgets all touches and detections: for another bend.
+    void restart();
+
     /// Finds anew which probes touch.
     void detect(const Points& nodes);
 
-    /// Energy of the touches that detect() found last; its gradient is added.
+    /// Energy of the touches that detect() has found; its gradient is added.
     double value(const Points& nodes, Points& gradient) const;
 
     std::size_t touches() const { return _touches.size(); }
@@ -50,6 +57,7 @@ private:
         std::uint32_t probe = 0, triangle = 0; ///< triangle: of the other side
         Point shares, normal;                  ///< where it is touched, and outwards from there
         double gap = 0.0;
+        double weight = 1.0; ///< falls with each detection since
     };
 
     bool look(std::uint32_t probe, const Point& at, const DeformedCells& cells,
@@ -65,6 +73,7 @@ private:
     Eigen::VectorXd _nodeRatios;
     std::vector<Probe> _probes;
     std::vector<Touch> _touches;
+    int _detections = 0;
 };
 
 } // namespace osgSkin::elastic

@@ -29,7 +29,7 @@ struct HingeCore {
 
 struct HingeSizes {
     double radius = 0.5; ///< of the ball
-    double below = 0.15; ///< the skin of the outer side
+    double below = 0.1;  ///< the skin of the outer side
     /// See HingeCore: of less, the outer side caves in; of more, it swells beside the ball.
     double halfWidth = 2.5;
 };

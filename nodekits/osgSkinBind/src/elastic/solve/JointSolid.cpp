@@ -21,7 +21,8 @@ JointSolid::JointSolid(Points skin, RestSkin::Triangles triangles,
     : _options(options), _skin(std::move(skin), std::move(triangles)),
       _lattice(_skin, options.edge, options.reach), _patch(_lattice, _skin, ratios),
       _ratios(ratioField(_lattice, _patch)), _body(_lattice, options.flesh),
-      _cores(_lattice, _skin, bones, hinge, options.cores), _preconditioner(_lattice, _cores) {}
+      _cores(_lattice, _skin, bones, hinge, options.cores), _fascia(_lattice, options.fascia),
+      _preconditioner(_lattice, _cores) {}
 
 JointSolid::State JointSolid::rest() const {
     State state;
@@ -60,12 +61,15 @@ JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& 
             return state;
         }
         const Points goals = _cores.goals(next);
+        const Points plain = turned(_lattice.rest(), _ratios, next);
+        contact.restart();
         Energy energy;
         energy.value = [&](const Points& at, Points& gradient) {
             gradient.setZero();
             double value = _body.value(at, gradient);
             if (!std::isfinite(value)) return value;
-            value += _cores.value(at, goals, gradient) + contact.value(at, gradient);
+            value += _cores.value(at, goals, gradient) + _fascia.value(at, plain, gradient) +
+                     contact.value(at, gradient);
             gradient.rightCols(at.cols() - _lattice.freeNodes()).setZero();
             return value;
         };

@@ -4,6 +4,7 @@
 
 #include "elastic/energy/BoneCores.h"
 #include "elastic/energy/ElasticBody.h"
+#include "elastic/energy/Fascia.h"
 #include "elastic/energy/FoldContact.h"
 #include "elastic/lattice/RatioField.h"
 #include "elastic/lattice/SkinPatch.h"
@@ -21,6 +22,7 @@ struct SolidOptions {
     double reach = 4.0;                      ///< of the lattice
     double largestTurn = 0.2617993877991494; ///< radians in one step: 15 degrees
     Flesh flesh;
+    double fascia = 1.0; ///< mu / r^2 a volume: of less, deep folds slide; more, they stay plain
     CoreSizes cores;
     HingeSizes hinge;
     ContactSizes contact;
@@ -69,6 +71,7 @@ private:
     Eigen::VectorXd _ratios; ///< of the nodes
     ElasticBody _body;
     BoneCores _cores;
+    Fascia _fascia;
     Preconditioner _preconditioner;
 };
 

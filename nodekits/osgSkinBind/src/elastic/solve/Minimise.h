@@ -19,7 +19,7 @@ struct Energy {
 };
 
 struct MinimiseLimits {
-    int mostSteps = 120;
+    int mostSteps = 240;
     int renewEvery = 8;      ///< steps
     double smallStep = 1e-3; ///< largest displacement of a point at which it has come to rest
 };
