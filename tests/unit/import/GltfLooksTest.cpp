@@ -5,6 +5,7 @@
 
 #include <osgSkin/Error>
 #include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportRig>
 
 #include <osg/Array>
 #include <osg/Image>
@@ -135,6 +136,24 @@ TEST(GltfLooks, GlossySurfacesHaveTheirColour) {
     EXPECT_NE(
         mesh.parts[0].geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE),
         nullptr);
+}
+
+/// A column three units tall, and a triangle beside its joints.
+TEST(GltfLooks, ThingsBesideTheFigureAreNoneOfIt) {
+    const auto vertices = [](double size, double x) {
+        test::GltfColumn column;
+        column.json["meshes"].push_back(
+            {{"primitives",
+              {{{"attributes",
+                 {{"POSITION",
+                   column.accessor("VEC3", {x, 0, 0, x, size, 0, x + 0.1, 0, 0})}}}}}}});
+        column.json["scenes"][0]["nodes"].push_back(column.node({{"mesh", 1}}));
+        return osgSkin::importRig(column.save("beside.gltf")).body.mesh.positions.size();
+    };
+    EXPECT_EQ(vertices(1.0, 0.0), 27u);
+    EXPECT_EQ(vertices(4.0, 0.0), 27u);
+    EXPECT_EQ(vertices(5.0, 0.0), 24u) << "a thing larger than the figure is part of it";
+    EXPECT_EQ(vertices(1.0, 2.0), 24u) << "a thing that stands apart is part of it";
 }
 
 TEST(GltfLooks, ATextureThatMaterialsShareIsReadOnce) {
