@@ -20,13 +20,23 @@ HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
-using FloatTag = hn::Rebind<float, DoubleTag>;
-using StepTag = hn::Rebind<std::int32_t, DoubleTag>;
+/// A number of up to eight joints each.
+constexpr std::size_t kAtOnce = 8;
+using JointTag = hn::CappedTag<double, kAtOnce>;
+using Joints = hn::Vec<JointTag>;
+using JointMask = hn::Mask<JointTag>;
+using JointFloats = hn::Rebind<float, JointTag>;
+using JointSteps = hn::Rebind<std::int32_t, JointTag>;
+
+HWY_INLINE Joints each(double x) {
+    return hn::Set(JointTag(), x);
+}
 
 /// Rounding errors are taken as 0: their products would be denormal numbers, which processors are
 /// many times slower with.
-HWY_INLINE Doubles flushed(const Doubles& x, double least) {
-    return hn::IfThenElseZero(hn::Ge(hn::Abs(x), allOf(least)), x);
+template <typename V, typename T>
+HWY_INLINE V flushed(const V& x, T least) {
+    return hn::IfThenElseZero(hn::Ge(hn::Abs(x), hn::Set(hn::DFromV<V>(), least)), x);
 }
 
 /// Rows of a pose's joints, as they stand in it or gathered.
@@ -36,6 +46,13 @@ struct JointRows {
     const std::int32_t* azimuths;
     const int* parents;
     std::size_t stride;
+
+    HWY_INLINE Joints ownOf(std::size_t row, std::size_t first) const {
+        return hn::LoadU(JointTag(), own + row * stride + first);
+    }
+    HWY_INLINE Joints restOf(std::size_t row, std::size_t first) const {
+        return hn::LoadU(JointTag(), rest + row * stride + first);
+    }
 };
 
 HWY_INLINE JointRows rowsOf(const Pose& pose) {
@@ -52,183 +69,296 @@ struct GatheredRows {
     int parents[ChainPlan::kMostJoints];
 };
 
-/// Of `lanes` joints: which of the ranges that its sine is known in an angle is in, and the angle
+/// Of several joints: which of the ranges that its sine is known in an angle is in, and the angle
 /// as it is told there.
-HWY_INLINE void putAngle(const Doubles& whole, float* angles, std::int32_t* ranges) {
-    const DoubleTag d;
-    const FloatTag floats;
-    const StepTag steps;
-    const Doubles angle = flushed(whole, 1e-9), size = hn::Abs(angle);
-    const Doubles one = allOf(1.0);
-    Doubles range = hn::Zero(d);
-    for (const double end : {0.34, 0.9, 1.5708, 3.1416})
-        range = hn::Add(range, hn::IfThenElseZero(hn::Gt(size, allOf(end)), one));
-    Doubles part = hn::IfThenElse(hn::Gt(size, allOf(1.5708)), allOf(0.5), one);
-    part = hn::IfThenElse(hn::Gt(size, allOf(3.1416)), allOf(0.25), part);
-    hn::StoreU(hn::DemoteTo(floats, hn::Mul(angle, part)), floats, angles);
-    hn::StoreU(hn::DemoteTo(steps, range), steps, ranges);
+HWY_INLINE void putAngle(const Joints& whole, float* angles, std::int32_t* ranges) {
+    const JointFloats d;
+    const JointSteps steps;
+    const auto angle = hn::DemoteTo(d, flushed(whole, 1e-9));
+    const auto size = hn::Abs(angle);
+    const auto beyond = [&](float end) HWY_ATTR { return hn::Gt(size, hn::Set(d, end)); };
+    const auto large = beyond(1.5708f), larger = beyond(3.1416f);
+    const auto one = hn::Set(steps, 1);
+    auto range = hn::Zero(steps);
+    for (const auto& end : {beyond(0.34f), beyond(0.9f), large, larger})
+        range = hn::Add(range, hn::IfThenElseZero(hn::RebindMask(steps, end), one));
+    auto part = hn::IfThenElse(large, hn::Set(d, 0.5f), hn::Set(d, 1.0f));
+    part = hn::IfThenElse(larger, hn::Set(d, 0.25f), part);
+    hn::StoreU(hn::Mul(angle, part), d, angles);
+    hn::StoreU(range, steps, ranges);
+}
+
+/// How far joints are moved, those without parents left out: the root's centre has nothing to be
+/// moved against.
+HWY_INLINE void movesOf(const JointRows& rows, std::size_t first, const Joints (&turn)[3][3],
+                        Joints (&move)[3]) {
+    const JointTag d;
+    const Joints centre[3] = {rows.restOf(PoseAccess::RestRow::kCentre, first),
+                              rows.restOf(PoseAccess::RestRow::kCentre + 1, first),
+                              rows.restOf(PoseAccess::RestRow::kCentre + 2, first)};
+    const Joints parents = hn::PromoteTo(d, hn::LoadU(JointSteps(), rows.parents + first));
+    const Joints from = hn::IfThenElseZero(hn::Ge(parents, hn::Zero(d)), each(1.0));
+    const Joints scale = rows.ownOf(PoseAccess::Row::kScale, first);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Joints row[3] = {turn[0][axis], turn[1][axis], turn[2][axis]};
+        const Joints turned = hn::MulSub(scale, dot(row, centre), centre[axis]);
+        move[axis] = hn::MulAdd(from, turned, rows.ownOf(PoseAccess::Row::kOffset + axis, first));
+    }
 }
 
 /// What joints from `first` on give in any chain.
 HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, double smallMove,
-                           PosedChains& chains, DoubleMask& adjusted, DoubleMask& scaled) {
+                           PosedChains& chains, JointMask& adjusted, JointMask& scaled) {
     using Own = PoseAccess::Row;
-    using Rest = PoseAccess::RestRow;
-    const DoubleTag d;
-    const FloatTag floats;
-    const StepTag steps;
-    const Doubles zero = hn::Zero(d), one = allOf(1.0), two = allOf(2.0);
-    const auto own = [&](std::size_t row)
-                         HWY_ATTR { return hn::LoadU(d, rows.own + row * rows.stride + first); };
-    const auto rest = [&](std::size_t row)
-                          HWY_ATTR { return hn::LoadU(d, rows.rest + row * rows.stride + first); };
-    PosedMap* const maps = &chains.maps[ChainPlan::full(first)]; // full, frame, into
-    constexpr std::size_t kNext = 3 * sizeof(PosedMap) / sizeof(double);
-    const auto put4 = [&](std::size_t map, std::size_t column, const Doubles& a, const Doubles& b,
-                          const Doubles& c, const Doubles& e)
-                          HWY_ATTR { storeFour(a, b, c, e, maps[map].column[column], kNext); };
+    const JointTag d;
+    const JointFloats floats;
+    const JointSteps steps;
+    const Joints zero = hn::Zero(d), one = each(1.0);
 
     // The whole turn.
-    const Doubles w = own(Own::kW), x = own(Own::kX), y = own(Own::kY), z = own(Own::kZ);
-    const Doubles x2 = hn::Mul(two, x), y2 = hn::Mul(two, y), z2 = hn::Mul(two, z);
-    const Doubles xx = hn::Mul(x2, x), yy = hn::Mul(y2, y), zz = hn::Mul(z2, z);
-    const Doubles xy = hn::Mul(x2, y), yz = hn::Mul(y2, z), zx = hn::Mul(z2, x);
-    const Doubles wx = hn::Mul(x2, w), wy = hn::Mul(y2, w), wz = hn::Mul(z2, w);
-    const Doubles turn[3][3] = {{hn::Sub(hn::Sub(one, yy), zz), hn::Add(xy, wz), hn::Sub(zx, wy)},
-                                {hn::Sub(xy, wz), hn::Sub(hn::Sub(one, xx), zz), hn::Add(yz, wx)},
-                                {hn::Add(zx, wy), hn::Sub(yz, wx), hn::Sub(hn::Sub(one, xx), yy)}};
-    const Doubles offset[3] = {own(Own::kOffset), own(Own::kOffset + 1), own(Own::kOffset + 2)};
-    const Doubles scale = own(Own::kScale);
+    const Joints w = rows.ownOf(Own::kW, first), x = rows.ownOf(Own::kX, first),
+                 y = rows.ownOf(Own::kY, first), z = rows.ownOf(Own::kZ, first);
+    const Joints x2 = hn::Add(x, x), y2 = hn::Add(y, y), z2 = hn::Add(z, z);
+    const Joints xx = hn::Mul(x2, x), yy = hn::Mul(y2, y), zz = hn::Mul(z2, z);
+    const Joints xy = hn::Mul(x2, y), yz = hn::Mul(y2, z), zx = hn::Mul(z2, x);
+    const Joints wx = hn::Mul(x2, w), wy = hn::Mul(y2, w), wz = hn::Mul(z2, w);
+    const Joints turn[3][3] = {{hn::Sub(hn::Sub(one, yy), zz), hn::Add(xy, wz), hn::Sub(zx, wy)},
+                               {hn::Sub(xy, wz), hn::Sub(hn::Sub(one, xx), zz), hn::Add(yz, wx)},
+                               {hn::Add(zx, wy), hn::Sub(yz, wx), hn::Sub(hn::Sub(one, xx), yy)}};
     for (std::size_t column = 0; column < 3; ++column)
-        put4(0, column, turn[column][0], turn[column][1], turn[column][2], zero);
-    put4(0, 3, offset[0], offset[1], offset[2], scale);
-
-    // The frame v, w x v, w about the joint centre, and the way back into it.
-    const Doubles step = allOf(PoseAccess::kAzimuthStep);
-    const auto azimuth = [&](std::size_t row) HWY_ATTR {
-        return hn::Mul(step, hn::PromoteTo(d, hn::LoadU(steps, rows.azimuths + row + first)));
-    };
-    const Doubles cosine = azimuth(0), sine = azimuth(rows.stride);
-    Doubles frame[3][3], centre[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Doubles e1 = rest(Rest::kE1 + axis), e2 = rest(Rest::kE2 + axis);
-        frame[0][axis] = hn::MulAdd(cosine, e1, hn::Mul(sine, e2));
-        frame[1][axis] = hn::MulSub(cosine, e2, hn::Mul(sine, e1));
-        frame[2][axis] = rest(Rest::kPole + axis);
-        centre[axis] = rest(Rest::kCentre + axis);
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        put4(1, axis, frame[axis][0], frame[axis][1], frame[axis][2], zero);
-        put4(2, axis, frame[0][axis], frame[1][axis], frame[2][axis], zero);
-    }
-    put4(1, 3, centre[0], centre[1], centre[2], one);
-    put4(2, 3, hn::Neg(dot(frame[0], centre)), hn::Neg(dot(frame[1], centre)),
-         hn::Neg(dot(frame[2], centre)), one);
+        for (std::size_t row = 0; row < 3; ++row)
+            hn::StoreU(turn[column][row], d, chains.turns[3 * column + row] + first);
 
     KernelJoints& joints = chains.joints;
-    putAngle(own(Own::kBend), joints.bend + first, joints.bendRange + first);
-    putAngle(own(Own::kTwist), joints.twist + first, joints.twistRange + first);
-    const auto put = [&](const Doubles& value, float* row) HWY_ATTR {
-        hn::StoreU(hn::DemoteTo(floats, flushed(value, 1e-15)), floats, row + first);
+    putAngle(rows.ownOf(Own::kBend, first), joints.bend + first, joints.bendRange + first);
+    putAngle(rows.ownOf(Own::kTwist, first), joints.twist + first, joints.twistRange + first);
+    const auto step = hn::Set(floats, static_cast<float>(PoseAccess::kAzimuthStep));
+    const auto azimuth = [&](std::size_t row, float* to) HWY_ATTR {
+        const auto whole = hn::LoadU(steps, rows.azimuths + row * rows.stride + first);
+        hn::StoreU(hn::Mul(step, hn::ConvertTo(floats, whole)), floats, to + first);
     };
-    put(cosine, joints.azimuthCosine);
-    put(sine, joints.azimuthSine);
+    azimuth(0, joints.azimuthCosine);
+    azimuth(1, joints.azimuthSine);
 
-    // Where the joint is moved; the root's centre has nothing to be moved against.
-    const Doubles parents = hn::PromoteTo(d, hn::LoadU(steps, rows.parents + first));
-    const Doubles from = hn::IfThenElseZero(hn::Ge(parents, zero), one);
-    Doubles move[3], square = zero;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Doubles row[3] = {turn[0][axis], turn[1][axis], turn[2][axis]};
-        const Doubles turned = hn::MulSub(scale, dot(row, centre), centre[axis]);
-        move[axis] = hn::MulAdd(from, turned, offset[axis]);
-        square = hn::MulAdd(move[axis], move[axis], square);
-    }
-    const DoubleMask grows = hn::Ne(scale, one);
-    const DoubleMask changed = hn::Or(grows, hn::Gt(square, allOf(smallMove * smallMove)));
+    Joints move[3], square = zero;
+    movesOf(rows, first, turn, move);
+    for (const Joints& axis : move) square = hn::MulAdd(axis, axis, square);
+    const JointMask grows = hn::Ne(rows.ownOf(Own::kScale, first), one);
+    const JointMask changed = hn::Or(grows, hn::Gt(square, each(smallMove * smallMove)));
     scaled = hn::Or(scaled, grows);
     adjusted = hn::Or(adjusted, changed);
     hn::StoreU(hn::DemoteTo(steps, hn::IfThenElseZero(changed, one)), steps,
                joints.adjusted + first);
-    put(hn::Sub(scale, one), joints.growth);
-    for (std::size_t axis = 0; axis < 3; ++axis) put(dot(move, frame[axis]), joints.move[axis]);
 }
+
+/// Where and how much joints from `first` on are moved and scaled, in their frames.
+HWY_INLINE void poseMoves(const JointRows& rows, std::size_t first, PosedChains& chains) {
+    using Rest = PoseAccess::RestRow;
+    const JointTag d;
+    const JointFloats floats;
+    Joints turn[3][3], move[3];
+    for (std::size_t i = 0; i < 9; ++i) turn[i / 3][i % 3] = hn::LoadU(d, chains.turns[i] + first);
+    movesOf(rows, first, turn, move);
+    const auto azimuth = [&](std::size_t row) HWY_ATTR {
+        const auto whole = hn::LoadU(JointSteps(), rows.azimuths + row * rows.stride + first);
+        return hn::Mul(each(PoseAccess::kAzimuthStep), hn::PromoteTo(d, whole));
+    };
+    const Joints cosine = azimuth(0), sine = azimuth(1);
+    Joints along[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)}; // e1, e2, w
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        along[0] = hn::MulAdd(move[axis], rows.restOf(Rest::kE1 + axis, first), along[0]);
+        along[1] = hn::MulAdd(move[axis], rows.restOf(Rest::kE2 + axis, first), along[1]);
+        along[2] = hn::MulAdd(move[axis], rows.restOf(Rest::kPole + axis, first), along[2]);
+    }
+    KernelJoints& joints = chains.joints;
+    const auto put = [&](const Joints& value, float* row) HWY_ATTR {
+        hn::StoreU(hn::DemoteTo(floats, flushed(value, 1e-15)), floats, row + first);
+    };
+    put(hn::Sub(rows.ownOf(PoseAccess::Row::kScale, first), each(1.0)), joints.growth);
+    put(hn::MulAdd(cosine, along[0], hn::Mul(sine, along[1])), joints.move[0]);
+    put(hn::MulSub(cosine, along[1], hn::Mul(sine, along[0])), joints.move[1]);
+    put(along[2], joints.move[2]);
+}
+
+/// By cosine and sine of a joint's azimuth.
+template <typename Tag, typename T>
+HWY_INLINE void poseMap(Tag d, const PlannedMap<T>& of, T cosine, T sine, T* to) {
+    for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
+        const auto rest =
+            hn::MulAdd(hn::Load(d, of.bySine + i), hn::Set(d, sine), hn::Load(d, of.constant + i));
+        hn::Store(hn::MulAdd(hn::Load(d, of.byCosine + i), hn::Set(d, cosine), rest), d, to + i);
+    }
+}
+
+/// Maps between rest space and the frames of the section's partial joints.
+HWY_INLINE void poseFrames(const ChainCall& call, const JointRows& rows, PosedChains& chains) {
+    const hn::CappedTag<float, 16> d;
+    const ChainPlan::Section& next = (&call.section)[1];
+    for (std::size_t i = call.section.frame; i < next.frame; ++i) {
+        const PlannedFrame& of = call.plan.frames[i];
+        const float cosine = chains.joints.azimuthCosine[of.joint];
+        const float sine = chains.joints.azimuthSine[of.joint];
+        poseMap(d, of.into, cosine, sine, chains.maps[ChainPlan::into(of.joint)].column[0]);
+        poseMap(d, of.back, cosine, sine, chains.maps[ChainPlan::frame(of.joint)].column[0]);
+    }
+    for (std::size_t i = call.section.wideInto; i < next.wideInto; ++i) {
+        const PlannedWideInto& of = call.plan.wideIntos[i];
+        const auto azimuth = [&](std::size_t row) {
+            return PoseAccess::kAzimuthStep * rows.azimuths[row * rows.stride + of.joint];
+        };
+        poseMap(JointTag(), of.into, azimuth(0), azimuth(1),
+                chains.wide[ChainPlan::into(of.joint)].column[0]);
+    }
+}
+
+/// A full turn of a joint of the section.
+struct RowsTurn {
+    const double* turns; ///< as PosedChains::turns
+    const double* offset;
+    std::size_t stride;
+
+    double turn(std::size_t column, std::size_t row) const {
+        return turns[(3 * column + row) * ChainPlan::kMostJoints];
+    }
+    double move(std::size_t row) const { return offset[row * stride]; }
+    double scale() const {
+        return offset[(PoseAccess::Row::kScale - PoseAccess::Row::kOffset) * stride];
+    }
+};
 
 /// Of one that the section has no room for.
-HWY_NOINLINE void poseFull(const Pose& pose, std::uint32_t joint, PosedMap& map) {
-    const PoseAccess::Split split = PoseAccess::split(pose, joint);
-    const glm::dmat3 turn = glm::mat3_cast(split.rotation);
-    for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 3; ++row) map.column[column][row] = turn[column][row];
-        map.column[column][3] = 0.0;
-        map.column[3][column] = split.offset[column];
+struct SplitTurn {
+    HWY_NOINLINE SplitTurn(const Pose& pose, std::uint32_t joint)
+        : split(PoseAccess::split(pose, joint)), rotation(glm::mat3_cast(split.rotation)) {}
+
+    double turn(std::size_t column, std::size_t row) const {
+        return rotation[static_cast<int>(column)][static_cast<int>(row)];
     }
-    map.column[3][3] = split.scale;
-}
+    double move(std::size_t row) const { return split.offset[static_cast<int>(row)]; }
+    double scale() const { return split.scale; }
+
+    PoseAccess::Split split;
+    glm::dmat3 rotation;
+};
 
 /// First `with`, then `from`.
-template <bool kScaled>
-HWY_INLINE void multiplyHalf(const PosedMap& from, const PosedMap& with, std::size_t half,
-                             Doubles (&to)[4]) {
+///
+/// \param narrowed the same in single precision; may be null
+template <bool kScaled, typename Turn>
+HWY_INLINE void multiply(const PosedMap& from, const Turn& with, PosedMap& to,
+                         KernelMap* narrowed) {
     const DoubleTag d;
-    const Doubles x = hn::Load(d, from.column[0] + half), y = hn::Load(d, from.column[1] + half),
-                  z = hn::Load(d, from.column[2] + half);
-    const auto turned = [&](const double* column) HWY_ATTR {
-        return hn::MulAdd(z, allOf(column[2]),
-                          hn::MulAdd(y, allOf(column[1]), hn::Mul(x, allOf(column[0]))));
-    };
-    for (std::size_t column = 0; column < 3; ++column) to[column] = turned(with.column[column]);
-    Doubles move = turned(with.column[3]);
-    if (kScaled) move = hn::Mul(move, allOf(from.column[3][3]));
-    to[3] = hn::Add(move, hn::Load(d, from.column[3] + half));
-}
-
-template <bool kScaled>
-HWY_INLINE void take(const ChainCall& call, const ChainPlan::Step& step, PosedChains& chains) {
-    const DoubleTag d;
-    const FloatTag floats;
-    const PosedMap* with = &chains.maps[step.with & ~ChainPlan::kUncached];
-    PosedMap uncached;
-    if (HWY_UNLIKELY(step.with & ChainPlan::kUncached)) {
-        poseFull(call.pose, step.with & ~ChainPlan::kUncached, uncached);
-        with = &uncached;
+    const hn::Rebind<float, DoubleTag> floats;
+    constexpr std::size_t kParts = 4 / hn::MaxLanes(DoubleTag());
+    const double grown = kScaled ? from.column[3][3] : 1.0;
+    const double scale = kScaled ? grown * with.scale() : 1.0;
+    Doubles product[4][kParts];
+    for (std::size_t part = 0; part < kParts; ++part) {
+        const auto column = [&](std::size_t i) HWY_ATTR {
+            return hn::Load(d, from.column[i] + part * hn::Lanes(d));
+        };
+        const Doubles x = column(0), y = column(1), z = column(2);
+        for (std::size_t i = 0; i < 3; ++i)
+            product[i][part] = hn::MulAdd(
+                x, allOf(with.turn(i, 0)),
+                hn::MulAdd(y, allOf(with.turn(i, 1)), hn::Mul(z, allOf(with.turn(i, 2)))));
+        product[3][part] =
+            hn::MulAdd(x, allOf(grown * with.move(0)),
+                       hn::MulAdd(y, allOf(grown * with.move(1)),
+                                  hn::MulAdd(z, allOf(grown * with.move(2)), column(3))));
     }
-    const PosedMap& from = chains.maps[step.from];
-    constexpr std::size_t kHalves = 4 / hn::MaxLanes(DoubleTag());
-    Doubles product[kHalves][4];
-    for (std::size_t half = 0; half < kHalves; ++half)
-        multiplyHalf<kScaled>(from, *with, half * hn::Lanes(d), product[half]);
-    if (step.isOut) {
-        KernelMap& out = chains.outs[step.to];
-        for (std::size_t half = 0; half < kHalves; ++half)
-            for (std::size_t column = 0; column < 4; ++column)
-                hn::StoreU(hn::DemoteTo(floats, flushed(product[half][column], 1e-15)), floats,
-                           out.column[column] + half * hn::Lanes(d));
-        return;
-    }
-    const double scale = kScaled ? from.column[3][3] * with->column[3][3] : 1.0;
-    PosedMap& to = chains.maps[step.to];
-    for (std::size_t half = 0; half < kHalves; ++half)
-        for (std::size_t column = 0; column < 4; ++column)
-            hn::Store(product[half][column], d, to.column[column] + half * hn::Lanes(d));
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t part = 0; part < kParts; ++part)
+            hn::Store(product[i][part], d, to.column[i] + part * hn::Lanes(d));
     if (kScaled) to.column[3][3] = scale;
+    if (!narrowed) return;
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t part = 0; part < kParts; ++part)
+            hn::StoreU(hn::DemoteTo(floats, flushed(product[i][part], 1e-15)), floats,
+                       narrowed->column[i] + part * hn::Lanes(d));
+    if (kScaled) narrowed->column[3][3] = static_cast<float>(scale);
 }
 
 template <bool kScaled>
-HWY_INLINE void takeAll(const ChainCall& call, PosedChains& chains) {
-    const ChainPlan::Step* const steps = call.plan.steps.data() + call.section.firstStep;
-    const std::size_t count = call.section.endStep - call.section.firstStep;
-    for (std::size_t i = 0; i < count; ++i)
-        if (!call.needed || call.needed[i]) take<kScaled>(call, steps[i], chains);
+HWY_INLINE void makeStates(const ChainCall& call, const JointRows& rows, PosedChains& chains) {
+    const ChainPlan::State* const states = call.plan.states.data() + call.section.state;
+    const std::size_t count = (&call.section)[1].state - call.section.state;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (call.needed && !call.needed->states[i]) continue;
+        const ChainPlan::State& state = states[i];
+        const PosedMap& from = chains.wide[state.from];
+        PosedMap& to = chains.wide[state.to];
+        KernelMap* const narrowed =
+            state.narrowed == ChainPlan::kIdentity ? nullptr : &chains.maps[state.narrowed];
+        if (HWY_UNLIKELY(state.joint & ChainPlan::kUncached))
+            multiply<kScaled>(from, SplitTurn(call.pose, state.joint & ~ChainPlan::kUncached), to,
+                              narrowed);
+        else
+            multiply<kScaled>(
+                from,
+                RowsTurn{chains.turns[0] + state.joint,
+                         rows.own + PoseAccess::Row::kOffset * rows.stride + state.joint,
+                         rows.stride},
+                to, narrowed);
+    }
 }
 
-HWY_NOINLINE JointRows gather(const ChainCall& call, GatheredRows& to) {
-    constexpr std::size_t kStride = ChainPlan::kMostJoints, kAtOnce = PoseAccess::kAtOnce;
+/// First `with`, which does not scale, then `from`.
+HWY_INLINE void multiply(const KernelMap& from, const KernelMap& with, KernelMap& to) {
+    const hn::CappedTag<float, 16> d;
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t i = 0; i < 16; ++i) {
+        const float* const column = with.column[i / 4];
+        auto sum = hn::Set(d, from.column[3][i % 4] * column[3]);
+        for (std::size_t k = 3; k-- > 0;)
+            sum = hn::MulAdd(hn::Set(d, from.column[k][i % 4]), hn::Set(d, column[k]), sum);
+        hn::Store(flushed(sum, 1e-15f), d, to.column[i / 4] + i % 4);
+    }
+#else
+    const auto x = hn::LoadDup128(d, from.column[0]), y = hn::LoadDup128(d, from.column[1]),
+               z = hn::LoadDup128(d, from.column[2]), move = hn::LoadDup128(d, from.column[3]);
+    for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
+        const auto columns = hn::Load(d, with.column[0] + i);
+        auto sum = hn::Mul(move, hn::Broadcast<3>(columns)); // only the last column has that
+        sum = hn::MulAdd(z, hn::Broadcast<2>(columns), sum);
+        sum = hn::MulAdd(y, hn::Broadcast<1>(columns), sum);
+        sum = hn::MulAdd(x, hn::Broadcast<0>(columns), sum);
+        hn::Store(flushed(sum, 1e-15f), d, to.column[0] + i);
+    }
+#endif
+}
+
+template <bool kScaled>
+HWY_INLINE void makeOuts(const ChainCall& call, PosedChains& chains) {
+    const ChainPlan::Out* const outs = call.plan.outs.data() + call.section.out;
+    const std::size_t count = (&call.section)[1].out - call.section.out;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (call.needed && !call.needed->outs[i]) continue;
+        const KernelMap& from = chains.maps[outs[i].from];
+        const KernelMap& with = chains.maps[outs[i].with];
+        if (!kScaled) {
+            multiply(from, with, chains.outs[i]);
+            continue;
+        }
+        KernelMap scaled = with;
+        for (std::size_t axis = 0; axis < 3; ++axis) scaled.column[3][axis] *= from.scale();
+        multiply(from, scaled, chains.outs[i]);
+    }
+}
+
+template <bool kScaled>
+HWY_INLINE void makeMaps(const ChainCall& call, const JointRows& rows, PosedChains& chains) {
+    makeStates<kScaled>(call, rows, chains);
+    makeOuts<kScaled>(call, chains);
+}
+
+HWY_NOINLINE JointRows gather(const ChainCall& call, std::size_t count, GatheredRows& to) {
+    constexpr std::size_t kStride = ChainPlan::kMostJoints;
+    static_assert(kStride % kAtOnce == 0);
     const JointRows from = rowsOf(call.pose);
-    const std::size_t count = call.section.jointCount;
     const std::size_t padded = (count + kAtOnce - 1) / kAtOnce;
     for (std::size_t i = 0; i < padded * kAtOnce; ++i) {
-        const std::size_t joint = call.plan.joints[call.section.firstJoint + HWY_MIN(i, count - 1)];
+        const std::size_t joint = call.plan.joints[call.section.joint + HWY_MIN(i, count - 1)];
         for (std::size_t row = 0; row < PoseAccess::kNumberRows; ++row)
             to.own[row * kStride + i] = from.own[row * from.stride + joint];
         for (std::size_t row = 0; row < PoseAccess::kRestRows; ++row)
@@ -240,26 +370,36 @@ HWY_NOINLINE JointRows gather(const ChainCall& call, GatheredRows& to) {
     return {to.own, to.rest, to.azimuths, to.parents, kStride};
 }
 
-void multiply(const ChainCall& call, PosedChains& chains) {
-    const DoubleTag d;
+/// Calls `pose` for all joints, as many at a time as there are lanes.
+template <typename PoseThem>
+HWY_INLINE void forJoints(std::size_t count, const PoseThem& pose) {
+    const std::size_t lanes = hn::Lanes(JointTag());
+    for (std::size_t next = 0; next < count; next += lanes)
+        pose(count >= lanes ? HWY_MIN(next, count - lanes) : next); // the last ones overlap
+}
+
+void multiplyOutAll(const ChainCall& call, PosedChains& chains) {
+    const JointTag d;
     GatheredRows room;
-    const std::size_t count = call.section.jointCount, lanes = hn::Lanes(d);
+    const std::size_t count = (&call.section)[1].joint - call.section.joint;
     const JointRows rows =
-        call.plan.inOrder && count >= lanes ? rowsOf(call.pose) : gather(call, room);
-    const Doubles one = allOf(1.0);
-    DoubleMask adjusted = hn::Lt(one, one), scaled = adjusted;
-    for (std::size_t next = 0; next < count; next += lanes) {
-        // The last ones overlap those before.
-        const std::size_t first = count >= lanes ? HWY_MIN(next, count - lanes) : next;
+        call.plan.inOrder && count >= hn::Lanes(d) ? rowsOf(call.pose) : gather(call, count, room);
+    const Joints one = each(1.0);
+    JointMask adjusted = hn::Lt(one, one), scaled = adjusted;
+    forJoints(count, [&](std::size_t first) HWY_ATTR {
         poseJoints(rows, first, call.smallMove, chains, adjusted, scaled);
-    }
+    });
     chains.scaled = !hn::AllFalse(d, scaled);
     chains.joints.anyAdjusted = !hn::AllFalse(d, adjusted);
-    PosedMap& identity = chains.maps[ChainPlan::kIdentity];
+    if (HWY_UNLIKELY(chains.joints.anyAdjusted))
+        forJoints(count, [&](std::size_t first) HWY_ATTR { poseMoves(rows, first, chains); });
     for (std::size_t column = 0; column < 4; ++column)
-        for (std::size_t row = 0; row < 4; ++row)
-            identity.column[column][row] = column == row ? 1.0 : 0.0;
-    chains.scaled ? takeAll<true>(call, chains) : takeAll<false>(call, chains);
+        for (std::size_t row = 0; row < 4; ++row) {
+            chains.wide[ChainPlan::kIdentity].column[column][row] = column == row ? 1.0 : 0.0;
+            chains.maps[ChainPlan::kIdentity].column[column][row] = column == row ? 1.0f : 0.0f;
+        }
+    poseFrames(call, rows, chains);
+    chains.scaled ? makeMaps<true>(call, rows, chains) : makeMaps<false>(call, rows, chains);
 }
 
 } // namespace HWY_NAMESPACE
@@ -269,10 +409,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace osgSkin {
 
-HWY_EXPORT(multiply);
+HWY_EXPORT(multiplyOutAll);
 
 void multiplyOut(const ChainCall& call, PosedChains& chains) noexcept {
-    HWY_DYNAMIC_DISPATCH(multiply)(call, chains);
+    HWY_DYNAMIC_DISPATCH(multiplyOutAll)(call, chains);
 }
 
 } // namespace osgSkin

@@ -12,9 +12,9 @@
 
 namespace osgSkin {
 
-/// x -> scale * turn x + move, while chains are being multiplied out: columns of the turn, then
+/// x -> scale * turn x + move, while full turns are being multiplied out: columns of the turn, then
 /// the move with the scale behind it. Turns are rotations.
-struct alignas(32) PosedMap {
+struct alignas(64) PosedMap {
     double column[4][4];
 };
 
@@ -25,7 +25,10 @@ struct PosedChains {
     void set(const SkinModel& model, const Pose& pose, const ChainPlan::Section& section,
              std::size_t firstGroup, std::size_t endGroup) noexcept;
 
-    PosedMap maps[ChainPlan::kMaps]; ///< by ChainPlan's indices
+    /// The joints' full turns, column after column.
+    double turns[9][ChainPlan::kMostJoints];
+    PosedMap wide[ChainPlan::kWideMaps]; ///< by ChainPlan's indices
+    KernelMap maps[ChainPlan::kMaps];    ///< the same
     KernelMap outs[ChainPlan::kMostOuts];
     KernelJoints joints;
     bool scaled; ///< any joint is

@@ -53,11 +53,11 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
     const std::size_t endGroup = first < end ? groupOf(blocks, end - 1) + 1 : firstGroup;
     const ChainPlan::Section* section = blocks.plan.sections.data();
     for (std::size_t g = firstGroup; g < endGroup; ++g) {
-        if (g == firstGroup || g == section->endGroup) {
-            while (section->endGroup <= g) ++section;
+        if (g == firstGroup || g == section[1].group) {
+            while (section[1].group <= g) ++section;
             chains.set(model, *job.pose, *section, g,
-                       std::min<std::size_t>(section->endGroup, endGroup));
-            if (hasSlopes) slopes.take(chains.joints, section->jointCount);
+                       std::min<std::size_t>(section[1].group, endGroup));
+            if (hasSlopes) slopes.take(chains.joints, section[1].joint - section->joint);
         }
         const SkinModel::Group& group = model.groups()[g];
         const ChainPlan::Group& planned = blocks.plan.groups[g];

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "model/ChainPlan.h"
 
+#include "chains/KernelMap.h"
+#include "model/SkinBlocks.h"
+
+#include <glm/gtc/matrix_access.hpp>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -9,6 +17,49 @@ namespace osgSkin {
 namespace {
 
 using Index = ChainPlan::Index;
+using State = ChainPlan::State;
+
+/// The way into a joint's frame: rows v, w x v, w.
+PlannedMap<double> planInto(const BoundJoint& joint) {
+    const glm::dmat3 axes = jointFrame(joint); // e1, e2, w
+    PlannedMap<double> map{};
+    for (int column = 0; column < 4; ++column) {
+        const glm::dvec3 along = column < 3 ? glm::dvec3(glm::row(axes, column))
+                                            : -joint.centre * axes; // transposed: into the frame
+        double* const byCosine = map.byCosine + 4 * column;
+        double* const bySine = map.bySine + 4 * column;
+        byCosine[0] = bySine[1] = along[0];
+        byCosine[1] = bySine[0] = along[1];
+        bySine[1] = -bySine[1];
+        map.constant[4 * column + 2] = along[2];
+    }
+    map.constant[15] = 1.0;
+    return map;
+}
+
+/// The way back: columns v, w x v, w.
+PlannedMap<double> planBack(const BoundJoint& joint) {
+    const glm::dmat3 axes = jointFrame(joint);
+    PlannedMap<double> map{};
+    for (int row = 0; row < 3; ++row) {
+        map.byCosine[row] = axes[0][row];
+        map.byCosine[4 + row] = axes[1][row];
+        map.bySine[row] = axes[1][row];
+        map.bySine[4 + row] = -axes[0][row];
+        map.constant[8 + row] = axes[2][row];
+        map.constant[12 + row] = joint.centre[row];
+    }
+    map.constant[15] = 1.0;
+    return map;
+}
+
+PlannedMap<float> rounded(const PlannedMap<double>& map) {
+    PlannedMap<float> result;
+    std::transform(map.byCosine, std::end(map.byCosine), result.byCosine, roundedToFloat);
+    std::transform(map.bySine, std::end(map.bySine), result.bySine, roundedToFloat);
+    std::transform(map.constant, std::end(map.constant), result.constant, roundedToFloat);
+    return result;
+}
 
 /// Fills a plan, section by section.
 class ChainPlanner {
@@ -26,42 +77,48 @@ public:
             add(group);
         }
         end();
+        addSection(); // behind the last
     }
 
 private:
     static constexpr std::uint32_t kNoNumber = ~0u;
-    using Made = std::map<std::pair<Index, std::uint32_t>, Index>; ///< by from and with
 
     const SkinModel::Link* linksOf(const SkinModel::Group& group) const {
         return _model.links().data() + group.firstLink;
     }
-    std::size_t jointCount() const { return _plan.joints.size() - _firstJoint; }
+
+    const ChainPlan::Section& section() const { return _plan.sections.back(); }
+    std::size_t jointCount() const { return _plan.joints.size() - section().joint; }
+    std::size_t outCount() const { return _plan.outs.size() - section().out; }
+
+    void addSection() {
+        const auto behind = [](const auto& all) { return static_cast<std::uint32_t>(all.size()); };
+        _plan.sections.push_back({behind(_plan.groups), behind(_plan.joints), behind(_plan.frames),
+                                  behind(_plan.wideIntos), behind(_plan.states),
+                                  behind(_plan.outs)});
+    }
 
     void begin() {
-        _firstJoint = _plan.joints.size();
-        _firstStep = _plan.steps.size();
+        addSection();
         _states.clear();
         _outs.clear();
-        _stateCount = 0;
+        _narrowed.fill(ChainPlan::kIdentity);
+        _stateCount = _narrowedCount = 0;
         if (!_plan.inOrder) return;
-        _plan.joints.resize(_firstJoint + _model.joints().size());
-        std::iota(_plan.joints.begin() + static_cast<std::ptrdiff_t>(_firstJoint),
+        _plan.joints.resize(section().joint + _model.joints().size());
+        std::iota(_plan.joints.begin() + static_cast<std::ptrdiff_t>(section().joint),
                   _plan.joints.end(), 0u);
         std::iota(_numbers.begin(), _numbers.end(), 0u);
     }
 
     void end() {
-        _plan.sections.push_back(
-            {static_cast<std::uint32_t>(_plan.groups.size()),
-             static_cast<std::uint32_t>(_firstStep), static_cast<std::uint32_t>(_plan.steps.size()),
-             static_cast<std::uint32_t>(_firstJoint), static_cast<std::uint32_t>(jointCount())});
-        for (std::size_t i = _firstJoint; i < _plan.joints.size(); ++i)
+        for (std::size_t i = section().joint; i < _plan.joints.size(); ++i)
             _numbers[_plan.joints[i]] = kNoNumber;
     }
 
     /// Whether what a group adds has room in the section.
     bool fits(const SkinModel::Group& group) const {
-        std::size_t joints = jointCount(), states = _stateCount, outs = _outs.size() + 1;
+        std::size_t joints = jointCount(), states = _stateCount, outs = outCount() + 1;
         Index state = ChainPlan::kIdentity;
         bool known = true; // so far all of it is there already
         for (std::uint32_t i = 0; i < group.linkCount; ++i) {
@@ -75,9 +132,7 @@ private:
                 continue;
             }
             const auto found =
-                known && number != kNoNumber
-                    ? _states.find({state, static_cast<std::uint32_t>(ChainPlan::full(number))})
-                    : _states.end();
+                known && number != kNoNumber ? _states.find({state, number}) : _states.end();
             known = found != _states.end();
             if (known)
                 state = found->second;
@@ -94,30 +149,62 @@ private:
         _plan.joints.push_back(joint);
     }
 
-    Index out(Index from, std::uint32_t with) {
-        const auto [made, isNew] = _outs.insert({{from, with}, static_cast<Index>(_outs.size())});
-        if (isNew) _plan.steps.push_back({from, made->second, true, with});
+    /// A map of a state or a way into a frame, as outs start from it.
+    Index narrowed(Index from) {
+        if (from < ChainPlan::state(0)) return from;
+        Index& narrowed = _narrowed[from - ChainPlan::state(0)];
+        if (narrowed == ChainPlan::kIdentity) {
+            narrowed = ChainPlan::narrowed(_narrowedCount++);
+            const auto made = std::find_if(_plan.states.rbegin(), _plan.states.rend(),
+                                           [&](const State& state) { return state.to == from; });
+            made->narrowed = narrowed;
+        }
+        return narrowed;
+    }
+
+    Index out(Index from, Index with) {
+        from = narrowed(from);
+        const auto [made, isNew] = _outs.insert({{from, with}, static_cast<Index>(outCount())});
+        if (isNew) _plan.outs.push_back({from, with});
         return made->second;
     }
 
     Index state(Index from, std::uint32_t joint) {
         const std::uint32_t number = _numbers[joint];
-        const std::uint32_t with = number == kNoNumber
-                                       ? ChainPlan::kUncached | joint
-                                       : static_cast<std::uint32_t>(ChainPlan::full(number));
+        const std::uint32_t with = number == kNoNumber ? ChainPlan::kUncached | joint : number;
         const auto found = _states.find({from, with});
         if (found != _states.end()) return found->second;
-        if (from == ChainPlan::kIdentity && number != kNoNumber) {
-            _states[{from, with}] = static_cast<Index>(with);
-            return static_cast<Index>(with);
-        }
+        if (from != ChainPlan::kIdentity && from < ChainPlan::state(0)) addWideInto(from);
         // A group too long for a section of its own goes on in the last state, which is its alone.
         const bool isNew = _stateCount < ChainPlan::kMostStates;
         if (isNew) ++_stateCount;
-        const auto to = static_cast<Index>(ChainPlan::kFirstState + _stateCount - 1);
+        const Index to = ChainPlan::state(_stateCount - 1);
         if (isNew && _stateCount < ChainPlan::kMostStates) _states[{from, with}] = to;
-        _plan.steps.push_back({from, to, false, with});
+        _narrowed[_stateCount - 1] = ChainPlan::kIdentity;
+        _plan.states.push_back({from, to, ChainPlan::kIdentity, with});
         return to;
+    }
+
+    const BoundJoint& boundJoint(std::uint32_t number) const {
+        return _model.joints()[_plan.joints[section().joint + number]];
+    }
+
+    template <typename All>
+    static bool has(const All& all, std::uint32_t first, std::uint32_t number) {
+        return std::any_of(all.begin() + first, all.end(),
+                           [&](const auto& each) { return each.joint == number; });
+    }
+
+    void addFrame(std::uint32_t number) {
+        if (has(_plan.frames, section().frame, number)) return;
+        const BoundJoint& joint = boundJoint(number);
+        _plan.frames.push_back({rounded(planInto(joint)), rounded(planBack(joint)), number});
+    }
+
+    void addWideInto(Index into) {
+        const std::uint32_t number = into - ChainPlan::into(0);
+        if (has(_plan.wideIntos, section().wideInto, number)) return;
+        _plan.wideIntos.push_back({planInto(boundJoint(number)), number});
     }
 
     void add(const SkinModel::Group& group) {
@@ -133,6 +220,7 @@ private:
                 continue;
             }
             const std::uint32_t own = _numbers[links[i].joint];
+            addFrame(own);
             _plan.links.push_back({static_cast<Index>(own), out(from, ChainPlan::frame(own))});
             from = ChainPlan::into(own);
         }
@@ -144,8 +232,10 @@ private:
     const SkinModel& _model;
     ChainPlan& _plan;
     std::vector<std::uint32_t> _numbers; ///< of the model's joints in the section
-    std::size_t _firstJoint = 0, _firstStep = 0, _stateCount = 0;
-    Made _states, _outs;
+    std::size_t _stateCount = 0, _narrowedCount = 0;
+    std::array<Index, ChainPlan::kMostStates> _narrowed{};    ///< of the states; kIdentity: not yet
+    std::map<std::pair<Index, std::uint32_t>, Index> _states; ///< by from and joint
+    std::map<std::pair<Index, Index>, Index> _outs;           ///< by from and with
 };
 
 } // namespace

@@ -9,6 +9,25 @@
 
 namespace osgSkin {
 
+/// A map of which each number is constant + cosine * byCosine + sine * bySine. Columns of four
+/// numbers, as KernelMap.
+template <typename T>
+struct alignas(64) PlannedMap {
+    T byCosine[16], bySine[16], constant[16];
+};
+
+/// The maps between rest space and the frame (v, w x v, w) about a joint's centre that its partial
+/// turn is in, by cosine and sine of v's azimuth.
+struct PlannedFrame {
+    PlannedMap<float> into, back;
+    std::uint32_t joint; ///< of the section
+};
+/// The first of them in double precision.
+struct PlannedWideInto {
+    PlannedMap<double> into;
+    std::uint32_t joint; ///< of the section
+};
+
 /// Which maps the chains of a model's groups consist of, and how a pose makes them: each once,
 /// whatever groups it is in.
 ///
@@ -16,6 +35,10 @@ namespace osgSkin {
 /// starts in rest space or in the frame of the partial joint before, goes through the full turns
 /// between, and ends in the frame of the next partial joint; what is behind the last one ends in
 /// rest space. Groups that begin alike share all that.
+///
+/// Full turns are multiplied out in double precision: there may be many of them, about places far
+/// apart. What the kernel reads are single numbers, and so is what goes once into a frame or out of
+/// one.
 ///
 /// Sections hold as much as fits on a stack; a body has one.
 struct ChainPlan {
@@ -27,26 +50,36 @@ struct ChainPlan {
     static_assert(kMostOuts > SkinModel::kMaxPartialInfluences &&
                   kMostJoints > SkinModel::kMaxPartialInfluences);
 
-    /// What maps are told by: the identity, what joints give, states, which are products of those.
+    /// What maps are told by: the identity, ways into joints' frames, and those ways back, or, in
+    /// double precision, states, which are products of a way into a frame and full turns.
     static constexpr Index kIdentity = 0;
-    /// A joint's whole turn.
-    static constexpr Index full(std::size_t joint) { return static_cast<Index>(1 + 3 * joint); }
-    /// From the frame of its partial turn to rest space.
-    static constexpr Index frame(std::size_t joint) { return static_cast<Index>(2 + 3 * joint); }
-    /// Back into that.
-    static constexpr Index into(std::size_t joint) { return static_cast<Index>(3 + 3 * joint); }
-    static constexpr Index kFirstState = 1 + 3 * kMostJoints;
-    static constexpr std::size_t kMaps = kFirstState + kMostStates;
+    static constexpr Index into(std::size_t joint) { return static_cast<Index>(1 + joint); }
+    static constexpr Index state(std::size_t number) {
+        return static_cast<Index>(1 + kMostJoints + number);
+    }
+    static constexpr Index frame(std::size_t joint) {
+        return static_cast<Index>(1 + kMostJoints + joint);
+    }
+    /// A state in single precision.
+    static constexpr Index narrowed(std::size_t number) {
+        return static_cast<Index>(1 + 2 * kMostJoints + number);
+    }
+    static constexpr std::size_t kWideMaps = 1 + kMostJoints + kMostStates;
+    static constexpr std::size_t kMaps = 1 + 2 * kMostJoints + kMostOuts;
 
-    /// A map: first `with`, then `from`.
-    struct Step {
-        Index from;
-        Index to;           ///< a state, or which of the outs
-        bool isOut;         ///< the kernel reads it
-        std::uint32_t with; ///< or kUncached and a joint of the model
+    /// In double precision: first the full turn of a joint, then `from`.
+    struct State {
+        Index from, to;
+        Index narrowed;      ///< where it is put in single precision, too; kIdentity: nowhere
+        std::uint32_t joint; ///< of the section, or kUncached and one of the model
     };
     /// More joints than fit: worked out where it is needed.
     static constexpr std::uint32_t kUncached = 1u << 31;
+
+    /// What the kernel reads, in single precision: first `with`, then `from`.
+    struct Out {
+        Index from, with;
+    };
 
     /// A partial joint of a group's chain.
     struct Link {
@@ -59,19 +92,23 @@ struct ChainPlan {
     };
     static constexpr Index kNoLead = 0xffff;
 
+    /// The first ones of a section; the next section's are behind its last ones.
     struct Section {
-        std::uint32_t endGroup;
-        std::uint32_t firstStep, endStep;
-        std::uint32_t firstJoint, jointCount; ///< in `joints`
+        std::uint32_t group;
+        std::uint32_t joint; ///< in `joints`
+        std::uint32_t frame, wideInto, state, out;
     };
 
     explicit ChainPlan(const SkinModel& model);
 
-    std::vector<Section> sections; ///< in the groups' order
+    std::vector<Section> sections; ///< in the groups' order, and one behind the last
     std::vector<Group> groups;     ///< the model's
     std::vector<Link> links;
-    std::vector<Step> steps;
-    std::vector<std::uint32_t> joints; ///< of the model
+    std::vector<std::uint32_t> joints;      ///< of the model
+    std::vector<PlannedFrame> frames;       ///< of joints that are partial somewhere
+    std::vector<PlannedWideInto> wideIntos; ///< of those that full turns come behind
+    std::vector<State> states;
+    std::vector<Out> outs;
     /// Every section's joints are the model's: numbers, and nothing is gathered.
     bool inOrder;
 };
