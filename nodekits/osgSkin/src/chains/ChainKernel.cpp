@@ -71,7 +71,7 @@ struct GatheredRows {
 
 /// Of several joints: which of the ranges that its sine is known in an angle is in, and the angle
 /// as it is told there.
-HWY_INLINE void putAngle(const Joints& whole, float* angles, std::int32_t* ranges) {
+HWY_INLINE void putAngle(const Joints& whole, float* wholes, float* angles, std::int32_t* ranges) {
     const JointFloats d;
     const JointSteps steps;
     const auto angle = hn::DemoteTo(d, flushed(whole, 1e-9));
@@ -84,6 +84,7 @@ HWY_INLINE void putAngle(const Joints& whole, float* angles, std::int32_t* range
         range = hn::Add(range, hn::IfThenElseZero(hn::RebindMask(steps, end), one));
     auto part = hn::IfThenElse(large, hn::Set(d, 0.5f), hn::Set(d, 1.0f));
     part = hn::IfThenElse(larger, hn::Set(d, 0.25f), part);
+    hn::StoreU(angle, d, wholes);
     hn::StoreU(hn::Mul(angle, part), d, angles);
     hn::StoreU(range, steps, ranges);
 }
@@ -130,8 +131,10 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, double smal
             hn::StoreU(turn[column][row], d, chains.turns[3 * column + row] + first);
 
     KernelJoints& joints = chains.joints;
-    putAngle(rows.ownOf(Own::kBend, first), joints.bend + first, joints.bendRange + first);
-    putAngle(rows.ownOf(Own::kTwist, first), joints.twist + first, joints.twistRange + first);
+    putAngle(rows.ownOf(Own::kBend, first), joints.wholeBend + first, joints.bend + first,
+             joints.bendRange + first);
+    putAngle(rows.ownOf(Own::kTwist, first), joints.wholeTwist + first, joints.twist + first,
+             joints.twistRange + first);
     const auto step = hn::Set(floats, static_cast<float>(PoseAccess::kAzimuthStep));
     const auto azimuth = [&](std::size_t row, float* to) HWY_ATTR {
         const auto whole = hn::LoadU(steps, rows.azimuths + row * rows.stride + first);

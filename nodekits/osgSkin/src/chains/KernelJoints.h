@@ -16,10 +16,6 @@ struct KernelAngle {
     const float& value; ///< radians; half the angle where the range is kHalved, a quarter where
                         ///< kQuartered
     std::int32_t range;
-
-    double whole() const {
-        return double(value) * (range == kQuartered ? 4.0 : range == kHalved ? 2.0 : 1.0);
-    }
 };
 
 /// What joints do in the present pose, whatever chain they are in.
@@ -35,6 +31,7 @@ struct KernelJoints {
 
     float bend[kMost], twist[kMost]; ///< psi and phi, as KernelAngle has them
     std::int32_t bendRange[kMost], twistRange[kMost];
+    float wholeBend[kMost], wholeTwist[kMost];      ///< psi and phi
     float azimuthCosine[kMost], azimuthSine[kMost]; ///< of v in the joint's fixed frame
     float move[3][kMost]; ///< the joint's translation, in its frame; comes in with the bend ratio
     float growth[kMost];  ///< the joint's scale less 1; the same

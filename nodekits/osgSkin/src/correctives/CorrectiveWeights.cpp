@@ -18,26 +18,24 @@ glm::dvec2 CorrectiveWeights::coordinatesOf(std::uint32_t joint) const noexcept 
            (_blocks->tables[joint].toAxes * axis);
 }
 
-const CorrectiveWeights::Weights* CorrectiveWeights::of(std::uint32_t joint) noexcept {
-    State& state = _states[joint];
+void CorrectiveWeights::workOut(std::uint32_t joint) noexcept {
+    const CorrectiveJoint& from = _blocks->joints[joint];
+    static_assert(CorrectiveJoint::kMostModes % CorrectiveTable::kAtOnce == 0);
+    double beta[CorrectiveJoint::kMostModes];
+    WeightTerms(from, _blocks->tables[joint], coordinatesOf(joint)).sum(beta);
+    const double small = SkinModelAccess::blocks(_model).smallMove;
     Weights& weights = _weights[joint];
-    if (state == State::Unknown) {
-        const CorrectiveJoint& from = _blocks->joints[joint];
-        static_assert(CorrectiveJoint::kMostModes % CorrectiveTable::kAtOnce == 0);
-        double beta[CorrectiveJoint::kMostModes];
-        WeightTerms(from, _blocks->tables[joint], coordinatesOf(joint)).sum(beta);
-        state = State::Nothing;
-        for (std::size_t k = 0; k < from.modes; ++k) {
-            // A rest pose read from matrices is one up to rounding errors.
-            if (std::abs(beta[k]) > SkinModelAccess::blocks(_model).smallMove)
-                state = State::Something;
-            const double unit = beta[k] / Correctives::kUnit;
-            weights.positions[k] = static_cast<float>(unit);
-            weights.normals[k] =
-                static_cast<float>(_blocks->hasNormals ? unit * from.normalScales[k] : 0.0);
-        }
+    bool isSomething = false;
+    for (std::size_t k = 0; k < from.modes; ++k) {
+        // A rest pose read from matrices is one up to rounding errors.
+        isSomething |= std::abs(beta[k]) > small;
+        const double unit = beta[k] / Correctives::kUnit;
+        weights.positions[k] = static_cast<float>(unit);
+        weights.normals[k] =
+            static_cast<float>(_blocks->hasNormals ? unit * from.normalScales[k] : 0.0);
     }
-    return state == State::Something ? &weights : nullptr;
+    _states[joint] = State::Known;
+    _known[joint] = isSomething ? &weights : nullptr;
 }
 
 } // namespace osgSkin

@@ -28,19 +28,27 @@ public:
 
     /// Null where the correctives of `joint`, an index of theirs, do nothing in this pose.
     /// \pre any()
-    const Weights* of(std::uint32_t joint) noexcept;
+    const Weights* of(std::uint32_t joint) noexcept {
+        if (_states[joint] == State::Unknown) workOut(joint);
+        return _known[joint];
+    }
+
+    /// What of() has given so far, by joint.
+    const Weights* const* known() const noexcept { return _known.data(); }
 
     std::size_t modesOf(std::uint32_t joint) const noexcept { return _blocks->joints[joint].modes; }
 
 private:
-    enum class State : unsigned char { Unknown, Nothing, Something };
+    enum class State : unsigned char { Unknown, Known };
 
+    void workOut(std::uint32_t joint) noexcept;
     glm::dvec2 coordinatesOf(std::uint32_t joint) const noexcept;
 
     const SkinModel& _model;
     const Pose& _pose;
     const CorrectiveBlocks* _blocks; ///< null without correctives
     std::array<State, Correctives::kMostJoints> _states{};
+    std::array<const Weights*, Correctives::kMostJoints> _known; ///< where they are
     std::array<Weights, Correctives::kMostJoints> _weights;
 };
 

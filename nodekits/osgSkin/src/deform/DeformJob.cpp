@@ -57,7 +57,9 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
             while (section[1].group <= g) ++section;
             chains.set(model, *job.pose, *section, g,
                        std::min<std::size_t>(section[1].group, endGroup));
-            if (hasSlopes) slopes.take(chains.joints, section[1].joint - section->joint);
+            if (hasSlopes)
+                slopes.take(chains.joints, section[1].joint - section->joint,
+                            std::min<std::size_t>(section[1].group, endGroup));
         }
         const SkinModel::Group& group = model.groups()[g];
         const ChainPlan::Group& planned = blocks.plan.groups[g];

@@ -135,22 +135,23 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
     V nx = tx, ny = tx, nz = tx;
     for (;;) {
         --link;
-        const KernelSlope& slope = call.slopes[link - call.links];
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
         sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
         if (inJointFrame) takeAzimuthOff(call, *link, sine, cosine);
-        if (slope.tilt.twists) {
-            addSlope(slopeAt(slopes, kTwistAlongU, slope.twist), x, y, ux, uy);
-            addSlope(slopeAt(slopes, kTwistAlongV, slope.twist), x, y, vx, vy);
+        if (call.isTiltedByTwist(*link)) {
+            const float& twistSlope = call.twistSlopes[link->joint];
+            addSlope(slopeAt(slopes, kTwistAlongU, twistSlope), x, y, ux, uy);
+            addSlope(slopeAt(slopes, kTwistAlongV, twistSlope), x, y, vx, vy);
         }
         turnPlane(sine, cosine, x, y);
         turnPlane(sine, cosine, ux, uy);
         turnPlane(sine, cosine, vx, vy);
         sineCosine(call.joints->bendOf(link->joint), bendRatio, sine, cosine);
-        if (slope.tilt.bends) {
-            addSlope(slopeAt(slopes, kBendAlongU, slope.bend), y, z, uy, uz);
-            addSlope(slopeAt(slopes, kBendAlongV, slope.bend), y, z, vy, vz);
+        if (call.isTiltedByBend(*link)) {
+            const float& bendSlope = call.bendSlopes[link->joint];
+            addSlope(slopeAt(slopes, kBendAlongU, bendSlope), y, z, uy, uz);
+            addSlope(slopeAt(slopes, kBendAlongV, bendSlope), y, z, vy, vz);
         }
         turnPlane(sine, cosine, y, z);
         if (link == last && HWY_LIKELY(!call.isAdjusted(*link))) {
@@ -167,10 +168,10 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         turnPlane(sine, cosine, uy, uz);
         turnPlane(sine, cosine, vy, vz);
         if (HWY_UNLIKELY(call.isAdjusted(*link))) {
-            adjustAlong(call, *link, bendRatio, slopeAt(slopes, kBendAlongU, slope.step), x, y, z,
-                        ux, uy, uz);
-            adjustAlong(call, *link, bendRatio, slopeAt(slopes, kBendAlongV, slope.step), x, y, z,
-                        vx, vy, vz);
+            adjustAlong(call, *link, bendRatio, slopeAt(slopes, kBendAlongU, call.slopeUnit), x, y,
+                        z, ux, uy, uz);
+            adjustAlong(call, *link, bendRatio, slopeAt(slopes, kBendAlongV, call.slopeUnit), x, y,
+                        z, vx, vy, vz);
             adjust(call, *link, bendRatio, x, y, z);
         }
         apply(call.outs[link->out], x, y, z);

@@ -40,17 +40,18 @@ HWY_INLINE void addModes(const float* HWY_RESTRICT weights, std::size_t modes,
 /// \return false where that is nothing
 template <bool kOfNormals>
 HWY_INLINE bool corrections(const KernelCall& call, std::size_t first, V& dx, V& dy, V& dz) {
-    const std::size_t block = first / kBlock;
+    const std::size_t block = call.firstBlock + first / kBlock;
     dx = dy = dz = hn::Zero(D());
     bool any = false;
     for (std::size_t i = 0; i < call.correctionCount; ++i) {
-        const KernelCorrection& of = call.corrections[i];
+        const CorrectedBlocks& of = call.corrections[i];
+        const CorrectiveWeights::Weights* const weights = call.weights[of.joint];
         const std::size_t at = block - of.firstBlock; // large where the block comes before
-        if (at >= of.blockCount) continue;
+        if (at >= of.blockCount || !weights) continue;
         const std::int16_t* shares = kOfNormals ? of.normalShares : of.shares;
         if (kOfNormals && !shares) continue;
         any = true;
-        addModes(kOfNormals ? of.normalWeights : of.weights, of.modes,
+        addModes(kOfNormals ? weights->normals.data() : weights->positions.data(), of.modes,
                  shares + at * of.blockShares + first % kBlock, dx, dy, dz);
     }
     if (any && call.correctionFrame) turn(*call.correctionFrame, dx, dy, dz);

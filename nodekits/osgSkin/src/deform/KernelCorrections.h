@@ -27,8 +27,6 @@ public:
 private:
     const SkinModel& _model;
     CorrectiveWeights _weights;
-    KernelMap _frame;
-    std::array<KernelCorrection, Correctives::kMostJoints> _corrections;
 };
 
 } // namespace osgSkin

@@ -256,7 +256,8 @@ template <SlopeRow kBend, SlopeRow kTwist>
 HWY_NOINLINE void passDirection(const KernelCall& call, const Chunk& chunk, const KernelLink& link,
                                 const ChunkStream& positions, ChunkStream& direction) {
     const D d;
-    const KernelSlope& slope = call.slopes[&link - call.links];
+    const float &bendSlope = call.bendSlopes[link.joint],
+                &twistSlope = call.twistSlopes[link.joint];
     const float* HWY_RESTRICT from = positions.from;
     const std::int16_t* HWY_RESTRICT slopes = chunk.slopes;
     float* HWY_RESTRICT to = direction.state;
@@ -269,18 +270,19 @@ HWY_NOINLINE void passDirection(const KernelCall& call, const Chunk& chunk, cons
             V ux = hn::Load(d, to + lane), uy = hn::Load(d, to + kBlock + lane),
               uz = hn::Load(d, to + 2 * kBlock + lane);
             V sine = hn::Load(d, chunk.twistSine + v), cosine = hn::Load(d, chunk.twistCosine + v);
-            if (slope.tilt.twists)
-                addSlope(slopeAt(slopes + lane, kTwist, slope.twist), x, y, ux, uy);
+            if (call.isTiltedByTwist(link))
+                addSlope(slopeAt(slopes + lane, kTwist, twistSlope), x, y, ux, uy);
             turnPlane(sine, cosine, x, y);
             turnPlane(sine, cosine, ux, uy);
             sine = hn::Load(d, chunk.bendSine + v);
             cosine = hn::Load(d, chunk.bendCosine + v);
-            if (slope.tilt.bends) addSlope(slopeAt(slopes + lane, kBend, slope.bend), y, z, uy, uz);
+            if (call.isTiltedByBend(link))
+                addSlope(slopeAt(slopes + lane, kBend, bendSlope), y, z, uy, uz);
             turnPlane(sine, cosine, uy, uz);
             if (HWY_UNLIKELY(call.isAdjusted(link))) {
                 turnPlane(sine, cosine, y, z);
                 adjustAlong(call, link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane),
-                            slopeAt(slopes + lane, kBend, slope.step), x, y, z, ux, uy, uz);
+                            slopeAt(slopes + lane, kBend, call.slopeUnit), x, y, z, ux, uy, uz);
             }
             storeRows(ux, uy, uz, to + lane);
         }

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "deform/DeformKernel.h"
+#include "deform/LinkTilts.h"
 
 #include <osgSkin/SkinModel>
 
-#include <array>
+#include <cstddef>
 
 namespace osgSkin {
 
@@ -15,28 +16,29 @@ class KernelSlopes {
 public:
     explicit KernelSlopes(const SkinModel& model) noexcept : _model(model) {}
 
-    /// Takes what the joints of a section do; before its groups.
+    /// Takes what the joints of a section do.
     ///
-    /// \param joints of the section
-    /// \param count of them
-    void take(const KernelJoints& joints, std::size_t count) noexcept;
+    /// \param joints of the section; they outlive this
+    /// \param jointCount of them
+    /// \param endGroup prepare() is not called for this group
+    void take(const KernelJoints& joints, std::size_t jointCount, std::size_t endGroup) noexcept;
 
-    /// Sets what `call` has of gradients; it is good until the next call.
+    /// Sets what `call` has of gradients; it is good until the next take().
     ///
-    /// \param group an index
+    /// \param group an index, in the section
     /// \param firstBlock of the group's, with which the call begins
     /// \param call has its links already; changed
     void prepare(std::size_t group, std::size_t firstBlock, KernelCall& call) noexcept;
 
 private:
-    struct Angles {
-        double bend, twist;          ///< psi, phi
-        float bendSlope, twistSlope; ///< KernelSlope's
-    };
+    void findTilts(std::size_t first) noexcept;
 
     const SkinModel& _model;
-    std::array<Angles, KernelJoints::kMost> _angles;
-    std::array<KernelSlope, SkinModel::kMaxPartialInfluences> _slopes;
+    const KernelJoints* _joints;
+    std::size_t _endOfAll;            ///< links that prepare() is called for
+    std::size_t _firstLink, _endLink; ///< of which are known
+    LinkTilts _tilts;                 ///< from the first of them on
+    float _bendSlopes[KernelJoints::kMost], _twistSlopes[KernelJoints::kMost];
 };
 
 } // namespace osgSkin

@@ -79,14 +79,16 @@ HWY_INLINE bool tilts(const KernelCall& call, std::size_t first, V& alongU, V& a
     const D d;
     alongU = alongV = hn::Zero(d);
     bool any = false;
+    const std::size_t block = call.firstBlock + first / kBlock;
     for (std::size_t i = 0; i < call.correctionCount; ++i) {
-        const KernelCorrection& of = call.corrections[i];
-        const std::size_t at = first / kBlock - of.firstBlock; // large where the block comes before
-        if (at >= of.blockCount || !of.tilts) continue;
+        const CorrectedBlocks& of = call.corrections[i];
+        const CorrectiveWeights::Weights* const weights = call.weights[of.joint];
+        const std::size_t at = block - of.firstBlock; // large where the block comes before
+        if (at >= of.blockCount || !weights || !of.tilts) continue;
         any = true;
         const float* HWY_RESTRICT from = of.tilts + at * 2 * of.modes * kBlock + first % kBlock;
         for (std::size_t k = 0; k < of.modes; ++k, from += 2 * kBlock) {
-            const V weight = hn::Set(d, of.normalWeights[k]);
+            const V weight = hn::Set(d, weights->normals[k]);
             alongU = hn::MulAdd(weight, hn::Load(d, from), alongU);
             alongV = hn::MulAdd(weight, hn::Load(d, from + kBlock), alongV);
         }

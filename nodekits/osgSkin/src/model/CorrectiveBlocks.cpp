@@ -80,11 +80,10 @@ CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& bindin
     const Correctives& from = binding.correctives;
     for (const CorrectiveJoint& joint : joints) tables.emplace_back(joint, binding.joints);
     for (const glm::dmat3& axes : SkinModelAccess::blocks(model).jointFrames) {
-        CorrectiveFrame& frame = frames.emplace_back(CorrectiveFrame{});
+        KernelMap& frame = frames.emplace_back(KernelMap{});
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 3; ++column)
-                frame.column[column][row] = static_cast<float>(
-                    std::abs(axes[row][column]) < 1e-15 ? 0.0 : axes[row][column]);
+                frame.column[column][row] = roundedToFloat(axes[row][column]);
     }
     firstRange.push_back(0);
     for (const SkinModel::Group& group : model.groups()) {
@@ -109,6 +108,18 @@ CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& bindin
             ranges.push_back(range);
         }
         firstRange.push_back(static_cast<std::uint32_t>(ranges.size()));
+    }
+    addCorrected();
+}
+
+void CorrectiveBlocks::addCorrected() {
+    for (const Range& range : ranges) {
+        const auto modes = static_cast<std::uint32_t>(joints[range.joint].modes);
+        corrected.push_back({rows[range.firstRow].lane,
+                             hasNormals ? normalRows[range.firstRow].lane : nullptr,
+                             tilts.empty() ? nullptr : tilts[range.firstTilt].lane,
+                             rowsPerBlock(range.joint) * kBlock, range.firstBlock, range.blockCount,
+                             range.joint, modes});
     }
 }
 

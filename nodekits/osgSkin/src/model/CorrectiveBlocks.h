@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "chains/KernelMap.h"
 #include "model/SkinBlocks.h"
 
 #include <osgSkin/Binding>
@@ -40,9 +41,18 @@ struct CorrectiveTable {
     glm::dmat2 toAxes{1.0};
 };
 
-/// From rest space into a joint's frame (jointFrame()), columns with a spare number.
-struct CorrectiveFrame {
-    float column[3][4];
+/// The correctives of one joint on a range of a group's blocks, as the kernel reads them.
+struct CorrectedBlocks {
+    const std::int16_t* shares; ///< of the range's first block: x, y, z of the block's vertices for
+                                ///< each mode
+    const std::int16_t* normalShares; ///< the same of normals; null where they have none
+    const float* tilts; ///< of the range's first block: along u and v for each mode; null where the
+                        ///< model has not both normal correctives and gradients
+    std::size_t blockShares; ///< from a block's shares to the next one's
+    std::size_t firstBlock;  ///< of the group's
+    std::size_t blockCount;
+    std::uint32_t joint; ///< in CorrectiveBlocks::joints
+    std::uint32_t modes;
 };
 
 /// A SkinModel's correctives as the kernel reads them, and the only place that a model has them in.
@@ -68,14 +78,17 @@ struct CorrectiveBlocks {
     /// \param source as SkinModel::create() takes it
     CorrectiveBlocks(const SkinModel& model, const Binding& binding,
                      const std::vector<std::uint32_t>& source);
+    CorrectiveBlocks(const CorrectiveBlocks&) = delete; // it points into itself
+    CorrectiveBlocks& operator=(const CorrectiveBlocks&) = delete;
 
     std::vector<CorrectiveJoint> joints;
     std::vector<CorrectiveTable> tables; ///< of `joints`
-    std::vector<CorrectiveFrame> frames; ///< of each joint of the model
+    std::vector<KernelMap> frames;       ///< from rest space into each joint's (jointFrame())
     std::vector<std::string> inputs;
     bool hasNormals = false;
     std::vector<Range> ranges;
-    std::vector<std::uint32_t> firstRange; ///< groups + 1, into `ranges`
+    std::vector<CorrectedBlocks> corrected; ///< of `ranges`
+    std::vector<std::uint32_t> firstRange;  ///< groups + 1, into `ranges`
     std::vector<CorrectiveRow> rows;
     std::vector<CorrectiveRow> normalRows; ///< as `rows`; empty without normal correctives
 
@@ -96,6 +109,7 @@ struct CorrectiveBlocks {
     }
 
 private:
+    void addCorrected();
     void addTilts(const SkinModel& model, std::size_t group, const Range& range);
 
     const CorrectiveRow* rowOf(const std::vector<CorrectiveRow>& of, const Range& range,

@@ -10,6 +10,8 @@ namespace osgSkin {
 /// Which changes along a partial link's ratios tilt a group's normals in a pose so far that anybody
 /// could see it; the others are left out.
 struct LinkTilt {
+    static constexpr double kLeast = 1e-3; ///< radians
+
     bool bends = false;  ///< those of the bend ratio
     bool twists = false; ///< those of the twist ratio
     bool moves = false;  ///< those of the joint's translation and scale, which come with the bend
@@ -22,9 +24,8 @@ struct LinkTilt {
 /// \param moves whether the joint is moved or scaled
 inline LinkTilt linkTilt(const GradientBlocks::Reach& reach, double bendAngle, double twistAngle,
                          bool moves) noexcept {
-    constexpr double kLeast = 1e-3; // radians
-    return {std::abs(bendAngle) * static_cast<double>(reach.bend) > kLeast,
-            std::abs(twistAngle) * static_cast<double>(reach.twist) > kLeast, moves};
+    return {std::abs(bendAngle) * static_cast<double>(reach.bend) > LinkTilt::kLeast,
+            std::abs(twistAngle) * static_cast<double>(reach.twist) > LinkTilt::kLeast, moves};
 }
 
 } // namespace osgSkin
