@@ -52,6 +52,58 @@ HWY_INLINE Joints loadEachOf(const double* row, const int* at) {
 #endif
 }
 
+/// Reads numbers of the parents of joints from `first` on.
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+/// Most joints follow their parents, whose numbers stand side by side then; what others there are
+/// is put between those.
+class ParentRows {
+public:
+    HWY_INLINE ParentRows(const int* parents, std::size_t first)
+        : _parents(parents), _before(first) {
+        const JointTag d;
+        const hn::Rebind<std::int32_t, JointTag> steps;
+        const Joints numbers = hn::Iota(d, 0.0);
+        const Joints follow = hn::Add(numbers, each(double(first) - 1.0));
+        std::uint8_t bytes[8] = {}; // as many as may be written
+        hn::StoreMaskBits(d, hn::Ne(hn::PromoteTo(d, hn::LoadU(steps, parents)), follow), bytes);
+        std::uint32_t bits = bytes[0] | 1u << hn::Lanes(d);
+        for (std::size_t i = 0; i < kOthers; ++i) {
+            const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits); // behind all: none
+            _isOther[i] = hn::Eq(numbers, each(double(lane)));
+            _others[i] = parents[HWY_MIN(lane, hn::Lanes(d) - 1)];
+            if (lane < hn::Lanes(d)) bits &= bits - 1;
+        }
+        _few = bits == 1u << hn::Lanes(d);
+    }
+
+    HWY_INLINE Joints operator()(const double* row) const {
+        if (HWY_UNLIKELY(!_few)) return loadEachOf(row, _parents);
+        Joints result = hn::LoadU(JointTag(), row + _before - 1);
+        for (std::size_t i = 0; i < kOthers; ++i)
+            result = hn::IfThenElse(_isOther[i], each(row[_others[i]]), result);
+        return result;
+    }
+
+private:
+    static constexpr std::size_t kOthers = 2;
+
+    const int* _parents;
+    std::size_t _before;
+    int _others[kOthers];
+    JointMask _isOther[kOthers];
+    bool _few;
+};
+#else
+class ParentRows {
+public:
+    HWY_INLINE ParentRows(const int* parents, std::size_t) : _parents(parents) {}
+    HWY_INLINE Joints operator()(const double* row) const { return loadEachOf(row, _parents); }
+
+private:
+    const int* _parents;
+};
+#endif
+
 /// What is read of a frame or a map.
 struct Turns {
     Joints turn[3][3]; ///< columns
@@ -160,16 +212,36 @@ bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFram
     return hn::AllTrue(d, good);
 }
 
+struct Root {
+    Joints root, inverse;
+};
+
+/// Of what is not 0, nor denormal; to the last digits.
+HWY_INLINE Root rootOf(const Joints& square) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    // Two of Newton's steps: the instructions for it take three times as long.
+    Joints inverse{_mm512_rsqrt14_pd(square.raw)};
+    const Joints half = hn::Mul(each(0.5), square), more = each(1.5);
+    for (int i = 0; i < 2; ++i)
+        inverse = hn::Mul(inverse, hn::NegMulAdd(half, hn::Mul(inverse, inverse), more));
+    return {hn::Mul(square, inverse), inverse};
+#else
+    const Joints root = hn::Sqrt(square);
+    return {root, hn::Div(each(1.0), root)};
+#endif
+}
+
 /// Of a rotation, with that part found first which is largest.
 HWY_INLINE Quaternions quaternionsOf(const Joints (&m)[3][3]) {
     const JointTag d;
-    const Joints one = each(1.0), half = each(0.5), quarter = each(0.25);
+    const Joints one = each(1.0), half = each(0.5);
     const Joints xPlusY = hn::Add(m[0][0], m[1][1]), xLessY = hn::Sub(m[0][0], m[1][1]);
     const Joints forW = hn::Add(xPlusY, m[2][2]), forX = hn::Sub(xLessY, m[2][2]);
     const Joints forY = hn::Neg(hn::Add(xLessY, m[2][2])), forZ = hn::Sub(m[2][2], xPlusY);
     const Joints largestAxis = hn::Max(forX, hn::Max(forY, forZ));
-    const Joints largest = hn::Mul(half, hn::Sqrt(hn::Add(hn::Max(forW, largestAxis), one)));
-    const Joints factor = hn::Div(quarter, largest);
+    const Joints square = hn::Add(hn::Max(forW, largestAxis), one);
+    const Root root = rootOf(square);
+    const Joints largest = hn::Mul(half, root.root), factor = hn::Mul(half, root.inverse);
     const Joints lessX = hn::Mul(factor, hn::Sub(m[1][2], m[2][1]));
     const Joints lessY = hn::Mul(factor, hn::Sub(m[2][0], m[0][2]));
     const Joints lessZ = hn::Mul(factor, hn::Sub(m[0][1], m[1][0]));
@@ -237,19 +309,20 @@ HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternio
     const Joints s = hn::Xor(along(PoseAccess::RestRow::kPole), sign);
     const Joints u1 = hn::Xor(along(PoseAccess::RestRow::kE1), sign);
     const Joints u2 = hn::Xor(along(PoseAccess::RestRow::kE2), sign);
-    const Joints cosine = hn::Sqrt(hn::MulAdd(c, c, hn::Mul(s, s)));
-    const Joints sine = hn::Sqrt(hn::MulAdd(u1, u1, hn::Mul(u2, u2)));
-    const JointMask bends = hn::Ge(sine, each(kNoBend));
+    const Joints cosines = hn::MulAdd(c, c, hn::Mul(s, s));
+    const Joints sines = hn::MulAdd(u1, u1, hn::Mul(u2, u2));
+    const JointMask bends = hn::Ge(sines, each(kNoBend * kNoBend));
+    const Root cosine = rootOf(cosines), sine = rootOf(hn::IfThenElse(bends, sines, one));
     Angles angles;
-    angles.bend = hn::IfThenElseZero(bends, hn::Mul(two, angleOf(sine, cosine)));
+    angles.bend = hn::IfThenElseZero(bends, hn::Mul(two, angleOf(sine.root, cosine.root)));
     angles.twist = hn::Mul(two, angleOf(s, c));
     // q times the inverse twist: eq. 3.
-    const Joints length = hn::Div(one, hn::Mul(sine, cosine));
+    const Joints length = hn::Mul(sine.inverse, cosine.inverse);
     angles.cosine = hn::Mul(hn::MulSub(c, u1, hn::Mul(s, u2)), length);
     angles.sine = hn::Mul(hn::MulAdd(c, u2, hn::Mul(s, u1)), length);
     angles.cosine = hn::IfThenElse(bends, angles.cosine, one);
     angles.sine = hn::IfThenElseZero(bends, angles.sine);
-    const JointMask alone = hn::Or(hn::Eq(c, zero), hn::Lt(cosine, each(kHalfTurn)));
+    const JointMask alone = hn::Or(hn::Eq(c, zero), hn::Lt(cosines, each(kHalfTurn * kHalfTurn)));
     if (HWY_LIKELY(hn::AllFalse(d, alone))) return angles;
     constexpr std::size_t kAtOnce = PoseCall::kAtOnce;
     double quaternions[4][kAtOnce], all[4][kAtOnce], which[kAtOnce];
@@ -324,13 +397,12 @@ bool splitFrames(const PoseCall& call, const PoseFrames& frames) {
     JointMask other = hn::Lt(one, one);
     for (std::size_t next = 0; next < call.count; next += hn::Lanes(d)) {
         const std::size_t first = HWY_MIN(next, call.count - hn::Lanes(d)); // the last ones overlap
-        const int* parents = call.parents + first;
         const auto own = [&](std::size_t row) HWY_ATTR {
             return hn::LoadU(d, frames.rows + row * frames.stride + first);
         };
-        const auto above = [&](std::size_t row) HWY_ATTR {
-            return loadEachOf(frames.rows + row * frames.stride, parents);
-        };
+        const ParentRows parentRows(call.parents + first, first);
+        const auto above = [&](std::size_t row)
+                               HWY_ATTR { return parentRows(frames.rows + row * frames.stride); };
         Joints turn[3][3], offset[3], shift[3];
         const Joints turned[3][3] = {
             {own(0), own(1), own(2)}, {own(3), own(4), own(5)}, {own(6), own(7), own(8)}};
