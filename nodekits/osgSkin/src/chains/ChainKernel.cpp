@@ -108,7 +108,7 @@ HWY_INLINE void movesOf(const JointRows& rows, std::size_t first, const Joints (
 }
 
 /// What joints from `first` on give in any chain.
-HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, double smallMove,
+HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, const ChainCall& call,
                            PosedChains& chains, JointMask& adjusted, JointMask& scaled) {
     using Own = PoseAccess::Row;
     const JointTag d;
@@ -147,7 +147,11 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, double smal
     movesOf(rows, first, turn, move);
     for (const Joints& axis : move) square = hn::MulAdd(axis, axis, square);
     const JointMask grows = hn::Ne(rows.ownOf(Own::kScale, first), one);
-    const JointMask changed = hn::Or(grows, hn::Gt(square, each(smallMove * smallMove)));
+    const JointMask moves = hn::Gt(square, each(call.smallMove * call.smallMove));
+    // The root moves as a rule, and nothing follows it in part.
+    const std::int32_t* const partial = &call.plan.arePartial[call.section.joint + first];
+    const JointMask isPartial = hn::Ne(hn::PromoteTo(d, hn::LoadU(steps, partial)), zero);
+    const JointMask changed = hn::Or(grows, hn::And(moves, isPartial));
     scaled = hn::Or(scaled, grows);
     adjusted = hn::Or(adjusted, changed);
     hn::StoreU(hn::DemoteTo(steps, hn::IfThenElseZero(changed, one)), steps,
@@ -389,9 +393,8 @@ void multiplyOutAll(const ChainCall& call, PosedChains& chains) {
         call.plan.inOrder && count >= hn::Lanes(d) ? rowsOf(call.pose) : gather(call, count, room);
     const Joints one = each(1.0);
     JointMask adjusted = hn::Lt(one, one), scaled = adjusted;
-    forJoints(count, [&](std::size_t first) HWY_ATTR {
-        poseJoints(rows, first, call.smallMove, chains, adjusted, scaled);
-    });
+    forJoints(count, [&](std::size_t first)
+                         HWY_ATTR { poseJoints(rows, first, call, chains, adjusted, scaled); });
     chains.scaled = !hn::AllFalse(d, scaled);
     chains.joints.anyAdjusted = !hn::AllFalse(d, adjusted);
     if (HWY_UNLIKELY(chains.joints.anyAdjusted))

@@ -35,7 +35,7 @@ struct KernelJoints {
     float azimuthCosine[kMost], azimuthSine[kMost]; ///< of v in the joint's fixed frame
     float move[3][kMost]; ///< the joint's translation, in its frame; comes in with the bend ratio
     float growth[kMost];  ///< the joint's scale less 1; the same
-    std::int32_t adjusted[kMost]; ///< these are not 0
+    std::int32_t adjusted[kMost]; ///< these are not 0, and something follows the joint in part
     bool anyAdjusted;             ///< of all joints, whatever their number
 };
 

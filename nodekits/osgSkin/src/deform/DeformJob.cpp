@@ -49,6 +49,8 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
     KernelCorrections corrections(model, *job.pose);
     KernelSlopes slopes(model);
     const bool hasSlopes = job.normals && SkinModelAccess::gradients(model);
+    const Kernel kernel = kernelFor(job.normals, job.tangents, false);
+    const Kernel surfaceKernel = hasSlopes ? kernelFor(true, job.tangents, true) : kernel;
     const std::size_t firstGroup = first < end ? groupOf(blocks, first) : model.groups().size();
     const std::size_t endGroup = first < end ? groupOf(blocks, end - 1) + 1 : firstGroup;
     const ChainPlan::Section* section = blocks.plan.sections.data();
@@ -59,7 +61,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
                        std::min<std::size_t>(section[1].group, endGroup));
             if (hasSlopes)
                 slopes.take(chains.joints, section[1].joint - section->joint,
-                            std::min<std::size_t>(section[1].group, endGroup));
+                            std::min<std::size_t>(section[1].group, endGroup), call);
         }
         const SkinModel::Group& group = model.groups()[g];
         const ChainPlan::Group& planned = blocks.plan.groups[g];
@@ -71,7 +73,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
         call.links = blocks.plan.links.data() + planned.firstLink;
         call.lead = planned.lead == ChainPlan::kNoLead ? nullptr : &chains.outs[planned.lead];
         if (corrections.any()) corrections.prepare(g, from, call);
-        if (hasSlopes) slopes.prepare(g, from, call);
+        if (hasSlopes) slopes.prepare(g, from, blocks.firstBlock[g] + from, call);
         call.rows =
             &blocks.rows[blocks.firstRow[g] + from * SkinBlocks::rowsPerBlock(group.partialCount)];
         call.vertexCount = std::min<std::size_t>(group.vertexCount, to * kBlock) - from * kBlock;
@@ -83,7 +85,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
         call.tangentRows = job.tangents ? SkinModelAccess::blocks(*job.restTangents, g) +
                                               from * SkinBlocks::kTangentRows
                                         : nullptr;
-        runKernel(call);
+        (call.gradients ? surfaceKernel : kernel)(call);
     }
 }
 

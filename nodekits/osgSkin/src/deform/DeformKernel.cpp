@@ -246,18 +246,16 @@ void deformByVectors(const KernelCall& call) {
     }
 }
 
-void deform(const KernelCall& call) {
+Kernel kernelFor(bool normals, bool tangents, bool surface) {
 #if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
-    deformByLinks(call);
+    (void)normals, (void)tangents, (void)surface; // a call's own
+    return deformByLinks;
 #else
-    if (call.tangents)
-        call.gradients ? deformByVectors<true, true, true>(call)
-                       : deformByVectors<true, true, false>(call);
-    else if (call.normals)
-        call.gradients ? deformByVectors<true, false, true>(call)
-                       : deformByVectors<true, false, false>(call);
-    else
-        deformByVectors<false, false, false>(call);
+    if (tangents)
+        return surface ? deformByVectors<true, true, true> : deformByVectors<true, true, false>;
+    if (normals)
+        return surface ? deformByVectors<true, false, true> : deformByVectors<true, false, false>;
+    return deformByVectors<false, false, false>;
 #endif
 }
 
@@ -268,10 +266,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace osgSkin {
 
-HWY_EXPORT(deform);
+HWY_EXPORT(kernelFor);
 
-void runKernel(const KernelCall& call) noexcept {
-    HWY_DYNAMIC_DISPATCH(deform)(call);
+Kernel kernelFor(bool normals, bool tangents, bool surface) noexcept {
+    return HWY_DYNAMIC_DISPATCH(kernelFor)(normals, tangents, surface);
 }
 
 } // namespace osgSkin

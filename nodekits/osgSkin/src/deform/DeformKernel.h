@@ -63,10 +63,14 @@ struct KernelCall {
     const std::uint32_t* scatter; ///< vertex of each row, where output is not in order; else null
 };
 
-/// Deforms a group with the best instructions that the machine has.
+/// Deforms a group.
 ///
 /// Without scatter, up to `room` vertices may be written beyond the group's: call in the groups'
 /// order. With it, the outputs are those of vertex 0.
-void runKernel(const KernelCall& call) noexcept;
+using Kernel = void (*)(const KernelCall& call);
+
+/// The one with the best instructions that the machine has, for calls with or without normals,
+/// tangents (which normals go with) and gradients (which normals go with, too).
+Kernel kernelFor(bool normals, bool tangents, bool surface) noexcept;
 
 } // namespace osgSkin

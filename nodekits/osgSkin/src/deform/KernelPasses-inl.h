@@ -326,7 +326,7 @@ HWY_NOINLINE void crossChunk(const Chunk& chunk, const ChunkSurface& surface, bo
 /// Where there are 16 registers and no fused multiply-add, this is a quarter faster than taking
 /// each vertex through its whole chain: the processor finds more to do at the same time in short
 /// loops over many vertices. Elsewhere it is slower, because of what goes to memory in between.
-HWY_INLINE void deformByLinks(const KernelCall& call) {
+inline void deformByLinks(const KernelCall& call) {
     const std::size_t blockFloats = SkinBlocks::rowsPerBlock(call.linkCount) * kBlock;
     Chunk chunk;
     ChunkStream positions, normals, tangents;

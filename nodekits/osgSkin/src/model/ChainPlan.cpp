@@ -78,6 +78,10 @@ public:
         }
         end();
         addSection(); // behind the last
+        _plan.arePartial.resize(_plan.joints.size() + ChainPlan::kMostJoints, 0);
+        for (std::size_t i = 0; i + 1 < _plan.sections.size(); ++i)
+            for (std::size_t f = _plan.sections[i].frame; f < _plan.sections[i + 1].frame; ++f)
+                _plan.arePartial[_plan.sections[i].joint + _plan.frames[f].joint] = 1;
     }
 
 private:

@@ -105,6 +105,7 @@ struct ChainPlan {
     std::vector<Group> groups;     ///< the model's
     std::vector<Link> links;
     std::vector<std::uint32_t> joints;      ///< of the model
+    std::vector<std::int32_t> arePartial;   ///< of `joints`, somewhere; 0 or 1, and some 0 behind
     std::vector<PlannedFrame> frames;       ///< of joints that are partial somewhere
     std::vector<PlannedWideInto> wideIntos; ///< of those that full turns come behind
     std::vector<State> states;
