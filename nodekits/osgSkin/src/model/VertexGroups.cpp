@@ -60,7 +60,7 @@ using Members = std::map<Signature, std::vector<std::uint32_t>>;
 
 /// What it takes to deform a group, about, in the time that a link of a block takes.
 double costOf(const Signature& signature, std::size_t vertices) {
-    constexpr double kGroup = 3.0; // to begin one
+    constexpr double kGroup = 2.0; // to begin one
     const std::size_t count = (vertices + kBlock - 1) / kBlock;
     const auto blocks = static_cast<double>(count);
     return kGroup + blocks * (1.0 + static_cast<double>(partialCount(signature)));
