@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinGpu/GpuPalette>
 
+#include <osgSkin/DeformJob>
 #include <osgSkin/GlmTypes>
 
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace osgSkin {
@@ -44,29 +44,17 @@ void writeJoints(const GpuModel& model, const Pose& pose, osg::Vec4* texels) {
     }
 }
 
-/// As DeformJob has them: correctives that are rounding errors do nothing.
 void writeWeights(const GpuModel& model, const Pose& pose, osg::Vec4* texels) {
-    for (const CorrectiveJoint& joint : model.correctiveJoints()) {
-        double beta[CorrectiveJoint::kMostModes];
-        if (joint.basis == CorrectiveJoint::Basis::Input) {
-            joint.weights({double(pose.input(joint.joint)), 0.0}, beta);
-        } else {
-            const BendTwist bend = pose.transform(joint.joint).split;
-            joint.weights(joint.coordinates(bend.bendAxis, bend.bendAngle,
-                                            model.model().joints()[joint.joint].twistAxis),
-                          beta);
-        }
-        const bool isSomething = std::any_of(beta, beta + joint.modes, [&](double weight) {
-            return std::abs(weight) > model.smallMove();
-        });
-        for (std::size_t k = 0; k < joint.modes; ++k) {
-            const double unit = isSomething ? beta[k] / Correctives::kUnit : 0.0;
-            const double normals = joint.normalScales.empty() ? 0.0 : unit * joint.normalScales[k];
+    const std::vector<CorrectiveJoint>& joints = model.correctiveJoints();
+    for (std::uint32_t j = 0; j < joints.size(); ++j) {
+        glm::vec2 weights[CorrectiveJoint::kMostModes];
+        correctiveWeights(model.model(), pose, j, weights);
+        for (unsigned int k = 0; k < joints[j].modes; ++k) {
             osg::Vec4& texel = texels[k / 2];
-            texel[k % 2 == 0 ? 0 : 2] = static_cast<float>(unit);
-            texel[k % 2 == 0 ? 1 : 3] = static_cast<float>(normals);
+            texel[2 * (k % 2)] = weights[k].x;
+            texel[2 * (k % 2) + 1] = weights[k].y;
         }
-        texels += (joint.modes + 1) / 2;
+        texels += (joints[j].modes + 1) / 2;
     }
 }
 
