@@ -250,10 +250,12 @@ struct SplitTurn {
 
 /// First `with`, then `from`.
 ///
-/// \param narrowed the same in single precision; may be null
+/// \param about where moves in single precision are told of
+/// \param narrowed the same in single precision, so told; may be null
+/// \param lead the same as it is; may be null
 template <bool kScaled, typename Turn>
 HWY_INLINE void multiply(const PosedMap& from, const Turn& with, PosedMap& to,
-                         KernelMap* narrowed) {
+                         const std::array<double, 3>& about, KernelMap* narrowed, KernelMap* lead) {
     const DoubleTag d;
     const hn::Rebind<float, DoubleTag> floats;
     constexpr std::size_t kParts = 4 / hn::MaxLanes(DoubleTag());
@@ -278,12 +280,24 @@ HWY_INLINE void multiply(const PosedMap& from, const Turn& with, PosedMap& to,
         for (std::size_t part = 0; part < kParts; ++part)
             hn::Store(product[i][part], d, to.column[i] + part * hn::Lanes(d));
     if (kScaled) to.column[3][3] = scale;
-    if (!narrowed) return;
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t part = 0; part < kParts; ++part)
-            hn::StoreU(hn::DemoteTo(floats, flushed(product[i][part], 1e-15)), floats,
-                       narrowed->column[i] + part * hn::Lanes(d));
-    if (kScaled) narrowed->column[3][3] = static_cast<float>(scale);
+    const auto narrow = [&](std::size_t i, std::size_t part, const Doubles& numbers, KernelMap& map)
+                            HWY_ATTR {
+                                hn::StoreU(hn::DemoteTo(floats, flushed(numbers, 1e-15)), floats,
+                                           map.column[i] + part * hn::Lanes(d));
+                            };
+    const double grows = kScaled ? scale : 1.0;
+    for (KernelMap* const map : {narrowed, lead}) {
+        if (!map) continue;
+        for (std::size_t part = 0; part < kParts; ++part) {
+            for (std::size_t i = 0; i < 3; ++i) narrow(i, part, product[i][part], *map);
+            Doubles move = product[3][part];
+            if (map == narrowed)
+                for (std::size_t i = 0; i < 3; ++i)
+                    move = hn::MulAdd(product[i][part], allOf(grows * about[i]), move);
+            narrow(3, part, move, *map);
+        }
+        if (kScaled) map->column[3][3] = static_cast<float>(scale);
+    }
 }
 
 template <bool kScaled>
@@ -295,27 +309,31 @@ HWY_INLINE void makeStates(const ChainCall& call, const JointRows& rows, PosedCh
         const ChainPlan::State& state = states[i];
         const PosedMap& from = chains.wide[state.from];
         PosedMap& to = chains.wide[state.to];
-        KernelMap* const narrowed =
-            state.narrowed == ChainPlan::kIdentity ? nullptr : &chains.maps[state.narrowed];
+        const auto mapOf = [&](ChainPlan::Index map) {
+            return map == ChainPlan::kIdentity ? nullptr : &chains.maps[map];
+        };
+        KernelMap* const narrowed = mapOf(state.narrowed);
+        KernelMap* const lead = mapOf(state.narrowedLead);
         if (HWY_UNLIKELY(state.joint & ChainPlan::kUncached))
             multiply<kScaled>(from, SplitTurn(call.pose, state.joint & ~ChainPlan::kUncached), to,
-                              narrowed);
+                              state.about, narrowed, lead);
         else
             multiply<kScaled>(
                 from,
                 RowsTurn{chains.turns[0] + state.joint,
                          rows.own + PoseAccess::Row::kOffset * rows.stride + state.joint,
                          rows.stride},
-                to, narrowed);
+                to, state.about, narrowed, lead);
     }
 }
 
-/// First `with`, which does not scale, then `from`.
-HWY_INLINE void multiply(const KernelMap& from, const KernelMap& with, KernelMap& to) {
+/// First `with`, which does not scale, and is moved by `move` instead of its own; then `from`.
+HWY_INLINE void multiply(const KernelMap& from, const KernelMap& with, const float* move4,
+                         KernelMap& to) {
     const hn::CappedTag<float, 16> d;
 #if HWY_TARGET == HWY_SCALAR
     for (std::size_t i = 0; i < 16; ++i) {
-        const float* const column = with.column[i / 4];
+        const float* const column = i < 12 ? with.column[i / 4] : move4;
         auto sum = hn::Set(d, from.column[3][i % 4] * column[3]);
         for (std::size_t k = 3; k-- > 0;)
             sum = hn::MulAdd(hn::Set(d, from.column[k][i % 4]), hn::Set(d, column[k]), sum);
@@ -323,9 +341,11 @@ HWY_INLINE void multiply(const KernelMap& from, const KernelMap& with, KernelMap
     }
 #else
     const auto x = hn::LoadDup128(d, from.column[0]), y = hn::LoadDup128(d, from.column[1]),
-               z = hn::LoadDup128(d, from.column[2]), move = hn::LoadDup128(d, from.column[3]);
+               z = hn::LoadDup128(d, from.column[2]), move = hn::LoadDup128(d, from.column[3]),
+               start = hn::LoadDup128(d, move4);
     for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
-        const auto columns = hn::Load(d, with.column[0] + i);
+        const auto isTurn = hn::FirstN(d, HWY_MAX(i, std::size_t{12}) - i);
+        const auto columns = hn::IfThenElse(isTurn, hn::Load(d, with.column[0] + i), start);
         auto sum = hn::Mul(move, hn::Broadcast<3>(columns)); // only the last column has that
         sum = hn::MulAdd(z, hn::Broadcast<2>(columns), sum);
         sum = hn::MulAdd(y, hn::Broadcast<1>(columns), sum);
@@ -344,12 +364,12 @@ HWY_INLINE void makeOuts(const ChainCall& call, PosedChains& chains) {
         const KernelMap& from = chains.maps[outs[i].from];
         const KernelMap& with = chains.maps[outs[i].with];
         if (!kScaled) {
-            multiply(from, with, chains.outs[i]);
+            multiply(from, with, outs[i].move, chains.outs[i]);
             continue;
         }
-        KernelMap scaled = with;
-        for (std::size_t axis = 0; axis < 3; ++axis) scaled.column[3][axis] *= from.scale();
-        multiply(from, scaled, chains.outs[i]);
+        alignas(16) float scaled[4] = {outs[i].move[0], outs[i].move[1], outs[i].move[2], 1.0f};
+        for (std::size_t axis = 0; axis < 3; ++axis) scaled[axis] *= from.scale();
+        multiply(from, with, scaled, chains.outs[i]);
     }
 }
 

@@ -30,7 +30,8 @@ bool findNeeded(const SkinModel& model, const ChainPlan& plan, const ChainPlan::
     for (std::size_t i = next.state; i-- > section.state;) {
         const ChainPlan::State& state = plan.states[i];
         const bool isNeeded =
-            wide[state.to] || (state.narrowed != ChainPlan::kIdentity && maps[state.narrowed]);
+            wide[state.to] || (state.narrowed != ChainPlan::kIdentity && maps[state.narrowed]) ||
+            (state.narrowedLead != ChainPlan::kIdentity && maps[state.narrowedLead]);
         needed.states[i - section.state] = isNeeded;
         if (isNeeded) wide.set(state.from);
     }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "chains/KernelJoints.h"
-#include "chains/KernelMap.h"
 #include "model/ChainPlan.h"
+#include "points/KernelMap.h"
 
 #include <osgSkin/Pose>
 #include <osgSkin/SkinModel>

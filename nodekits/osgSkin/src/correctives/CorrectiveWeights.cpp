@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "correctives/CorrectiveWeights.h"
 
-#include <osgSkin/DeformJob>
-
 #include "correctives/WeightTerms.h"
 #include "model/SkinModelAccess.h"
 #include "pose/PoseAccess.h"
@@ -38,14 +36,6 @@ void CorrectiveWeights::workOut(std::uint32_t joint) noexcept {
     }
     _states[joint] = State::Known;
     _known[joint] = isSomething ? &weights : nullptr;
-}
-
-void correctiveWeights(const SkinModel& model, const Pose& pose, std::uint32_t joint,
-                       glm::vec2* weights) noexcept {
-    CorrectiveWeights all(model, pose);
-    const CorrectiveWeights::Weights* of = all.of(joint);
-    for (std::size_t k = 0; k < all.modesOf(joint); ++k)
-        weights[k] = of ? glm::vec2(of->positions[k], of->normals[k]) : glm::vec2(0.0f);
 }
 
 } // namespace osgSkin

@@ -4,6 +4,7 @@
 #include <osgSkin/Error>
 
 #include "chains/PosedChains.h"
+#include "correctives/CorrectiveWeights.h"
 #include "correctives/ReferenceCorrections.h"
 #include "deform/Chain.h"
 #include "deform/DeformKernel.h"
@@ -192,6 +193,14 @@ SurfaceSlopes surfaceSlopesOf(const SkinModel& model) {
         }
     }
     return result;
+}
+
+void correctiveWeights(const SkinModel& model, const Pose& pose, std::uint32_t joint,
+                       glm::vec2* weights) noexcept {
+    CorrectiveWeights all(model, pose);
+    const CorrectiveWeights::Weights* of = all.of(joint);
+    for (std::size_t k = 0; k < all.modesOf(joint); ++k)
+        weights[k] = of ? glm::vec2(of->positions[k], of->normals[k]) : glm::vec2(0.0f);
 }
 
 } // namespace osgSkin

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "chains/KernelJoints.h"
-#include "chains/KernelMap.h"
 #include "correctives/CorrectiveWeights.h"
 #include "model/ChainPlan.h"
 #include "model/CorrectiveBlocks.h"
 #include "model/GradientBlocks.h"
 #include "model/SkinBlocks.h"
+#include "points/KernelMap.h"
 
 #include <cstddef>
 #include <cstdint>

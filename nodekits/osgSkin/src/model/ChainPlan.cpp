@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "model/ChainPlan.h"
 
-#include "chains/KernelMap.h"
 #include "model/SkinBlocks.h"
+#include "points/KernelMap.h"
 
 #include <glm/gtc/matrix_access.hpp>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -26,18 +25,19 @@ PlannedMap<double> planInto(const BoundJoint& joint) {
     for (int column = 0; column < 4; ++column) {
         const glm::dvec3 along = column < 3 ? glm::dvec3(glm::row(axes, column))
                                             : -joint.centre * axes; // transposed: into the frame
-        double* const byCosine = map.byCosine + 4 * column;
-        double* const bySine = map.bySine + 4 * column;
+        const std::size_t first = 4 * static_cast<std::size_t>(column);
+        double* const byCosine = map.byCosine + first;
+        double* const bySine = map.bySine + first;
         byCosine[0] = bySine[1] = along[0];
         byCosine[1] = bySine[0] = along[1];
         bySine[1] = -bySine[1];
-        map.constant[4 * column + 2] = along[2];
+        map.constant[first + 2] = along[2];
     }
     map.constant[15] = 1.0;
     return map;
 }
 
-/// The way back: columns v, w x v, w.
+/// The way back but for its move: columns v, w x v, w.
 PlannedMap<double> planBack(const BoundJoint& joint) {
     const glm::dmat3 axes = jointFrame(joint);
     PlannedMap<double> map{};
@@ -47,9 +47,7 @@ PlannedMap<double> planBack(const BoundJoint& joint) {
         map.bySine[row] = axes[1][row];
         map.bySine[4 + row] = -axes[0][row];
         map.constant[8 + row] = axes[2][row];
-        map.constant[12 + row] = joint.centre[row];
     }
-    map.constant[15] = 1.0;
     return map;
 }
 
@@ -106,7 +104,7 @@ private:
         addSection();
         _states.clear();
         _outs.clear();
-        _narrowed.fill(ChainPlan::kIdentity);
+        _about.clear();
         _stateCount = _narrowedCount = 0;
         if (!_plan.inOrder) return;
         _plan.joints.resize(section().joint + _model.joints().size());
@@ -153,23 +151,41 @@ private:
         _plan.joints.push_back(joint);
     }
 
-    /// A map of a state or a way into a frame, as outs start from it.
-    Index narrowed(Index from) {
-        if (from < ChainPlan::state(0)) return from;
-        Index& narrowed = _narrowed[from - ChainPlan::state(0)];
-        if (narrowed == ChainPlan::kIdentity) {
-            narrowed = ChainPlan::narrowed(_narrowedCount++);
-            const auto made = std::find_if(_plan.states.rbegin(), _plan.states.rend(),
-                                           [&](const State& state) { return state.to == from; });
-            made->narrowed = narrowed;
-        }
+    /// A state in single precision, from its latest step on.
+    Index narrowed(Index from, Index with) {
+        State& state = *std::find_if(_plan.states.rbegin(), _plan.states.rend(),
+                                     [&](const State& each) { return each.to == from; });
+        Index& narrowed = with == ChainPlan::kIdentity ? state.narrowedLead : state.narrowed;
+        if (narrowed != ChainPlan::kIdentity) return narrowed;
+        narrowed = ChainPlan::narrowed(_narrowedCount++);
+        const glm::dvec3 about = startOf(with);
+        if (with != ChainPlan::kIdentity) state.about = {about.x, about.y, about.z};
+        _about[narrowed] = about;
         return narrowed;
     }
 
+    /// Where a map that others are followed by starts.
+    glm::dvec3 startOf(Index with) const {
+        if (with == ChainPlan::kIdentity) return glm::dvec3(0.0);
+        return boundJoint(with - ChainPlan::frame(0)).centre;
+    }
+
+    /// What moves of a map that comes last are told of.
+    glm::dvec3 aboutOf(Index from) const {
+        if (from == ChainPlan::kIdentity) return glm::dvec3(0.0);
+        if (from < ChainPlan::frame(0)) return boundJoint(from - ChainPlan::into(0)).centre;
+        return _about.at(from);
+    }
+
     Index out(Index from, Index with) {
-        from = narrowed(from);
+        if (from >= ChainPlan::state(0)) from = narrowed(from, with);
         const auto [made, isNew] = _outs.insert({{from, with}, static_cast<Index>(outCount())});
-        if (isNew) _plan.outs.push_back({from, with});
+        if (!isNew) return made->second;
+        const glm::dvec3 move = startOf(with) - aboutOf(from);
+        _plan.outs.push_back(
+            {{roundedToFloat(move.x), roundedToFloat(move.y), roundedToFloat(move.z), 1.0f},
+             from,
+             with});
         return made->second;
     }
 
@@ -184,8 +200,7 @@ private:
         if (isNew) ++_stateCount;
         const Index to = ChainPlan::state(_stateCount - 1);
         if (isNew && _stateCount < ChainPlan::kMostStates) _states[{from, with}] = to;
-        _narrowed[_stateCount - 1] = ChainPlan::kIdentity;
-        _plan.states.push_back({from, to, ChainPlan::kIdentity, with});
+        _plan.states.push_back({from, to, ChainPlan::kIdentity, ChainPlan::kIdentity, with, {}});
         return to;
     }
 
@@ -202,7 +217,10 @@ private:
     void addFrame(std::uint32_t number) {
         if (has(_plan.frames, section().frame, number)) return;
         const BoundJoint& joint = boundJoint(number);
-        _plan.frames.push_back({rounded(planInto(joint)), rounded(planBack(joint)), number});
+        PlannedMap<double> into = planInto(joint);
+        for (double* column : {into.byCosine, into.bySine, into.constant})
+            std::fill_n(column + 12, 3, 0.0); // no move: it is told of the joint's centre
+        _plan.frames.push_back({rounded(into), rounded(planBack(joint)), number});
     }
 
     void addWideInto(Index into) {
@@ -237,7 +255,7 @@ private:
     ChainPlan& _plan;
     std::vector<std::uint32_t> _numbers; ///< of the model's joints in the section
     std::size_t _stateCount = 0, _narrowedCount = 0;
-    std::array<Index, ChainPlan::kMostStates> _narrowed{};    ///< of the states; kIdentity: not yet
+    std::map<Index, glm::dvec3> _about;                       ///< of narrowed states
     std::map<std::pair<Index, std::uint32_t>, Index> _states; ///< by from and joint
     std::map<std::pair<Index, Index>, Index> _outs;           ///< by from and with
 };

@@ -3,6 +3,7 @@
 
 #include <osgSkin/SkinModel>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -60,7 +61,8 @@ struct ChainPlan {
     static constexpr Index frame(std::size_t joint) {
         return static_cast<Index>(1 + kMostJoints + joint);
     }
-    /// A state in single precision.
+    /// A state in single precision. Moves in single precision are told of a place of each map's
+    /// own; into() moves that to 0.
     static constexpr Index narrowed(std::size_t number) {
         return static_cast<Index>(1 + 2 * kMostJoints + number);
     }
@@ -71,13 +73,18 @@ struct ChainPlan {
     struct State {
         Index from, to;
         Index narrowed;      ///< where it is put in single precision, too; kIdentity: nowhere
+        Index narrowedLead;  ///< the same for leads
         std::uint32_t joint; ///< of the section, or kUncached and one of the model
+        /// What `narrowed` moves is told of this place, near to what follows: digits of places far
+        /// away would be lost. Rest space; `narrowedLead` is told of the origin.
+        std::array<double, 3> about;
     };
     /// More joints than fit: worked out where it is needed.
     static constexpr std::uint32_t kUncached = 1u << 31;
 
     /// What the kernel reads, in single precision: first `with`, then `from`.
-    struct Out {
+    struct alignas(16) Out {
+        float move[4]; ///< `with` starts from here, as seen from where `from` is told of; and 1
         Index from, with;
     };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "chains/KernelMap.h"
 #include "model/SkinBlocks.h"
+#include "points/KernelMap.h"
 
 #include <osgSkin/Binding>
 #include <osgSkin/SkinModel>
