@@ -252,6 +252,31 @@ TEST(ClipPlayer, PosesAsTheSkeletonDoes) {
     }
 }
 
+TEST(ClipPlayer, RigidPartsMayStandInGroupsBelowTheirBones) {
+    Character character(someClip(12, 0.8));
+    osg::Group& bone = *character.rigid->getParent(0);
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->addChild(character.rigid);
+    bone.replaceChild(character.rigid, group);
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto copy = copies->makeInstance();
+    copy.player->setTrack(0, {copies->sample(*copies->animations().front(), 30.0), 4.0 * kFrame});
+    ASSERT_TRUE(copy.player->pose());
+    character.update(1.0 + 4.0 * kFrame); // the manager starts at its first update
+    character.update(4.0 * kFrame);
+    osg::NodePath path = character.rigid->getParentalNodePaths(character.scene).front();
+    const osg::Matrix expected = osg::computeLocalToWorld(path);
+    const auto& rigid = dynamic_cast<osg::MatrixTransform&>(*copy.node->getChild(1));
+    for (int i = 0; i < 16; ++i)
+        EXPECT_NEAR(rigid.getMatrix().ptr()[i], expected.ptr()[i], 1e-6) << i;
+    // One that moves it away from its bone is not followed.
+    const osg::ref_ptr<osg::MatrixTransform> aside =
+        new osg::MatrixTransform(osg::Matrixd::translate(1, 0, 0));
+    aside->addChild(character.rigid);
+    bone.replaceChild(group, aside);
+    EXPECT_THROW(osgSkin::ClipCharacter::create(*character.scene), osgSkin::Error);
+}
+
 TEST(ClipPlayer, BakedBoundsHoldTheSkinBetweenSamples) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);

@@ -11,7 +11,9 @@
 
 #include <osg/NodeVisitor>
 #include <osgAnimation/BasicAnimationManager>
+#include <osgAnimation/Bone>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -45,6 +47,19 @@ public:
 osg::NodePath toSkeleton(osg::NodePath path) {
     while (!path.empty() && !dynamic_cast<osgAnimation::Skeleton*>(path.back())) path.pop_back();
     return path;
+}
+
+/// The name of the bone that a rigid part moves with; empty where there is none.
+std::string boneAbove(const osg::NodePath& path) {
+    const auto bone = std::find_if(path.rbegin(), path.rend(), [](osg::Node* node) {
+        return dynamic_cast<osgAnimation::Bone*>(node) != nullptr;
+    });
+    if (bone == path.rend()) return {};
+    if (!osg::computeLocalToWorld(osg::NodePath(bone.base(), path.end() - 1)).isIdentity())
+        throw Error("clip character: the rigid part \"" + path.back()->getName() +
+                    "\" stands under another transform than its bone \"" + (*bone)->getName() +
+                    "\"");
+    return (*bone)->getName();
 }
 
 SkinMoment momentOf(const DeformableSkin& skin) {
@@ -88,7 +103,7 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
     for (const osg::NodePath& path : found.rigids) {
         osg::Group& part = *path.back()->asGroup();
         Rigid rigid{{}, part.getName()};
-        if (path.size() > 1) rigid.joint = path[path.size() - 2]->getName(); // its bone
+        rigid.joint = boneAbove(path);
         for (unsigned int i = 0; i < part.getNumChildren(); ++i)
             rigid.parts.emplace_back(part.getChild(i));
         result->_rigids.push_back(rigid);
