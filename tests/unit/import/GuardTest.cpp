@@ -164,6 +164,7 @@ INSTANTIATE_TEST_SUITE_P(
         Guarded{"marked.off", "N90199019 1 ", "\"N90199019\", expected OFF"},
         Guarded{"joined.off", "OFF90199019 1 0\n", "\"OFF90199019\", expected OFF"},
         Guarded{"commented.off", "OFF # a\r90199019 1 0\n3 1 0\n", "\"90199019\" vertices"},
+        Guarded{"form_feed.off", "OFF # a\f1 0 0\n1 90199019 0\n3 0 0 0\n", "a form feed"},
         Guarded{"small_number.off", "OFF\n90199019e-9 1 0\n", "\"90199019e-9\", expected a number"},
         Guarded{"many_faces.off", "OFF\n1 2 0\n0 1 0\n3 0 0 0\n99 0\n0 0 0\n", "face 1: expected"},
         Guarded{"beyond.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",

@@ -11,8 +11,8 @@
 namespace osgSkin {
 namespace {
 
-/// A file's words and lines as Assimp divides it: it takes CR and form feeds for ends of lines,
-/// too, and comments of the head end there.
+/// A file's words and lines as Assimp divides it: it takes CR for the end of a line, too, and
+/// comments of the head end there.
 class OffText {
 public:
     explicit OffText(std::string_view text) : _rest(text) {}
@@ -20,13 +20,13 @@ public:
     /// The next word of the head; empty at the end.
     std::string_view word() {
         skipToWord();
-        return take(_rest.find_first_of("\n\r\f \t#"));
+        return take(_rest.find_first_of("\n\r \t#"));
     }
     void skipToWord() {
         while (!_rest.empty()) {
             if (_rest.front() == '#')
                 take(_rest.find_first_of(kLineEnds));
-            else if (std::string_view("\n\r\f \t").find(_rest.front()) != std::string_view::npos)
+            else if (std::string_view("\n\r \t").find(_rest.front()) != std::string_view::npos)
                 _rest.remove_prefix(1);
             else
                 return;
@@ -48,7 +48,7 @@ public:
     }
 
 private:
-    static constexpr std::string_view kLineEnds = "\n\r\f";
+    static constexpr std::string_view kLineEnds = "\n\r";
     static constexpr std::size_t kLongestLine = 4096; ///< that Assimp takes for one
 
     std::string_view take(std::size_t length) {
@@ -93,6 +93,8 @@ bool isFace(const std::vector<std::string_view>& words, std::size_t vertices) {
 
 void checkOff(const std::string& path, const std::string& text) {
     if (text.find('\0') != std::string::npos) failFile(path, "a zero byte, expected text");
+    // Assimp takes it for the end of some lines, and not of others.
+    if (text.find('\f') != std::string::npos) failFile(path, "a form feed, expected lines of text");
     OffText off(text);
     const std::string_view keyword = off.word();
     // Without the keyword Assimp takes a file's first digit for one of its marks.
