@@ -146,6 +146,21 @@ TEST(OsgScene, PlaysItsFirstClipWithoutWarnings) {
     }
 }
 
+TEST(OsgScene, PlaysEachOfSeveralManagers) {
+    const std::string file = sceneFile("scene.osgt");
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (int copy = 0; copy < 3; ++copy) root->addChild(osgDB::readRefNodeFile(file));
+    ASSERT_TRUE(osgDB::writeNodeFile(*root, file));
+    const Character character = osgSkin::loadCharacter(file);
+    ASSERT_EQ(character.root->getNumChildren(), 3u);
+    for (unsigned c = 0; c < 3; ++c) {
+        auto* manager = dynamic_cast<osgAnimation::BasicAnimationManager*>(
+            character.root->getChild(c)->getUpdateCallback());
+        ASSERT_NE(manager, nullptr);
+        EXPECT_TRUE(manager->isPlaying("rest")) << c;
+    }
+}
+
 TEST(OsgScene, HonoursOptions) {
     const std::string file = sceneFile("scene.osgt");
     const Character leaning = osgSkin::loadCharacter(file, test::loadOptions("motion=lean"));
