@@ -85,6 +85,9 @@ TEST(GuardedCharacter, FilesThatNameThemselvesAreRefused) {
     for (int k = 0; k < 20; ++k)
         skin(folder, "c" + std::to_string(k), parts("c" + std::to_string(k + 1) + ".skin", rig));
     expectSays(refusal(folder + "/c0.skin"), "expected no more than 8");
+    skin(folder, "c8", parts(body, rig));
+    expectSays(refusal(folder + "/c0.skin"), "expected no more than 8");
+    expectSays(refusal(folder + "/c1.skin"), "c8.skin: no face");
     // What was refused is not open any more.
     EXPECT_EQ(refusal(kCharacter + "good.skin"), "read");
     EXPECT_EQ(refusal(kCharacter + "good.skin"), "read");

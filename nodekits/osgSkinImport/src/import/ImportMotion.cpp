@@ -43,7 +43,8 @@ Motion readBvhMotion(const std::string& path, const std::string& clip, const Rea
 Motion readAssimpMotion(const std::string& path, const std::string& clip,
                         const ReadLimits& limits) {
     const std::size_t bytes = requireReadable(path, limits);
-    if (holdsMeshesOnly(path)) failFile(path, "no animation, which files of its kind do not hold");
+    if (holdsMeshesOnly(path))
+        failFile(path, "no animation in files of its kind, expected one of another");
     Assimp::Importer importer;
     const aiScene& scene = readAssimpScene(importer, path, limits);
     if (scene.mNumAnimations == 0) failFile(path, "no animation, expected at least one");

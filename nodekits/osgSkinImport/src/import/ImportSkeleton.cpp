@@ -21,7 +21,8 @@ RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* optio
         return makeRestSkeleton(readBvh(path, limits));
     if (!assimpReads(path)) return readOsgSkeleton(*readScene(path, options), path);
     requireReadable(path, limits);
-    if (holdsMeshesOnly(path)) failFile(path, "no skeleton, which files of its kind do not hold");
+    if (holdsMeshesOnly(path))
+        failFile(path, "no skeleton in files of its kind, expected one of another");
     Assimp::Importer importer;
     return readSceneSkeleton(readAssimpScene(importer, path, limits), path, limits).rest;
 }
