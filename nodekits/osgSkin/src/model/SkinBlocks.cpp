@@ -13,6 +13,9 @@
 namespace osgSkin {
 namespace {
 
+/// Of single precision, of a skin's coordinates.
+constexpr double kRounding = 1e-7;
+
 double largestCoordinate(const SkinModel& model) {
     float largest = 0.0f;
     for (const glm::vec3& p : model.positions())
@@ -63,7 +66,8 @@ glm::dmat3 restFrame(const SkinModel& model, const SkinModel::Group& group) {
 }
 
 SkinBlocks::SkinBlocks(const SkinModel& model)
-    : plan(model), inOrder(isIdentity(model.order())), smallMove(1e-9 * largestCoordinate(model)) {
+    : plan(model), inOrder(isIdentity(model.order())),
+      smallMove(kRounding * largestCoordinate(model)) {
     for (const BoundJoint& joint : model.joints()) jointFrames.push_back(jointFrame(joint));
     for (const SkinModel::Group& group : model.groups()) {
         const std::size_t blockRows = rowsPerBlock(group.partialCount);

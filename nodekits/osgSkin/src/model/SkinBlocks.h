@@ -40,8 +40,10 @@ struct SkinBlocks {
     std::vector<std::size_t> firstRow;         ///< of each group
     std::vector<std::size_t> firstBlock = {0}; ///< of each group; then the number of all blocks
     std::vector<glm::dmat3> jointFrames;       ///< jointFrame() of each joint
-    bool inOrder;     ///< the model's order() is the identity: output needs no scatter
-    double smallMove; ///< a joint's translation up to this is a rounding error
+    bool inOrder; ///< the model's order() is the identity: output needs no scatter
+    /// A joint's translation up to this is a rounding error: bones' offsets are single precision in
+    /// most files and in osgAnimation, their bind matrices need not be.
+    double smallMove;
 };
 
 /// True where the group's innermost link is partial, so that its blocks are in a joint's frame.
