@@ -151,11 +151,10 @@ void characters(benchmark::State& state, Player player, Kind kind) {
 void deformationAlone(benchmark::State& state, Kind kind) {
     const Body& body = bench::body(1, kind);
     const auto model = body.model();
-    std::vector<osgSkin::Pose> poses(kInScene, osgSkin::Pose(model->joints()));
-    for (std::size_t i = 0; i < kInScene; ++i) {
-        const auto& skinning = body.skinning[37 * i % body.skinning.size()];
-        poses[i].set(skinning.data(), skinning.size());
-    }
+    // Each frame of the clip, since no character stands still.
+    std::vector<osgSkin::Pose> poses(body.skinning.size(), osgSkin::Pose(model->joints()));
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        poses[i].set(body.skinning[i].data(), body.skinning[i].size());
     // Two buffers each, in turn, as a DeformableSkin has.
     std::vector<std::vector<glm::vec3>> outputs(std::size_t{2} * kInScene);
     for (auto& output : outputs) output.resize(2 * model->vertexCount());
@@ -166,7 +165,7 @@ void deformationAlone(benchmark::State& state, Kind kind) {
     for ([[maybe_unused]] auto iteration : state) {
         ++frame;
         for (std::size_t i = 0; i < kInScene; ++i) {
-            job.pose = &poses[i];
+            job.pose = &poses[(37 * i + frame) % poses.size()];
             job.positions = outputs[2 * i + frame % 2].data();
             job.normals = job.positions + model->vertexCount();
             job.run();
