@@ -197,6 +197,29 @@ TEST(GuardedCharacter, MotionsMayBeMany) {
     EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 8.0);
 }
 
+/// Linking and looking for scales compared each joint's name with each channel's.
+TEST(GuardedCharacter, MovedJointsMayBeMany) {
+    constexpr std::size_t kJoints = 9'000;
+    test::GltfBuilder file = triangle();
+    const std::size_t times = file.accessor("SCALAR", {0, 1});
+    const std::size_t places = file.accessor("VEC3", {0, 0, 0, 0, 1, 0});
+    nlohmann::json& clip = file.json["animations"][0];
+    clip["samplers"] = {{{"input", times}, {"output", places}}};
+    for (std::size_t j = 0; j < kJoints; ++j) {
+        const std::size_t node = file.json["nodes"].size();
+        file.json["nodes"].push_back({{"name", "a joint with a long name " + std::to_string(j)}});
+        file.json["nodes"][0]["children"].push_back(node);
+        file.json["skins"][0]["joints"].push_back(node);
+        clip["channels"].push_back(
+            {{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}});
+    }
+    file.json["skins"][0].erase("inverseBindMatrices");
+    const std::clock_t begin = std::clock();
+    const osgSkin::Character character = osgSkin::loadCharacter(file.save("moved.gltf"));
+    EXPECT_EQ(character.motions.size(), 1u);
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 4.0);
+}
+
 TEST(GuardedCharacter, GltfIsCheckedBeforeItIsRead) {
     struct Case {
         const char* place; ///< JSON pointer

@@ -66,12 +66,12 @@ osg::ref_ptr<osg::Group> makeCrowd(const osg::Node& character, unsigned int coun
     return crowd;
 }
 
-osg::ref_ptr<osgViewer::View> makeView(osg::Node* scene, int x, unsigned int pixels) {
+osg::ref_ptr<osgViewer::View> makeView(osg::Node* scene, int x, int pixels) {
     const osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
     traits->readDISPLAY();
     traits->setUndefinedScreenDetailsToDefaultScreen();
     traits->x = x;
-    traits->width = traits->height = int(pixels);
+    traits->width = traits->height = pixels;
     traits->windowDecoration = false;
     traits->doubleBuffer = true;
     osg::ref_ptr<osgViewer::View> view = new osgViewer::View;
@@ -105,7 +105,8 @@ unsigned int overlaps(osgViewer::CompositeViewer& viewer, unsigned int from, uns
 
 int main(int argc, char** argv) {
     std::string file, model;
-    unsigned int count = 0, frames = 0, windows = 2, pixels = 300;
+    unsigned int count = 0, frames = 0;
+    int windows = 2, pixels = 300;
     bool gpu = false;
     double most = std::numeric_limits<double>::infinity();
     CLI::App app("A crowd of a character's copies in windows for many frames.");
@@ -129,8 +130,8 @@ int main(int argc, char** argv) {
     viewer.setThreadingModel(kModels.at(model));
     viewer.setViewerStats(new osg::Stats("viewer", kept));
     viewer.getViewerStats()->collectStats("update", true);
-    for (unsigned int i = 0; i < windows; ++i) {
-        const osg::ref_ptr<osgViewer::View> view = makeView(crowd, int(i * pixels), pixels);
+    for (int i = 0; i < windows; ++i) {
+        const osg::ref_ptr<osgViewer::View> view = makeView(crowd, i * pixels, pixels);
         if (!view->getCamera()->getGraphicsContext()) return 1;
         viewer.addView(view);
         view->getCamera()->setStats(new osg::Stats("camera", kept));

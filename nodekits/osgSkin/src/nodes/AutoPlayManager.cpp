@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/AutoPlayManager>
 
+#include "nodes/NameLinker.h"
+
 #include <algorithm>
 
 namespace osgSkin {
@@ -15,6 +17,17 @@ void AutoPlayManager::registerAnimations(const osgAnimation::AnimationList& anim
     if (animations.empty()) return;
     _animations.insert(_animations.end(), animations.begin(), animations.end() - 1);
     registerAnimation(animations.back());
+}
+
+void AutoPlayManager::link(osg::Node* subgraph) {
+    if (_linker.valid()) { // an application's own
+        osgAnimation::BasicAnimationManager::link(subgraph);
+        return;
+    }
+    const osg::ref_ptr<NameLinker> linker = new NameLinker(_animations);
+    subgraph->accept(*linker);
+    _needToLink = false;
+    buildTargetReference();
 }
 
 void AutoPlayManager::update(double time) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 
 namespace osgSkin {
 namespace {
@@ -104,17 +105,22 @@ std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
                                              const osgAnimation::AnimationList& clips) {
     BoneMatrices found;
     skeleton.accept(found);
+    std::unordered_map<std::string, std::vector<const BoneMatrices::Entry*>> named;
+    for (const BoneMatrices::Entry& entry : found.bones)
+        named[entry.bone->getName()].push_back(&entry);
     std::map<std::string, std::string> guilty; // bone -> clip
     for (const auto& clip : clips)
-        for (const auto& channel : clip->getChannels())
-            for (const BoneMatrices::Entry& entry : found.bones) {
-                if (channel->getTargetName() != entry.bone->getName()) continue;
+        for (const auto& channel : clip->getChannels()) {
+            const auto bones = named.find(channel->getTargetName());
+            if (bones == named.end()) continue;
+            for (const BoneMatrices::Entry* entry : bones->second) {
                 const osg::Matrixd bind =
-                    osg::Matrixd::inverse(entry.bone->getInvBindMatrixInSkeletonSpace()) *
-                    osg::Matrixd::inverse(entry.bindAbove);
+                    osg::Matrixd::inverse(entry->bone->getInvBindMatrixInSkeletonSpace()) *
+                    osg::Matrixd::inverse(entry->bindAbove);
                 if (scalesNonUniformly(*channel, bind))
-                    guilty.emplace(entry.bone->getName(), clip->getName());
+                    guilty.emplace(entry->bone->getName(), clip->getName());
             }
+        }
     std::vector<std::string> result;
     for (const BoneMatrices::Entry& entry : found.bones) {
         const std::string& name = entry.bone->getName();

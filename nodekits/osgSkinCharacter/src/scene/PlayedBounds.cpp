@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/PlayedBounds.h"
 
+#include <osgSkin/AutoPlayManager>
+
 #include <osg/ComputeBoundsVisitor>
 #include <osg/FrameStamp>
-#include <osgAnimation/BasicAnimationManager>
 #include <osgUtil/UpdateVisitor>
 
 namespace osgSkin {
@@ -25,8 +26,7 @@ osg::BoundingSphere playedBounds(osg::Group& root, const osgAnimation::Animation
     // A manager of its own: the one that plays later begins at 0.
     double duration = 0.0;
     if (!clips.empty()) {
-        const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
-            new osgAnimation::BasicAnimationManager;
+        const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
         manager->registerAnimation(clips.front());
         root.setUpdateCallback(manager);
         manager->playAnimation(clips.front());

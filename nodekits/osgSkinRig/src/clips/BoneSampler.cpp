@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "clips/BoneSampler.h"
 
+#include <osgSkin/AutoPlayManager>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 
 #include <osg/NodeVisitor>
-#include <osgAnimation/LinkVisitor>
 #include <osgAnimation/UpdateBone>
 
-#include <algorithm>
+#include <unordered_map>
 
 namespace osgSkin {
 namespace {
@@ -41,18 +41,19 @@ BoneSampler::BoneSampler(const osgAnimation::Animation& animation, osgAnimation:
     _bones = found.bones;
     if (_bones.empty())
         throw Error("sampled clip: the skeleton \"" + skeleton.getName() + "\" has no bone");
-    osgAnimation::LinkVisitor link;
-    link.getAnimationList().push_back(_animation);
-    skeleton.accept(link);
+    const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
+    manager->registerAnimation(_animation);
+    manager->link(&skeleton);
     _animation->computeDuration();
     // One root above all bones that have no bone above them, at rest: a pose has one root.
     const glm::dvec3 up(0.0, 0.0, 1.0);
     _joints.push_back({"", -1, glm::dvec3(0.0), up, up});
+    std::unordered_map<const osgAnimation::Bone*, int> joints = {{nullptr, 0}};
     for (const osg::ref_ptr<osgAnimation::Bone>& bone : _bones) {
-        const auto above = std::find(_bones.begin(), _bones.end(), bone->getBoneParent());
+        const auto above = joints.find(bone->getBoneParent());
         const osg::Matrixd bind = osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace());
-        _joints.push_back({bone->getName(),
-                           above == _bones.end() ? 0 : static_cast<int>(above - _bones.begin()) + 1,
+        joints.emplace(bone, static_cast<int>(_joints.size()));
+        _joints.push_back({bone->getName(), above == joints.end() ? 0 : above->second,
                            toGlm(bind.getTrans()), up, up});
     }
     _pose = Pose(_joints);

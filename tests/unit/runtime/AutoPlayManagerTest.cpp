@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkin/AutoPlayManager>
+
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osgAnimation/Animation>
+#include <osgAnimation/Channel>
+#include <osgAnimation/LinkVisitor>
+#include <osgAnimation/StackedTranslateElement>
+#include <osgAnimation/UpdateBone>
+#include <osgAnimation/UpdateMaterial>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace {
+
+/// A channel of three numbers that stand still.
+osgAnimation::Vec3LinearChannel* channelOf(const std::string& target, const std::string& name) {
+    auto* channel = new osgAnimation::Vec3LinearChannel;
+    channel->setTargetName(target);
+    channel->setName(name);
+    auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
+    keys->push_back(osgAnimation::Vec3Keyframe(0.0, osg::Vec3(1, 2, 3)));
+    return channel;
+}
+
+/// A callback that moves, named and with a place of its own.
+template <class Update>
+Update* callbackOf(const std::string& name) {
+    auto* update = new Update;
+    update->setName(name);
+    update->getStackedTransforms().push_back(
+        new osgAnimation::StackedTranslateElement("translate", osg::Vec3()));
+    return update;
+}
+
+/// Links as others do, and says that it did.
+class OwnUpdate : public osgAnimation::UpdateMatrixTransform {
+public:
+    int asked = 0;
+    int link(osgAnimation::Animation* animation) override {
+        ++asked;
+        return osgAnimation::AnimationUpdateCallback<osg::NodeCallback>::link(animation);
+    }
+    bool link(osgAnimation::Channel* channel) override {
+        return osgAnimation::UpdateMatrixTransform::link(channel);
+    }
+};
+
+/// Two clips that move everything below, and what is elsewhere.
+osgAnimation::AnimationList clips() {
+    osgAnimation::AnimationList result = {new osgAnimation::Animation, new osgAnimation::Animation};
+    for (const auto& clip : result)
+        for (const char* name : {"a", "b", "c", "elsewhere"})
+            clip->addChannel(channelOf(name, "translate"));
+    auto* colour = new osgAnimation::Vec4LinearChannel;
+    colour->setTargetName("look");
+    colour->setName("diffuse");
+    colour->getOrCreateSampler()->getOrCreateKeyframeContainer()->push_back(
+        osgAnimation::Vec4Keyframe(0.0, osg::Vec4(1, 0, 0, 1)));
+    result.back()->addChannel(colour);
+    return result;
+}
+
+} // namespace
+
+TEST(AutoPlayManager, LinksWhatOsgLinks) {
+    const osg::ref_ptr<osgAnimation::UpdateBone> bone = callbackOf<osgAnimation::UpdateBone>("a");
+    const osg::ref_ptr<osgAnimation::UpdateMatrixTransform>
+        nested = callbackOf<osgAnimation::UpdateMatrixTransform>("b"),
+        unmoved = callbackOf<osgAnimation::UpdateMatrixTransform>("nobody");
+    const osg::ref_ptr<OwnUpdate> own = callbackOf<OwnUpdate>("c");
+    unmoved->setNestedCallback(own);
+    nested->setNestedCallback(unmoved);
+    bone->setNestedCallback(nested);
+    const osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
+    node->setUpdateCallback(bone);
+    const osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setUpdateCallback(new osgAnimation::UpdateMaterial("look"));
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->getOrCreateStateSet()->setAttribute(material);
+    const osg::ref_ptr<osg::Geode> leaf = new osg::Geode;
+    leaf->addDrawable(geometry);
+    node->addChild(leaf);
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(node);
+
+    const osgAnimation::AnimationList theirs = clips(), ours = clips();
+    osgAnimation::LinkVisitor visitor;
+    visitor.getAnimationList() = theirs;
+    root->accept(visitor);
+    EXPECT_EQ(own->asked, 2);
+    const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
+    manager->registerAnimations(ours);
+    ASSERT_TRUE(manager->needToLink());
+    manager->link(root);
+    EXPECT_FALSE(manager->needToLink());
+    EXPECT_EQ(own->asked, 4);
+    for (std::size_t clip = 0; clip < ours.size(); ++clip)
+        for (std::size_t i = 0; i < ours[clip]->getChannels().size(); ++i) {
+            const std::string& name = ours[clip]->getChannels()[i]->getTargetName();
+            EXPECT_EQ(ours[clip]->getChannels()[i]->getTarget() ==
+                          theirs[clip]->getChannels()[i]->getTarget(),
+                      name != "elsewhere")
+                << clip << " " << name;
+        }
+}
+
+/// A visitor that an application gave links, as with OSG's managers.
+TEST(AutoPlayManager, LeavesLinkingToVisitorsOfTheApplication) {
+    const osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
+    node->setUpdateCallback(callbackOf<osgAnimation::UpdateMatrixTransform>("a"));
+    const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
+    const osg::ref_ptr<osgAnimation::LinkVisitor> visitor = new osgAnimation::LinkVisitor;
+    manager->setLinkVisitor(visitor);
+    const unsigned int before = visitor->getNbLinkedTarget();
+    manager->registerAnimations(clips());
+    manager->link(node);
+    EXPECT_GT(visitor->getNbLinkedTarget(), before);
+}
