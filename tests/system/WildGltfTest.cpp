@@ -179,6 +179,33 @@ TEST(WildGltf, ASecondSetOfJointsCounts) {
     EXPECT_LT(error.whole, kExact);
 }
 
+/// Up to sixteen joints a vertex: what is left out of the sets would turn vertices elsewhere.
+TEST(WildGltf, EverySetOfJointsCounts) {
+    GltfColumn column;
+    for (const std::size_t joint : {column.joints[1], column.joints[2]})
+        column.animate("nod", joint, "rotation", {0.0, 1.0}, GltfColumn::turns({0, 10}));
+    std::vector<double> quarter, half;
+    for (int v = 0; v < 24; ++v) {
+        quarter.insert(quarter.end(), {0.25, 0, 0, 0});
+        half.insert(half.end(), {0.5, 0, 0, 0});
+    }
+    const auto jointOfAll = [&](double joint) {
+        std::vector<double> joints(96, 0.0);
+        for (std::size_t v = 0; v < 24; ++v) joints[4 * v] = joint;
+        return column.accessor("VEC4", joints, 5121);
+    };
+    const std::size_t quarters = column.accessor("VEC4", quarter);
+    column.attributes()["JOINTS_0"] = jointOfAll(0);
+    column.attributes()["WEIGHTS_0"] = quarters;
+    column.attributes()["JOINTS_1"] = jointOfAll(1);
+    column.attributes()["WEIGHTS_1"] = quarters;
+    column.attributes()["JOINTS_2"] = jointOfAll(2);
+    column.attributes()["WEIGHTS_2"] = column.accessor("VEC4", half);
+    const BlendError error = blendError(column.save("twelve_joints.gltf"));
+    EXPECT_LT(error.mixed, 0.01);
+    EXPECT_LT(error.whole, kExact);
+}
+
 TEST(WildGltf, SplinesAndStepsAreReadAsSuch) {
     GltfColumn column;
     std::vector<double> spline;

@@ -25,7 +25,7 @@ struct AttributeKind {
 constexpr AttributeKind kAttributes[] = {
     {"POSITION", 0, {"VEC3", "VEC3"}},  {"NORMAL", 0, {"VEC3", "VEC3"}},
     {"TEXCOORD_", 8, {"VEC2", "VEC2"}}, {"COLOR_", 1, {"VEC3", "VEC4"}},
-    {"JOINTS_", 2, {"VEC4", "VEC4"}},   {"WEIGHTS_", 2, {"VEC4", "VEC4"}},
+    {"JOINTS_", 4, {"VEC4", "VEC4"}},   {"WEIGHTS_", 4, {"VEC4", "VEC4"}},
 };
 
 const AttributeKind* kindOfAttribute(const std::string& name) {
@@ -79,7 +79,7 @@ private:
                 _parts.fail(place, std::to_string(vertices) + " elements, as many as of POSITION");
             primitive["attributes"][name] = accessor;
         }
-        for (const char* set : {"0", "1"}) // one without the other means nothing
+        for (const char* set : {"0", "1", "2", "3"}) // one without the other means nothing
             if (primitive["attributes"].contains(std::string("JOINTS_") + set) !=
                 primitive["attributes"].contains(std::string("WEIGHTS_") + set)) {
                 primitive["attributes"].erase(std::string("JOINTS_") + set);
