@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What glTF files say of surfaces in ways that Assimp passes over.
 #include "GltfBuilder.h"
+#include "Notices.h"
 #include "Paths.h"
 
 #include <osgSkin/Error>
@@ -175,6 +176,36 @@ TEST(GltfLooks, ATextureThatMaterialsShareIsReadOnce) {
                 .getImage());
     EXPECT_EQ(images.size(), 1u);
     EXPECT_EQ(images.count(nullptr), 0u);
+}
+
+/// For those who read the format of an extension's texture there is nothing else to draw with.
+TEST(GltfLooks, TexturesOfExtensionsAreReadOrMissed) {
+    for (const char* extension : {"MSFT_texture_dds", "EXT_texture_webp"}) {
+        GltfColumn column;
+        addTexture(column);
+        const bool isKnown = std::string(extension) == "MSFT_texture_dds";
+        if (!isKnown) column.json["images"][0] = {{"uri", "picture.webp"}};
+        column.json["textures"] = {{{"extensions", {{extension, {{"source", 0}}}}}}};
+        paint(column, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+        const test::Notices notices;
+        const ImportedMesh mesh = osgSkin::importMesh(column.save("texture_of_extension.gltf"));
+        const osg::StateSet& states = *mesh.parts.at(0).geometry->getStateSet();
+        EXPECT_EQ(states.getTextureAttribute(0, osg::StateAttribute::TEXTURE) != nullptr, isKnown);
+        EXPECT_EQ(notices.say("cannot be read; drawn without"), !isKnown) << notices.text();
+    }
+}
+
+TEST(GltfLooks, ExtensionsThatMoveThingsAreMissed) {
+    for (const bool isRequired : {false, true}) {
+        GltfColumn column;
+        column.json["extensionsUsed"] = {"KHR_materials_unlit", "EXT_mesh_gpu_instancing"};
+        if (isRequired) column.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+        const test::Notices notices;
+        osgSkin::importMesh(column.save("uses_extensions.gltf"));
+        EXPECT_TRUE(notices.say(isRequired ? "requires the extension \"EXT_mesh_gpu_instancing\""
+                                           : "uses the extension \"EXT_mesh_gpu_instancing\""));
+        EXPECT_EQ(notices.lines(), 1u) << notices.text();
+    }
 }
 
 TEST(GltfLooks, MeshesMayBeCompressedByDraco) {

@@ -4,7 +4,7 @@
 #include "assimp/MissingBones.h"
 #include "assimp/NodeNames.h"
 #include "assimp/SceneFile.h"
-#include "gltf/PlainGltf.h"
+#include "gltf/plain/PlainGltf.h"
 #include "text/FileText.h"
 #include "text/OffCheck.h"
 

@@ -30,6 +30,10 @@ constexpr const char* kHarmless[] = {"KHR_draco_mesh_compression",
                                      "KHR_techniques",
                                      "AGI_"};
 
+/// Of extensions that need not be required, those that say where things stand or how they move.
+constexpr const char* kMissed[] = {"KHR_animation_pointer", "EXT_mesh_gpu_instancing",
+                                   "KHR_node_visibility"};
+
 bool isHarmless(const std::string& extension) {
     return std::any_of(std::begin(kHarmless), std::end(kHarmless),
                        [&](const char* start) { return extension.rfind(start, 0) == 0; });
@@ -92,12 +96,19 @@ void moveTexCoords(GltfFile& file, GltfAccessors& accessors) {
 
 void noteExtensions(const GltfFile& file) {
     const nlohmann::json none = nlohmann::json::array();
-    for (const nlohmann::json& required : file.json.value("extensionsRequired", none)) {
-        const std::string extension = required.get<std::string>();
+    const nlohmann::json required = file.json.value("extensionsRequired", none);
+    for (const nlohmann::json& entry : required) {
+        const std::string extension = entry.get<std::string>();
         if (!isHarmless(extension))
             tellOf(file.path, "requires the extension \"" + extension +
                                   "\", which is not known; read without it");
     }
+    const nlohmann::json used = file.json.value("extensionsUsed", none);
+    for (const char* missed : kMissed)
+        if (std::find(used.begin(), used.end(), missed) != used.end() &&
+            std::find(required.begin(), required.end(), missed) == required.end())
+            tellOf(file.path, std::string("uses the extension \"") + missed +
+                                  "\", which is not known; read without it");
 }
 
 bool facesBackwards(const GltfFile& file) {

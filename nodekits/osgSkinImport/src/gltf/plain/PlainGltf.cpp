@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/PlainGltf.h"
+#include "gltf/plain/PlainGltf.h"
 
 #include "gltf/GltfAccessors.h"
-#include "gltf/GltfCheck.h"
 #include "gltf/GltfExtensions.h"
 #include "gltf/GltfFile.h"
 #include "gltf/GltfMorphs.h"
 #include "gltf/GltfNames.h"
 #include "gltf/GltfTracks.h"
 #include "gltf/MeshoptViews.h"
+#include "gltf/plain/GltfCheck.h"
 #include "text/FileText.h"
 
 #include <osgDB/FileNameUtils>

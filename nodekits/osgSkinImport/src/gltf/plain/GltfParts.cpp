@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/GltfParts.h"
+#include "gltf/plain/GltfParts.h"
 
 #include "gltf/GltfAccessors.h"
 #include "text/Base64.h"
@@ -44,11 +44,8 @@ std::size_t sizeOf(const json& object, const char* key) {
     return std::min<std::size_t>(value, std::size_t(1) << 40); // far beyond any buffer
 }
 
-bool isWord(const std::string& text) {
-    return text.size() <= 40 && std::all_of(text.begin(), text.end(), [](char c) {
-               return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '/' || c == '-' ||
-                      c == '+' || c == '.';
-           });
+bool isCoordinate(const json& value) {
+    return value.is_number() && std::abs(value.get<double>()) <= kLargestCoordinate; // not NaN
 }
 
 } // namespace
@@ -98,21 +95,18 @@ void GltfParts::copyNumbers(const json& from, const char* key, std::size_t count
                             const std::string& where, json& to) const {
     const auto found = from.find(key);
     if (found == from.end()) return;
-    bool fits = found->is_array() && found->size() == count;
-    for (std::size_t i = 0; fits && i < count; ++i)
-        fits = (*found)[i].is_number() &&
-               std::abs((*found)[i].get<double>()) <= kLargestCoordinate; // false for NaN
-    if (!fits) fail(where + "." + key, std::to_string(count) + " numbers from -1e18 to 1e18");
+    if (!found->is_array() || found->size() != count ||
+        !std::all_of(found->begin(), found->end(), isCoordinate))
+        fail(where + "." + key, std::to_string(count) + " numbers from -1e18 to 1e18");
     to[key] = *found;
 }
 
 void GltfParts::copyNumber(const json& from, const char* key, const std::string& where,
                            json& to) const {
-    if (!from.contains(key)) return;
-    const json list = json::array({from.at(key)});
-    json checked;
-    copyNumbers({{key, list}}, key, 1, where, checked);
-    to[key] = from.at(key);
+    const auto found = from.find(key);
+    if (found == from.end()) return;
+    if (!isCoordinate(*found)) fail(where + "." + key, "a number from -1e18 to 1e18");
+    to[key] = *found;
 }
 
 void GltfParts::copyWeights(const json& from, const std::string& where, json& to) const {
@@ -305,100 +299,6 @@ void GltfParts::addDraco(const json& from, const std::string& where, json& primi
         if (primitive.at("attributes").contains(name))
             draco["attributes"][name] = index(id, kFarthest, where + ".extensions");
     primitive["extensions"]["KHR_draco_mesh_compression"] = draco;
-}
-
-json GltfParts::textureInfo(const json& from, const std::string& where) const {
-    json info = {{"index", indexOf(from.at("index"), "textures", where)}};
-    if (from.contains("texCoord")) info["texCoord"] = index(from.at("texCoord"), 8, where);
-    const json none = json::object();
-    const json extensions = from.value("extensions", none);
-    const auto moved = extensions.find("KHR_texture_transform");
-    if (moved == extensions.end()) return info;
-    json& to = info["extensions"]["KHR_texture_transform"] = json::object();
-    copyNumbers(*moved, "offset", 2, where, to);
-    copyNumbers(*moved, "scale", 2, where, to);
-    copyNumber(*moved, "rotation", where, to);
-    if (moved->contains("texCoord")) info["texCoord"] = index(moved->at("texCoord"), 8, where);
-    return info;
-}
-
-json GltfParts::material(const json& from, const std::string& where) const {
-    json result = json::object();
-    copyName(from, result);
-    if (from.contains("pbrMetallicRoughness")) {
-        const json& pbr = from.at("pbrMetallicRoughness");
-        json& to = result["pbrMetallicRoughness"] = json::object();
-        copyNumbers(pbr, "baseColorFactor", 4, where, to);
-        copyNumber(pbr, "metallicFactor", where, to);
-        copyNumber(pbr, "roughnessFactor", where, to);
-        if (pbr.contains("baseColorTexture"))
-            to["baseColorTexture"] = textureInfo(pbr.at("baseColorTexture"), where);
-    }
-    copyNumbers(from, "emissiveFactor", 3, where, result);
-    if (from.contains("alphaMode") && isWord(osgDB::convertToLowerCase(from.at("alphaMode"))))
-        result["alphaMode"] = from.at("alphaMode");
-    copyNumber(from, "alphaCutoff", where, result);
-    if (from.contains("doubleSided")) result["doubleSided"] = from.at("doubleSided").get<bool>();
-    const json none = json::object();
-    const json extensions = from.value("extensions", none);
-    // An older way to say what a surface is like, which goes before the other where both are there.
-    const auto glossy = extensions.find("KHR_materials_pbrSpecularGlossiness");
-    if (glossy != extensions.end()) {
-        json checked = json::object();
-        copyNumbers(*glossy, "diffuseFactor", 4, where, checked);
-        copyNumber(*glossy, "glossinessFactor", where, checked);
-        json& to = result["pbrMetallicRoughness"] = {
-            {"metallicFactor", 0.0},
-            {"roughnessFactor", 1.0 - checked.value("glossinessFactor", 1.0)}};
-        if (checked.contains("diffuseFactor")) to["baseColorFactor"] = checked["diffuseFactor"];
-        if (glossy->contains("diffuseTexture"))
-            to["baseColorTexture"] = textureInfo(glossy->at("diffuseTexture"), where);
-    }
-    if (extensions.contains("KHR_materials_unlit"))
-        result["extensions"]["KHR_materials_unlit"] = json::object();
-    return result;
-}
-
-void GltfParts::checkLooks(json& result) {
-    forEach("images", [&](const json& from, const std::string& where) {
-        json image = json::object();
-        copyName(from, image);
-        const std::string mime = from.value("mimeType", "");
-        if (isWord(mime) && !mime.empty()) image["mimeType"] = mime;
-        if (from.contains("bufferView")) {
-            const std::string wrong = beyondView(from.at("bufferView"), 0, 0, 0, true);
-            if (!wrong.empty()) fail(where, wrong);
-            image["bufferView"] = from.at("bufferView");
-        } else {
-            const std::string uri = from.value("uri", "");
-            const std::size_t comma = uri.find(',');
-            const bool isData = uri.rfind("data:", 0) == 0;
-            const std::string kind =
-                isData ? uri.substr(5, std::min(uri.find(';'), comma) - 5) : "";
-            image["uri"] = !isData ? uri
-                                   : "data:" + (isWord(kind) ? kind : "") + ";base64," +
-                                         toBase64(fromBase64(std::string_view(uri).substr(
-                                             std::min(comma, uri.size()))));
-        }
-        result["images"].push_back(image);
-    });
-    forEach("samplers", [&](const json& from, const std::string& where) {
-        json sampler = json::object();
-        for (const char* key : {"magFilter", "minFilter", "wrapS", "wrapT"})
-            if (from.contains(key)) sampler[key] = index(from.at(key), 1 << 16, where);
-        result["samplers"].push_back(sampler);
-    });
-    forEach("textures", [&](const json& from, const std::string& where) {
-        json texture = json::object();
-        if (from.contains("source"))
-            texture["source"] = indexOf(from.at("source"), "images", where);
-        if (from.contains("sampler"))
-            texture["sampler"] = indexOf(from.at("sampler"), "samplers", where);
-        result["textures"].push_back(texture);
-    });
-    forEach("materials", [&](const json& from, const std::string& where) {
-        result["materials"].push_back(material(from, where));
-    });
 }
 
 } // namespace osgSkin

@@ -55,11 +55,14 @@ public:
     /// Adds buffers, each with its content in the text or in the file's binary chunk, and views.
     void checkBuffers(nlohmann::json& result);
     void checkAccessors(nlohmann::json& result);
-    /// Adds materials, textures, samplers and images.
-    void checkLooks(nlohmann::json& result);
     /// Adds what a primitive is compressed with.
     void addDraco(const nlohmann::json& from, const std::string& where,
                   nlohmann::json& primitive) const;
+
+    /// Why so many elements of so many bytes are not within a buffer view, `packed` or as far from
+    /// each other as the view says; empty where they are.
+    std::string beyondView(const nlohmann::json& view, std::size_t offset, std::size_t elements,
+                           std::size_t bytes, bool packed) const;
 
     /// The place of an accessor whose bytes are all there.
     std::size_t accessor(const nlohmann::json& value, const std::string& where) const;
@@ -91,10 +94,6 @@ private:
     };
 
     std::string wrongWith(const nlohmann::json& accessor, const Accessor& known) const;
-    std::string beyondView(const nlohmann::json& view, std::size_t offset, std::size_t elements,
-                           std::size_t bytes, bool packed) const;
-    nlohmann::json textureInfo(const nlohmann::json& from, const std::string& where) const;
-    nlohmann::json material(const nlohmann::json& from, const std::string& where) const;
 
     const GltfFile& _file;
     std::vector<std::size_t> _bufferSizes;

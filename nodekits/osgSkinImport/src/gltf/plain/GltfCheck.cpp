@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/GltfCheck.h"
+#include "gltf/plain/GltfCheck.h"
 
-#include "gltf/GltfParts.h"
+#include "gltf/plain/GltfLooks.h"
+#include "gltf/plain/GltfParts.h"
 #include "text/Base64.h"
 #include "text/FileText.h"
 
@@ -45,7 +46,7 @@ public:
         json result = {{"asset", {{"version", "2.0"}}}};
         _parts.checkBuffers(result);
         _parts.checkAccessors(result);
-        _parts.checkLooks(result);
+        GltfLooks(_parts).check(result);
         addMeshes(result);
         // Assimp reads compressed meshes where the file says so, or says that it reads none.
         for (const char* said : {"extensionsUsed", "extensionsRequired"})

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/plain/GltfLooks.h"
+
+#include "text/Base64.h"
+
+#include <osgDB/FileNameUtils>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+using nlohmann::json;
+
+bool isWord(const std::string& text) {
+    return text.size() <= 40 && std::all_of(text.begin(), text.end(), [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '/' || c == '-' ||
+                      c == '+' || c == '.';
+           });
+}
+
+/// Where an image stands that a texture has by an extension, for those who read its format; null
+/// where there is none.
+const json* sourceOf(const json& texture) {
+    const auto own = texture.find("source");
+    if (own != texture.end()) return &*own;
+    const auto extensions = texture.find("extensions");
+    if (extensions == texture.end()) return nullptr;
+    for (const json& extension : *extensions)
+        if (extension.contains("source")) return &extension.at("source");
+    return nullptr;
+}
+
+} // namespace
+
+GltfLooks::GltfLooks(const GltfParts& parts) : _parts(parts) {}
+
+json GltfLooks::textureInfo(const json& from, const std::string& where) const {
+    json info = {{"index", _parts.indexOf(from.at("index"), "textures", where)}};
+    if (from.contains("texCoord")) info["texCoord"] = _parts.index(from.at("texCoord"), 8, where);
+    const json none = json::object();
+    const json extensions = from.value("extensions", none);
+    const auto moved = extensions.find("KHR_texture_transform");
+    if (moved == extensions.end()) return info;
+    json& to = info["extensions"]["KHR_texture_transform"] = json::object();
+    _parts.copyNumbers(*moved, "offset", 2, where, to);
+    _parts.copyNumbers(*moved, "scale", 2, where, to);
+    _parts.copyNumber(*moved, "rotation", where, to);
+    if (moved->contains("texCoord"))
+        info["texCoord"] = _parts.index(moved->at("texCoord"), 8, where);
+    return info;
+}
+
+json GltfLooks::material(const json& from, const std::string& where) const {
+    json result = json::object();
+    _parts.copyName(from, result);
+    if (from.contains("pbrMetallicRoughness")) {
+        const json& pbr = from.at("pbrMetallicRoughness");
+        json& to = result["pbrMetallicRoughness"] = json::object();
+        _parts.copyNumbers(pbr, "baseColorFactor", 4, where, to);
+        _parts.copyNumber(pbr, "metallicFactor", where, to);
+        _parts.copyNumber(pbr, "roughnessFactor", where, to);
+        if (pbr.contains("baseColorTexture"))
+            to["baseColorTexture"] = textureInfo(pbr.at("baseColorTexture"), where);
+    }
+    _parts.copyNumbers(from, "emissiveFactor", 3, where, result);
+    if (from.contains("alphaMode") && isWord(osgDB::convertToLowerCase(from.at("alphaMode"))))
+        result["alphaMode"] = from.at("alphaMode");
+    _parts.copyNumber(from, "alphaCutoff", where, result);
+    if (from.contains("doubleSided")) result["doubleSided"] = from.at("doubleSided").get<bool>();
+    const json none = json::object();
+    const json extensions = from.value("extensions", none);
+    // An older way to say what a surface is like, which goes before the other where both are there.
+    const auto glossy = extensions.find("KHR_materials_pbrSpecularGlossiness");
+    if (glossy != extensions.end()) {
+        json checked = json::object();
+        _parts.copyNumbers(*glossy, "diffuseFactor", 4, where, checked);
+        _parts.copyNumber(*glossy, "glossinessFactor", where, checked);
+        json& to = result["pbrMetallicRoughness"] = {
+            {"metallicFactor", 0.0},
+            {"roughnessFactor", 1.0 - checked.value("glossinessFactor", 1.0)}};
+        if (checked.contains("diffuseFactor")) to["baseColorFactor"] = checked["diffuseFactor"];
+        if (glossy->contains("diffuseTexture"))
+            to["baseColorTexture"] = textureInfo(glossy->at("diffuseTexture"), where);
+    }
+    if (extensions.contains("KHR_materials_unlit"))
+        result["extensions"]["KHR_materials_unlit"] = json::object();
+    return result;
+}
+
+void GltfLooks::check(json& result) const {
+    _parts.forEach("images", [&](const json& from, const std::string& where) {
+        json image = json::object();
+        _parts.copyName(from, image);
+        const std::string mime = from.value("mimeType", "");
+        if (isWord(mime) && !mime.empty()) image["mimeType"] = mime;
+        if (from.contains("bufferView")) {
+            const std::string wrong = _parts.beyondView(from.at("bufferView"), 0, 0, 0, true);
+            if (!wrong.empty()) _parts.fail(where, wrong);
+            image["bufferView"] = from.at("bufferView");
+        } else {
+            const std::string uri = from.value("uri", "");
+            const std::size_t comma = uri.find(',');
+            const bool isData = uri.rfind("data:", 0) == 0;
+            const std::string kind =
+                isData ? uri.substr(5, std::min(uri.find(';'), comma) - 5) : "";
+            image["uri"] = !isData ? uri
+                                   : "data:" + (isWord(kind) ? kind : "") + ";base64," +
+                                         toBase64(fromBase64(std::string_view(uri).substr(
+                                             std::min(comma, uri.size()))));
+        }
+        result["images"].push_back(image);
+    });
+    _parts.forEach("samplers", [&](const json& from, const std::string& where) {
+        json sampler = json::object();
+        for (const char* key : {"magFilter", "minFilter", "wrapS", "wrapT"})
+            if (from.contains(key)) sampler[key] = _parts.index(from.at(key), 1 << 16, where);
+        result["samplers"].push_back(sampler);
+    });
+    _parts.forEach("textures", [&](const json& from, const std::string& where) {
+        json texture = json::object();
+        if (const json* source = sourceOf(from))
+            texture["source"] = _parts.indexOf(*source, "images", where);
+        if (from.contains("sampler"))
+            texture["sampler"] = _parts.indexOf(from.at("sampler"), "samplers", where);
+        result["textures"].push_back(texture);
+    });
+    _parts.forEach("materials", [&](const json& from, const std::string& where) {
+        result["materials"].push_back(material(from, where));
+    });
+}
+
+} // namespace osgSkin

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_GLTFLOOKS_H
+#define OSGSKINIMPORT_GLTFLOOKS_H 1
+
+#include "gltf/plain/GltfParts.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace osgSkin {
+
+/// What surfaces of a glTF file look like, checked: materials, textures, samplers and images.
+class GltfLooks {
+public:
+    /// \param parts must outlive this; its buffers have been checked
+    explicit GltfLooks(const GltfParts& parts);
+
+    /// Adds them to a checked file.
+    void check(nlohmann::json& result) const;
+
+private:
+    nlohmann::json textureInfo(const nlohmann::json& from, const std::string& where) const;
+    nlohmann::json material(const nlohmann::json& from, const std::string& where) const;
+
+    const GltfParts& _parts;
+};
+
+} // namespace osgSkin
+
+#endif
