@@ -32,15 +32,24 @@ osg::ref_ptr<osg::Group> moved(osg::Node* node, const osg::Vec3d& way) {
     return result;
 }
 
+/// A crowd culled by the processor, on a stage that has drawn once and looks away.
+class CulledCrowd : public test::CrowdTest {
+protected:
+    const osg::ref_ptr<CrowdCharacter> character = subject.character();
+    const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, subject.members);
+    GpuStage stage{crowd};
+
+    CulledCrowd() {
+        crowd->setCulling(GpuCrowd::Culling::Processor);
+        stage.lookAway();
+        stage.frame(0.0);
+    }
+    ~CulledCrowd() override { crowd->releaseGLObjects(nullptr); }
+};
+
 } // namespace
 
-TEST_F(CrowdScene, DrawnOverAndOverTakesNoMoreMemory) {
-    const auto character = subject.character();
-    const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, subject.members);
-    crowd->setCulling(GpuCrowd::Culling::Processor);
-    GpuStage stage(crowd);
-    stage.lookAway();
-    stage.frame(0.0);
+TEST_F(CulledCrowd, DrawnOverAndOverTakesNoMoreMemory) {
     std::set<const osg::Drawable*> drawables;
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     for (unsigned int i = 0; i < 300; ++i) {
@@ -53,16 +62,9 @@ TEST_F(CrowdScene, DrawnOverAndOverTakesNoMoreMemory) {
     }
     EXPECT_GT(drawables.size(), 0u);
     EXPECT_LE(drawables.size(), 3 * character->parts().size());
-    crowd->releaseGLObjects(nullptr);
 }
 
-TEST_F(CrowdScene, WhatWaitsForItsDrawIsNotListedAnew) {
-    const auto character = subject.character();
-    const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, subject.members);
-    crowd->setCulling(GpuCrowd::Culling::Processor);
-    GpuStage stage(crowd);
-    stage.lookAway();
-    stage.frame(0.0);
+TEST_F(CulledCrowd, WhatWaitsForItsDrawIsNotListedAnew) {
     const osg::ref_ptr<osgUtil::CullVisitor> one = stage.cullVisitor(), other = stage.cullVisitor();
     crowd->traverse(*one);
     crowd->traverse(*other);
@@ -71,7 +73,6 @@ TEST_F(CrowdScene, WhatWaitsForItsDrawIsNotListedAnew) {
     addLeaves(*other->getCurrentRenderBin()->getStage(), ofOther);
     EXPECT_GT(ofOne.size(), 0u);
     for (const osg::Drawable* drawable : ofOther) EXPECT_EQ(ofOne.count(drawable), 0u);
-    crowd->releaseGLObjects(nullptr);
 }
 
 TEST_F(CrowdScene, BelowTwoParentsIsTheSameAsTwoCrowds) {

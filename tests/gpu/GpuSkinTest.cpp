@@ -66,13 +66,7 @@ TEST(GpuSkinScale, NormalsAreTheProcessorsWhateverTheScale) {
             const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
             skin->setSkin(test::makeGeometry(tube), tube.model());
             osgSkin::setGpu(*skin, true);
-            std::vector<osgSkin::JointMap> maps(3);
-            for (std::size_t j = 0; j < 3; ++j) {
-                const glm::dvec3& centre = tube.binding.joints[j].centre;
-                maps[j].rotation = glm::angleAxis(0.7, glm::dvec3(1, 0, 0));
-                maps[j].scale = j == scaled ? scale : 1.0;
-                maps[j].offset = centre - maps[j].scale * (maps[j].rotation * centre);
-            }
+            const std::vector<osgSkin::JointMap> maps = tube.scaledMaps(scaled, scale);
             ASSERT_TRUE(skin->setPose(maps.data(), maps.size()));
             GpuStage stage(skin);
             stage.draw();

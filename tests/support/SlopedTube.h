@@ -7,6 +7,7 @@
 #include <osgSkin/Pose>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -35,6 +36,18 @@ struct SlopedTube : Tube {
             positions[i] = oldPositions[source[i]];
             normals[i] = oldNormals[source[i]];
         }
+    }
+
+    /// Three turned joints, one of them scaled about its centre.
+    std::vector<osgSkin::JointMap> scaledMaps(std::size_t scaled, double scale) const {
+        std::vector<osgSkin::JointMap> maps(3);
+        for (std::size_t j = 0; j < 3; ++j) {
+            const glm::dvec3& centre = binding.joints[j].centre;
+            maps[j].rotation = glm::angleAxis(0.7, glm::dvec3(1, 0, 0));
+            maps[j].scale = j == scaled ? scale : 1.0;
+            maps[j].offset = centre - maps[j].scale * (maps[j].rotation * centre);
+        }
+        return maps;
     }
 
     struct Ratios {

@@ -126,13 +126,7 @@ TEST_P(SurfaceNormals, AreUnitWhateverTheScale) {
     for (const double scale : {0.99e9, 1e6, 1e-6, 1.01e-9})
         for (const std::size_t scaled : {0u, 1u, 2u}) {
             SCOPED_TRACE(std::to_string(scale) + " of joint " + std::to_string(scaled));
-            std::vector<osgSkin::JointMap> maps(3);
-            for (std::size_t j = 0; j < 3; ++j) {
-                const glm::dvec3& centre = tube.binding.joints[j].centre;
-                maps[j].rotation = glm::angleAxis(0.7, glm::dvec3(1, 0, 0));
-                maps[j].scale = j == scaled ? scale : 1.0;
-                maps[j].offset = centre - maps[j].scale * (maps[j].rotation * centre);
-            }
+            const std::vector<osgSkin::JointMap> maps = tube.scaledMaps(scaled, scale);
             osgSkin::Pose pose(tube.binding.joints);
             ASSERT_TRUE(pose.set(maps.data(), maps.size()));
             Posed posed(*model, rest.get(), pose);
