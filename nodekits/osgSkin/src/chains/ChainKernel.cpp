@@ -32,6 +32,9 @@ HWY_INLINE Joints each(double x) {
     return hn::Set(JointTag(), x);
 }
 
+/// The last column of a map that moves nothing.
+alignas(16) constexpr float kNoMove[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+
 /// Rounding errors are taken as 0: their products would be denormal numbers, which processors are
 /// many times slower with.
 template <typename V, typename T>
@@ -187,34 +190,61 @@ HWY_INLINE void poseMoves(const JointRows& rows, std::size_t first, PosedChains&
     put(along[2], joints.move[2]);
 }
 
-/// By cosine and sine of a joint's azimuth.
-template <typename Tag, typename T>
-HWY_INLINE void poseMap(Tag d, const PlannedMap<T>& of, T cosine, T sine, T* to) {
+/// The way into a joint's frame, told of the joint's centre, and the way back, which moves nothing:
+/// rows v, w x v, w, and columns.
+HWY_INLINE void poseFrame(const PlannedFrame& of, float cosine, float sine, KernelMap& into,
+                          KernelMap& back) {
+#if HWY_TARGET == HWY_SCALAR
+    into = back = {};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float frame[3] = {cosine * of.e1[axis] + sine * of.e2[axis],
+                                cosine * of.e2[axis] - sine * of.e1[axis], of.w[axis]};
+        for (std::size_t i = 0; i < 3; ++i) into.column[axis][i] = back.column[i][axis] = frame[i];
+    }
+    into.column[3][3] = 1.0f;
+#else
+    const hn::CappedTag<float, 4> d;
+    const auto e1 = hn::Load(d, of.e1), e2 = hn::Load(d, of.e2), w = hn::Load(d, of.w);
+    const auto c = hn::Set(d, cosine), s = hn::Set(d, sine), zero = hn::Zero(d);
+    const auto v = hn::MulAdd(c, e1, hn::Mul(s, e2)), across = hn::MulSub(c, e2, hn::Mul(s, e1));
+    hn::Store(v, d, back.column[0]);
+    hn::Store(across, d, back.column[1]);
+    hn::Store(w, d, back.column[2]);
+    const auto even = hn::InterleaveLower(d, v, w), odd = hn::InterleaveLower(d, across, zero);
+    hn::Store(hn::InterleaveLower(d, even, odd), d, into.column[0]);
+    hn::Store(hn::InterleaveUpper(d, even, odd), d, into.column[1]);
+    hn::Store(
+        hn::InterleaveLower(d, hn::InterleaveUpper(d, v, w), hn::InterleaveUpper(d, across, zero)),
+        d, into.column[2]);
+    hn::Store(hn::Load(d, kNoMove), d, into.column[3]);
+#endif
+}
+
+/// By cosine and sine of the joint's azimuth.
+HWY_INLINE void poseWideInto(const PlannedWideInto& of, double cosine, double sine, PosedMap& to) {
+    const JointTag d;
     for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
         const auto rest =
-            hn::MulAdd(hn::Load(d, of.bySine + i), hn::Set(d, sine), hn::Load(d, of.constant + i));
-        hn::Store(hn::MulAdd(hn::Load(d, of.byCosine + i), hn::Set(d, cosine), rest), d, to + i);
+            hn::MulAdd(hn::Load(d, of.bySine + i), each(sine), hn::Load(d, of.constant + i));
+        hn::Store(hn::MulAdd(hn::Load(d, of.byCosine + i), each(cosine), rest), d,
+                  to.column[0] + i);
     }
 }
 
 /// Maps between rest space and the frames of the section's partial joints.
 HWY_INLINE void poseFrames(const ChainCall& call, const JointRows& rows, PosedChains& chains) {
-    const hn::CappedTag<float, 16> d;
     const ChainPlan::Section& next = (&call.section)[1];
     for (std::size_t i = call.section.frame; i < next.frame; ++i) {
         const PlannedFrame& of = call.plan.frames[i];
-        const float cosine = chains.joints.azimuthCosine[of.joint];
-        const float sine = chains.joints.azimuthSine[of.joint];
-        poseMap(d, of.into, cosine, sine, chains.maps[ChainPlan::into(of.joint)].column[0]);
-        poseMap(d, of.back, cosine, sine, chains.maps[ChainPlan::frame(of.joint)].column[0]);
+        poseFrame(of, chains.joints.azimuthCosine[of.joint], chains.joints.azimuthSine[of.joint],
+                  chains.maps[ChainPlan::into(of.joint)], chains.maps[ChainPlan::frame(of.joint)]);
     }
     for (std::size_t i = call.section.wideInto; i < next.wideInto; ++i) {
         const PlannedWideInto& of = call.plan.wideIntos[i];
         const auto azimuth = [&](std::size_t row) {
             return PoseAccess::kAzimuthStep * rows.azimuths[row * rows.stride + of.joint];
         };
-        poseMap(JointTag(), of.into, azimuth(0), azimuth(1),
-                chains.wide[ChainPlan::into(of.joint)].column[0]);
+        poseWideInto(of, azimuth(0), azimuth(1), chains.wide[ChainPlan::into(of.joint)]);
     }
 }
 

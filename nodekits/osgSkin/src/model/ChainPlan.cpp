@@ -18,10 +18,23 @@ namespace {
 using Index = ChainPlan::Index;
 using State = ChainPlan::State;
 
+PlannedFrame planFrame(const BoundJoint& joint, std::uint32_t number) {
+    const glm::dmat3 axes = jointFrame(joint);
+    PlannedFrame frame{};
+    frame.joint = number;
+    for (int axis = 0; axis < 3; ++axis) {
+        frame.e1[axis] = roundedToFloat(axes[0][axis]);
+        frame.e2[axis] = roundedToFloat(axes[1][axis]);
+        frame.w[axis] = roundedToFloat(axes[2][axis]);
+    }
+    return frame;
+}
+
 /// The way into a joint's frame: rows v, w x v, w.
-PlannedMap<double> planInto(const BoundJoint& joint) {
+PlannedWideInto planWideInto(const BoundJoint& joint, std::uint32_t number) {
     const glm::dmat3 axes = jointFrame(joint); // e1, e2, w
-    PlannedMap<double> map{};
+    PlannedWideInto map{};
+    map.joint = number;
     for (int column = 0; column < 4; ++column) {
         const glm::dvec3 along = column < 3 ? glm::dvec3(glm::row(axes, column))
                                             : -joint.centre * axes; // transposed: into the frame
@@ -35,28 +48,6 @@ PlannedMap<double> planInto(const BoundJoint& joint) {
     }
     map.constant[15] = 1.0;
     return map;
-}
-
-/// The way back but for its move: columns v, w x v, w.
-PlannedMap<double> planBack(const BoundJoint& joint) {
-    const glm::dmat3 axes = jointFrame(joint);
-    PlannedMap<double> map{};
-    for (int row = 0; row < 3; ++row) {
-        map.byCosine[row] = axes[0][row];
-        map.byCosine[4 + row] = axes[1][row];
-        map.bySine[row] = axes[1][row];
-        map.bySine[4 + row] = -axes[0][row];
-        map.constant[8 + row] = axes[2][row];
-    }
-    return map;
-}
-
-PlannedMap<float> rounded(const PlannedMap<double>& map) {
-    PlannedMap<float> result;
-    std::transform(map.byCosine, std::end(map.byCosine), result.byCosine, roundedToFloat);
-    std::transform(map.bySine, std::end(map.bySine), result.bySine, roundedToFloat);
-    std::transform(map.constant, std::end(map.constant), result.constant, roundedToFloat);
-    return result;
 }
 
 /// Fills a plan, section by section.
@@ -216,17 +207,13 @@ private:
 
     void addFrame(std::uint32_t number) {
         if (has(_plan.frames, section().frame, number)) return;
-        const BoundJoint& joint = boundJoint(number);
-        PlannedMap<double> into = planInto(joint);
-        for (double* column : {into.byCosine, into.bySine, into.constant})
-            std::fill_n(column + 12, 3, 0.0); // no move: it is told of the joint's centre
-        _plan.frames.push_back({rounded(into), rounded(planBack(joint)), number});
+        _plan.frames.push_back(planFrame(boundJoint(number), number));
     }
 
     void addWideInto(Index into) {
         const std::uint32_t number = into - ChainPlan::into(0);
         if (has(_plan.wideIntos, section().wideInto, number)) return;
-        _plan.wideIntos.push_back({planInto(boundJoint(number)), number});
+        _plan.wideIntos.push_back(planWideInto(boundJoint(number), number));
     }
 
     void add(const SkinModel::Group& group) {

@@ -10,22 +10,18 @@
 
 namespace osgSkin {
 
-/// A map of which each number is constant + cosine * byCosine + sine * bySine. Columns of four
-/// numbers, as KernelMap.
-template <typename T>
-struct alignas(64) PlannedMap {
-    T byCosine[16], bySine[16], constant[16];
-};
-
-/// The maps between rest space and the frame (v, w x v, w) about a joint's centre that its partial
-/// turn is in, by cosine and sine of v's azimuth.
-struct PlannedFrame {
-    PlannedMap<float> into, back;
+/// What the maps between rest space and the frame (v, w x v, w) about a joint's centre, which its
+/// partial turn is in, are made of: the joint's fixed frame, behind each axis a 0. v is at an
+/// azimuth from e1 to e2.
+struct alignas(64) PlannedFrame {
+    float e1[4], e2[4], w[4];
     std::uint32_t joint; ///< of the section
 };
-/// The first of them in double precision.
-struct PlannedWideInto {
-    PlannedMap<double> into;
+
+/// The way into it in double precision: each number is constant + cosine * byCosine + sine * bySine
+/// of the azimuth. Columns of four numbers, as KernelMap.
+struct alignas(64) PlannedWideInto {
+    double byCosine[16], bySine[16], constant[16];
     std::uint32_t joint; ///< of the section
 };
 
