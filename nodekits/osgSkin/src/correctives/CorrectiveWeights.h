@@ -33,6 +33,16 @@ public:
         return _known[joint];
     }
 
+    /// Works out all that groups name.
+    /// \pre any()
+    /// \param firstGroup the first of them
+    /// \param endGroup the one behind the last
+    void workOut(std::size_t firstGroup, std::size_t endGroup) noexcept {
+        const std::vector<std::uint32_t>& ranges = _blocks->firstRange;
+        for (std::uint32_t i = ranges[firstGroup]; i < ranges[endGroup]; ++i)
+            of(_blocks->corrected[i].joint);
+    }
+
     /// What of() has given so far, by joint.
     const Weights* const* known() const noexcept { return _known.data(); }
 

@@ -8,7 +8,7 @@
 
 namespace osgSkin {
 
-/// The correctives in one pose, vertex by vertex: what KernelCorrections is compared with.
+/// The correctives in one pose, vertex by vertex: what the kernel is compared with.
 class ReferenceCorrections {
 public:
     /// \pre the model has correctives

@@ -8,7 +8,6 @@
 #include "correctives/ReferenceCorrections.h"
 #include "deform/Chain.h"
 #include "deform/DeformKernel.h"
-#include "deform/KernelCorrections.h"
 #include "deform/KernelSlopes.h"
 #include "deform/SurfaceChain.h"
 #include "model/SkinModelAccess.h"
@@ -35,58 +34,79 @@ std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
     return model.groups()[group].firstVertex + (block - blocks.firstBlock[group]) * kBlock;
 }
 
+/// What all groups of a job have in common, whatever the pose.
+KernelRun runOf(const DeformJob& job, std::size_t endVertex) noexcept {
+    const SkinBlocks& blocks = SkinModelAccess::blocks(*job.model);
+    KernelRun run{};
+    run.blocks = &blocks;
+    run.tangentRows = job.tangents ? SkinModelAccess::blocks(*job.restTangents) : nullptr;
+    run.corrections = SkinModelAccess::correctives(*job.model);
+    run.gradients = job.normals ? SkinModelAccess::gradients(*job.model) : nullptr;
+    run.positions = &job.positions->x;
+    run.normals = job.normals ? &job.normals->x : nullptr;
+    run.tangents = job.tangents ? &job.tangents->x : nullptr;
+    run.endVertex = endVertex;
+    run.scatter = blocks.inOrder ? nullptr : job.model->order().data();
+    return run;
+}
+
+/// Deforms of a group, and those behind it, the blocks from `first` to before `end`.
+///
+/// \param endGroup where the groups end that may be deformed in one go
+/// \return the group behind the last that was deformed
+std::size_t runGroups(Kernel kernel, std::size_t g, std::size_t endGroup, std::size_t first,
+                      std::size_t end, KernelRun& run) noexcept {
+    const SkinBlocks& blocks = *run.blocks;
+    run.firstGroup = g;
+    run.skippedBlocks = 0;
+    if (first <= blocks.firstBlock[g] && end >= blocks.firstBlock[g + 1]) {
+        if (end < blocks.firstBlock[endGroup]) --endGroup; // a part of the last one comes next
+        run.groups = blocks.groups.data() + g;
+        run.groupCount = endGroup - g;
+        kernel(run);
+        return endGroup;
+    }
+    const std::size_t from = std::max(first, blocks.firstBlock[g]) - blocks.firstBlock[g];
+    const std::size_t to = std::min(end, blocks.firstBlock[g + 1]) - blocks.firstBlock[g];
+    SkinBlocks::Group part = blocks.groups[g];
+    part.firstRow += from * SkinBlocks::rowsPerBlock(part.linkCount);
+    part.firstBlock += static_cast<std::uint32_t>(from);
+    part.firstVertex += static_cast<std::uint32_t>(from * kBlock);
+    part.vertexCount = static_cast<std::uint32_t>(
+        std::min<std::size_t>(part.vertexCount, to * kBlock) - from * kBlock);
+    run.groups = &part;
+    run.groupCount = 1;
+    run.skippedBlocks = from;
+    kernel(run);
+    return g + 1;
+}
+
 /// Deforms the blocks from `first` to before `end`, and no other vertex is written.
 void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
+    if (first >= end) return;
     const SkinModel& model = *job.model;
     const SkinBlocks& blocks = SkinModelAccess::blocks(model);
-    const std::size_t endVertex = firstVertexOf(model, end);
     PosedChains chains;
-    KernelCall call;
-    call.joints = &chains.joints;
-    call.outs = chains.outs;
-    call.correctionCount = 0;
-    call.gradients = nullptr;
+    KernelRun run = runOf(job, firstVertexOf(model, end));
+    run.joints = &chains.joints;
+    run.outs = chains.outs;
+    const std::size_t firstGroup = groupOf(blocks, first), endGroup = groupOf(blocks, end - 1) + 1;
     // Not std::optional: GCC 12 fills one with zeros where it begins.
-    KernelCorrections corrections(model, *job.pose);
+    CorrectiveWeights weights(model, *job.pose);
+    if (run.corrections) weights.workOut(firstGroup, endGroup);
+    run.weights = weights.known();
     KernelSlopes slopes(model);
-    const bool hasSlopes = job.normals && SkinModelAccess::gradients(model);
-    const Kernel kernel = kernelFor(job.normals, job.tangents, false);
-    const Kernel surfaceKernel = hasSlopes ? kernelFor(true, job.tangents, true) : kernel;
-    const std::size_t firstGroup = first < end ? groupOf(blocks, first) : model.groups().size();
-    const std::size_t endGroup = first < end ? groupOf(blocks, end - 1) + 1 : firstGroup;
+    const Kernel kernel = kernelFor(job.normals, job.tangents, run.gradients);
     const ChainPlan::Section* section = blocks.plan.sections.data();
-    for (std::size_t g = firstGroup; g < endGroup; ++g) {
-        if (g == firstGroup || g == section[1].group) {
-            while (section[1].group <= g) ++section;
-            chains.set(model, *job.pose, *section, g,
-                       std::min<std::size_t>(section[1].group, endGroup));
-            if (hasSlopes)
-                slopes.take(chains.joints, section[1].joint - section->joint,
-                            std::min<std::size_t>(section[1].group, endGroup), call);
-        }
-        const SkinModel::Group& group = model.groups()[g];
-        const ChainPlan::Group& planned = blocks.plan.groups[g];
-        const std::size_t from = std::max(first, blocks.firstBlock[g]) - blocks.firstBlock[g];
-        const std::size_t to = std::min(end, blocks.firstBlock[g + 1]) - blocks.firstBlock[g];
-        const std::size_t vertex = group.firstVertex + from * kBlock;
-        const std::size_t out = blocks.inOrder ? vertex : 0;
-        call.linkCount = group.partialCount;
-        call.links = blocks.plan.links.data() + planned.firstLink;
-        call.lead = planned.lead == ChainPlan::kNoLead ? nullptr : &chains.outs[planned.lead];
-        if (corrections.any()) corrections.prepare(g, from, call);
-        if (hasSlopes) slopes.prepare(g, from, blocks.firstBlock[g] + from, call);
-        call.rows =
-            &blocks.rows[blocks.firstRow[g] + from * SkinBlocks::rowsPerBlock(group.partialCount)];
-        call.vertexCount = std::min<std::size_t>(group.vertexCount, to * kBlock) - from * kBlock;
-        call.room = endVertex - vertex;
-        call.scatter = blocks.inOrder ? nullptr : model.order().data() + vertex;
-        call.positions = &job.positions[out].x;
-        call.normals = job.normals ? &job.normals[out].x : nullptr;
-        call.tangents = job.tangents ? &job.tangents[out].x : nullptr;
-        call.tangentRows = job.tangents ? SkinModelAccess::blocks(*job.restTangents, g) +
-                                              from * SkinBlocks::kTangentRows
-                                        : nullptr;
-        (call.gradients ? surfaceKernel : kernel)(call);
+    for (std::size_t g = firstGroup; g < endGroup; ++section) {
+        if (section[1].group <= g) continue;
+        const std::size_t endOfSection = std::min<std::size_t>(section[1].group, endGroup);
+        chains.set(model, *job.pose, *section, g, endOfSection);
+        if (run.gradients) slopes.take(chains.joints, section[1].joint - section->joint, run);
+        while (g < endOfSection)
+            g = runGroups(kernel, g,
+                          run.gradients ? slopes.find(g, endOfSection, run) : endOfSection, first,
+                          end, run);
     }
 }
 

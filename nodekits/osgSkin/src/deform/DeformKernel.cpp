@@ -13,6 +13,7 @@
 #include <hwy/cache_control.h>
 
 #include "deform/KernelCorrect-inl.h"
+#include "deform/KernelGroups-inl.h"
 #include "deform/KernelPasses-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelSurface-inl.h"
@@ -29,7 +30,19 @@ constexpr std::size_t kAhead = 512;
 /// The same for the skin's rows, this group's and the next one's, where a skin is larger than the
 /// caches.
 constexpr std::size_t kRowsAhead = 32;
-constexpr std::size_t kGradientsAhead = 4 * kBlock; ///< vertices
+constexpr std::size_t kSlopesAhead = 32;
+
+/// Asks for a vector's share of the next `kRows` rows of a block, some rows ahead. Without a loop,
+/// of which processors would have to guess where it ends.
+///
+/// \param at the first of those rows, at the vector's lanes
+/// \param lane the first of the vector, of the block
+template <std::size_t kRows, typename T>
+HWY_INLINE void prefetchRows(const T* at, std::size_t rowsAhead, std::size_t lane) {
+    constexpr std::size_t kLine = 64 / sizeof(T);
+    const T* const from = at + rowsAhead * kBlock + lane * (kRows - 1);
+    for (std::size_t i = 0; i < kRows * hn::MaxLanes(D()); i += kLine) hwy::Prefetch(from + i);
+}
 
 struct Outputs {
     Output positions, normals, tangents;
@@ -48,6 +61,8 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
                              const float* HWY_RESTRICT rows,
                              const float* HWY_RESTRICT tangentRows) {
     const D d;
+    const std::size_t lane = first % kBlock;
+    prefetchRows<kNormals ? 6 : 3>(rows, kRowsAhead, lane);
     V x = hn::Load(d, rows), y = hn::Load(d, rows + kBlock), z = hn::Load(d, rows + 2 * kBlock);
     if (HWY_UNLIKELY(call.correctionCount > 0)) correct(call, first, x, y, z);
     V nx = hn::Zero(d), ny = nx, nz = nx, tx = nx, ty = nx, tz = nx;
@@ -74,6 +89,7 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
     bool inJointFrame = !call.lead;
     for (std::size_t l = call.linkCount; l-- != 0; ratio += 2 * kBlock, inJointFrame = false) {
         const KernelLink* const link = call.links + l;
+        prefetchRows<2>(ratio, kRowsAhead, lane);
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
         sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
@@ -103,6 +119,8 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
                               const float* HWY_RESTRICT rows,
                               const float* HWY_RESTRICT tangentRows) {
     const D d;
+    const std::size_t lane = first % kBlock;
+    prefetchRows<6>(rows, kRowsAhead, lane);
     V x = hn::Load(d, rows), y = hn::Load(d, rows + kBlock), z = hn::Load(d, rows + 2 * kBlock);
     if (HWY_UNLIKELY(call.correctionCount > 0)) correct(call, first, x, y, z);
     const std::int16_t* HWY_RESTRICT slopes = gradientLanes(call, first);
@@ -135,6 +153,8 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
     V nx = tx, ny = tx, nz = tx;
     for (;;) {
         --link;
+        prefetchRows<2>(ratio, kRowsAhead, lane);
+        prefetchRows<kSlopeRows>(slopes, kSlopesAhead, lane);
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
         sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
@@ -197,6 +217,7 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
     ratio += 2 * kBlock;
     while (link != call.links) {
         --link;
+        prefetchRows<2>(ratio, kRowsAhead, lane);
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
         sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
@@ -220,42 +241,69 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
     if (kTangents) store(out.tangents, first, tx, ty, tz, hn::Load(d, tangentRows + 3 * kBlock));
 }
 
+/// Deforms a vector of the block of `rows`.
+template <bool kNormals, bool kTangents, bool kSurface>
+HWY_INLINE void deformAt(const KernelCall& call, const Outputs& out, std::size_t first,
+                         const BlockRow* rows) {
+    const float* const lanes = rows->lane + first % kBlock;
+    const float* const tangentRows = kTangents ? tangentLanes(call, first) : nullptr;
+    if (kSurface)
+        deformSurface<kTangents>(call, out, first, lanes, tangentRows);
+    else
+        deformVector<kNormals, kTangents>(call, out, first, lanes, tangentRows);
+}
+
 /// Deforms a group vector by vector, each through its whole chain.
 template <bool kNormals, bool kTangents, bool kSurface>
-void deformByVectors(const KernelCall& call) {
+HWY_INLINE void deformByVectors(const KernelCall& call) {
     const Outputs out{Output(call, call.positions), Output(call, call.normals),
                       Output(call, call.tangents)};
     const std::size_t blockRows = SkinBlocks::rowsPerBlock(call.linkCount);
-    const std::size_t gradientRows = GradientBlocks::rowsPerBlock(call.linkCount);
     const BlockRow* rows = call.rows;
     for (std::size_t first = 0; first < call.vertexCount; first += kBlock, rows += blockRows) {
-        for (std::size_t i = 0; i < blockRows; ++i)
-            if (kNormals || i < 3 || i >= 6) hwy::Prefetch(rows + kRowsAhead + i);
-        if (kSurface) {
-            const std::int16_t* ahead = gradientLanes(call, first + kGradientsAhead);
-            for (std::size_t i = 0; i < gradientRows; i += 2) hwy::Prefetch(ahead + i * kBlock);
+        if (hn::MaxLanes(D()) == kBlock) { // no loop within the loop
+            deformAt<kNormals, kTangents, kSurface>(call, out, first, rows);
+            continue;
         }
         const std::size_t end = HWY_MIN(first + kBlock, call.vertexCount);
         for (std::size_t v = first; v < end; v += hn::Lanes(D()))
-            if (kSurface)
-                deformSurface<kTangents>(call, out, v, rows->lane + v % kBlock,
-                                         kTangents ? tangentLanes(call, v) : nullptr);
-            else
-                deformVector<kNormals, kTangents>(call, out, v, rows->lane + v % kBlock,
-                                                  kTangents ? tangentLanes(call, v) : nullptr);
+            deformAt<kNormals, kTangents, kSurface>(call, out, v, rows);
+    }
+}
+
+template <bool kNormals, bool kTangents, bool kSurface>
+void deformGroups(const KernelRun& run) {
+    KernelCall call;
+    startRun(run, call);
+    for (std::size_t i = 0; i < run.groupCount; ++i) {
+        startGroup(run, i, call);
+        if (kSurface && startSlopes(run, i, call))
+            deformByVectors<kNormals, kTangents, true>(call);
+        else
+            deformByVectors<kNormals, kTangents, false>(call);
+    }
+}
+
+/// The same link by link.
+void deformGroupsByLinks(const KernelRun& run) {
+    KernelCall call;
+    startRun(run, call);
+    for (std::size_t i = 0; i < run.groupCount; ++i) {
+        startGroup(run, i, call);
+        if (!run.gradients || !startSlopes(run, i, call)) call.gradients = nullptr;
+        deformByLinks(call);
     }
 }
 
 Kernel kernelFor(bool normals, bool tangents, bool surface) {
 #if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
-    (void)normals, (void)tangents, (void)surface; // a call's own
-    return deformByLinks;
+    (void)normals, (void)tangents, (void)surface; // a run's own
+    return deformGroupsByLinks;
 #else
-    if (tangents)
-        return surface ? deformByVectors<true, true, true> : deformByVectors<true, true, false>;
+    if (tangents) return surface ? deformGroups<true, true, true> : deformGroups<true, true, false>;
     if (normals)
-        return surface ? deformByVectors<true, false, true> : deformByVectors<true, false, false>;
-    return deformByVectors<false, false, false>;
+        return surface ? deformGroups<true, false, true> : deformGroups<true, false, false>;
+    return deformGroups<false, false, false>;
 #endif
 }
 

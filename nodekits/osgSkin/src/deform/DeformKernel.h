@@ -3,6 +3,7 @@
 
 #include "chains/KernelJoints.h"
 #include "correctives/CorrectiveWeights.h"
+#include "deform/LinkTilts.h"
 #include "model/ChainPlan.h"
 #include "model/CorrectiveBlocks.h"
 #include "model/GradientBlocks.h"
@@ -17,6 +18,31 @@ namespace osgSkin {
 /// A partial joint of a group's chain: its number, and the map from its frame to that of the next
 /// partial joint outwards, or to rest space.
 using KernelLink = ChainPlan::Link;
+
+/// Groups that are deformed one after the other, and what they have in common.
+struct KernelRun {
+    const SkinBlocks* blocks;
+    const SkinBlocks::Group* groups; ///< the first of them; of a part of a group, a copy
+    std::size_t groupCount;
+    std::size_t firstGroup;      ///< the number of the first one
+    std::size_t skippedBlocks;   ///< of the first group, where there is one: in front of `groups`
+    const BlockRow* tangentRows; ///< SkinModelAccess::blocks(); where tangents is not null
+    const KernelJoints* joints;
+    const KernelMap* outs;
+    const CorrectiveBlocks* corrections;              ///< null where the model has none
+    const CorrectiveWeights::Weights* const* weights; ///< of all joints that these groups name
+    const GradientBlocks* gradients;                  ///< null where normals turn as vertices do
+    const LinkTilts* tilts;                           ///< from this link of the plan on:
+    std::size_t firstTilt;
+    const float* bendSlopes;      ///< psi of each joint, in units of the gradients
+    const float* twistSlopes;     ///< phi, the same
+    float slopeUnit;              ///< 1, the same
+    float* positions;             ///< x, y, z of vertex 0
+    float* normals;               ///< may be null
+    float* tangents;              ///< x, y, z, w; may be null; null where normals is
+    std::size_t endVertex;        ///< without scatter: vertices before this one may be overwritten
+    const std::uint32_t* scatter; ///< the model's order(), where output is not in order; else null
+};
 
 /// All vertices of one group, with the constants that they have in common.
 struct KernelCall {
@@ -63,13 +89,13 @@ struct KernelCall {
     const std::uint32_t* scatter; ///< vertex of each row, where output is not in order; else null
 };
 
-/// Deforms a group.
+/// Deforms groups.
 ///
-/// Without scatter, up to `room` vertices may be written beyond the group's: call in the groups'
-/// order. With it, the outputs are those of vertex 0.
-using Kernel = void (*)(const KernelCall& call);
+/// Without scatter, vertices up to `endVertex` may be written beyond the groups': call in the
+/// groups' order.
+using Kernel = void (*)(const KernelRun& run);
 
-/// The one with the best instructions that the machine has, for calls with or without normals,
+/// The one with the best instructions that the machine has, for runs with or without normals,
 /// tangents (which normals go with) and gradients (which normals go with, too).
 Kernel kernelFor(bool normals, bool tangents, bool surface) noexcept;
 

@@ -10,7 +10,7 @@
 
 namespace osgSkin {
 
-/// Tells the kernel which of a group's links tilt its normals in one pose; on the stack. Of a model
+/// Tells the kernel which links tilt normals in one pose, and by how much; on the stack. Of a model
 /// that has gradients.
 class KernelSlopes {
 public:
@@ -20,30 +20,22 @@ public:
     ///
     /// \param joints of the section; they outlive this
     /// \param jointCount of them
-    /// \param endGroup prepare() is not called for this group
-    /// \param call changed
-    void take(const KernelJoints& joints, std::size_t jointCount, std::size_t endGroup,
-              KernelCall& call) noexcept;
+    /// \param run what it has of slopes is set; good until the next call
+    void take(const KernelJoints& joints, std::size_t jointCount, KernelRun& run) noexcept;
 
-    /// Sets what `call` has of gradients; it is good until the next take().
+    /// Finds the links that tilt normals, of as many groups as there is room for.
     ///
-    /// \param group an index, in the section
-    /// \param firstBlock of the group's, with which the call begins
-    /// \param block the same of the model's
-    /// \param call has its links already; changed
-    void prepare(std::size_t group, std::size_t firstBlock, std::size_t block,
-                 KernelCall& call) noexcept;
+    /// \param firstGroup the first of them, in the section
+    /// \param endGroup the one behind the last that is asked for
+    /// \param run what it has of tilts is set; good until the next call
+    /// \return the group behind the last that was found
+    std::size_t find(std::size_t firstGroup, std::size_t endGroup, KernelRun& run) noexcept;
 
 private:
-    void findTilts(std::size_t first) noexcept;
-
     const SkinModel& _model;
-    const KernelLink* _links;      ///< of the plan
     const GradientBlocks* _blocks; ///< null where the model has none
     const KernelJoints* _joints;
-    std::size_t _endOfAll;            ///< links that prepare() is called for
-    std::size_t _firstLink, _endLink; ///< of which are known
-    LinkTilts _tilts;                 ///< from the first of them on
+    LinkTilts _tilts;
     float _bendSlopes[KernelJoints::kMost], _twistSlopes[KernelJoints::kMost];
 };
 

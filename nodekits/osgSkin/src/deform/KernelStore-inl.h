@@ -84,11 +84,16 @@ struct Output {
 /// Stores what cannot be stored whole: a vector that ends too late, or one not in order. Takes it
 /// by way of memory: GCC 12 forgets to leave AVX mode behind a call with vectors as arguments.
 template <std::size_t kParts>
-HWY_NOINLINE void storeSingly(const Output& out, std::size_t first, const float* from) {
-    const std::size_t end = HWY_MIN(first + hn::Lanes(D()), out.vertexCount);
+HWY_NOINLINE void storeSingly(float* to, const std::uint32_t* scatter, std::size_t first,
+                              std::size_t end, const float* from) {
     for (std::size_t i = first; i < end; ++i, from += kParts)
-        std::memcpy(out.to + kParts * (out.scatter ? out.scatter[i] : i), from,
-                    kParts * sizeof(float));
+        std::memcpy(to + kParts * (scatter ? scatter[i] : i), from, kParts * sizeof(float));
+}
+
+template <std::size_t kParts>
+HWY_INLINE void storeSingly(const Output& out, std::size_t first, const float* from) {
+    storeSingly<kParts>(out.to, out.scatter, first,
+                        HWY_MIN(first + hn::Lanes(D()), out.vertexCount), from);
 }
 
 /// Stores the vertices of a vector, the first of which is the group's `first`.

@@ -29,6 +29,11 @@ bool isIdentity(const std::vector<std::uint32_t>& order) {
     return true;
 }
 
+std::uint32_t frameOf(const SkinModel& model, const SkinModel::Group& group) {
+    if (!isInJointFrame(model, group)) return SkinBlocks::kRestFrame;
+    return model.links()[group.firstLink + group.linkCount - 1].joint;
+}
+
 /// Writes one vertex into its lane of its block.
 void place(const SkinModel& model, const SkinModel::Group& group, std::uint32_t row,
            const glm::dmat3& frame, BlockRow* block) {
@@ -74,7 +79,10 @@ SkinBlocks::SkinBlocks(const SkinModel& model)
         const glm::dmat3 frame = restFrame(model, group);
         const std::size_t first = rows.size();
         const std::size_t blocks = (group.vertexCount + kBlock - 1) / kBlock;
-        firstRow.push_back(first);
+        const ChainPlan::Group& planned = plan.groups[groups.size()];
+        groups.push_back({first, static_cast<std::uint32_t>(firstBlock.back()), group.firstVertex,
+                          group.vertexCount, planned.firstLink, frameOf(model, group), planned.lead,
+                          static_cast<std::uint16_t>(group.partialCount)});
         firstBlock.push_back(firstBlock.back() + blocks);
         rows.resize(first + blocks * blockRows, BlockRow{});
         for (std::uint32_t row = 0; row < group.vertexCount; ++row)

@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace osgSkin {
@@ -28,6 +29,20 @@ struct alignas(64) BlockRow {
 /// innermost link is a partial one, positions and normals are in that joint's fixed frame
 /// (jointFrame()), which spares the kernel the change of frame; else in rest space.
 struct SkinBlocks {
+    /// A group as the kernel reads it: side by side, since an update finds none of it in the
+    /// processor's nearest cache.
+    struct Group {
+        std::size_t firstRow; ///< of its first block, in `rows`
+        std::uint32_t firstBlock;
+        std::uint32_t firstVertex; ///< in the model's order()
+        std::uint32_t vertexCount;
+        std::uint32_t firstLink; ///< in the plan's links
+        std::uint32_t frame;     ///< the joint that its blocks are in the frame of, or kRestFrame
+        ChainPlan::Index lead;   ///< ChainPlan::Group's
+        std::uint16_t linkCount; ///< partial ones
+    };
+    static constexpr std::uint32_t kRestFrame = ~0u;
+
     explicit SkinBlocks(const SkinModel& model);
 
     static std::size_t rowsPerBlock(std::size_t partialCount) { return 6 + 2 * partialCount; }
@@ -37,7 +52,7 @@ struct SkinBlocks {
 
     ChainPlan plan;
     std::vector<BlockRow> rows;
-    std::vector<std::size_t> firstRow;         ///< of each group
+    std::vector<Group> groups;                 ///< the model's
     std::vector<std::size_t> firstBlock = {0}; ///< of each group; then the number of all blocks
     std::vector<glm::dmat3> jointFrames;       ///< jointFrame() of each joint
     bool inOrder; ///< the model's order() is the identity: output needs no scatter

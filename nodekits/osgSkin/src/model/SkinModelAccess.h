@@ -30,10 +30,8 @@ struct SkinModelAccess {
         return model._gradients.get();
     }
 
-    /// A group's tangents, SkinBlocks::kTangentRows rows a block.
-    static const BlockRow* blocks(const SkinTangents& tangents, std::size_t group) {
-        return tangents._rows.data() + tangents._firstRow[group];
-    }
+    /// The tangents, SkinBlocks::kTangentRows rows for each of the model's blocks.
+    static const BlockRow* blocks(const SkinTangents& tangents) { return tangents._rows.data(); }
 
     /// A model without a bounds proxy, as the proxy itself is one.
     static osg::ref_ptr<SkinModel> arrange(const VertexGroups& vertices,

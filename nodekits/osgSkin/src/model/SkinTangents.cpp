@@ -30,7 +30,6 @@ SkinTangents::SkinTangents(const osg::ref_ptr<const SkinModel>& model,
     for (const SkinModel::Group& group : _model->groups()) {
         const glm::dmat3 frame = restFrame(*_model, group);
         const std::size_t first = _rows.size();
-        _firstRow.push_back(first);
         const std::size_t blocks = (group.vertexCount + kBlock - 1) / kBlock;
         _rows.resize(first + blocks * SkinBlocks::kTangentRows, BlockRow{});
         for (std::uint32_t row = 0; row < group.vertexCount; ++row) {
