@@ -141,6 +141,33 @@ TEST_P(SurfaceNormals, AreUnitWhateverTheScale) {
         }
 }
 
+/// Joints without gradients, before and after one that has some.
+TEST_P(SurfaceNormals, AreTheReferencesWhereSomeJointsRatiosAreEven) {
+    std::mt19937_64 random(13);
+    for (const bool moved : {false, true})
+        for (const std::uint32_t even : {1u, 2u}) {
+            SCOPED_TRACE(std::to_string(even) + (moved ? " moved" : ""));
+            test::SlopedTube tube(41, 18);
+            for (std::size_t i = 0; i < tube.binding.influences.size(); ++i)
+                if (tube.binding.influences[i].joint == even) tube.binding.gradients[i] = {};
+            const auto model = tube.model();
+            ASSERT_TRUE(model->hasSurfaceNormals());
+            const auto rest = tangentsOf(tube, *model);
+            const osgSkin::Pose pose = poseOf(tube.binding, random, moved);
+            Posed posed(*model, rest.get(), pose), expected(*model, rest.get(), pose);
+            ASSERT_TRUE(run(posed.job));
+            ASSERT_TRUE(expected.job.runReference());
+            for (std::size_t v = 0; v < posed.normals.size(); ++v) {
+                ASSERT_LE(glm::distance(posed.positions[v], expected.positions[v]), 1e-4f) << v;
+                ASSERT_LE(angleBetween(posed.normals[v], expected.normals[v]), kTolerance) << v;
+                ASSERT_LE(
+                    angleBetween(glm::dvec3(posed.tangents[v]), glm::dvec3(expected.tangents[v])),
+                    2.0 * kTolerance)
+                    << v;
+            }
+        }
+}
+
 TEST_P(SurfaceNormals, DifferFromTurnedOnesWherePositionsDoNot) {
     std::mt19937_64 random(12);
     const test::SlopedTube tube(25, 18);
