@@ -354,40 +354,57 @@ HWY_INLINE Joints continued(const Joints& before, const Joints& twist) {
     return result;
 }
 
-/// Writes joints of a pose; returns where they are others than before.
-HWY_INLINE JointMask write(const PoseCall& call, std::size_t first, const Quaternions& q,
-                           const Joints (&offset)[3], const Joints& scale) {
+/// Writes numbers of joints; returns where they are others than before.
+HWY_INLINE JointMask put(const Joints& value, double* to) {
+    const JointTag d;
+    const JointMask other = hn::Ne(value, hn::LoadU(d, to));
+    hn::StoreU(value, d, to);
+    return other;
+}
+
+/// Writes how joints turn and move; returns where they do otherwise than before.
+HWY_INLINE JointMask writeMaps(const PoseCall& call, std::size_t first, const Quaternions& q,
+                               const Joints (&offset)[3], const Joints& scale) {
+    using Access = PoseAccess::Row;
+    const auto row = [&](std::size_t number) { return call.rows + first + number * call.count; };
+    JointMask other = put(q.w, row(Access::kW));
+    other = hn::Or(other, put(q.x, row(Access::kX)));
+    other = hn::Or(other, put(q.y, row(Access::kY)));
+    other = hn::Or(other, put(q.z, row(Access::kZ)));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        other = hn::Or(other, put(offset[axis], row(Access::kOffset + axis)));
+    return hn::Or(other, put(scale, row(Access::kScale)));
+}
+
+/// Splits what joints' rows turn by; returns where twists are others than before. A loop of its
+/// own: much waits for roots and quotients, and the shorter that is, the more joints wait together.
+JointMask splitRows(const PoseCall& call) {
     using Access = PoseAccess::Row;
     const JointTag d;
     const hn::Rebind<std::int32_t, JointTag> steps;
-    double* const at = call.rows + first;
-    Angles angles = split(call, first, q);
-    if (HWY_UNLIKELY(call.continued))
-        angles.twist = continued(hn::LoadU(d, at + Access::kTwist * call.count), angles.twist);
-    JointMask other = hn::Ne(angles.twist, hn::LoadU(d, at + Access::kTwist * call.count));
-    const auto put = [&](std::size_t row, const Joints& value) HWY_ATTR {
-        double* const to = at + row * call.count;
-        other = hn::Or(other, hn::Ne(value, hn::LoadU(d, to)));
-        hn::StoreU(value, d, to);
-    };
-    put(Access::kW, q.w);
-    put(Access::kX, q.x);
-    put(Access::kY, q.y);
-    put(Access::kZ, q.z);
-    for (std::size_t axis = 0; axis < 3; ++axis) put(Access::kOffset + axis, offset[axis]);
-    put(Access::kScale, scale);
-    hn::StoreU(angles.bend, d, at + Access::kBend * call.count);
-    hn::StoreU(angles.twist, d, at + Access::kTwist * call.count);
-    // As good as the kernel's floats, in half of a double's room.
-    const auto inSteps = [&](const Joints& x) HWY_ATTR {
-        const Joints of = hn::Mul(x, each(1.0 / PoseAccess::kAzimuthStep));
-        return hn::DemoteTo(steps, hn::Add(of, hn::CopySign(each(0.5), of)));
-    };
-    // Read and written as vectors and bytes only, which may be anything.
-    auto* const azimuths =
-        reinterpret_cast<std::int32_t*>(call.rows + Access::kAzimuth * call.count);
-    hn::StoreU(inSteps(angles.cosine), steps, azimuths + first);
-    hn::StoreU(inSteps(angles.sine), steps, azimuths + call.count + first);
+    JointMask other = hn::Lt(each(1.0), each(1.0));
+    for (std::size_t next = 0; next < call.count; next += hn::Lanes(d)) {
+        const std::size_t first = HWY_MIN(next, call.count - hn::Lanes(d)); // the last ones overlap
+        double* const at = call.rows + first;
+        const auto own = [&](std::size_t row)
+                             HWY_ATTR { return hn::LoadU(d, at + row * call.count); };
+        Angles angles = split(call, first,
+                              {own(Access::kW), own(Access::kX), own(Access::kY), own(Access::kZ)});
+        if (HWY_UNLIKELY(call.continued))
+            angles.twist = continued(own(Access::kTwist), angles.twist);
+        hn::StoreU(angles.bend, d, at + Access::kBend * call.count);
+        other = hn::Or(other, put(angles.twist, at + Access::kTwist * call.count));
+        // As good as the kernel's floats, in half of a double's room.
+        const auto inSteps = [&](const Joints& x) HWY_ATTR {
+            const Joints of = hn::Mul(x, each(1.0 / PoseAccess::kAzimuthStep));
+            return hn::DemoteTo(steps, hn::Add(of, hn::CopySign(each(0.5), of)));
+        };
+        // Read and written as vectors and bytes only, which may be anything.
+        auto* const azimuths =
+            reinterpret_cast<std::int32_t*>(call.rows + Access::kAzimuth * call.count);
+        hn::StoreU(inSteps(angles.cosine), steps, azimuths + first);
+        hn::StoreU(inSteps(angles.sine), steps, azimuths + call.count + first);
+    }
     return other;
 }
 
@@ -421,9 +438,9 @@ bool splitFrames(const PoseCall& call, const PoseFrames& frames) {
             scale = hn::Div(scale, before);
             scale = hn::IfThenElse(hn::Lt(hn::Abs(hn::Sub(scale, one)), each(1e-6)), one, scale);
         }
-        other = hn::Or(other, write(call, first, quaternionsOf(turn), offset, scale));
+        other = hn::Or(other, writeMaps(call, first, quaternionsOf(turn), offset, scale));
     }
-    return !hn::AllFalse(d, other);
+    return !hn::AllFalse(d, hn::Or(other, splitRows(call)));
 }
 
 bool splitMaps(const PoseCall& call, const JointMap* own) {
@@ -439,9 +456,9 @@ bool splitMaps(const PoseCall& call, const JointMap* own) {
         loadFourOf(from, 0, q);
         loadFourOf(from, 4, rest);
         const Joints offset[3] = {rest[0], rest[1], rest[2]};
-        other = hn::Or(other, write(call, first, {q[3], q[0], q[1], q[2]}, offset, rest[3]));
+        other = hn::Or(other, writeMaps(call, first, {q[3], q[0], q[1], q[2]}, offset, rest[3]));
     }
-    return !hn::AllFalse(d, other);
+    return !hn::AllFalse(d, hn::Or(other, splitRows(call)));
 }
 
 } // namespace HWY_NAMESPACE
