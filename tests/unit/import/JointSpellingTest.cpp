@@ -384,6 +384,13 @@ TEST(JointSpelling, EverySpellingTellsEveryMainJoint) {
     RecordProperty("bodies", static_cast<int>(bodies));
 }
 
+TEST(JointSpelling, WhatIsNoCodeOfASignStays) {
+    const test::SideStyle before{"Left", "Right", true, ""};
+    const test::Dialect& mixamo = test::dialects().front();
+    for (const char* prefix : {"FBXASC:", "FBXASC9_mixamorig:", "FBXASC999FBXASCFBXASC058"})
+        EXPECT_EQ(wrong(spelledBody(mixamo, before, prefix, "")), "") << prefix;
+}
+
 TEST(JointSpelling, OtherNamesAreNoJointsOfTheBody) {
     EXPECT_GE(std::size(kOthers), 200u);
     const test::SideStyle before{"Left", "Right", true, ""}, after{"L", "R", false, "."};
