@@ -19,6 +19,9 @@ public:
 
     bool empty() const { return _vertices.empty(); }
 
+    /// Welded vertices.
+    const std::vector<std::uint32_t>& vertices() const { return _vertices; }
+
     /// Mean of a field over that skin.
     ///
     /// \pre not empty()

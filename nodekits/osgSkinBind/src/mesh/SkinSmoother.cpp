@@ -126,4 +126,29 @@ void SkinSmoother::smooth(std::vector<double>& field, const std::vector<double>&
     field = coarser.interpolated(coarse);
 }
 
+void SkinSmoother::change(std::vector<double>& field, const std::vector<bool>& isFree, double width,
+                          const Change& change) const {
+    this->change(field, isFree, width, change, 0);
+}
+
+void SkinSmoother::change(std::vector<double>& field, const std::vector<bool>& isFree, double width,
+                          const Change& change, std::size_t level) const {
+    const HeatGraph& skin = level > 0 ? _coarser[level - 1]->graph() : _skin;
+    if (level == _coarser.size() || width < kFinest * skin.meanEdge) {
+        change(skin, field, isFree);
+        return;
+    }
+    const CoarseGraph& coarser = *_coarser[level];
+    const std::vector<double> before = coarser.restricted(field);
+    std::vector<bool> coarseFree;
+    for (const double share : coarser.restricted({isFree.begin(), isFree.end()}))
+        coarseFree.push_back(share > 0.5);
+    std::vector<double> gained = before;
+    this->change(gained, coarseFree, width, change, level + 1);
+    for (std::size_t v = 0; v < gained.size(); ++v) gained[v] -= before[v];
+    gained = coarser.interpolated(gained);
+    for (std::size_t v = 0; v < field.size(); ++v)
+        if (isFree[v]) field[v] = std::clamp(field[v] + gained[v], 0.0, 1.0);
+}
+
 } // namespace osgSkin

@@ -4,6 +4,7 @@
 
 #include "mesh/CoarseGraph.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -41,7 +42,23 @@ public:
     /// \param widths one for each vertex, above 0
     void smooth(std::vector<double>& field, const std::vector<double>& widths) const;
 
+    /// What changes a field where it may.
+    using Change = std::function<void(const HeatGraph& skin, std::vector<double>& field,
+                                      const std::vector<bool>& isFree)>;
+
+    /// Changes a field on the coarsest copy of the skin whose edges are still much shorter than
+    /// `width`; what the copy's field gained is added to the skin's.
+    ///
+    /// \param field one value for each vertex, 0 to 1
+    /// \param isFree which vertices may change, one for each
+    /// \param width of what is to be kept of the field
+    /// \param change of the copy's field; gets the copy
+    void change(std::vector<double>& field, const std::vector<bool>& isFree, double width,
+                const Change& change) const;
+
 private:
+    void change(std::vector<double>& field, const std::vector<bool>& isFree, double width,
+                const Change& change, std::size_t level) const;
     void smooth(std::vector<double>& field, const std::vector<double>& widths,
                 std::size_t level) const;
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ratios/SmoothBend.h"
 
+#include "limbs/ArmSwings.h"
 #include "limbs/LimbRadius.h"
 #include "limbs/MiddleThird.h"
+#include "ratios/EvenStretch.h"
 #include "ratios/SlopeShare.h"
 
 #include <algorithm>
@@ -68,6 +70,23 @@ bool narrow(double& width, double least, double excess, double most) {
     return true;
 }
 
+/// Evens out what an arm's swings do to the skin between it and the trunk. Its middle third stays
+/// as it is.
+void evenOut(const BinaryField& binary, const SkinSmoother& smoother, std::size_t joint,
+             const MiddleThird& third, double width, std::vector<double>& field) {
+    const std::vector<glm::dvec3> swings = armSwings(binary.joints, joint);
+    if (swings.empty()) return;
+    std::vector<bool> isFree(field.size());
+    for (std::size_t v = 0; v < field.size(); ++v) isFree[v] = field[v] > 0.0 && field[v] < 1.0;
+    for (const std::uint32_t v : third.vertices()) isFree[v] = false;
+    const glm::dvec3& centre = binary.joints[joint].centre;
+    smoother.change(field, isFree, width,
+                    [&](const HeatGraph& skin, std::vector<double>& coarse,
+                        const std::vector<bool>& coarseFree) {
+                        evenStretch(skin, coarse, coarseFree, centre, swings);
+                    });
+}
+
 } // namespace
 
 void stretch(std::vector<double>& field, double cutOff) {
@@ -103,6 +122,7 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
                 narrow(widths.above, least.above, previous.mean(field), kNextRigidity) || narrower;
         if (!narrower) break;
     }
+    if (!share.empty()) evenOut(binary, smoother, joint, own, options.smoothing * radius, field);
     return field;
 }
 

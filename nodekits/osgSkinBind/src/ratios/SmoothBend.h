@@ -18,7 +18,8 @@ namespace osgSkin {
 /// A limb's field is as wide as leaves the middle third of its bone, and of the bone above, rigid:
 /// wide on thick short bones would be rubber. On the trunk's side of a shoulder or hip there is no
 /// such limit, so the two sides have a width each. Where such a limb leaves the trunk, the field is
-/// spread farther where it would be steepest, as in the armpit (slopeShare()).
+/// spread farther where it would be steepest, as in the armpit (slopeShare()); an arm's is then
+/// redistributed for the ways that arms swing (evenStretch()).
 ///
 /// \param binary where the field starts from
 /// \param smoother of the same skin

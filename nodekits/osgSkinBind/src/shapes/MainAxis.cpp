@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/MainAxis.h"
 
+#include "joints/BodyAxes.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -26,18 +28,6 @@ End endOf(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
     return End::None;
 }
 
-/// Where the body looks: the mean direction in which feet point; zero where there are none.
-glm::dvec3 forward(const std::vector<PlannedJoint>& joints) {
-    glm::dvec3 sum(0.0);
-    for (const PlannedJoint& joint : joints) {
-        if (joint.part != JointPart::Foot || !(joint.boneLength > 0.0)) continue;
-        // Feet slope: only what is across the shin counts.
-        const glm::dvec3& shin = joint.comingFrom;
-        sum += joint.boneAxis - shin * glm::dot(shin, joint.boneAxis);
-    }
-    return sum;
-}
-
 } // namespace
 
 std::optional<glm::dvec3> findMainAxis(const RestSkeleton& skeleton,
@@ -50,7 +40,7 @@ std::optional<glm::dvec3> findMainAxis(const RestSkeleton& skeleton,
     const double sine = glm::length(atRest);
     if (sine > kPlain) return acrossTwist(atRest);
     const End end = endOf(skeleton, joints, joint);
-    const glm::dvec3 front = forward(joints);
+    const glm::dvec3 front = facing(joints);
     if (end != End::None && glm::length(front) > 1e-6) {
         const glm::dvec3 axis = glm::cross(planned.boneAxis, end == End::Hand ? front : -front);
         if (glm::length(axis) > 0.3 * glm::length(front)) return acrossTwist(axis);

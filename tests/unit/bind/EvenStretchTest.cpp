@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fields for the turns that a joint makes: on a sheet, and on bodies.
+#include "ratios/EvenStretch.h"
+#include "KnownBody.h"
+#include "mesh/HeatGraph.h"
+#include "mesh/SkinSmoother.h"
+#include "mesh/WeldedMesh.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace osgSkin;
+
+namespace {
+
+/// A square of triangles, two units wide, about the origin in the plane z = 0.
+SkinMesh sheet(std::uint32_t side) {
+    SkinMesh mesh;
+    const double step = 2.0 / (side - 1);
+    for (std::uint32_t y = 0; y < side; ++y)
+        for (std::uint32_t x = 0; x < side; ++x) {
+            mesh.positions.emplace_back(step * x - 1.0, step * y - 1.0, 0.0);
+            if (x == 0 || y == 0) continue;
+            const std::uint32_t v = y * side + x;
+            for (const std::uint32_t corner : {v - side - 1, v - side, v, v - side - 1, v, v - 1})
+                mesh.faceVertices.push_back(corner);
+        }
+    mesh.faceSizes.assign(mesh.faceVertices.size() / 3, 3);
+    return mesh;
+}
+
+/// A field that rises from left to right between -0.7 and 0.7, steepest in the middle.
+struct Rise {
+    WeldedMesh mesh;
+    std::vector<double> field;
+    std::vector<bool> isFree;
+
+    explicit Rise(std::uint32_t side = 21) : mesh(sheet(side)) {
+        for (const glm::dvec3& p : mesh.positions) {
+            const double t = std::clamp(0.5 + p.x / 1.4, 0.0, 1.0);
+            field.push_back(t * t * t * (10.0 + t * (6.0 * t - 15.0)));
+            isFree.push_back(t > 0.0 && t < 1.0);
+        }
+    }
+
+    /// Largest growth along x between neighbours around a height.
+    double steepestAt(double y) const {
+        const auto side = static_cast<std::size_t>(std::lround(std::sqrt(mesh.positions.size())));
+        const double step = 2.0 / static_cast<double>(side - 1);
+        const auto row = static_cast<std::size_t>(std::lround((y + 1.0) / step)) * side;
+        double most = 0.0;
+        for (std::size_t x = 1; x < side; ++x)
+            most = std::max(most, (field[row + x] - field[row + x - 1]) / step);
+        return most;
+    }
+};
+
+/// About the sheet's middle: what is below the middle is stretched, what is above it pressed.
+const std::vector<glm::dvec3> kTurn = {{0.0, 0.0, 1.5}};
+
+/// l'/l of each edge, the longest last.
+std::vector<double> stretches(const SkinMesh& rest, const SkinMesh& posed) {
+    std::vector<double> result;
+    const std::vector<std::uint32_t> corners = rest.triangles();
+    for (std::size_t t = 0; t < corners.size(); ++t) {
+        const std::uint32_t a = corners[t], b = corners[t % 3 == 2 ? t - 2 : t + 1];
+        const double length = glm::distance(rest.positions[a], rest.positions[b]);
+        if (a < b && length > 0.0)
+            result.push_back(glm::distance(posed.positions[a], posed.positions[b]) / length);
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+double percentile999(const std::vector<double>& sorted) {
+    return sorted[static_cast<std::size_t>(0.999 * static_cast<double>(sorted.size()))];
+}
+
+} // namespace
+
+TEST(EvenStretch, SpreadsWhereSkinIsStretched) {
+    Rise rise;
+    const double before = rise.steepestAt(-0.8);
+    evenStretch(HeatGraph(rise.mesh), rise.field, rise.isFree, glm::dvec3(0.0), kTurn);
+    EXPECT_LT(rise.steepestAt(-0.8), 0.7 * before);
+    EXPECT_GT(rise.steepestAt(0.0), 1.2 * rise.steepestAt(-0.8));
+    for (const double a : rise.field) {
+        EXPECT_GE(a, 0.0);
+        EXPECT_LE(a, 1.0);
+    }
+}
+
+TEST(EvenStretch, KeepsWhatIsNotFree) {
+    Rise rise;
+    const std::vector<double> before = rise.field;
+    for (std::size_t v = 0; v < before.size(); v += 3) rise.isFree[v] = false;
+    evenStretch(HeatGraph(rise.mesh), rise.field, rise.isFree, glm::dvec3(0.0), kTurn);
+    EXPECT_NE(rise.field, before);
+    for (std::size_t v = 0; v < before.size(); ++v)
+        if (!rise.isFree[v]) {
+            EXPECT_EQ(rise.field[v], before[v]) << v;
+        }
+    rise.field = before;
+    rise.isFree.assign(before.size(), false);
+    evenStretch(HeatGraph(rise.mesh), rise.field, rise.isFree, glm::dvec3(0.0), kTurn);
+    EXPECT_EQ(rise.field, before);
+}
+
+TEST(EvenStretch, IsNearlyTheSameOnACoarserCopy) {
+    Rise fine(121);
+    const std::vector<double> before = fine.field;
+    Rise whole = fine;
+    evenStretch(HeatGraph(whole.mesh), whole.field, whole.isFree, glm::dvec3(0.0), kTurn);
+    const SkinSmoother smoother(fine.mesh, 0.7);
+    std::size_t vertices = 0;
+    smoother.change(fine.field, fine.isFree, 0.7,
+                    [&vertices](const HeatGraph& skin, std::vector<double>& field,
+                                const std::vector<bool>& isFree) {
+                        vertices = field.size();
+                        evenStretch(skin, field, isFree, glm::dvec3(0.0), kTurn);
+                    });
+    EXPECT_LT(vertices, fine.field.size() / 3);
+    double most = 0.0, moved = 0.0;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        most = std::max(most, std::abs(fine.field[v] - whole.field[v]));
+        moved = std::max(moved, std::abs(whole.field[v] - before[v]));
+        if (!fine.isFree[v]) {
+            EXPECT_EQ(fine.field[v], before[v]) << v;
+        }
+    }
+    EXPECT_GT(moved, 0.1);
+    EXPECT_LT(most, 0.5 * moved);
+}
+
+TEST(UnseenBodies, ArmsThatReachForwardsStretchLittle) {
+    const KnownBody neutral = KnownBody::shared("body4k_neutral", "cmu_mb_neutral");
+    if (neutral.mesh.positions.empty()) GTEST_SKIP() << "needs ../shared/data/makehuman";
+    const glm::dvec3 forwards = glm::normalize(glm::dvec3(-0.8, 0.3, 0.6));
+    const KnownBody posed = neutral.posed(
+        {{"LeftArm", glm::angleAxis(glm::radians(80.0), forwards)},
+         {"RightArm",
+          glm::angleAxis(glm::radians(80.0), glm::dvec3(forwards.x, -forwards.y, -forwards.z))}});
+    const std::vector<double> sorted = stretches(neutral.mesh, posed.mesh);
+    EXPECT_LT(percentile999(sorted), 1.52); // 1.55 where swings do not count
+    EXPECT_LT(sorted.back(), 1.60);         // 1.67
+}
