@@ -101,20 +101,6 @@ TEST(ParallelDeformCallback, FindsWhatComesAndLetsGoWhatLeaves) {
     EXPECT_EQ(deep->referenceCount(), 1);
 }
 
-TEST(ParallelDeformCallback, LetsGoOfTheOnlySkin) {
-    Crowd crowd(0);
-    const osg::ref_ptr<osg::Group> between = new osg::Group;
-    crowd.group->addChild(between);
-    const osg::ref_ptr<DeformableSkin> deep = test::makeSkin();
-    between->addChild(deep);
-    crowd.update();
-    EXPECT_GT(deep->referenceCount(), 2);
-    between->removeChild(deep);
-    crowd.update(); // in which it is seen to have no parent
-    crowd.update();
-    EXPECT_EQ(deep->referenceCount(), 1);
-}
-
 TEST(ParallelDeformCallback, TakesASkinThatStandsTwice) {
     Crowd crowd(1);
     crowd.together->setOnlySeen(false);
