@@ -4,6 +4,7 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkin/UpdateDeformableSkin>
 
+#include "Notices.h"
 #include "SomeCorrectives.h"
 #include "TubeSkin.h"
 
@@ -167,8 +168,22 @@ TEST(UpdateDeformableSkin, AJointWithoutABoneMovesWithItsParent) {
     const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
     middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(1.0, osg::Vec3(1, 0, 0)) *
                                     osg::Matrix::translate(0, 2, 0));
+    const test::Notices notices;
     ASSERT_TRUE(update->pose(*skin, *skeleton));
     EXPECT_NEAR(std::abs(skin->getPose().transform(2).rotation.w), 1.0, 1e-12);
+    EXPECT_TRUE(notices.say("has no bone \"end\"; the joint moves with its parent"));
+    ASSERT_TRUE(update->pose(*skin, *skeleton));
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
+}
+
+/// As one that readSkeleton() adds over several.
+TEST(UpdateDeformableSkin, ARootWithoutABoneIsNoNews) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
+    skeleton->getChild(0)->setName("another");
+    const test::Notices notices;
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    ASSERT_TRUE(update->pose(*makeSkin(), *skeleton));
+    EXPECT_EQ(notices.text(), "");
 }
 
 TEST(DeformableSkin, FollowsAnActivation) {
