@@ -30,6 +30,8 @@ public:
     explicit SkinSmoother(const WeldedMesh& mesh, double widest = 0.0);
     SkinSmoother(const SkinSmoother&) = delete;
 
+    const HeatGraph& skin() const { return _skin; }
+
     /// Smooths a field alike everywhere.
     ///
     /// \param field one value for each vertex

@@ -5,6 +5,7 @@
 #include "limbs/LimbRadius.h"
 #include "limbs/MiddleThird.h"
 #include "ratios/EvenStretch.h"
+#include "ratios/HeldSkin.h"
 #include "ratios/SlopeShare.h"
 
 #include <algorithm>
@@ -79,6 +80,7 @@ void evenOut(const BinaryField& binary, const SkinSmoother& smoother, std::size_
     std::vector<bool> isFree(field.size());
     for (std::size_t v = 0; v < field.size(); ++v) isFree[v] = field[v] > 0.0 && field[v] < 1.0;
     for (const std::uint32_t v : third.vertices()) isFree[v] = false;
+    keepLooseSkin(smoother.skin(), field, isFree);
     const glm::dvec3& centre = binary.joints[joint].centre;
     smoother.change(field, isFree, width,
                     [&](const HeatGraph& skin, std::vector<double>& coarse,
