@@ -150,3 +150,43 @@ TEST(UnseenBodies, ArmsThatReachForwardsStretchLittle) {
     EXPECT_LT(percentile999(sorted), 1.52); // 1.55 where swings do not count
     EXPECT_LT(sorted.back(), 1.60);         // 1.67
 }
+
+/// A pad over the shoulder, which nothing holds, keeps the field that it had.
+TEST(UnseenBodies, PadsOnTheShoulderStayOnIt) {
+    KnownBody body = KnownBody::shared("body4k_neutral", "cmu_mb_neutral");
+    if (body.mesh.positions.empty()) GTEST_SKIP() << "needs ../shared/data/makehuman";
+    const glm::dvec3 shoulder =
+        body.truth.joints.at(std::size_t(body.truth.find("LeftArm"))).centre;
+    const std::vector<glm::dvec3> skin = body.mesh.positions;
+    const double height = glm::distance(shoulder, body.truth.joints.front().centre) * 3.0;
+    // Where each vertex of the pad comes from; away from the joint by a hundredth of the height.
+    std::vector<std::uint32_t> padOf(skin.size(), 0), below;
+    const std::vector<std::uint32_t> corners = body.mesh.triangles();
+    for (std::size_t t = 0; t < corners.size(); t += 3) {
+        const auto isNear = [&](std::uint32_t v) {
+            return glm::distance(skin[v], shoulder) < 0.045 * height;
+        };
+        if (!std::all_of(corners.begin() + std::ptrdiff_t(t),
+                         corners.begin() + std::ptrdiff_t(t + 3), isNear))
+            continue;
+        for (std::size_t c = t; c < t + 3; ++c) {
+            const std::uint32_t v = corners[c];
+            if (padOf[v] == 0) {
+                padOf[v] = static_cast<std::uint32_t>(body.mesh.positions.size());
+                below.push_back(v);
+                body.mesh.positions.push_back(skin[v] +
+                                              0.01 * height * glm::normalize(skin[v] - shoulder));
+            }
+            body.mesh.faceVertices.push_back(padOf[v]);
+        }
+        body.mesh.faceSizes.push_back(3);
+    }
+    ASSERT_GT(below.size(), 30u);
+    const glm::dvec3 forwards = glm::normalize(glm::dvec3(-0.8, 0.3, 0.6));
+    const KnownBody posed = body.posed({{"LeftArm", glm::angleAxis(glm::radians(80.0), forwards)}});
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < below.size(); ++i)
+        farthest = std::max(farthest, glm::distance(posed.mesh.positions[skin.size() + i],
+                                                    posed.mesh.positions[below[i]]));
+    EXPECT_LT(farthest, 0.02 * height); // 0.03 where it is drawn out
+}
