@@ -70,7 +70,7 @@ TEST(HeldSkin, WhatEndsIsKept) {
     Ring ring;
     const auto whole = ring.freeAfter();
     // One triangle less, at the top.
-    const std::size_t cut = 6 * kThrough * (kAround / 4);
+    const std::size_t cut = std::size_t(6) * kThrough * (kAround / 4);
     ring.mesh.faceVertices.erase(ring.mesh.faceVertices.begin() + std::ptrdiff_t(cut),
                                  ring.mesh.faceVertices.begin() + std::ptrdiff_t(cut + 3));
     ring.mesh.faceSizes.pop_back();
