@@ -3,6 +3,7 @@
 // Fields for the turns that a joint makes: on a sheet, and on bodies.
 #include "ratios/EvenStretch.h"
 #include "KnownBody.h"
+#include "Stretches.h"
 #include "mesh/HeatGraph.h"
 #include "mesh/SkinSmoother.h"
 #include "mesh/WeldedMesh.h"
@@ -63,24 +64,6 @@ struct Rise {
 
 /// About the sheet's middle: what is below the middle is stretched, what is above it pressed.
 const std::vector<glm::dvec3> kTurn = {{0.0, 0.0, 1.5}};
-
-/// l'/l of each edge, the longest last.
-std::vector<double> stretches(const SkinMesh& rest, const SkinMesh& posed) {
-    std::vector<double> result;
-    const std::vector<std::uint32_t> corners = rest.triangles();
-    for (std::size_t t = 0; t < corners.size(); ++t) {
-        const std::uint32_t a = corners[t], b = corners[t % 3 == 2 ? t - 2 : t + 1];
-        const double length = glm::distance(rest.positions[a], rest.positions[b]);
-        if (a < b && length > 0.0)
-            result.push_back(glm::distance(posed.positions[a], posed.positions[b]) / length);
-    }
-    std::sort(result.begin(), result.end());
-    return result;
-}
-
-double percentile999(const std::vector<double>& sorted) {
-    return sorted[static_cast<std::size_t>(0.999 * static_cast<double>(sorted.size()))];
-}
 
 } // namespace
 

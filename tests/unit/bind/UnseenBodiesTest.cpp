@@ -3,6 +3,7 @@
 // Bodies of other proportions than those at hand, made of them.
 #include "KnownBody.h"
 #include "Ratios.h"
+#include "Stretches.h"
 #include "mesh/WeldedMesh.h"
 #include "ratios/SlopeShare.h"
 #include "regions/FacesLimb.h"
@@ -21,24 +22,6 @@
 using namespace osgSkin;
 
 namespace {
-
-/// l'/l of each edge, the longest last.
-std::vector<double> stretches(const SkinMesh& rest, const SkinMesh& posed) {
-    std::vector<double> result;
-    const std::vector<std::uint32_t> corners = rest.triangles();
-    for (std::size_t t = 0; t < corners.size(); ++t) {
-        const std::uint32_t a = corners[t], b = corners[t % 3 == 2 ? t - 2 : t + 1];
-        const double length = glm::distance(rest.positions[a], rest.positions[b]);
-        if (a < b && length > 0.0)
-            result.push_back(glm::distance(posed.positions[a], posed.positions[b]) / length);
-    }
-    std::sort(result.begin(), result.end());
-    return result;
-}
-
-double percentile999(const std::vector<double>& sorted) {
-    return sorted[static_cast<std::size_t>(0.999 * static_cast<double>(sorted.size()))];
-}
 
 /// The skin moved in along its normals.
 KnownBody thinned(KnownBody body, double distance) {
