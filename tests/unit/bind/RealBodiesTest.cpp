@@ -44,41 +44,6 @@ SkinMesh exploded(const SkinMesh& mesh, const RestSkeleton&) {
     return shapes::exploded(mesh);
 }
 
-/// A copy of the faces between two heights and not far from the middle, a little outside of the
-/// skin: trousers, without the hands beside them.
-SkinMesh garment(const SkinMesh& body, double low, double high, double width, double distance) {
-    std::vector<glm::dvec3> normals(body.positions.size(), glm::dvec3(0.0));
-    const std::vector<std::uint32_t> corners = body.triangles();
-    for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
-        const glm::dvec3& a = body.positions[corners[t]];
-        const glm::dvec3 n =
-            glm::cross(body.positions[corners[t + 1]] - a, body.positions[corners[t + 2]] - a);
-        for (std::size_t k = 0; k < 3; ++k) normals[corners[t + k]] += n;
-    }
-    SkinMesh result;
-    std::vector<std::uint32_t> placed(body.positions.size(), 0xffffffffu);
-    for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
-        const bool inside =
-            std::all_of(corners.begin() + static_cast<std::ptrdiff_t>(t),
-                        corners.begin() + static_cast<std::ptrdiff_t>(t + 3), [&](std::uint32_t v) {
-                            return body.positions[v].y > low && body.positions[v].y < high &&
-                                   std::abs(body.positions[v].x) < width;
-                        });
-        if (!inside) continue;
-        result.faceSizes.push_back(3);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t v = corners[t + k];
-            if (placed[v] == 0xffffffffu) {
-                placed[v] = static_cast<std::uint32_t>(result.positions.size());
-                result.positions.push_back(body.positions[v] +
-                                           distance * glm::normalize(normals[v]));
-            }
-            result.faceVertices.push_back(placed[v]);
-        }
-    }
-    return result;
-}
-
 /// Two eyes inside the head and trousers outside of the legs.
 SkinMesh dressed(const SkinMesh& body, const RestSkeleton& skeleton) {
     const SkinMesh ball = shapes::voxelSurface(
@@ -92,8 +57,12 @@ SkinMesh dressed(const SkinMesh& body, const RestSkeleton& skeleton) {
     const glm::dvec3 head = at("Head") + glm::dvec3(0.0, 0.6, 0.6);
     SkinMesh all = shapes::joined(body, shapes::moved(ball, head + glm::dvec3(0.3, 0, 0)));
     all = shapes::joined(all, shapes::moved(ball, head - glm::dvec3(0.3, 0, 0)));
-    return shapes::joined(
-        all, garment(body, at("LeftFoot").y + 1.0, at("LowerBack").y - 0.3, 2.2, 0.08));
+    // Trousers, without the hands beside them.
+    const double low = at("LeftFoot").y + 1.0, high = at("LowerBack").y - 0.3;
+    const auto isBelow = [&](const glm::dvec3& p) {
+        return p.y > low && p.y < high && std::abs(p.x) < 2.2;
+    };
+    return shapes::joined(all, shapes::garment(body, isBelow, 0.08));
 }
 
 const BodyCase kBodies[] = {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Shapes.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -131,6 +133,37 @@ osgSkin::SkinMesh joined(const osgSkin::SkinMesh& a, const osgSkin::SkinMesh& b)
     result.positions.insert(result.positions.end(), b.positions.begin(), b.positions.end());
     result.faceSizes.insert(result.faceSizes.end(), b.faceSizes.begin(), b.faceSizes.end());
     for (const std::uint32_t v : b.faceVertices) result.faceVertices.push_back(offset + v);
+    return result;
+}
+
+osgSkin::SkinMesh garment(const osgSkin::SkinMesh& body,
+                          const std::function<bool(const glm::dvec3&)>& isCovered,
+                          double distance) {
+    std::vector<glm::dvec3> normals(body.positions.size(), glm::dvec3(0.0));
+    std::vector<bool> isUsed(body.positions.size());
+    const std::vector<std::uint32_t> corners = body.triangles();
+    osgSkin::SkinMesh result;
+    for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
+        const std::array<std::uint32_t, 3> face = {corners[t], corners[t + 1], corners[t + 2]};
+        const glm::dvec3& a = body.positions[face[0]];
+        const glm::dvec3 n = glm::cross(body.positions[face[1]] - a, body.positions[face[2]] - a);
+        for (const std::uint32_t v : face) normals[v] += n;
+        if (!std::all_of(face.begin(), face.end(),
+                         [&](std::uint32_t v) { return isCovered(body.positions[v]); }))
+            continue;
+        result.faceSizes.push_back(3);
+        for (const std::uint32_t v : face) {
+            isUsed[v] = true;
+            result.faceVertices.push_back(v);
+        }
+    }
+    std::vector<std::uint32_t> placed(body.positions.size());
+    for (std::size_t v = 0; v < placed.size(); ++v) {
+        placed[v] = static_cast<std::uint32_t>(result.positions.size());
+        if (isUsed[v])
+            result.positions.push_back(body.positions[v] + distance * glm::normalize(normals[v]));
+    }
+    for (std::uint32_t& v : result.faceVertices) v = placed[v];
     return result;
 }
 

@@ -42,6 +42,11 @@ osgSkin::SkinMesh exploded(const osgSkin::SkinMesh& mesh);
 /// Both meshes as one, with two shells.
 osgSkin::SkinMesh joined(const osgSkin::SkinMesh& a, const osgSkin::SkinMesh& b);
 
+/// A copy of the triangles of a body all of whose corners are to be covered, a distance above it.
+/// Its vertices are in the body's order.
+osgSkin::SkinMesh garment(const osgSkin::SkinMesh& body,
+                          const std::function<bool(const glm::dvec3&)>& isCovered, double distance);
+
 osgSkin::SkinMesh moved(osgSkin::SkinMesh mesh, const glm::dvec3& by, double scale = 1.0);
 
 } // namespace shapes

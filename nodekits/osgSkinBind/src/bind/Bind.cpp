@@ -5,6 +5,7 @@
 #include "bind/CheckOptions.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
+#include "layers/SkinLayers.h"
 #include "limbs/LimbRadius.h"
 #include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
@@ -118,8 +119,11 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
                     std::to_string(skin.vertexCount()) + " vertices, expected at most " +
                     std::to_string(kMostTriangles) + " for each vertex, as a skin has");
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
-    const Regions regions = findRegions(
+    Regions regions = findRegions(
         skin, joints, subProgress(ratiosProgress, kRegionsBegin, kBendsBegin)); // section 1
+
+    SkinLayers(skin, joints, regions).follow(regions);
+    const SkinLayers layers(skin, joints, regions);
 
     // Section 3: what fraction of each joint's rotation each vertex takes.
     const BinaryField binary{skin, joints, regions.jointOf};
@@ -138,6 +142,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
         });
         tell("twists", kTwistsBegin);
         twist = twistFields(skin, joints, radii, bend);
+        layers.follow(bend, twist);
     }
 
     tell("ratios", kRatiosBegin);

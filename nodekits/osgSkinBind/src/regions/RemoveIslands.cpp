@@ -51,16 +51,22 @@ std::vector<Patch> findPatches(const WeldedMesh& mesh, const std::vector<bool>& 
 } // namespace
 
 void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
-                   std::vector<std::uint32_t>& jointOf) {
+                   std::vector<std::uint32_t>& jointOf, double share) {
     const std::vector<Patch> patches = findPatches(mesh, isSeed, jointOf);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> main; // shell and joint -> patch
+    std::vector<std::size_t> onShell(mesh.shells, 0);                    // vertices
     for (std::size_t p = 0; p < patches.size(); ++p) {
         const auto [entry, added] = main.emplace(std::pair(patches[p].shell, patches[p].joint), p);
+        onShell[patches[p].shell] += patches[p].vertices.size();
         if (!added && patches[p].outweighs(patches[entry->second])) entry->second = p;
     }
-    for (std::size_t p = 0; p < patches.size(); ++p)
-        if (main.at({patches[p].shell, patches[p].joint}) != p)
-            for (const std::uint32_t v : patches[p].vertices) jointOf[v] = Regions::kNone;
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+        const Patch& patch = patches[p];
+        if (main.at({patch.shell, patch.joint}) == p) continue;
+        const auto most = share * static_cast<double>(onShell[patch.shell]);
+        if (static_cast<double>(patch.vertices.size()) < most)
+            for (const std::uint32_t v : patch.vertices) jointOf[v] = Regions::kNone;
+    }
     // Each shell keeps at least one patch, so spreading reaches all of it again, and what it adds
     // is connected to the patch that it comes from.
     spreadRegions(mesh, jointOf);

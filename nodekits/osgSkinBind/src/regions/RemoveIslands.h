@@ -5,14 +5,18 @@
 #include "mesh/WeldedMesh.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace osgSkin {
 
 /// Joins each region's islands to the regions around them: of a region's connected patches on one
 /// shell the one with most seeds (then most vertices) stays.
+///
+/// \param share an island with at least this share of its shell's vertices stays, too
 void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
-                   std::vector<std::uint32_t>& jointOf);
+                   std::vector<std::uint32_t>& jointOf,
+                   double share = std::numeric_limits<double>::infinity());
 
 } // namespace osgSkin
 

@@ -15,7 +15,7 @@
 namespace osgSkin {
 namespace {
 
-constexpr double kTolerance = 0.05; ///< of the scale along one axis against that along another
+constexpr double kUniform = 0.05; ///< of the scale along one axis against that along another
 
 osg::Vec3d axis(const osg::Matrixd& m, int row) {
     return {m(row, 0), m(row, 1), m(row, 2)};
@@ -24,8 +24,8 @@ osg::Vec3d axis(const osg::Matrixd& m, int row) {
 bool isUniform(const osg::Matrixd& m) {
     const double size = axis(m, 0).length2();
     for (int i = 0; i < 3; ++i) {
-        if (std::abs(axis(m, i).length2() - size) > 2.0 * kTolerance * size) return false;
-        if (std::abs(axis(m, i) * axis(m, (i + 1) % 3)) > 2.0 * kTolerance * size) return false;
+        if (std::abs(axis(m, i).length2() - size) > 2.0 * kUniform * size) return false;
+        if (std::abs(axis(m, i) * axis(m, (i + 1) % 3)) > 2.0 * kUniform * size) return false;
     }
     return (axis(m, 0) ^ axis(m, 1)) * axis(m, 2) > 0.0;
 }

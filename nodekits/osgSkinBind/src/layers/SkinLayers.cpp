@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "layers/SkinLayers.h"
+
+#include "layers/FindAttached.h"
+#include "limbs/LimbRadius.h"
+#include "mesh/Neighbours.h"
+#include "mesh/SkinSmoother.h"
+#include "regions/RemoveIslands.h"
+#include "regions/SpreadRegions.h"
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+/// A vertex that is held by more than this is of the region below it.
+constexpr double kMostly = 0.5;
+
+/// Width, in the skin's size, of what is not to be smoothed.
+constexpr double kNoWidth = 1e-6;
+
+/// Islands of less than this share of a shell came about where the nearest skin changes. The inside
+/// and the outside of a cloth are islands to each other, too, and stay.
+constexpr double kStray = 0.01;
+
+} // namespace
+
+SkinLayers::SkinLayers(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                       const Regions& regions)
+    : _mesh(mesh) {
+    if (mesh.shells > 1)
+        _attached = findAttached(mesh, regions, joints, limbRadii({mesh, joints, regions.jointOf}));
+}
+
+/// For each shell whether something of it is held by more than this.
+std::vector<bool> SkinLayers::layers(double hold) const {
+    std::vector<bool> isLayer(_mesh.shells);
+    for (const Attached& a : _attached)
+        if (a.hold > hold) isLayer[_mesh.shellOf[a.vertex]] = true;
+    return isLayer;
+}
+
+/// The mesh without the shells that have nothing attached.
+WeldedMesh SkinLayers::layersAlone() const {
+    WeldedMesh mesh = _mesh;
+    const std::vector<bool> isLayer = layers(0.0);
+    const auto isOther = [&](const auto& t) { return !isLayer[mesh.shellOf[t[0]]]; };
+    mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), isOther),
+                         mesh.triangles.end());
+    std::vector<DirectedEdge> edges;
+    for (const auto& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            edges.emplace_back(t[k], t[(k + 1) % 3]);
+            edges.emplace_back(t[(k + 1) % 3], t[k]);
+        }
+    std::sort(edges.begin(), edges.end());
+    listNeighbours(mesh.vertexCount(), edges, mesh.firstNeighbour, mesh.neighbours);
+    return mesh;
+}
+
+void SkinLayers::follow(Regions& regions) const {
+    const std::vector<bool> isLayer = layers(kMostly);
+    if (std::find(isLayer.begin(), isLayer.end(), true) == isLayer.end()) return;
+    for (std::uint32_t v = 0; v < _mesh.vertexCount(); ++v)
+        if (_mesh.shellOf[v] != WeldedMesh::kNoShell && isLayer[_mesh.shellOf[v]] &&
+            regions.seedOf[v] == Regions::kNone)
+            regions.jointOf[v] = Regions::kNone;
+    for (const Attached& a : _attached)
+        if (a.hold > kMostly) regions.jointOf[a.vertex] = regions.jointOf[a.on.nearestCorner()];
+    spreadRegions(_mesh, regions.jointOf);
+    removeIslands(_mesh, std::vector<bool>(_mesh.vertexCount()), regions.jointOf, kStray);
+}
+
+void SkinLayers::blend(std::vector<double>& field) const {
+    for (const Attached& a : _attached) {
+        double below = 0.0;
+        for (int k = 0; k < 3; ++k)
+            below += a.on.shares[k] * field[a.on.corners[static_cast<std::size_t>(k)]];
+        field[a.vertex] += a.hold * (below - field[a.vertex]);
+    }
+}
+
+void SkinLayers::follow(JointFields& bend, JointFields& twist) const {
+    if (_attached.empty()) return;
+    const SkinSmoother smoother(layersAlone());
+    std::vector<double> widths(_mesh.vertexCount(), kNoWidth * _mesh.size);
+    for (const Attached& a : _attached) widths[a.vertex] += a.gap;
+    for (JointFields* fields : {&bend, &twist})
+        for (std::vector<double>& field : *fields) {
+            blend(field);
+            std::vector<double> smooth = field;
+            smoother.smooth(smooth, widths);
+            for (const Attached& a : _attached) field[a.vertex] = smooth[a.vertex];
+        }
+}
+
+} // namespace osgSkin

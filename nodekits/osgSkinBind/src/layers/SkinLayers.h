@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_SKINLAYERS_H
+#define OSGSKINBIND_SKINLAYERS_H
+
+#include "joints/JointPlan.h"
+#include "layers/Attached.h"
+#include "mesh/WeldedMesh.h"
+#include "ratios/JointFields.h"
+#include "regions/RegionLabels.h"
+
+#include <vector>
+
+namespace osgSkin {
+
+/// Shells that lie on others: clothes on a body, a belt on the clothes. Whatever ratios would be
+/// the best for such a shell alone, it must move as what is below it does, or the skin shows
+/// through.
+class SkinLayers {
+public:
+    /// \param mesh is referred to
+    /// \param regions as they are so far
+    SkinLayers(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+               const Regions& regions);
+
+    /// Gives attached vertices the regions of the skin below them, and what else no joint sees of
+    /// their shells those of the nearest along the shell.
+    void follow(Regions& regions) const;
+
+    /// Gives attached vertices what the skin below them has.
+    ///
+    /// A cloth over a hollow, as at an armpit, would tear where the skin below changes: it is
+    /// smoothed about as widely as it is above the skin.
+    ///
+    /// \param bend one field for each joint
+    /// \param twist likewise
+    void follow(JointFields& bend, JointFields& twist) const;
+
+private:
+    std::vector<bool> layers(double hold) const;
+    WeldedMesh layersAlone() const;
+    void blend(std::vector<double>& field) const;
+
+    const WeldedMesh& _mesh;
+    std::vector<Attached> _attached;
+};
+
+} // namespace osgSkin
+
+#endif
