@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Breaks the product on purpose, place by place, and tells which breaks no test notices.
 
-    tests/mutation/run.py [--count N] [--seed S] [--tests BUILD] [KIT...]
+    tests/mutation/run.py [--count N] [--seed S] [--again LIST] [--tests BUILD] [KIT...]
 
 Works in a copy of the last commit, build/mutation/tree. Each mutant changes one operator, number or
 order in one line; a kit's mutants are spread over its sources. One source is compiled and one library
 linked a mutant, into build/mutation/broken, where the test programs find it first; a kit's programs
 run in the order of KITS until one notices. What survives is listed with its place, to be given a test
-or, where no test could notice, to be explained in explained.txt.
+or, where no test could notice, to be explained in explained.txt. --again tries what was printed before.
 """
 import argparse
 import json
@@ -121,11 +121,35 @@ def explained():
     return {line for line in lines if line and not line.startswith("#") and not line.startswith("    ")}
 
 
+def chosen(kit, arguments, commands):
+    """(file, line number, broken line), as many as there are."""
+    random.seed(f"{arguments.seed} {kit}")
+    for file, number, (pattern, by) in places(kit, commands):
+        lines = file.read_text().splitlines(keepends=True)
+        yield file, number, re.sub(pattern, by, lines[number], count=1)
+
+
+def listed(kit, again):
+    """The same, of the lines of an earlier run's output."""
+    for line in again.read_text().splitlines():
+        found = re.search(rf"({kit}/\S+): (.*) -> (.*)", line)
+        if not found:
+            continue
+        file = TREE / "nodekits" / found[1]
+        at = [n for n, text in enumerate(file.read_text().splitlines(keepends=True)) if text.strip() == found[2]]
+        if at:
+            yield file, at[0], found[3] + "\n"
+        else:
+            print(f"gone: {line}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("kits", nargs="*", default=list(KITS))
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--again", type=Path, help="a file of lines that were printed by a run: those mutants "
+                        "and no others")
     parser.add_argument("--tests", type=Path, help="a finished build of the same commit, whose test "
                         "programs are run instead of others that take minutes to build")
     arguments = parser.parse_args()
@@ -137,17 +161,17 @@ def main():
         commands.setdefault(entry["file"], []).append(entry)
     noticed, survivors = 0, []
     for kit in arguments.kits:
-        random.seed(f"{arguments.seed} {kit}")
-        wanted = -(-arguments.count // len(arguments.kits))
-        for file, number, (pattern, by) in places(kit, commands):
+        wanted = -1 if arguments.again else -(-arguments.count // len(arguments.kits))
+        mutants = listed(kit, arguments.again) if arguments.again else chosen(kit, arguments, commands)
+        for file, number, broken in mutants:
             if wanted == 0:
                 break
             text = file.read_text()
             lines = text.splitlines(keepends=True)
             before = lines[number].strip()
-            lines[number] = re.sub(pattern, by, lines[number], count=1)
-            place = f"{file.relative_to(TREE / 'nodekits')}: {before} -> {lines[number].strip()}"
-            if place in explained():
+            lines[number] = broken
+            place = f"{file.relative_to(TREE / 'nodekits')}: {before} -> {broken.strip()}"
+            if place in explained() and not arguments.again:
                 continue
             file.write_text("".join(lines))
             compiles = compile_broken(kit, commands[str(file)][0])
