@@ -163,3 +163,24 @@ TEST(Layers, WhatAloneHasAJointKeepsIt) {
     }
     EXPECT_GT(sum / static_cast<double>(body.positions.size() - first), 0.4);
 }
+
+TEST(Layers, WhatLiesOnALooseLayerIsBound) {
+    // A belt around a skirt, far from the body that the skirt touches at its upper end.
+    const SkinMesh body = shapes::cylinder(8.0, 16);
+    SkinMesh skirt = shapes::garment(
+        body, [](const glm::dvec3& p) { return p.y > 0.6 && p.y < 6.0; }, 0.05);
+    for (glm::dvec3& p : skirt.positions) {
+        const double wide = 1.0 + 0.5 * (5.5 - p.y);
+        p = {wide * p.x, p.y, wide * p.z};
+    }
+    const SkinMesh belt = shapes::garment(
+        skirt, [](const glm::dvec3& p) { return p.y > 1.0 && p.y < 2.0; }, 0.05);
+    const SkinMesh mesh = shapes::joined(shapes::joined(body, skirt), belt);
+    const Binding binding = bind(mesh, shapes::chainAlongY({1.1, 4.1}, 7.0));
+    EXPECT_NO_THROW(binding.validate());
+    const std::size_t first = body.positions.size();
+    for (std::size_t v = 0; v < belt.positions.size(); ++v) {
+        const std::size_t at = first + skirt.positions.size() + v;
+        EXPECT_LT(binding.regions[at], binding.joints.size());
+    }
+}

@@ -32,34 +32,58 @@ constexpr std::size_t kMostBelow = 16;
 
 /// A joint is of the shell that has so many times more of its seeds than those below.
 constexpr std::size_t kCarried = 4;
+/// An eye is embedded: so much of it is near the shells below.
+constexpr double kEmbedded = 0.8;
 
 class Finder {
 public:
     Finder(const WeldedMesh& mesh, const Regions& regions, const std::vector<PlannedJoint>& joints,
            const std::vector<double>& radii)
-        : _mesh(mesh), _regions(regions), _tree(joints), _radii(radii), _seedsBelow(joints.size()) {
-    }
+        : _mesh(mesh), _regions(regions), _joints(joints), _tree(joints), _radii(radii),
+          _seedsBelow(joints.size()) {}
 
     /// Adds what of a shell is attached to those before.
     void attach(const std::vector<std::uint32_t>& vertices) {
+        std::vector<Attached> near;
+        for (const std::uint32_t v : vertices)
+            if (const auto attached = attachedAt(v)) near.push_back(*attached);
+        keep(near, vertices);
+    }
+
+    /// Lets those that follow lie on a shell.
+    void add(std::uint32_t shell, const std::vector<std::uint32_t>& vertices) {
+        if (_below.size() == kMostBelow) return;
+        _below.push_back(std::make_unique<ShellSurface>(_mesh, shell));
+        const std::vector<std::size_t> seeds = seedsOf(vertices);
+        for (std::size_t j = 0; j < seeds.size(); ++j) _seedsBelow[j] += seeds[j];
+    }
+
+    std::vector<Attached> take() { return std::move(_all); }
+
+private:
+    /// Adds those that lie on the shells below.
+    ///
+    /// \param near each above one of them
+    /// \param vertices all of the shell
+    void keep(const std::vector<Attached>& near, const std::vector<std::uint32_t>& vertices) {
         const std::vector<std::size_t> seeds = seedsOf(vertices);
         const auto isCarried = [&](std::uint32_t v) {
             return seeds[_regions.jointOf[v]] > kCarried * _seedsBelow[_regions.jointOf[v]];
         };
-        const auto carried = std::count_if(vertices.begin(), vertices.end(), isCarried);
-        if (2 * static_cast<std::size_t>(carried) > vertices.size()) return;
+        const auto carried =
+            static_cast<double>(std::count_if(vertices.begin(), vertices.end(), isCarried));
+        const auto all = static_cast<double>(vertices.size());
+        if (carried > 0.5 * all && static_cast<double>(near.size()) > kEmbedded * all) return;
         std::vector<std::uint32_t> held, turnedAway;
         std::unordered_map<std::uint32_t, std::size_t> found;
-        for (const std::uint32_t v : vertices) {
-            if (isCarried(v)) continue;
-            const std::optional<Attached> attached = attachedAt(v);
-            if (!attached) continue;
-            if (!isAlike(*attached)) {
-                turnedAway.push_back(v);
+        for (const Attached& attached : near) {
+            if (isCarried(attached.vertex)) continue;
+            if (!isAlike(attached)) {
+                turnedAway.push_back(attached.vertex);
             } else {
-                found.emplace(v, _all.size());
-                held.push_back(v);
-                _all.push_back(*attached);
+                found.emplace(attached.vertex, _all.size());
+                held.push_back(attached.vertex);
+                _all.push_back(attached);
             }
         }
         if (held.empty() || turnedAway.empty()) return;
@@ -74,22 +98,15 @@ public:
         }
     }
 
-    /// Lets those that follow lie on a shell.
-    void add(std::uint32_t shell, const std::vector<std::uint32_t>& vertices) {
-        if (_below.size() == kMostBelow) return;
-        _below.push_back(std::make_unique<ShellSurface>(_mesh, shell));
-        const std::vector<std::size_t> seeds = seedsOf(vertices);
-        for (std::size_t j = 0; j < seeds.size(); ++j) _seedsBelow[j] += seeds[j];
-    }
-
-    std::vector<Attached> take() { return std::move(_all); }
-
-private:
-    /// The number of seeds in each joint's region.
+    /// The number of seeds of each joint with a region.
     std::vector<std::size_t> seedsOf(const std::vector<std::uint32_t>& vertices) const {
         std::vector<std::size_t> seeds(_seedsBelow.size());
-        for (const std::uint32_t v : vertices)
-            if (_regions.seedOf[v] != Regions::kNone) ++seeds[_regions.jointOf[v]];
+        for (const std::uint32_t v : vertices) {
+            const std::uint32_t seed = _regions.seedOf[v];
+            if (seed == Regions::kNone) continue;
+            const int rigid = _joints[seed].rigid;
+            ++seeds[rigid >= 0 ? static_cast<std::size_t>(rigid) : seed];
+        }
         return seeds;
     }
 
@@ -142,6 +159,7 @@ private:
 
     const WeldedMesh& _mesh;
     const Regions& _regions;
+    const std::vector<PlannedJoint>& _joints;
     const RegionTree _tree;
     const std::vector<double>& _radii;
     std::vector<std::unique_ptr<ShellSurface>> _below;

@@ -15,9 +15,8 @@ namespace osgSkin {
 /// above it rather than beside it, and turned as it is. What is near but turned the other way, as
 /// the inside of a cloth is, goes with the nearest of its shell that lies on one.
 ///
-/// Where a joint's seeds are on a shell rather than on those below it, it does not lie on them, and
-/// nowhere if that is most of it: an eye is of its own joint, and a sleeve without an arm of the
-/// arm's.
+/// Where a joint's seeds are on a shell rather than on those below it, it does not lie on them; an
+/// eye of its own joint lies on none at all.
 ///
 /// \param regions as the shells have them by themselves
 /// \param radii of limbRadii(): how near is near

@@ -19,10 +19,6 @@ constexpr double kMostly = 0.5;
 /// Width, in the skin's size, of what is not to be smoothed.
 constexpr double kNoWidth = 1e-6;
 
-/// Islands of less than this share of a shell came about where the nearest skin changes. The inside
-/// and the outside of a cloth are islands to each other, too, and stay.
-constexpr double kStray = 0.01;
-
 } // namespace
 
 SkinLayers::SkinLayers(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
@@ -61,14 +57,18 @@ WeldedMesh SkinLayers::layersAlone() const {
 void SkinLayers::follow(Regions& regions) const {
     const std::vector<bool> isLayer = layers(kMostly);
     if (std::find(isLayer.begin(), isLayer.end(), true) == isLayer.end()) return;
+    const std::vector<std::uint32_t> alone = regions.jointOf;
     for (std::uint32_t v = 0; v < _mesh.vertexCount(); ++v)
         if (_mesh.shellOf[v] != WeldedMesh::kNoShell && isLayer[_mesh.shellOf[v]] &&
             regions.seedOf[v] == Regions::kNone)
             regions.jointOf[v] = Regions::kNone;
-    for (const Attached& a : _attached)
-        if (a.hold > kMostly) regions.jointOf[a.vertex] = regions.jointOf[a.on.nearestCorner()];
+    for (const Attached& a : _attached) {
+        if (!(a.hold > kMostly)) continue;
+        const std::uint32_t corner = a.on.nearestCorner(), below = regions.jointOf[corner];
+        regions.jointOf[a.vertex] = below != Regions::kNone ? below : alone[corner];
+    }
     spreadRegions(_mesh, regions.jointOf);
-    removeIslands(_mesh, std::vector<bool>(_mesh.vertexCount()), regions.jointOf, kStray);
+    removeIslands(_mesh, std::vector<bool>(_mesh.vertexCount()), regions.jointOf);
 }
 
 void SkinLayers::blend(std::vector<double>& field) const {

@@ -10,8 +10,9 @@
 
 namespace osgSkin {
 
-/// Labels what flooding cannot reach: vertices like the nearest labelled vertex; where no vertex
-/// has a label, like the nearest bone.
+/// Labels what flooding cannot reach: vertices like the nearest labelled vertex or the nearest
+/// bone, whichever is nearer. So a button goes with the skin below it, and a lined coat that has no
+/// body in it with the bones.
 void assignUnreached(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
                      std::vector<std::uint32_t>& jointOf);
 

@@ -10,6 +10,9 @@
 namespace osgSkin {
 namespace {
 
+/// Islands of less than this share of a shell's vertices are none of a cloth's sides.
+constexpr double kStray = 0.01;
+
 struct Patch {
     std::uint32_t joint = 0;
     std::uint32_t shell = 0;
@@ -51,20 +54,26 @@ std::vector<Patch> findPatches(const WeldedMesh& mesh, const std::vector<bool>& 
 } // namespace
 
 void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
-                   std::vector<std::uint32_t>& jointOf, double share) {
+                   std::vector<std::uint32_t>& jointOf) {
     const std::vector<Patch> patches = findPatches(mesh, isSeed, jointOf);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> main; // shell and joint -> patch
-    std::vector<std::size_t> onShell(mesh.shells, 0);                    // vertices
+    struct Shell {
+        std::size_t vertices = 0, seeds = 0;
+    };
+    std::vector<Shell> shells(mesh.shells);
     for (std::size_t p = 0; p < patches.size(); ++p) {
         const auto [entry, added] = main.emplace(std::pair(patches[p].shell, patches[p].joint), p);
-        onShell[patches[p].shell] += patches[p].vertices.size();
+        shells[patches[p].shell].vertices += patches[p].vertices.size();
+        shells[patches[p].shell].seeds += patches[p].seeds;
         if (!added && patches[p].outweighs(patches[entry->second])) entry->second = p;
     }
     for (std::size_t p = 0; p < patches.size(); ++p) {
         const Patch& patch = patches[p];
         if (main.at({patch.shell, patch.joint}) == p) continue;
-        const auto most = share * static_cast<double>(onShell[patch.shell]);
-        if (static_cast<double>(patch.vertices.size()) < most)
+        const Shell& shell = shells[patch.shell];
+        const double share =
+            static_cast<double>(patch.vertices.size()) / static_cast<double>(shell.vertices);
+        if (shell.seeds > 0 || share < kStray)
             for (const std::uint32_t v : patch.vertices) jointOf[v] = Regions::kNone;
     }
     // Each shell keeps at least one patch, so spreading reaches all of it again, and what it adds

@@ -5,18 +5,15 @@
 #include "mesh/WeldedMesh.h"
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace osgSkin {
 
 /// Joins each region's islands to the regions around them: of a region's connected patches on one
-/// shell the one with most seeds (then most vertices) stays.
-///
-/// \param share an island with at least this share of its shell's vertices stays, too
+/// shell the one with most seeds (then most vertices) stays. On a shell without seeds larger ones
+/// stay, too: the inside and the outside of a cloth are islands to each other.
 void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
-                   std::vector<std::uint32_t>& jointOf,
-                   double share = std::numeric_limits<double>::infinity());
+                   std::vector<std::uint32_t>& jointOf);
 
 } // namespace osgSkin
 
