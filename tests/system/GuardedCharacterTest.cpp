@@ -180,6 +180,16 @@ TEST(GuardedCharacter, AFileIsNamedSoOftenAtMost) {
                "props[100]");
 }
 
+TEST(GuardedCharacter, JointsTimesVerticesAreLimited) {
+    const std::string folder = test::makeTestFolder();
+    const std::string file =
+        skin(folder, "many", parts(kCharacter + "body.obj", kCharacter + "rig.bvh"));
+    EXPECT_EQ(refusal(file), "read");
+    expectSays(refusal(file, "maxRatios=10"),
+               "expected at most 10 if multiplied (option maxRatios)");
+    expectSays(refusal(file, "maxRatios=10"), file);
+}
+
 /// As many clips as a megabyte names; each was compared with all before it.
 TEST(GuardedCharacter, MotionsMayBeMany) {
     constexpr std::size_t kClips = 20'000;

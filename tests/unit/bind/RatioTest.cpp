@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+
+#include <sys/resource.h>
 
 using namespace osgSkin;
 
@@ -182,4 +185,29 @@ TEST(Ratios, AreTheSameEachTime) {
         ASSERT_EQ(a.influences[i].bend, b.influences[i].bend);
         ASSERT_EQ(a.influences[i].twist, b.influences[i].twist);
     }
+}
+
+/// A ratio of every joint at every vertex would be 480 MB.
+TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
+    const auto most = [] {
+        rusage use{};
+        getrusage(RUSAGE_SELF, &use);
+        return use.ru_maxrss / 1024; // MB
+    };
+    const SkinMesh mesh = shapes::cylinder(80.0);
+    RestSkeleton skeleton = shapes::chainAlongY({1.0, 40.0}, 79.0);
+    while (skeleton.joints.size() < 6000) {
+        const auto j = static_cast<double>(skeleton.joints.size());
+        shapes::addJoint(skeleton, "j" + std::to_string(skeleton.joints.size()), "joint0",
+                         {0.1, 0.013 * j, 0.1});
+        skeleton.joints.back().tip = skeleton.joints.back().centre + glm::dvec3(0.1, 0.1, 0.0);
+    }
+    const auto before = most();
+    const Binding binding = bind(mesh, skeleton);
+#ifndef __SANITIZE_ADDRESS__ // which keeps what is freed for a while
+    EXPECT_LT(most() - before, 100);
+#else
+    static_cast<void>(before);
+#endif
+    EXPECT_EQ(binding.vertexCount(), mesh.positions.size());
 }

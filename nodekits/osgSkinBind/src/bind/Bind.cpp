@@ -3,6 +3,7 @@
 
 #include "bind/AddShapes.h"
 #include "bind/CheckOptions.h"
+#include "fields/VertexRatios.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
 #include "layers/SkinLayers.h"
@@ -19,6 +20,7 @@
 #include <osgSkin/Error>
 
 #include <chrono>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -132,8 +134,8 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     if (options.method == BindOptions::Method::Paper) {
         tell("bend and twist between boundaries", kBendsBegin);
         PaperFields printed(binary, radii);
-        bend.swap(printed.bend);
-        twist.swap(printed.twist);
+        bend = std::move(printed.bend);
+        twist = std::move(printed.twist);
     } else {
         bend = bendFields(binary, radii, options, [&](std::size_t joint) {
             const double fraction = double(joint - 1) / double(joints.size() - 1);
@@ -147,6 +149,8 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
 
     tell("ratios", kRatiosBegin);
     const std::vector<std::uint32_t> shown = representatives(skin);
+    const VertexRatios ratios(bend, twist);
+    bend = twist = {};
     Binding binding;
     binding.joints = boundJoints(skeleton, joints);
     binding.firstInfluence.push_back(0);
@@ -154,8 +158,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     for (const std::uint32_t welded : skin.weldedOf) {
         const std::uint32_t v = shown[welded];
         binding.regions.push_back(regions.jointOf[v]);
-        if (packInfluences(joints, bend, twist, v, options.maxPartialInfluences,
-                           binding.influences))
+        if (packInfluences(ratios.of(v), options.maxPartialInfluences, binding.influences))
             ++found.cappedVertices;
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
             if (binding.influences[i].isFractional()) ++partial;

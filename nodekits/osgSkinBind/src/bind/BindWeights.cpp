@@ -87,27 +87,28 @@ std::size_t fillGaps(const WeldedMesh& skin, WeightRows& rows) {
 }
 
 /// One vertex's ratios, in memory that the next one's are written over.
-class VertexRatios {
+class WeightRatios {
 public:
-    explicit VertexRatios(const std::vector<PlannedJoint>& joints)
-        : _joints(joints), _sums(joints.size()),
-          _fields(joints.size(), std::vector<double>(1, 1.0)) {}
+    explicit WeightRatios(const std::vector<PlannedJoint>& joints)
+        : _joints(joints), _sums(joints.size()) {}
 
     /// The ratio of each joint is what its subtree has of the weights. Adding up from the leaves
     /// keeps it at or below the parent's, to the last bit.
-    const JointFields& of(const std::vector<JointShare>& weights) {
+    const std::vector<JointRatio>& of(const std::vector<JointShare>& weights) {
         std::fill(_sums.begin(), _sums.end(), 0.0);
         for (const JointShare& share : weights) _sums[share.joint] = share.weight;
         for (std::size_t j = _joints.size(); j-- > 1;)
             _sums[static_cast<std::size_t>(_joints[j].parent)] += _sums[j];
-        for (std::size_t j = 1; j < _joints.size(); ++j) _fields[j][0] = _sums[j] / _sums[0];
-        return _fields;
+        _ratios.assign(1, {0, 1.0, 1.0});
+        for (std::uint32_t j = 1; j < _joints.size(); ++j)
+            if (_sums[j] > 0.0) _ratios.push_back({j, _sums[j] / _sums[0], _sums[j] / _sums[0]});
+        return _ratios;
     }
 
 private:
     const std::vector<PlannedJoint>& _joints;
     std::vector<double> _sums;
-    JointFields _fields;
+    std::vector<JointRatio> _ratios;
 };
 
 std::vector<BindReport::Region> regionsOf(const Binding& binding) {
@@ -164,16 +165,14 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
     Binding binding;
     binding.joints = boundJoints(skeleton, joints);
     binding.firstInfluence.push_back(0);
-    VertexRatios ratios(joints);
+    WeightRatios ratios(joints);
     std::size_t partial = 0;
     for (const std::uint32_t v : skin.weldedOf) {
         const auto heaviest = std::max_element(
             rows[v].begin(), rows[v].end(),
             [](const JointShare& a, const JointShare& b) { return a.weight < b.weight; });
         binding.regions.push_back(heaviest->joint);
-        const JointFields& fields = ratios.of(rows[v]);
-        if (packInfluences(joints, fields, fields, 0, options.maxPartialInfluences,
-                           binding.influences))
+        if (packInfluences(ratios.of(rows[v]), options.maxPartialInfluences, binding.influences))
             ++found.cappedVertices;
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
             if (binding.influences[i].isFractional()) ++partial;

@@ -86,11 +86,14 @@ void SkinLayers::follow(JointFields& bend, JointFields& twist) const {
     std::vector<double> widths(_mesh.vertexCount(), kNoWidth * _mesh.size);
     for (const Attached& a : _attached) widths[a.vertex] += a.gap;
     for (JointFields* fields : {&bend, &twist})
-        for (std::vector<double>& field : *fields) {
+        for (std::size_t j = 0; j < fields->jointCount(); ++j) {
+            if (fields->entries(j).empty()) continue;
+            std::vector<double> field = fields->values(j);
             blend(field);
             std::vector<double> smooth = field;
             smoother.smooth(smooth, widths);
             for (const Attached& a : _attached) field[a.vertex] = smooth[a.vertex];
+            fields->set(j, field);
         }
 }
 

@@ -2,10 +2,10 @@
 #ifndef OSGSKINBIND_SKINLAYERS_H
 #define OSGSKINBIND_SKINLAYERS_H
 
+#include "fields/JointFields.h"
 #include "joints/JointPlan.h"
 #include "layers/Attached.h"
 #include "mesh/WeldedMesh.h"
-#include "ratios/JointFields.h"
 #include "regions/RegionLabels.h"
 
 #include <vector>

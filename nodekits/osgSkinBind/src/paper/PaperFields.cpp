@@ -34,8 +34,9 @@ std::vector<Follows> followersOf(const std::vector<PlannedJoint>& joints, std::s
 
 PaperFields::PaperFields(const BinaryField& binary, const std::vector<double>& radii) {
     const std::vector<PlannedJoint>& joints = binary.joints;
-    bend.assign(joints.size(), std::vector<double>(binary.mesh.vertexCount(), 0.0));
-    bend[0].assign(binary.mesh.vertexCount(), 1.0);
+    const std::size_t vertices = binary.mesh.vertexCount();
+    bend = JointFields(joints.size(), vertices);
+    bend.set(0, std::vector<double>(vertices, 1.0));
     twist = bend;
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!joints[j].holdsRegion) continue;
@@ -45,14 +46,17 @@ PaperFields::PaperFields(const BinaryField& binary, const std::vector<double>& r
         // By default skin twists with its own bone only: on the other side of the crotch a thigh's
         // planes mean nothing.
         const bool bounded = !joints[j].poleIsParent && !hasOwnTwistRegion(joints[j]);
-        for (std::size_t v = 0; v < bend[j].size(); ++v) {
+        std::vector<double> bends(vertices, 0.0), twists(vertices, 0.0);
+        for (std::size_t v = 0; v < vertices; ++v) {
             const Follows follows = regions[binary.regions[v]];
             if (follows == Follows::Nothing) continue;
             const bool full = follows == Follows::Fully;
-            bend[j][v] = full ? 1.0 : bendAt.ratio(binary.mesh.positions[v]);
-            twist[j][v] = full ? 1.0 : twistAt.ratio(binary.mesh.positions[v]);
-            if (bounded) twist[j][v] = std::min(twist[j][v], bend[j][v]);
+            bends[v] = full ? 1.0 : bendAt.ratio(binary.mesh.positions[v]);
+            twists[v] = full ? 1.0 : twistAt.ratio(binary.mesh.positions[v]);
+            if (bounded) twists[v] = std::min(twists[v], bends[v]);
         }
+        bend.set(j, bends);
+        twist.set(j, twists);
     }
     raiseParents(joints, bend);
     raiseParents(joints, twist);

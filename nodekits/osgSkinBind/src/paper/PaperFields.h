@@ -3,7 +3,7 @@
 #define OSGSKINBIND_PAPERFIELDS_H
 
 #include "limbs/BinaryField.h"
-#include "ratios/JointFields.h"
+#include "fields/JointFields.h"
 
 namespace osgSkin {
 

@@ -39,14 +39,14 @@ JointFields bendFields(const BinaryField& binary, const std::vector<double>& rad
     const std::vector<PlannedJoint>& joints = binary.joints;
     const double widest = options.smoothing * *std::max_element(radii.begin(), radii.end());
     const SkinSmoother smoother(binary.mesh, widest);
-    JointFields fields(joints.size(), std::vector<double>(binary.mesh.vertexCount(), 0.0));
-    fields[0].assign(binary.mesh.vertexCount(), 1.0);
+    JointFields fields(joints.size(), binary.mesh.vertexCount());
+    fields.set(0, std::vector<double>(binary.mesh.vertexCount(), 1.0));
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!joints[j].holdsRegion) continue;
         begin(j);
-        fields[j] = hasBoundaries(joints[j])
-                        ? boundedField(binary, smoother, j, radii[j], options.smoothing)
-                        : smoothBend(binary, smoother, j, radii, options);
+        fields.set(j, hasBoundaries(joints[j])
+                          ? boundedField(binary, smoother, j, radii[j], options.smoothing)
+                          : smoothBend(binary, smoother, j, radii, options));
     }
     raiseParents(joints, fields);
     return fields;

@@ -3,7 +3,7 @@
 #define OSGSKINBIND_RATIOS_BENDFIELDS_H
 
 #include "limbs/BinaryField.h"
-#include "ratios/JointFields.h"
+#include "fields/JointFields.h"
 
 #include <osgSkinBind/BindOptions>
 

@@ -43,12 +43,11 @@ float stretched(float a, float margin) {
 
 } // namespace
 
-bool packInfluences(const std::vector<PlannedJoint>& joints, const JointFields& bend,
-                    const JointFields& twist, std::size_t vertex, std::size_t mostPartial,
+bool packInfluences(const std::vector<JointRatio>& ratios, std::size_t mostPartial,
                     std::vector<Influence>& influences) {
-    std::vector<Influence> all(joints.size());
-    for (std::size_t j = 0; j < joints.size(); ++j)
-        all[j] = {static_cast<std::uint32_t>(j), ratio(bend[j][vertex]), ratio(twist[j][vertex])};
+    std::vector<Influence> all;
+    all.reserve(ratios.size());
+    for (const JointRatio& of : ratios) all.push_back({of.joint, ratio(of.bend), ratio(of.twist)});
 
     const float margin = excess(all, mostPartial);
     if (margin > 0.0f)

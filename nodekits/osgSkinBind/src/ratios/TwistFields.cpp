@@ -49,17 +49,19 @@ std::vector<double> alongBone(const WeldedMesh& mesh, const std::vector<PlannedJ
                               std::size_t j, double radius, const JointFields& bend) {
     const PlannedJoint& joint = joints[j];
     const BoundarySpan region = twistRegion(joint, radius);
-    const std::vector<double>& onBone = bend[joint.poleIsParent ? regionAbove(joints, j) : j];
+    const std::vector<double> own = bend.values(j);
+    const std::vector<double> onBone =
+        joint.poleIsParent ? bend.values(regionAbove(joints, j)) : own;
     std::optional<TwistProfile> evenShear;
     if (joint.poleIsParent && !joint.options.twistUpper && !joint.options.twistLower)
-        evenShear.emplace(mesh, joint, region, onBone, bend[j]);
+        evenShear.emplace(mesh, joint, region, onBone, own);
     std::vector<double> field(mesh.vertexCount());
     for (std::size_t v = 0; v < field.size(); ++v) {
         const double along =
             glm::dot(mesh.positions[v] - joint.centre, joint.twistAxis) / joint.poleLength;
         const double t = (along - region.upper) / (region.lower - region.upper);
         field[v] = std::min(evenShear ? (*evenShear)(t) : hermiteRatio(t), onBone[v]);
-        if (joint.poleIsParent) field[v] = std::max(field[v], bend[j][v]);
+        if (joint.poleIsParent) field[v] = std::max(field[v], own[v]);
     }
     return field;
 }
@@ -74,16 +76,19 @@ std::optional<BoundarySpan> twistSpan(const PlannedJoint& joint, double radius) 
 JointFields twistFields(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
                         const std::vector<double>& radii, const JointFields& bend) {
     JointFields twist = bend;
+    const std::vector<std::vector<std::uint32_t>> children = freeChildren(joints);
     for (std::size_t j = joints.size(); j-- > 1;) {
-        const PlannedJoint& joint = joints[j];
-        if (joint.belowRigid(static_cast<int>(j))) continue;
-        if (buildsUp(joint, radii[j])) twist[j] = alongBone(mesh, joints, j, radii[j], bend);
+        if (joints[j].belowRigid(static_cast<int>(j))) continue;
+        const bool isOwn = buildsUp(joints[j], radii[j]);
+        if (!isOwn && children[j].empty()) continue;
+        std::vector<double> values =
+            isOwn ? alongBone(mesh, joints, j, radii[j], bend) : bend.values(j);
         // Where a child's rotation begins, this joint's twist must have got at least as far.
-        for (std::size_t child = j + 1; child < joints.size(); ++child) {
-            if (joints[child].parent != static_cast<int>(j)) continue;
-            for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
-                twist[j][v] = std::max({twist[j][v], bend[child][v], twist[child][v]});
+        for (const std::uint32_t child : children[j]) {
+            raise(values, bend.entries(child));
+            raise(values, twist.entries(child));
         }
+        twist.set(j, values);
     }
     return twist;
 }

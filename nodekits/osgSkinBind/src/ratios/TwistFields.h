@@ -5,7 +5,7 @@
 #include "joints/JointPlan.h"
 #include "limbs/BoundarySpan.h"
 #include "mesh/WeldedMesh.h"
-#include "ratios/JointFields.h"
+#include "fields/JointFields.h"
 
 #include <optional>
 #include <vector>

@@ -107,7 +107,7 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
          "what may be read at all, as skin,obj,bvh,ply,gltf,glb; everything by default"},
         {"classes=<class,library>",
          "what saved scenes may have beside what characters are made of, as osgParticle"},
-        {"maxFileMB=, maxTextMB=, maxJoints=, maxDepth=, maxSamples=, maxUses=<number>",
+        {"maxFileMB=, maxTextMB=, maxJoints=, maxDepth=, maxSamples=, maxUses=, maxRatios=<number>",
          "raises a limit of what files may ask for; errors say which"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };

@@ -5,6 +5,7 @@
 #include "report/NamingFile.h"
 #include "source/MeshWeights.h"
 
+#include <osgSkin/Error>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindWeights>
 #include <osgSkinCharacter/ReadWeights>
@@ -32,9 +33,20 @@ bool carriesWeights(const CharacterSource& source) {
                        [&](const BoneWeights& bone) { return source.rest.find(bone.bone) >= 0; });
 }
 
+/// Throws osgSkin::Error where binding would take a minute.
+void checkSize(const CharacterSource& source) {
+    const std::size_t joints = source.rest.joints.size();
+    const std::size_t vertices = source.body.mesh.positions.size();
+    if (joints * vertices > source.limits.ratios)
+        throw Error(source.file + ": " + std::to_string(joints) + " joints and " +
+                    std::to_string(vertices) + " vertices, expected at most " +
+                    std::to_string(source.limits.ratios) + " if multiplied (option maxRatios)");
+}
+
 } // namespace
 
 Binding bindSource(const CharacterSource& source, const Progress& progress, BindReport& report) {
+    checkSize(source);
     BindOptions options = source.bind;
     options.progress = progress;
     VertexWeights weights;

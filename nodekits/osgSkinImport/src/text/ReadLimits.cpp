@@ -65,7 +65,8 @@ ReadLimits ReadLimits::of(const osgDB::Options* options) {
     const std::pair<const char*, std::size_t*> counts[] = {
         {"maxFileMB", &limits.fileMegabytes}, {"maxTextMB", &limits.textMegabytes},
         {"maxJoints", &limits.joints},        {"maxDepth", &limits.depth},
-        {"maxSamples", &limits.samples},      {"maxUses", &limits.uses}};
+        {"maxSamples", &limits.samples},      {"maxUses", &limits.uses},
+        {"maxRatios", &limits.ratios}};
     for (const auto& [key, value] : optionValues(options->getOptionString())) {
         for (const auto& [name, count] : counts)
             if (key == name) *count = countOf(key, value);
