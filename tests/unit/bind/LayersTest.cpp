@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <utility>
 
 using namespace osgSkin;
@@ -183,4 +184,17 @@ TEST(Layers, WhatLiesOnALooseLayerIsBound) {
         const std::size_t at = first + skirt.positions.size() + v;
         EXPECT_LT(binding.regions[at], binding.joints.size());
     }
+}
+
+TEST(Layers, AreReported) {
+    const KnownBody thrower = KnownBody::thrower();
+    const SkinMesh cloth = shapes::garment(thrower.mesh, isDressed, 0.008);
+    BindReport report;
+    bind(shapes::joined(thrower.mesh, cloth), thrower.truth, {}, &report);
+    EXPECT_GT(report.layeredVertices, cloth.positions.size() * 95 / 100);
+    EXPECT_LE(report.layeredVertices, cloth.positions.size());
+    EXPECT_NE(report.text().find("vertices on others " + std::to_string(report.layeredVertices)),
+              std::string::npos);
+    bind(thrower.mesh, thrower.truth, {}, &report);
+    EXPECT_EQ(report.layeredVertices, 0u);
 }

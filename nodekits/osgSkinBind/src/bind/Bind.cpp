@@ -171,6 +171,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     found.vertices = mesh.positions.size();
     found.weldedVertices = skin.vertexCount();
     found.shells = skin.shells;
+    if (options.method == BindOptions::Method::Smooth) found.layeredVertices = layers.size();
     found.openEdges = skin.openEdges;
     found.influencesPerVertex = static_cast<double>(partial) / static_cast<double>(found.vertices);
     found.seeds = seedsOf(skin, regions);

@@ -11,7 +11,7 @@ namespace osgSkin {
 std::string BindReport::text() const {
     std::ostringstream out;
     out << "vertices " << vertices << ", welded " << weldedVertices << ", shells " << shells
-        << ", open edges " << openEdges << "\n"
+        << ", vertices on others " << layeredVertices << ", open edges " << openEdges << "\n"
         << "regions " << regions.size() << ", rejected Delaunay edges " << rejectedEdges
         << ", unassigned vertices " << unassigned << "\n"
         << std::fixed << std::setprecision(2) << "influences a vertex " << influencesPerVertex

@@ -22,6 +22,9 @@ public:
     SkinLayers(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
                const Regions& regions);
 
+    /// The number of attached vertices.
+    std::size_t size() const { return _attached.size(); }
+
     /// Gives attached vertices the regions of the skin below them, and what else no joint sees of
     /// their shells those of the nearest along the shell.
     void follow(Regions& regions) const;
