@@ -387,7 +387,8 @@ TEST(JointSpelling, EverySpellingTellsEveryMainJoint) {
 TEST(JointSpelling, WhatIsNoCodeOfASignStays) {
     const test::SideStyle before{"Left", "Right", true, ""};
     const test::Dialect& mixamo = test::dialects().front();
-    for (const char* prefix : {"FBXASC:", "FBXASC9_mixamorig:", "FBXASC999FBXASCFBXASC058"})
+    for (const char* prefix :
+         {"FBXASC:", "FBXASC9_mixamorig:", "FBXASC999FBXASCFBXASC058", "rig:FBXASC999:"})
         EXPECT_EQ(wrong(spelledBody(mixamo, before, prefix, "")), "") << prefix;
 }
 
