@@ -323,6 +323,30 @@ TEST(ClipPlayer, PosesWhatItIsGiven) {
     }
 }
 
+TEST(ClipPlayer, AJointThatTheClipHasNotGoesWithItsParent) {
+    osgSkin::Clip whole = someClip(12, 0.8);
+    osgSkin::Clip without = whole;
+    without.joints = 2;
+    without.rotations.clear();
+    for (std::size_t f = 0; f < whole.frames; ++f) {
+        whole.rotations[3 * f + 1] = glm::dquat(1.0, 0.0, 0.0, 0.0); // the middle one stands still
+        without.rotations.push_back(whole.rotations[3 * f]);
+        without.rotations.push_back(whole.rotations[3 * f + 2]);
+    }
+    osgSkin::RestSkeleton sparse;
+    sparse.add("root", -1, glm::dvec3(0, 0, 0));
+    sparse.add("end", 0, glm::dvec3(0, 4, 0));
+    const Character character(whole);
+    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    player->addSkin(character.skin);
+    for (int i = 1; i < 10; ++i) {
+        player->setTrack(0, {SampledClip::create(whole, character.rig), 0.03 * i});
+        const Vertices expected = posedBy(*player, *character.skin);
+        player->setTrack(0, {SampledClip::create(without, sparse), 0.03 * i});
+        EXPECT_LE(difference(posedBy(*player, *character.skin), expected), 1e-6 * kSize) << i;
+    }
+}
+
 TEST(ClipPlayer, BlendsBetweenBakedClipsAreBoundedToo) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
