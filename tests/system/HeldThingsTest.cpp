@@ -38,7 +38,7 @@ struct Fighter : GltfBuilder {
     std::size_t sword = 0, head = 0; ///< their first vertices, 8 each
     std::vector<std::size_t> joints;
 
-    explicit Fighter(bool painted) {
+    explicit Fighter(bool painted, bool isExploded = false) {
         for (const Joint& joint : kJoints) {
             const double x = joint.parent < 0 ? 0.0 : kJoints[joint.parent].x;
             const double y = joint.parent < 0 ? 0.0 : kJoints[joint.parent].y;
@@ -50,6 +50,7 @@ struct Fighter : GltfBuilder {
         addBody();
         sword = addBox(-1.75, -0.4, 1.36, 1.44, 0.05, kSlot);
         head = addBox(-0.35, 0.35, 1.42, 2.3, 0.3, kHead);
+        if (isExploded) explode();
         nlohmann::json attributes = {{"POSITION", accessor("VEC3", places)}};
         if (painted) {
             std::vector<double> whole;
@@ -80,6 +81,21 @@ struct Fighter : GltfBuilder {
                 if (name == std::string(kJoints[j].name))
                     animate("fight", joints[j], "rotation", {0.0, 1.0},
                             GltfColumn::turns({20, 50}));
+    }
+
+    /// Gives each corner of each triangle a vertex of its own, as files with flat shading have.
+    void explode() {
+        std::vector<double> all, joint;
+        const std::size_t last = indices.size() - 36; // the head is the last box
+        for (const double index : indices) {
+            const auto v = static_cast<std::size_t>(index);
+            for (std::size_t k = 0; k < 3; ++k) all.push_back(places[3 * v + k]);
+            for (std::size_t k = 0; k < 4; ++k) joint.push_back(corners[4 * v + k]);
+        }
+        for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<double>(i);
+        places = all;
+        corners = joint;
+        head = last;
     }
 
     std::size_t vertex(double x, double y, double z, int joint) {
@@ -169,10 +185,10 @@ double boxError(Character& character, const std::string& file, std::size_t first
 }
 
 /// The joint that all of a box's vertices follow, and nothing below it; empty where they differ.
-std::string jointOfBox(const Character& character, std::size_t first) {
+std::string jointOfBox(const Character& character, std::size_t first, std::size_t count = 8) {
     const osgSkin::Binding& binding = character.binding;
     std::uint32_t joint = 0;
-    for (std::size_t v = first; v < first + 8; ++v) {
+    for (std::size_t v = first; v < first + count; ++v) {
         const std::uint32_t last = binding.influences[binding.firstInfluence[v + 1] - 1].joint;
         if (v > first && last != joint) return "";
         joint = last;
@@ -201,14 +217,17 @@ TEST(HeldThings, KeepTheJointThatTheyArePaintedFor) {
 }
 
 TEST(HeldThings, ABoxOfAHeadStaysWithTheHeadUnpainted) {
-    Fighter painted(true), bare(false);
+    Fighter painted(true);
     painted.save("fighter_rig.gltf");
-    bare.json.erase("animations");
-    bare.save("fighter_mesh.gltf");
-    const std::string file = testing::TempDir() + "fighter.skin";
-    std::ofstream(file)
-        << R"({"osgskin": 1, "mesh": "fighter_mesh.gltf", "skeleton": "fighter_rig.gltf"})";
-    const Character character = osgSkin::loadCharacter(file);
-    EXPECT_TRUE(character.body.weights.empty());
-    EXPECT_EQ(jointOfBox(character, bare.head), "head");
+    for (const bool isExploded : {false, true}) {
+        Fighter bare(false, isExploded);
+        bare.json.erase("animations");
+        bare.save("fighter_mesh.gltf");
+        const std::string file = testing::TempDir() + "fighter.skin";
+        std::ofstream(file)
+            << R"({"osgskin": 1, "mesh": "fighter_mesh.gltf", "skeleton": "fighter_rig.gltf"})";
+        const Character character = osgSkin::loadCharacter(file);
+        EXPECT_TRUE(character.body.weights.empty());
+        EXPECT_EQ(jointOfBox(character, bare.head, isExploded ? 36 : 8), "head") << isExploded;
+    }
 }
