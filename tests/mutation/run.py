@@ -89,8 +89,9 @@ def places(kit, commands):
     """(file, line number, rule) in each of a kit's sources where a rule applies, a file a turn."""
     files = []
     for file in sorted((TREE / "nodekits" / kit / "src").rglob("*.cpp")):
-        # What a test program compiles once more would be broken in the library alone.
-        if len(commands.get(str(file), [])) != 1:
+        # What a test program compiles or links by itself would be broken in the library alone.
+        entries = commands.get(str(file), [])
+        if len(entries) != 1 or f"/{kit}.dir/" not in entries[0]["command"]:
             continue
         lines = [line for line in enumerate(file.read_text().splitlines()) if not SKIPPED.search(line[1])]
         found = [(file, number, rule) for number, line in lines for rule in RULES if re.search(rule[0], line)]
