@@ -2,8 +2,8 @@
 #ifndef OSGSKINBIND_PAPERFIELDS_H
 #define OSGSKINBIND_PAPERFIELDS_H
 
-#include "limbs/BinaryField.h"
 #include "fields/JointFields.h"
+#include "limbs/BinaryField.h"
 
 namespace osgSkin {
 

@@ -2,8 +2,8 @@
 #ifndef OSGSKINBIND_RATIOS_BENDFIELDS_H
 #define OSGSKINBIND_RATIOS_BENDFIELDS_H
 
-#include "limbs/BinaryField.h"
 #include "fields/JointFields.h"
+#include "limbs/BinaryField.h"
 
 #include <osgSkinBind/BindOptions>
 

@@ -37,9 +37,11 @@ public:
         return _binding.firstInfluence[_copyOf[welded] + 1];
     }
     Influence of(std::uint32_t welded, std::uint32_t joint) const {
-        for (std::uint32_t i = begin(welded); i < end(welded); ++i)
-            if (_binding.influences[i].joint == joint) return _binding.influences[i];
-        return {joint, 0.0f, 0.0f};
+        const auto first = _binding.influences.begin() + begin(welded);
+        const auto last = _binding.influences.begin() + end(welded);
+        const auto found = std::lower_bound(
+            first, last, joint, [](const Influence& i, std::uint32_t j) { return i.joint < j; });
+        return found != last && found->joint == joint ? *found : Influence{joint, 0.0f, 0.0f};
     }
 
 private:

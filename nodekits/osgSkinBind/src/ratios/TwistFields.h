@@ -2,10 +2,10 @@
 #ifndef OSGSKINBIND_RATIOS_TWISTFIELDS_H
 #define OSGSKINBIND_RATIOS_TWISTFIELDS_H
 
+#include "fields/JointFields.h"
 #include "joints/JointPlan.h"
 #include "limbs/BoundarySpan.h"
 #include "mesh/WeldedMesh.h"
-#include "fields/JointFields.h"
 
 #include <optional>
 #include <vector>

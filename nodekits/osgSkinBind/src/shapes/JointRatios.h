@@ -23,9 +23,11 @@ public:
     /// Zeros where the vertex does not follow the joint.
     Influence of(std::uint32_t welded, std::uint32_t joint) const {
         const std::uint32_t v = _copyOf[welded];
-        for (std::uint32_t i = _binding.firstInfluence[v]; i < _binding.firstInfluence[v + 1]; ++i)
-            if (_binding.influences[i].joint == joint) return _binding.influences[i];
-        return {joint, 0.0f, 0.0f};
+        const auto begin = _binding.influences.begin() + _binding.firstInfluence[v];
+        const auto end = _binding.influences.begin() + _binding.firstInfluence[v + 1];
+        const auto found = std::lower_bound(
+            begin, end, joint, [](const Influence& i, std::uint32_t j) { return i.joint < j; });
+        return found != end && found->joint == joint ? *found : Influence{joint, 0.0f, 0.0f};
     }
 
     /// The largest bend ratio of a joint that moves a rigid part.
