@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "PeakMemory.h"
 #include "Ratios.h"
 #include "Shapes.h"
 
@@ -8,8 +9,6 @@
 
 #include <cmath>
 #include <string>
-
-#include <sys/resource.h>
 
 using namespace osgSkin;
 
@@ -189,11 +188,6 @@ TEST(Ratios, AreTheSameEachTime) {
 
 /// A ratio of every joint at every vertex would be 480 MB.
 TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
-    const auto most = [] {
-        rusage use{};
-        getrusage(RUSAGE_SELF, &use);
-        return use.ru_maxrss / 1024; // MB
-    };
     const SkinMesh mesh = shapes::cylinder(80.0);
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 40.0}, 79.0);
     while (skeleton.joints.size() < 6000) {
@@ -202,10 +196,10 @@ TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
                          {0.1, 0.013 * j, 0.1});
         skeleton.joints.back().tip = skeleton.joints.back().centre + glm::dvec3(0.1, 0.1, 0.0);
     }
-    const auto before = most();
+    const auto before = peakMemory();
     const Binding binding = bind(mesh, skeleton);
 #ifndef __SANITIZE_ADDRESS__ // which keeps what is freed for a while
-    EXPECT_LT(most() - before, 100);
+    EXPECT_LT(peakMemory() - before, 100);
 #else
     static_cast<void>(before);
 #endif

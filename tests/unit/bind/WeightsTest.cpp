@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "PeakMemory.h"
 #include "Ratios.h"
 #include "Shapes.h"
 #include "SharedBody.h"
@@ -14,8 +15,6 @@
 #include <limits>
 #include <ostream>
 #include <string>
-
-#include <sys/resource.h>
 
 using namespace osgSkin;
 
@@ -76,11 +75,6 @@ TEST(BindWeights, RegionIsTheHeaviestJoint) {
 
 /// A row of every joint for every vertex would be 400 MB.
 TEST(BindWeights, TakeMemoryAsTheyAreManyNotAsJointsAre) {
-    const auto most = [] {
-        rusage use{};
-        getrusage(RUSAGE_SELF, &use);
-        return use.ru_maxrss / 1024; // MB
-    };
     const SkinMesh mesh = shapes::cylinder(80.0);
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 40.0}, 79.0);
     while (skeleton.joints.size() < 10000) {
@@ -93,10 +87,10 @@ TEST(BindWeights, TakeMemoryAsTheyAreManyNotAsJointsAre) {
     VertexWeights weights;
     for (const glm::dvec3& p : mesh.positions) weights.push_back({{p.y > 40.0 ? 1u : 0u, 1.0}});
     ASSERT_GT(weights.size(), 5000u);
-    const auto before = most();
+    const auto before = peakMemory();
     const Binding binding = bindWeights(mesh, skeleton, weights);
 #ifndef __SANITIZE_ADDRESS__ // which keeps what is freed for a while
-    EXPECT_LT(most() - before, 200);
+    EXPECT_LT(peakMemory() - before, 200);
 #else
     static_cast<void>(before);
 #endif

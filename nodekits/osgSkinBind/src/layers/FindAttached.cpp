@@ -3,6 +3,7 @@
 
 #include "layers/RegionTree.h"
 #include "layers/ShellOrder.h"
+#include "limbs/HermiteRatio.h"
 #include "mesh/NearestPoints.h"
 
 #include <glm/geometric.hpp>
@@ -121,8 +122,7 @@ private:
 
     double holdAt(std::uint32_t v, double distance) const {
         const double radii = distance / radiusAt(v);
-        const double t = std::clamp((kLoose - radii) / (kLoose - kHeld), 0.0, 1.0);
-        return t * t * (3.0 - 2.0 * t);
+        return hermiteRatio((kLoose - radii) / (kLoose - kHeld));
     }
 
     /// The nearest that the vertex is above; one that is turned as it is, if there is one.
