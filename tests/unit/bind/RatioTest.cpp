@@ -205,3 +205,23 @@ TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
 #endif
     EXPECT_EQ(binding.vertexCount(), mesh.positions.size());
 }
+
+/// Each vertex has every joint of a long chain above it: 36 bytes each are the binding itself.
+TEST(Ratios, OfALongChainTakeLittleMoreThanTheBinding) {
+    const SkinMesh mesh = shapes::cylinder(80.0);
+    RestSkeleton skeleton = shapes::chainAlongY({1.0}, 1.0);
+    for (int j = 1; j < 700; ++j)
+        shapes::addJoint(skeleton, "chain" + std::to_string(j), skeleton.joints.back().name,
+                         {0.0, 1.0 + 1e-4 * j, 0.0});
+    skeleton.joints.back().tip = glm::dvec3(0.0, 79.0, 0.0);
+    const auto before = peakMemory();
+    const Binding binding = bind(mesh, skeleton);
+    ASSERT_GT(binding.influences.size(), 600 * mesh.positions.size());
+    ASSERT_EQ(binding.gradients.size(), binding.influences.size());
+#ifndef __SANITIZE_ADDRESS__ // which keeps what is freed for a while
+    const auto influences = static_cast<long>(binding.influences.size());
+    EXPECT_LT(peakMemory() - before, influences * 90 / (1024 * 1024));
+#else
+    static_cast<void>(before);
+#endif
+}

@@ -46,6 +46,27 @@ std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
     return result;
 }
 
+/// Adds each vertex's region and influences to a binding of joints alone. Of long chains fields
+/// are large: they are empty as soon as they are not needed.
+void addRatios(const WeldedMesh& mesh, const Regions& regions, JointFields&& bend,
+               JointFields&& twist, std::size_t mostPartial, Binding& binding, BindReport& report) {
+    const std::vector<std::uint32_t> shown = representatives(mesh);
+    const VertexRatios ratios(bend, twist);
+    bend = twist = {};
+    binding.firstInfluence.push_back(0);
+    std::size_t partial = 0;
+    for (const std::uint32_t welded : mesh.weldedOf) {
+        const std::uint32_t v = shown[welded];
+        binding.regions.push_back(regions.jointOf[v]);
+        if (packInfluences(ratios.of(v), mostPartial, binding.influences)) ++report.cappedVertices;
+        for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
+            if (binding.influences[i].isFractional()) ++partial;
+        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+    }
+    report.influencesPerVertex =
+        static_cast<double>(partial) / static_cast<double>(mesh.weldedOf.size());
+}
+
 void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                    const Regions& regions, BindReport& report) {
     std::vector<BindReport::Region> all(joints.size());
@@ -148,22 +169,10 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     }
 
     tell("ratios", kRatiosBegin);
-    const std::vector<std::uint32_t> shown = representatives(skin);
-    const VertexRatios ratios(bend, twist);
-    bend = twist = {};
     Binding binding;
     binding.joints = boundJoints(skeleton, joints);
-    binding.firstInfluence.push_back(0);
-    std::size_t partial = 0;
-    for (const std::uint32_t welded : skin.weldedOf) {
-        const std::uint32_t v = shown[welded];
-        binding.regions.push_back(regions.jointOf[v]);
-        if (packInfluences(ratios.of(v), options.maxPartialInfluences, binding.influences))
-            ++found.cappedVertices;
-        for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
-            if (binding.influences[i].isFractional()) ++partial;
-        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
-    }
+    addRatios(skin, regions, std::move(bend), std::move(twist), options.maxPartialInfluences,
+              binding, found);
     addShapes(skeleton, joints, skin, options, subProgress(options.progress, shapesBegin, 1.0),
               binding, found.notes);
     binding.validate();
@@ -173,7 +182,6 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     found.shells = skin.shells;
     if (options.method == BindOptions::Method::Smooth) found.layeredVertices = layers.size();
     found.openEdges = skin.openEdges;
-    found.influencesPerVertex = static_cast<double>(partial) / static_cast<double>(found.vertices);
     found.seeds = seedsOf(skin, regions);
     found.boundaries = boundariesOf(joints, radii, options.method == BindOptions::Method::Paper);
     reportRegions(skeleton, joints, regions, found);

@@ -23,22 +23,29 @@ struct Sum {
     glm::dvec3 bend{0.0}, twist{0.0};
 };
 
-/// Ratios by welded vertex.
+/// Ratios by welded vertex. Where they are partial they have a number each.
 class WeldedRatios {
 public:
     WeldedRatios(const WeldedMesh& mesh, const Binding& binding)
         : _binding(binding), _copyOf(mesh.vertexCount()) {
         for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v) _copyOf[mesh.weldedOf[v]] = v;
+        for (const std::uint32_t copy : _copyOf) {
+            _firstPartial.push_back(_partials.size());
+            for (std::uint32_t i = binding.firstInfluence[copy];
+                 i < binding.firstInfluence[copy + 1]; ++i)
+                if (binding.influences[i].isPartial()) _partials.push_back(i);
+        }
+        _firstPartial.push_back(_partials.size());
     }
-    std::uint32_t begin(std::uint32_t welded) const {
-        return _binding.firstInfluence[_copyOf[welded]];
-    }
-    std::uint32_t end(std::uint32_t welded) const {
-        return _binding.firstInfluence[_copyOf[welded] + 1];
+    std::size_t partialCount() const { return _partials.size(); }
+    std::size_t firstPartial(std::uint32_t welded) const { return _firstPartial[welded]; }
+    const Influence& partial(std::size_t number) const {
+        return _binding.influences[_partials[number]];
     }
     Influence of(std::uint32_t welded, std::uint32_t joint) const {
-        const auto first = _binding.influences.begin() + begin(welded);
-        const auto last = _binding.influences.begin() + end(welded);
+        const std::uint32_t copy = _copyOf[welded];
+        const auto first = _binding.influences.begin() + _binding.firstInfluence[copy];
+        const auto last = _binding.influences.begin() + _binding.firstInfluence[copy + 1];
         const auto found = std::lower_bound(
             first, last, joint, [](const Influence& i, std::uint32_t j) { return i.joint < j; });
         return found != last && found->joint == joint ? *found : Influence{joint, 0.0f, 0.0f};
@@ -46,7 +53,9 @@ public:
 
 private:
     const Binding& _binding;
-    std::vector<std::uint32_t> _copyOf; ///< a vertex of the mesh as given
+    std::vector<std::uint32_t> _copyOf;     ///< a vertex of the mesh as given
+    std::vector<std::size_t> _firstPartial; ///< size: welded vertices + 1; into `_partials`
+    std::vector<std::uint32_t> _partials;   ///< in Binding::influences, of `_copyOf`
 };
 
 } // namespace
@@ -54,7 +63,7 @@ private:
 std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh, const Binding& binding) {
     const WeldedRatios ratios(mesh, binding);
     std::vector<Around> around(mesh.vertexCount());
-    std::vector<Sum> sums(binding.influences.size()); // of each welded vertex's one copy
+    std::vector<Sum> sums(ratios.partialCount());
     for (const std::array<std::uint32_t, 3>& t : mesh.triangles) {
         const glm::dvec3& a = mesh.positions[t[0]];
         const glm::dvec3& b = mesh.positions[t[1]];
@@ -64,11 +73,11 @@ std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh, const Binding&
         for (const std::uint32_t corner : t) {
             around[corner].areas += area;
             around[corner].area += glm::length(area);
-            for (std::uint32_t i = ratios.begin(corner); i < ratios.end(corner); ++i) {
-                if (!binding.influences[i].isPartial()) continue;
+            for (std::size_t i = ratios.firstPartial(corner); i < ratios.firstPartial(corner + 1);
+                 ++i) {
                 // The normal times the gradient is minus this over twice the area.
                 for (std::size_t k = 0; k < 3; ++k) {
-                    const Influence at = ratios.of(t[k], binding.influences[i].joint);
+                    const Influence at = ratios.of(t[k], ratios.partial(i).joint);
                     sums[i].bend -= double(at.bend) * opposite[k];
                     sums[i].twist -= double(at.twist) * opposite[k];
                 }
@@ -83,9 +92,10 @@ std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh, const Binding&
         if (!(length > 0.0)) continue;
         const glm::dvec3 normal = skin.areas / length;
         const double span = std::max(length, kLeastSpan * skin.area);
-        const std::uint32_t first = binding.firstInfluence[v], copy = ratios.begin(welded);
-        for (std::uint32_t i = first; i < binding.firstInfluence[v + 1]; ++i) {
-            const Sum& sum = sums[copy + (i - first)];
+        std::size_t next = ratios.firstPartial(welded);
+        for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i) {
+            if (!binding.influences[i].isPartial()) continue;
+            const Sum& sum = sums[next++];
             result[i] = {glm::vec3(glm::cross(sum.bend, normal) / span),
                          glm::vec3(glm::cross(sum.twist, normal) / span)};
         }
