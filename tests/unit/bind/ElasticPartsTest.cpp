@@ -5,6 +5,7 @@
 #include <elastic/ElasticSamples.h>
 #include <elastic/energy/BoneCores.h>
 #include <elastic/energy/Fascia.h>
+#include <elastic/lattice/DeformedCells.h>
 #include <elastic/lattice/Unsolvable.h>
 #include <elastic/skin/WindingTree.h>
 #include <elastic/solve/Minimise.h>
@@ -15,6 +16,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <optional>
 #include <random>
 #include <set>
 
@@ -85,6 +87,50 @@ TEST(VoxelLattice, FillsTheTubeAndEmbedsItsSkinExactly) {
         EXPECT_LT((lattice.positionOf(at, lattice.rest()) - skin.positions().col(v)).norm(), 1e-9);
     }
     EXPECT_GT(embedded, 400u);
+}
+
+TEST(VoxelLattice, KnowsMostSidesWithoutAskingTheSkin) {
+    const ElasticTube tube;
+    const RestSkin skin(pointsOf(tube), tube.triangles);
+    const VoxelLattice lattice(skin, 1.0 / 3.0, 4.0);
+    std::mt19937 random(2);
+    int known = 0, all = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Point p = randomPoint(random, 2.0);
+        ++all;
+        const std::optional<bool> inside = lattice.isInside(p);
+        if (!inside) {
+            EXPECT_LT(skin.distance(p), 0.2) << p.transpose();
+            continue;
+        }
+        ++known;
+        EXPECT_EQ(*inside, skin.inside(p)) << p.transpose();
+    }
+    EXPECT_GT(known, all / 2);
+    EXPECT_FALSE(lattice.isInside({0, 7, 0})) << "beyond the ball nothing is known";
+}
+
+TEST(DeformedCells, LookOnlyWhereItMatters) {
+    const ElasticTube tube;
+    const RestSkin skin(pointsOf(tube), tube.triangles);
+    const VoxelLattice lattice(skin, 1.0 / 3.0, 4.0);
+    const Points moved = lattice.rest().colwise() + Point(10.0, 0.0, 0.0);
+    const DeformedCells cells(lattice, moved);
+    const Point place(0.2, 0.3, 0.1);
+    const auto foundBy = [&](bool matters) {
+        int found = 0;
+        cells.find(
+            place + Point(10.0, 0.0, 0.0), [&](std::uint32_t) { return matters; },
+            [&](std::uint32_t cell, const Point& local) {
+                ++found;
+                const Point at = lattice.cells()[cell].low + lattice.shape().edge * local;
+                EXPECT_LT((at - place).norm(), 1e-6);
+                return false;
+            });
+        return found;
+    };
+    EXPECT_EQ(foundBy(true), 1);
+    EXPECT_EQ(foundBy(false), 0);
 }
 
 TEST(Preconditioner, SolvesItsSystem) {

@@ -220,7 +220,7 @@ TEST(Ratios, OfALongChainTakeLittleMoreThanTheBinding) {
     ASSERT_EQ(binding.gradients.size(), binding.influences.size());
 #ifndef __SANITIZE_ADDRESS__ // which keeps what is freed for a while
     const auto influences = static_cast<long>(binding.influences.size());
-    EXPECT_LT(peakMemory() - before, influences * 90 / (1024 * 1024));
+    EXPECT_LT(peakMemory() - before, influences * 90 / 1'048'576);
 #else
     static_cast<void>(before);
 #endif

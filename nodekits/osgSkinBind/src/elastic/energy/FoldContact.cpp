@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace osgSkin::elastic {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 /// The other side faces a probe where the product of their normals is below the first; below the
 /// second it does so fully.
 constexpr double kAcross = 0.3, kFacing = -0.5;
+
+/// Points count as in a cell that are beyond its faces by rounding.
+constexpr double kSpare = 0.999;
 
 /// Touches that weigh less are forgotten.
 constexpr double kLeastWeight = 0.01;
@@ -23,6 +27,13 @@ constexpr double kLeastWeight = 0.01;
 FoldContact::FoldContact(const VoxelLattice& lattice, const RestSkin& skin, const SkinPatch& patch,
                          const Eigen::VectorXd& nodeRatios, const ContactSizes& sizes)
     : _lattice(lattice), _skin(skin), _patch(patch), _sizes(sizes), _nodeRatios(nodeRatios) {
+    for (const VoxelLattice::Cell& cell : lattice.cells()) {
+        RatioSpan& span = _ratiosOf.emplace_back();
+        for (const std::uint32_t node : cell.nodes) {
+            span.low = std::min(span.low, nodeRatios[node]);
+            span.high = std::max(span.high, nodeRatios[node]);
+        }
+    }
     const Points rest = patch.positions(lattice.rest());
     for (std::uint32_t t = 0; t < patch.triangles().size(); ++t) {
         const auto& [a, b, c] = patch.triangles()[t];
@@ -87,18 +98,29 @@ bool FoldContact::look(std::uint32_t index, const Point& at, const DeformedCells
                        const Points& normals, Touch& result) const {
     const Probe& probe = _probes[index];
     bool touches = false;
-    cells.find(at, [&](std::uint32_t cell, const Point& local) {
+    const auto mayTouch = [&](std::uint32_t cell) { return this->mayTouch(probe, cell); };
+    cells.find(at, mayTouch, [&](std::uint32_t cell, const Point& local) {
         double ratio = 0.0;
         const auto shares = CellShape::values(local);
         for (std::size_t c = 0; c < 8; ++c)
             ratio += shares[c] * _nodeRatios[_lattice.cells()[cell].nodes[c]];
         if (std::abs(ratio - probe.ratio) < _sizes.sides) return false;
         const Point rest = _lattice.cells()[cell].low + _lattice.shape().edge * local;
-        if ((rest - probe.rest).norm() < _sizes.apart || !_skin.inside(rest)) return false;
-        touches = touch(index, rest, normals, result);
+        if ((rest - probe.rest).norm() < _sizes.apart) return false;
+        const std::optional<bool> inside = _lattice.isInside(rest);
+        if (inside && !*inside) return false;
+        touches = touch(index, rest, normals, result) && (inside || _skin.inside(rest));
         return touches;
     });
     return touches;
+}
+
+bool FoldContact::mayTouch(const Probe& probe, std::uint32_t cell) const {
+    const auto& [low, high] = _ratiosOf[cell];
+    if (std::max(high - probe.ratio, probe.ratio - low) < kSpare * _sizes.sides) return false;
+    const Point from = _lattice.cells()[cell].low - probe.rest;
+    const Point to = from.array() + _lattice.shape().edge;
+    return from.cwiseAbs().cwiseMax(to.cwiseAbs()).norm() > kSpare * _sizes.apart;
 }
 
 bool FoldContact::touch(std::uint32_t index, const Point& rest, const Points& normals,

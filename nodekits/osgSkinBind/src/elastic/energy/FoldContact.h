@@ -53,6 +53,10 @@ private:
         double area = 0.0;
         double ratio = 0.0;
     };
+    /// Of a cell's nodes.
+    struct RatioSpan {
+        double low = 1.0, high = 0.0;
+    };
     struct Touch {
         std::uint32_t probe = 0, triangle = 0; ///< triangle: of the other side
         Point shares, normal;                  ///< where it is touched, and outwards from there
@@ -62,6 +66,8 @@ private:
 
     bool look(std::uint32_t probe, const Point& at, const DeformedCells& cells,
               const Points& normals, Touch& result) const;
+    /// False where look() would find nothing in the cell.
+    bool mayTouch(const Probe& probe, std::uint32_t cell) const;
     bool touch(std::uint32_t probe, const Point& rest, const Points& normals, Touch& result) const;
     double ratioAt(std::uint32_t triangle, const Point& shares) const;
     Point on(std::uint32_t triangle, const Point& shares, const Points& vertices) const;
@@ -71,6 +77,7 @@ private:
     const SkinPatch& _patch;
     ContactSizes _sizes;
     Eigen::VectorXd _nodeRatios;
+    std::vector<RatioSpan> _ratiosOf; ///< of each cell
     std::vector<Probe> _probes;
     std::vector<Touch> _touches;
     int _detections = 0;

@@ -18,8 +18,10 @@ public:
     DeformedCells(const VoxelLattice& lattice, const Points& nodes);
 
     /// Calls found(cell, local) for each cell that the point lies in, until it returns true.
-    template <typename Found>
-    void find(const Point& point, const Found& found) const;
+    ///
+    /// \param matters which cells are looked into; most of the time goes there
+    template <typename Matters, typename Found>
+    void find(const Point& point, const Matters& matters, const Found& found) const;
 
 private:
     Eigen::Vector3i binAt(const Point& point) const;
@@ -36,14 +38,15 @@ private:
     std::vector<std::uint32_t> _cells;
 };
 
-template <typename Found>
-void DeformedCells::find(const Point& point, const Found& found) const {
+template <typename Matters, typename Found>
+void DeformedCells::find(const Point& point, const Matters& matters, const Found& found) const {
     if (!_bounds.contains(point)) return;
     const std::size_t bin = index(binAt(point));
     for (std::uint32_t i = _first[bin]; i < _first[bin + 1]; ++i) {
+        const std::uint32_t cell = _cells[i];
         Point local;
-        if (_boxes[_cells[i]].contains(point) && locate(_cells[i], point, local) &&
-            found(_cells[i], local))
+        if (_boxes[cell].contains(point) && matters(cell) && locate(cell, point, local) &&
+            found(cell, local))
             return;
     }
 }

@@ -23,7 +23,8 @@ FilledGrid::FilledGrid(const RestSkin& skin, double edge, double reach)
       _samples(2 * _half * kFine),
       _copyOf(static_cast<std::size_t>(_samples) * static_cast<std::size_t>(_samples) *
                   static_cast<std::size_t>(_samples),
-              kEmpty) {
+              kEmpty),
+      _sure(_copyOf.size(), false) {
     classify(skin);
     fillAroundVertices(skin);
     makeCopies();
@@ -54,14 +55,15 @@ void FilledGrid::classify(const RestSkin& skin) {
                 const Point centre = ((cell.cast<double>().array() + 0.5 - _half) * _edge).matrix();
                 const bool cut = skin.distance(centre) < kHalfDiagonal * _edge;
                 const bool centreInside = !cut && skin.inside(centre);
-                if (!cut && !centreInside) continue;
                 for (int k = 0; k < kFine; ++k)
                     for (int j = 0; j < kFine; ++j)
                         for (int i = 0; i < kFine; ++i) {
                             const Eigen::Vector3i fine = kFine * cell + Eigen::Vector3i(i, j, k);
-                            if (!cut || skin.inside(sampleAt(fine)))
-                                _copyOf[static_cast<std::size_t>(
-                                    index(fine.x(), fine.y(), fine.z()))] = kFilled;
+                            const std::size_t at = indexOf(fine);
+                            const Point middle = sampleAt(fine);
+                            if (cut ? skin.inside(middle) : centreInside) _copyOf[at] = kFilled;
+                            _sure[at] =
+                                !cut || skin.distance(middle) > kHalfDiagonal * _edge / kFine;
                         }
             }
 }
@@ -72,16 +74,15 @@ void FilledGrid::fillAroundVertices(const RestSkin& skin) {
     for (Eigen::Index v = 0; v < skin.positions().cols(); ++v) {
         const Eigen::Vector3i fine = fineAt(skin.positions().col(v));
         if (!contains(fine) || !inBall(fine / kFine)) continue;
+        _sure[indexOf(fine)] = false;
         bool near = false;
         for (int k = -1; k <= 1; ++k)
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i) {
                     const Eigen::Vector3i other = fine + Eigen::Vector3i(i, j, k);
-                    near = near ||
-                           (contains(other) && _copyOf[static_cast<std::size_t>(index(
-                                                   other.x(), other.y(), other.z()))] == kFilled);
+                    near = near || (contains(other) && _copyOf[indexOf(other)] == kFilled);
                 }
-        if (!near) _copyOf[static_cast<std::size_t>(index(fine.x(), fine.y(), fine.z()))] = kFilled;
+        if (!near) _copyOf[indexOf(fine)] = kFilled;
     }
 }
 
@@ -89,7 +90,7 @@ void FilledGrid::makeCopies() {
     for (int z = 0; z < _samples; ++z)
         for (int y = 0; y < _samples; ++y)
             for (int x = 0; x < _samples; ++x) {
-                if (_copyOf[static_cast<std::size_t>(index(x, y, z))] != kFilled) continue;
+                if (_copyOf[indexOf({x, y, z})] != kFilled) continue;
                 const Eigen::Vector3i from(x, y, z), cell = from / kFine;
                 _copies.push_back({cell - Eigen::Vector3i::Constant(_half)});
                 flood(from, cell, static_cast<std::int32_t>(_copies.size()) - 1);
@@ -99,14 +100,13 @@ void FilledGrid::makeCopies() {
 void FilledGrid::flood(const Eigen::Vector3i& from, const Eigen::Vector3i& cell,
                        std::int32_t copy) {
     std::vector<Eigen::Vector3i> front{from};
-    _copyOf[static_cast<std::size_t>(index(from.x(), from.y(), from.z()))] = copy;
+    _copyOf[indexOf(from)] = copy;
     for (std::size_t done = 0; done < front.size(); ++done)
         for (int axis = 0; axis < 3; ++axis)
             for (const int way : {-1, 1}) {
                 const Eigen::Vector3i next = front[done] + way * Eigen::Vector3i::Unit(axis);
                 if (!contains(next) || next / kFine != cell) continue;
-                std::int32_t& owner =
-                    _copyOf[static_cast<std::size_t>(index(next.x(), next.y(), next.z()))];
+                std::int32_t& owner = _copyOf[indexOf(next)];
                 if (owner != kFilled) continue;
                 owner = copy;
                 front.push_back(next);
@@ -115,8 +115,13 @@ void FilledGrid::flood(const Eigen::Vector3i& from, const Eigen::Vector3i& cell,
 
 std::int32_t FilledGrid::copyAt(const Point& point) const {
     const Eigen::Vector3i fine = fineAt(point);
-    return contains(fine) ? _copyOf[static_cast<std::size_t>(index(fine.x(), fine.y(), fine.z()))]
-                          : kEmpty;
+    return contains(fine) ? _copyOf[indexOf(fine)] : kEmpty;
+}
+
+std::optional<bool> FilledGrid::isInside(const Point& point) const {
+    const Eigen::Vector3i fine = fineAt(point);
+    if (!contains(fine) || !_sure[indexOf(fine)]) return std::nullopt;
+    return _copyOf[indexOf(fine)] != kEmpty;
 }
 
 std::int32_t FilledGrid::copyNear(const Point& point) const {
@@ -129,8 +134,7 @@ std::int32_t FilledGrid::copyNear(const Point& point) const {
             for (int i = -kSearch; i <= kSearch; ++i) {
                 const Eigen::Vector3i other = fine + Eigen::Vector3i(i, j, k);
                 if (!contains(other)) continue;
-                const std::int32_t copy =
-                    _copyOf[static_cast<std::size_t>(index(other.x(), other.y(), other.z()))];
+                const std::int32_t copy = _copyOf[indexOf(other)];
                 const double away = (sampleAt(other) - point).squaredNorm();
                 if (copy == kEmpty || away >= nearest) continue;
                 nearest = away;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace osgSkin::elastic {
@@ -40,12 +41,20 @@ public:
     /// filled.
     std::int32_t copyAt(const Point& point) const;
 
+    /// Whether a point is within the skin, where that is known without asking the skin: it passes
+    /// nowhere through the small cube of the sample.
+    std::optional<bool> isInside(const Point& point) const;
+
     /// Calls join(a, b, axis) for copies that touch, b being the next one along the axis.
     template <typename Join>
     void forEachTouch(const Join& join) const;
 
 private:
-    int index(int x, int y, int z) const { return (z * _samples + y) * _samples + x; }
+    std::size_t indexOf(const Eigen::Vector3i& fine) const {
+        const auto at = fine.cast<std::size_t>();
+        const auto samples = static_cast<std::size_t>(_samples);
+        return (at.z() * samples + at.y()) * samples + at.x();
+    }
     Point sampleAt(const Eigen::Vector3i& fine) const;
     Eigen::Vector3i fineAt(const Point& point) const;
     bool contains(const Eigen::Vector3i& fine) const;
@@ -59,6 +68,7 @@ private:
     int _half;                         ///< cells from the middle to one end
     int _samples;                      ///< along an axis
     std::vector<std::int32_t> _copyOf; ///< of each sample
+    std::vector<bool> _sure;           ///< of each sample: its whole cube is on one side
     std::vector<Copy> _copies;
 };
 
@@ -71,9 +81,8 @@ void FilledGrid::forEachTouch(const Join& join) const {
                 for (int x = 0; x < _samples; ++x) {
                     const Eigen::Vector3i here(x, y, z), next = here + step;
                     if (here[axis] % kFine != kFine - 1 || !contains(next)) continue;
-                    const std::int32_t a = _copyOf[static_cast<std::size_t>(index(x, y, z))];
-                    const std::int32_t b =
-                        _copyOf[static_cast<std::size_t>(index(next.x(), next.y(), next.z()))];
+                    const std::int32_t a = _copyOf[indexOf(here)];
+                    const std::int32_t b = _copyOf[indexOf(next)];
                     if (a != kEmpty && b != kEmpty) join(a, b, axis);
                 }
     }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ public:
 
     /// False where nothing of the lattice is near, or what is nearest is no part of it.
     bool embed(const Point& rest, Embedded& result) const;
+
+    /// FilledGrid::isInside().
+    std::optional<bool> isInside(const Point& rest) const { return _grid.isInside(rest); }
 
     Point positionOf(const Embedded& point, const Points& nodes) const;
 

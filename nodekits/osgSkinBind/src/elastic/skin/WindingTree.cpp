@@ -16,11 +16,10 @@ constexpr double kFar = 2.3;
 
 constexpr double kSphere = 12.566370614359172;
 
-/// Signed solid angle of a triangle (van Oosterom & Strackee 1983).
-double solidAngle(const Point& a, const Point& b, const Point& c) {
+/// Adds half a triangle's signed solid angle (van Oosterom & Strackee 1983).
+void addSolidAngle(const Point& a, const Point& b, const Point& c, AngleSum& halves) {
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    return 2.0 * std::atan2(a.dot(b.cross(c)),
-                            la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    halves.add(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 } // namespace
@@ -76,21 +75,24 @@ void WindingTree::measure(Node& node) const {
             node.reach = std::max(node.reach, (corner - node.centre).norm());
 }
 
-double WindingTree::sum(std::uint32_t index, const Point& point) const {
+double WindingTree::sum(std::uint32_t index, const Point& point, AngleSum& halves) const {
     const Node& node = _nodes[index];
     const Point away = node.centre - point;
     const double distance = away.norm();
     if (distance > kFar * node.reach)
         return node.dipole.dot(away) / (distance * distance * distance);
-    if (node.child != 0) return sum(node.child, point) + sum(node.child + 1, point);
-    double total = 0.0;
+    if (node.child != 0) return sum(node.child, point, halves) + sum(node.child + 1, point, halves);
     for (std::uint32_t i = node.begin; i < node.end; ++i)
-        total += solidAngle(_corners[i][0] - point, _corners[i][1] - point, _corners[i][2] - point);
-    return total;
+        addSolidAngle(_corners[i][0] - point, _corners[i][1] - point, _corners[i][2] - point,
+                      halves);
+    return 0.0;
 }
 
 double WindingTree::at(const Point& point) const {
-    return _corners.empty() ? 0.0 : sum(0, point) / kSphere;
+    if (_corners.empty()) return 0.0;
+    AngleSum halves;
+    const double far = sum(0, point, halves);
+    return (far + 2.0 * halves.value()) / kSphere;
 }
 
 bool WindingTree::inside(const Point& point) const {

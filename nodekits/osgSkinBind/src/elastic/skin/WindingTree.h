@@ -3,6 +3,7 @@
 #define OSGSKINBIND_ELASTIC_WINDINGTREE_H
 
 #include "elastic/skin/Points.h"
+#include "mesh/AngleSum.h"
 
 #include <array>
 #include <cstdint>
@@ -37,7 +38,9 @@ private:
 
     void split(std::uint32_t node);
     void measure(Node& node) const;
-    double sum(std::uint32_t node, const Point& point) const;
+    /// \param halves half of what is near is added to it
+    /// \return the solid angle of what is far
+    double sum(std::uint32_t node, const Point& point, AngleSum& halves) const;
 
     std::vector<Corners> _corners;
     std::vector<Node> _nodes;
