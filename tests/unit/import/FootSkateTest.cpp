@@ -126,11 +126,15 @@ TEST(FootSkate, SaysWhereNothingStands) {
 }
 
 TEST(FootSkate, IsInTheReportsText) {
-    const RetargetReport report = reportOf(sway(50, -0.2, 0.2), withLeg(10, 7, 4));
+    RetargetReport report = reportOf(sway(50, -0.2, 0.2), withLeg(10, 7, 4));
     const std::string line = "foot LeftFoot: 1 contact, slides by 13.2 % of the leg in the mean, "
                              "13.2 % at worst (from frame 0); the actor's own: 0.0 %, 0.0 %\n";
     EXPECT_EQ(report.feetText(), line);
     EXPECT_NE(report.text().find(line), std::string::npos);
+    FootSkate hanging;
+    hanging.rigJoint = "RightFoot";
+    report.feet.insert(report.feet.begin(), hanging);
+    EXPECT_EQ(report.feetText(), "foot RightFoot: never planted\n" + line);
 }
 
 /// What the README's table says: of all contacts of both feet, in hundredths of the leg.
