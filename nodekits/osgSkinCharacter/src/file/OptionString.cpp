@@ -107,7 +107,10 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
          "what may be read at all, as skin,obj,bvh,ply,gltf,glb; everything by default"},
         {"classes=<class,library>",
          "what saved scenes may have beside what characters are made of, as osgParticle"},
-        {"maxFileMB=, maxTextMB=, maxJoints=, maxDepth=, maxSamples=, maxUses=, maxRatios=<number>",
+        {"pictures=<extension,extension>",
+         "formats of textures that are read though nothing checks them, as ktx,hdr"},
+        {"maxFileMB=, maxTextMB=, maxJoints=, maxDepth=, maxSamples=, maxUses=, maxRatios=, "
+         "maxPixels=<number>",
          "raises a limit of what files may ask for; errors say which"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };

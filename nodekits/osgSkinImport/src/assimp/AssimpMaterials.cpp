@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/AssimpMaterials.h"
 
+#include "pictures/CheckPicture.h"
+
 #include <osgDB/Registry>
 
 #include <assimp/GltfMaterial.h>
@@ -55,13 +57,15 @@ osg::ref_ptr<osg::Image> rawImage(const aiTexture& texture) {
 }
 
 /// A texture that is packed into the scene's own file, as in .glb; null where it cannot be decoded.
-osg::ref_ptr<osg::Image> embeddedImage(const aiTexture& texture) {
+osg::ref_ptr<osg::Image> embeddedImage(const aiTexture& texture, const std::string& path,
+                                       const ReadLimits& limits) {
     if (texture.mHeight != 0) return rawImage(texture);
     osgDB::ReaderWriter* reader =
         osgDB::Registry::instance()->getReaderWriterForExtension(texture.achFormatHint);
     if (reader == nullptr) return nullptr;
-    std::istringstream stream(
-        std::string(reinterpret_cast<const char*>(texture.pcData), texture.mWidth));
+    const std::string bytes(reinterpret_cast<const char*>(texture.pcData), texture.mWidth);
+    checkPicture(path, texture.achFormatHint, bytes, limits);
+    std::istringstream stream(bytes);
     return reader->readImage(stream).getImage();
 }
 
@@ -108,7 +112,9 @@ Material readMaterial(const aiScene& scene, const aiMaterial& source, const std:
     const aiTexture* embedded = scene.GetEmbeddedTexture(name.C_Str());
     material.image = embedded == nullptr
                          ? readTexture(name.C_Str(), path, options, reads)
-                         : reads.once(name.C_Str(), [&] { return embeddedImage(*embedded); });
+                         : reads.once(name.C_Str(), [&] {
+                               return embeddedImage(*embedded, path, ReadLimits::of(options));
+                           });
     material.wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE);
     material.wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE);
     return material;

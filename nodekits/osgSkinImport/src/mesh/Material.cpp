@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/Material.h"
 
+#include "pictures/CheckPicture.h"
 #include "text/FileText.h"
 #include "text/SafeNames.h"
 
@@ -48,9 +49,10 @@ osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::strin
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
     const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
     // Nothing is fetched from a network or run, and what is no regular file may never end.
-    if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName) ||
-        !isRegularFile(osgDB::findDataFile(fileName, local)))
-        return nullptr;
+    if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName)) return nullptr;
+    const std::string found = osgDB::findDataFile(fileName, local);
+    if (!isRegularFile(found)) return nullptr;
+    checkPictureFile(found, ReadLimits::of(options));
     // osgDB::readImageFile() would warn of each by itself.
     return osgDB::Registry::instance()->readImage(fileName, local).getImage();
 }

@@ -3,6 +3,8 @@
 
 #include "text/FileText.h"
 
+#include <osgSkin/Error>
+
 #include <cstddef>
 
 namespace osgSkin {
@@ -10,7 +12,12 @@ namespace osgSkin {
 osg::ref_ptr<osg::Image> TextureReads::once(const std::string& name,
                                             const std::function<osg::ref_ptr<osg::Image>()>& read) {
     const auto [entry, isNew] = _images.emplace(name, nullptr);
-    if (isNew) entry->second = read();
+    if (!isNew) return entry->second;
+    try {
+        entry->second = read();
+    } catch (const Error& error) {
+        _reasons[name] = error.what();
+    }
     return entry->second;
 }
 
@@ -24,7 +31,9 @@ TextureReads::~TextureReads() {
     if (missing == 0) return;
     std::string what = "texture \"" + first + '"';
     if (missing > 1) what = std::to_string(missing) + " textures, \"" + first + "\" among them,";
-    tellOf(_path, what + " cannot be read; drawn without");
+    const auto reason = _reasons.find(first);
+    tellOf(_path, what + " cannot be read; drawn without" +
+                      (reason == _reasons.end() ? "" : ": " + reason->second));
 }
 
 } // namespace osgSkin

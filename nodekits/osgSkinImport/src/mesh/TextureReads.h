@@ -23,13 +23,15 @@ public:
     TextureReads& operator=(const TextureReads&) = delete;
 
     /// The texture called `name`; null where it cannot be read.
-    /// \param read is called the first time, and returns null where it fails
+    /// \param read is called the first time, and returns null where it fails, or throws
+    ///        osgSkin::Error, whose reason is told
     osg::ref_ptr<osg::Image> once(const std::string& name,
                                   const std::function<osg::ref_ptr<osg::Image>()>& read);
 
 private:
     const std::string _path;
     std::map<std::string, osg::ref_ptr<osg::Image>> _images; ///< by their names
+    std::map<std::string, std::string> _reasons;             ///< of some that cannot be read
 };
 
 } // namespace osgSkin

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "osg/GuardedReads.h"
 
+#include "pictures/CheckPicture.h"
 #include "saved/ReadSaved.h"
 #include "text/FileText.h"
 #include "text/SafeNames.h"
@@ -79,8 +80,9 @@ GuardedReads::Result GuardedReads::readObject(const std::string& name,
 
 GuardedReads::Result GuardedReads::readImage(const std::string& name,
                                              const osgDB::Options* options) {
-    return guarded(name, options, [&](const std::string&) {
+    return guarded(name, options, [&](const std::string& found) {
         if (isSaved(name)) failFile(name, "a saved scene, expected a picture");
+        if (!found.empty()) checkPictureFile(found, _limits);
         return _next->readImage(name, options);
     });
 }

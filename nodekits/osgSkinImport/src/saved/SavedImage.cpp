@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "saved/SavedImage.h"
 
+#include "pictures/CheckPicture.h"
 #include "saved/SavedInput.h"
 #include "text/FileText.h"
 
@@ -82,6 +83,7 @@ std::int64_t SavedImage::tookNumber(std::int64_t number, std::size_t left, Saved
     if (!inFile) { // a whole file of a picture, or only the name of one
         if (place > kKind && number > std::int64_t(left))
             input.refuse("a picture with more bytes than the file");
+        _isFile = place > kKind;
         _open = false;
         return number;
     }
@@ -112,6 +114,7 @@ std::int64_t SavedImage::tookNumber(std::int64_t number, std::size_t left, Saved
 void SavedImage::tookText(const std::string& text, SavedInput& input) {
     if (_fileName) {
         _fileName = _named = false;
+        _name = text;
         if (!isPicture(text))
             input.refuse("a picture called " + inQuotes(text) + ", expected a picture's extension");
     } else if (_open && _numbers.size() == kBytes + 1) {
@@ -122,6 +125,13 @@ void SavedImage::tookText(const std::string& text, SavedInput& input) {
         checkSize(input, _texts, double(digits) * 6.0 / 8.0);
         if (++_texts == std::uint64_t(_numbers[kBytes])) _open = false;
     }
+}
+
+void SavedImage::tookBytes(std::string_view bytes, const ReadLimits& limits) {
+    const std::string extension = osgDB::getFileExtension(_name);
+    if (_isFile && !extension.empty())
+        checkPicture("the picture " + inQuotes(_name), extension, bytes, limits);
+    _isFile = false;
 }
 
 } // namespace osgSkin

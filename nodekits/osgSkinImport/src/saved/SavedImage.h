@@ -2,9 +2,12 @@
 #ifndef OSGSKINIMPORT_SAVEDIMAGE_H
 #define OSGSKINIMPORT_SAVEDIMAGE_H 1
 
+#include <osgSkinImport/ReadLimits>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace osgSkin {
@@ -25,6 +28,8 @@ public:
     /// \return the number for OSG to see
     std::int64_t tookNumber(std::int64_t number, std::size_t left, SavedInput& input);
     void tookText(const std::string& text, SavedInput& input);
+    /// Of a picture that is a whole file within this one.
+    void tookBytes(std::string_view bytes, const ReadLimits& limits);
 
     /// Between a picture's class and its file's name.
     bool isNamed() const { return _named; }
@@ -37,6 +42,8 @@ private:
     std::vector<std::int64_t> _numbers; ///< since the write hint
     std::uint64_t _texts = 0;           ///< of these, read
     bool _named = false, _fileName = false, _open = false;
+    bool _isFile = false; ///< its bytes come next
+    std::string _name;    ///< of the picture's file
 };
 
 } // namespace osgSkin

@@ -66,11 +66,12 @@ ReadLimits ReadLimits::of(const osgDB::Options* options) {
         {"maxFileMB", &limits.fileMegabytes}, {"maxTextMB", &limits.textMegabytes},
         {"maxJoints", &limits.joints},        {"maxDepth", &limits.depth},
         {"maxSamples", &limits.samples},      {"maxUses", &limits.uses},
-        {"maxRatios", &limits.ratios}};
+        {"maxRatios", &limits.ratios},        {"maxPixels", &limits.pixels}};
     for (const auto& [key, value] : optionValues(options->getOptionString())) {
         for (const auto& [name, count] : counts)
             if (key == name) *count = countOf(key, value);
         if (key == "formats") limits.formats = listOf(key, osgDB::convertToLowerCase(value));
+        if (key == "pictures") limits.pictures = listOf(key, osgDB::convertToLowerCase(value));
         if (key == "classes") limits.classes = listOf(key, value);
     }
     return limits;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_SGIPICTURE_H
+#define OSGSKINIMPORT_SGIPICTURE_H 1
+
+#include "pictures/formats/PictureBytes.h"
+#include "pictures/formats/PictureSize.h"
+
+namespace osgSkin {
+
+/// The size that a SGI (RGB) picture tells.
+///
+/// \throw osgSkin::Error where the file lacks what OpenSceneGraph's reader takes for granted
+PictureSize sgiSize(const PictureBytes& bytes);
+
+} // namespace osgSkin
+
+#endif

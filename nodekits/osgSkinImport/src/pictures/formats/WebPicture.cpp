@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/formats/WebPicture.h"
+
+namespace osgSkin {
+namespace {
+
+enum Marker : std::uint32_t {
+    kFirstFrame = 0xc0,
+    kHuffmanTables = 0xc4,
+    kReserved = 0xc8,
+    kArithmeticTables = 0xcc,
+    kLastFrame = 0xcf,
+    kFirstRestart = 0xd0,
+    kPictureStart = 0xd8,
+    kPictureEnd = 0xd9,
+    kScan = 0xda
+};
+
+constexpr std::uint64_t kPngChunks = 8, kPngHeader = 33;
+
+/// A progressive picture is gone through for each of its scans; they have about ten. More of them
+/// count as more pictures.
+constexpr std::uint64_t kUsualScans = 16;
+
+bool isFrame(std::uint32_t marker) {
+    return marker >= kFirstFrame && marker <= kLastFrame && marker != kHuffmanTables &&
+           marker != kReserved && marker != kArithmeticTables;
+}
+
+/// Where the next marker begins, behind what stands between two; the size where there is none.
+std::uint64_t nextMarker(const PictureBytes& bytes, std::uint64_t at) {
+    for (;; ++at) {
+        const std::size_t found = bytes.all().find('\xff', at);
+        if (found == std::string_view::npos || found + 1 >= bytes.size()) return bytes.size();
+        at = found;
+        const std::uint32_t marker = bytes.byte(at + 1);
+        if (marker > 1 && marker != 0xff && (marker < kFirstRestart || marker > kPictureStart))
+            return at;
+    }
+}
+
+} // namespace
+
+PictureSize pngSize(const PictureBytes& bytes) {
+    bytes.require(bytes.startsWith("\x89PNG\r\n\x1a\n"), "no PNG picture");
+    bytes.requireSize(kPngHeader);
+    bytes.require(bytes.all().substr(12, 4) == "IHDR",
+                  "a PNG picture that begins without a header");
+    // OpenSceneGraph's reader goes on beyond the file's end with what it read before.
+    for (std::uint64_t at = kPngChunks; at < bytes.size();) {
+        const std::uint64_t next = at + 12 + bytes.big(at, 4);
+        bytes.requireSize(next);
+        if (bytes.all().substr(at + 4, 4) == "IEND") break;
+        at = next;
+    }
+    PictureSize size;
+    size.width = bytes.big(16, 4);
+    size.height = bytes.big(20, 4);
+    size.bytesPerPixel = bytes.byte(24) > 8 ? 8 : 4;
+    return size;
+}
+
+PictureSize jpegSize(const PictureBytes& bytes) {
+    bytes.require(bytes.startsWith("\xff\xd8"), "no JPEG picture");
+    PictureSize size;
+    std::uint64_t scans = 0;
+    for (std::uint64_t at = nextMarker(bytes, 2); at < bytes.size();) {
+        const std::uint32_t marker = bytes.byte(at + 1);
+        if (marker == kPictureEnd) break;
+        if (isFrame(marker)) {
+            size.height = bytes.big(at + 5, 2);
+            size.width = bytes.big(at + 7, 2);
+        }
+        if (marker == kScan) ++scans;
+        at = nextMarker(bytes, at + 2 + bytes.big(at + 2, 2));
+    }
+    size.images = 1 + scans / kUsualScans;
+    return size;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+// Pictures that OpenSceneGraph's readers would follow beyond their ends, or for ever.
+#include "ExpectError.h"
+#include "GltfBuilder.h"
+#include "Notices.h"
+
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ReadScene>
+
+#include <osg/Geometry>
+#include <osg/Image>
+#include <osg/Texture2D>
+#include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+using std::string_literals::operator""s;
+
+struct Drawn {
+    osg::ref_ptr<const osg::Image> image; ///< null: the mesh came without
+    std::string notices;
+};
+
+void savePicture(const std::string& name, const std::string& content) {
+    std::ofstream(testing::TempDir() + name, std::ios::binary) << content;
+}
+
+/// What a mesh is drawn with whose material names a picture.
+Drawn drawnWith(const std::string& picture, const std::string& options = {}) {
+    savePicture("picture_" + picture + ".mtl", "newmtl skin\nKd 1 1 1\nmap_Kd " + picture + "\n");
+    savePicture("picture_" + picture + ".obj",
+                "mtllib picture_" + picture +
+                    ".mtl\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+    const test::Notices notices;
+    const osg::ref_ptr<osgDB::Options> words = new osgDB::Options(options);
+    const osgSkin::ImportedMesh mesh =
+        osgSkin::importMesh(testing::TempDir() + "picture_" + picture + ".obj", words);
+    const auto* texture = dynamic_cast<const osg::Texture2D*>(
+        mesh.parts.at(0).geometry->getStateSet()->getTextureAttribute(
+            0, osg::StateAttribute::TEXTURE));
+    return {texture != nullptr ? texture->getImage() : nullptr, notices.text()};
+}
+
+void expectRefused(const std::string& name, const std::string& content, const std::string& reason,
+                   const std::string& options = {}) {
+    savePicture(name, content);
+    const Drawn drawn = drawnWith(name, options);
+    EXPECT_FALSE(drawn.image.valid()) << name;
+    EXPECT_NE(drawn.notices.find(name + "\" cannot be read; drawn without: "), std::string::npos)
+        << drawn.notices;
+    EXPECT_NE(drawn.notices.find(reason), std::string::npos) << drawn.notices;
+}
+
+/// A number of so many bytes, the least significant one first.
+std::string little(std::uint32_t number, int count) {
+    std::string result;
+    for (int i = 0; i < count; ++i) result += static_cast<char>(number >> 8 * i & 0xff);
+    return result;
+}
+std::string big(std::uint32_t number, int count) {
+    const std::string result = little(number, count);
+    return {result.rbegin(), result.rend()};
+}
+
+/// `text` with other bytes at a place.
+std::string with(std::string text, std::size_t at, const std::string& bytes) {
+    return text.replace(at, bytes.size(), bytes);
+}
+
+/// A picture of 5 x 3 pixels as OpenSceneGraph writes it.
+std::string written(const std::string& extension) {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(5, 3, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    for (unsigned i = 0; i < image->getTotalSizeInBytes(); ++i)
+        image->data()[i] = static_cast<unsigned char>(40 + i);
+    const std::string path = testing::TempDir() + "picture_written." + extension;
+    if (!osgDB::writeImageFile(*image, path)) return {};
+    std::ostringstream content;
+    content << std::ifstream(path, std::ios::binary).rdbuf();
+    return content.str();
+}
+
+/// A TGA picture of 5 x 3 pixels.
+/// \param kind 1: by a table of two colours, 2: by colours; 8 more: packed
+std::string tga(int kind, const std::string& pixels) {
+    const bool mapped = (kind & 7) == 1;
+    return little(0, 1) + little(mapped ? 1 : 0, 1) + little(std::uint32_t(kind), 1) +
+           little(0, 2) + little(mapped ? 2 : 0, 2) + little(mapped ? 24 : 0, 1) + little(0, 4) +
+           little(5, 2) + little(3, 2) + little(mapped ? 8 : 24, 1) + little(0, 1) +
+           (mapped ? "\x01\x02\x03\x04\x05\x06" : "") + pixels;
+}
+
+/// An SGI picture of 5 x 3 grey pixels, each row packed.
+std::string sgi(const std::string& row) {
+    std::string text = "\x01\xda\x01\x01"s + big(2, 2) + big(5, 2) + big(3, 2) + big(1, 2);
+    text.resize(512, '\0');
+    for (int y = 0; y < 3; ++y) text += big(512 + 24, 4);
+    for (int y = 0; y < 3; ++y) text += big(std::uint32_t(row.size()), 4);
+    return text + row;
+}
+
+/// A BMP picture of 5 x 3 pixels with two colours of sixteen.
+std::string bmp(const std::string& row) {
+    std::string text = "BM" + little(0, 8) + little(62, 4) + little(40, 4) + little(5, 4) +
+                       little(3, 4) + little(1, 2) + little(4, 2) + little(0, 4 * 4) +
+                       little(2, 4) + little(0, 4) + "\x01\x02\x03\x04\x05\x06\x07\x08";
+    return text + row + row + row;
+}
+
+/// A GIF picture of one size, its frames of one pixel each.
+std::string gif(std::uint32_t width, std::uint32_t height, std::size_t frames,
+                const std::string& extension = {}) {
+    std::string text = "GIF89a" + little(width, 2) + little(height, 2) + "\x80\0\0"s + "abcdef";
+    text += extension;
+    for (std::size_t i = 0; i < frames; ++i)
+        text += "," + little(0, 4) + little(1, 2) + little(1, 2) + "\0\x02\x02\x44\x01\0"s;
+    return text + ";";
+}
+
+/// A JPEG file's beginning and so many scans.
+std::string jpeg(std::uint32_t side, std::size_t scans) {
+    std::string text = "\xff\xd8\xff\xc2"s + big(11, 2) + "\x08"s + big(side, 2) + big(side, 2) +
+                       "\x01\x01\x11\0"s;
+    for (std::size_t i = 0; i < scans; ++i)
+        text += "\xff\xda"s + big(8, 2) + "\x01\x01\0\0\0\0"s + "\x55\xff\0\x55"s;
+    return text + "\xff\xd9";
+}
+
+std::string tiff(std::uint32_t width, std::uint32_t samples, std::uint32_t photometric) {
+    const auto entry = [](std::uint32_t tag, std::uint32_t value) {
+        return little(tag, 2) + little(4, 2) + little(1, 4) + little(value, 4);
+    };
+    return "II*\0"s + little(8, 4) + little(5, 2) + entry(256, width) + entry(257, 60000) +
+           entry(258, 8) + entry(262, photometric) + entry(277, samples) + little(0, 4);
+}
+
+std::string dds(std::uint32_t width, std::uint32_t height) {
+    std::string text = "DDS " + little(124, 4) + little(0x1007, 4) + little(height, 4) +
+                       little(width, 4) + little(0, 14 * 4) + little(32, 4) + little(4, 4) + "DXT1";
+    text.resize(128, '\0');
+    return text + "12345678";
+}
+
+} // namespace
+
+TEST(Pictures, OfEachFormatAreDrawn) {
+    for (const char* extension :
+         {"png", "jpg", "jpeg", "bmp", "rgb", "ppm", "tif", "tiff", "dds"}) {
+        const std::string content = written(extension);
+        if (content.empty()) continue; // no such writer
+        const std::string name = std::string("whole.") + extension;
+        savePicture(name, content);
+        const Drawn drawn = drawnWith(name);
+        ASSERT_TRUE(drawn.image.valid()) << drawn.notices;
+        EXPECT_EQ(drawn.image->s(), 5) << extension;
+        EXPECT_EQ(drawn.image->t(), 3) << extension;
+    }
+    const std::string colours(45, 'c');
+    const std::pair<const char*, std::string> others[] = {
+        {"plain.tga", tga(2, colours)},
+        {"packed.tga", tga(10, "\x84"
+                               "abc\x84"
+                               "abc\x84"
+                               "abc")},
+        {"mapped.tga", tga(1, std::string(15, '\1'))},
+        {"packed.sgi", sgi("\x05z\0"s)},
+        {"table.bmp", bmp("\x10\x01\x10\0"s)},
+        {"one.gif", gif(5, 3, 1)}};
+    for (const auto& [name, content] : others) {
+        savePicture(name, content);
+        const Drawn drawn = drawnWith(name);
+        ASSERT_TRUE(drawn.image.valid()) << drawn.notices;
+        EXPECT_EQ(drawn.image->s(), 5) << name;
+    }
+}
+
+TEST(Pictures, AreAsLargeAsTheirFilesAreWorth) {
+    const std::string png = with(written("png"), 16, big(40000, 4) + big(40000, 4));
+    expectRefused("large.png", png, "a picture of 40000 x 40000 pixels, expected at most 1677");
+    expectRefused("none.png", with(png, 16, big(0, 4)), "of 0 x 40000 pixels, expected 1 to 65536");
+    expectRefused("large.jpg", jpeg(60000, 1), "60000 x 60000 pixels, expected at most");
+    expectRefused("scans.jpg", jpeg(4000, 3000), "4000 x 4000 pixels, 188 times");
+    expectRefused("frames.gif", gif(3000, 3000, 200), "3000 x 3000 pixels, 202 times");
+    expectRefused("large.tif", tiff(60000, 4, 2), "60000 x 60000 pixels, expected at most");
+    expectRefused("large.ppm", "P3\n60000 60000\n255\n1 2 3\n", "60000 x 60000 pixels");
+    expectRefused("long.ppm", "P3\n# wide\n600000 2\n255\n", "a PNM picture without a size");
+    expectRefused("large.dds", dds(8000, 8000), "expected at least 32000000");
+    expectRefused("large.bmp", with(bmp("\x10\x01\x10\0"s), 18, little(60000, 4)),
+                  "expected at least");
+    savePicture("small.png", written("png"));
+    EXPECT_TRUE(drawnWith("small.png", "maxPixels=1").image.valid());
+    expectRefused("option.png", with(written("png"), 16, big(300, 4) + big(300, 4)),
+                  "(option maxPixels)", "maxPixels=100");
+}
+
+TEST(Pictures, HaveWhatTheirReadersTakeForGranted) {
+    expectRefused("short.tga",
+                  tga(10, "\x02"
+                          "abcabcabc\x8e"s),
+                  "expected at least");
+    expectRefused("colour.tga", tga(1, std::string(15, '\2')), "more colours than its table");
+    expectRefused("kind.tga", with(tga(2, std::string(45, 'c')), 16, little(8, 1)),
+                  "no TGA picture of a known kind");
+    expectRefused("wide.sgi", sgi("\x06z\0"s), "a row of more pixels than it is wide");
+    expectRefused("open.sgi", sgi("\x05z"s), "a row that has no end");
+    expectRefused("long.sgi", with(sgi("\x05z\0"s), 512 + 12, big(1 << 20, 4)),
+                  "expected at least");
+    expectRefused("depth.sgi", with(sgi("\x05z\0"s), 10, big(7, 2)), "of an unknown kind");
+    expectRefused("colour.bmp", bmp("\x10\x31\x10\0"s), "more colours than its table");
+    expectRefused("bits.bmp", with(bmp("\x10\x01\x10\0"s), 28, little(12, 2)), "unknown length");
+    expectRefused("left.bmp", with(bmp("\x10\x01\x10\0"s), 18, little(0xffffff00, 4)),
+                  "of 0 x 3 pixels");
+    std::string masks = with(with(bmp(std::string(12, 'x')), 28, little(16, 2)), 30, little(3, 4));
+    expectRefused("masks.bmp", with(masks, 54, little(0, 8)), "whose pixels lack a colour");
+    expectRefused("control.gif", gif(5, 3, 1, "!\xf9\0"s),
+                  "a graphic control of less than 4 bytes");
+    expectRefused("table.tiff", tiff(20, 3, 3), "more colours than its table");
+    expectRefused("header.dds", with(dds(4, 4), 76, little(3, 4)), "no DDS picture");
+    expectRefused("chunk.png", with(written("png"), 33, big(1 << 30, 4)),
+                  "expected at least 1073741");
+    expectRefused("short.png", written("png").substr(0, 8), "expected at least 33");
+    expectRefused("text.png", "a text", "no PNG picture");
+}
+
+TEST(Pictures, OfOtherFormatsAreReadWhereTheyAreNamed) {
+    expectRefused("strange.ktx", "KTX", "expected one of bmp, bw, dds");
+    savePicture("named.ktx", "KTX");
+    const Drawn drawn = drawnWith("named.ktx", "pictures=ktx,hdr");
+    EXPECT_FALSE(drawn.image.valid());
+    EXPECT_EQ(drawn.notices.find("(option pictures)"), std::string::npos) << drawn.notices;
+}
+
+TEST(Pictures, AreLookedAtWithinGltf) {
+    for (const bool large : {false, true}) {
+        std::string png = written("png");
+        if (large) png = with(png, 16, big(40000, 4) + big(40000, 4));
+        test::GltfColumn column;
+        std::vector<double> bytes;
+        for (const char byte : png) bytes.push_back(double(static_cast<unsigned char>(byte)));
+        column.accessor("SCALAR", bytes, 5121);
+        column.json["images"] = {
+            {{"bufferView", column.json["bufferViews"].size() - 1}, {"mimeType", "image/png"}}};
+        column.json["textures"] = {{{"source", 0}}};
+        column.json["materials"] = {
+            {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+        column.json["meshes"][0]["primitives"][0]["material"] = 0;
+        const test::Notices notices;
+        const osgSkin::ImportedMesh mesh =
+            osgSkin::importMesh(column.save(large ? "picture_large.gltf" : "picture_whole.gltf"));
+        const osg::StateSet& states = *mesh.parts.at(0).geometry->getStateSet();
+        EXPECT_EQ(states.getTextureAttribute(0, osg::StateAttribute::TEXTURE) != nullptr, !large)
+            << notices.text();
+        EXPECT_EQ(notices.say("a picture of 40000 x 40000 pixels"), large) << notices.text();
+    }
+}
+
+TEST(Pictures, AreLookedAtWithinSavedScenes) {
+    for (const bool large : {false, true}) {
+        savePicture("picture_inner.png", written("png"));
+        const osg::ref_ptr<osg::Image> image =
+            osgDB::readRefImageFile(testing::TempDir() + "picture_inner.png");
+        ASSERT_TRUE(image.valid());
+        std::string png = written("png");
+        if (large) png = with(png, 16, big(40000, 4) + big(40000, 4));
+        savePicture("picture_inner.png", png); // which is what is written
+        const osg::ref_ptr<osg::Geometry> geometry =
+            osg::createTexturedQuadGeometry({}, {1, 0, 0}, {0, 1, 0});
+        geometry->getOrCreateStateSet()->setTextureAttribute(0, new osg::Texture2D(image));
+        const std::string path = testing::TempDir() + "picture_inner.osgb";
+        const osg::ref_ptr<osgDB::Options> whole = new osgDB::Options("WriteImageHint=IncludeFile");
+        ASSERT_TRUE(osgDB::writeNodeFile(*geometry, path, whole));
+        if (large)
+            expectError([&] { osgSkin::readScene(path, nullptr); },
+                        "a picture of 40000 x 40000 pixels, expected at most");
+        else
+            EXPECT_TRUE(osgSkin::readScene(path, nullptr).valid());
+    }
+}
