@@ -147,6 +147,30 @@ TEST(LoadCharacter, RefusesAFrameBeyondTheMotion) {
     }
 }
 
+TEST(LoadCharacter, IsDrawnByTheProcessorUnlessToldOtherwise) {
+    for (const bool gpu : {false, true}) {
+        LoadOptions options;
+        options.gpu = gpu;
+        const Character character = loadCharacter(kGood, options);
+        ASSERT_FALSE(character.skin.skins.empty());
+        for (const auto& skin : character.skin.skins)
+            EXPECT_EQ(skin.drawable->getDrawer() != nullptr, gpu);
+    }
+}
+
+TEST(LoadCharacter, TellsBeforehandWhereItGets) {
+    Character character = loadCharacter(kGood);
+    const osg::BoundingSphere told = character.root->getInitialBound();
+    ASSERT_TRUE(told.valid());
+    const osgSkin::CharacterMotion& motion = character.motions.at(0);
+    for (std::size_t frame = 0; frame < motion.clip.frames; ++frame) {
+        character.pose(motion, frame);
+        test::forEachCopy(character, [&](std::uint32_t, const osg::Vec3d& p) {
+            ASSERT_LE((p * character.toWorld - told.center()).length(), told.radius()) << frame;
+        });
+    }
+}
+
 TEST(LoadCharacter, AMotionFileGoesFirst) {
     for (const std::string& file : {kGood, kTube}) {
         LoadOptions options;

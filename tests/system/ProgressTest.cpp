@@ -5,6 +5,7 @@
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinCharacter/ProgressOption>
 
+#include <osg/Group>
 #include <osgDB/ReadFile>
 
 #include <gtest/gtest.h>
@@ -181,6 +182,7 @@ TEST(LoadProgress, TheLastOneSetCounts) {
     EXPECT_FALSE(osgSkin::getProgress(options));
     EXPECT_FALSE(osgSkin::getProgress(nullptr));
     Recorder first, second;
+    options->getOrCreateUserDataContainer()->addUserObject(new osg::Group); // somebody else's
     osgSkin::setProgress(*options, first.progress());
     osgSkin::setProgress(*options, second.progress());
     const osg::ref_ptr<osgDB::Options> copy = options->cloneOptions();

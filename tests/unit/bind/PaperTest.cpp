@@ -53,6 +53,17 @@ void expectBetween(const Straight& limb, const Binding& binding, const glm::dvec
 
 } // namespace
 
+TEST(Paper, JointsWithoutARegionDoNotEndIt) {
+    const Straight limb;
+    BindOptions options = printed();
+    options.joints["joint1"].skip = true;
+    const Binding binding = bind(limb.mesh, limb.skeleton, options);
+    std::size_t followed = 0;
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v)
+        if (ratiosOf(binding, v, 2).bend == 1.0f) ++followed;
+    EXPECT_GT(followed, binding.vertexCount() / 10);
+}
+
 TEST(Paper, StraightLimbTakesEquation5BetweenItsBoundaries) {
     const Straight limb;
     BindOptions options = printed();

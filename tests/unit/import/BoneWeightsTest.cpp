@@ -156,3 +156,14 @@ TEST(MeshWeights, OsgSceneWithoutSkeletonIsRefused) {
     const std::string path = written(*empty, "no_skeleton.osgt");
     expectError([&] { importSkeleton(path); }, "no skeleton");
 }
+
+TEST(MeshWeights, OsgSkeletonIsTheOneWithBones) {
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(new osgAnimation::Skeleton);
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    skeleton->addChild(new osgAnimation::Bone("spine"));
+    scene->addChild(skeleton);
+    const RestSkeleton read = importSkeleton(written(*scene, "second_skeleton.osgt"));
+    ASSERT_EQ(read.joints.size(), 1u);
+    EXPECT_EQ(read.joints[0].name, "spine");
+}

@@ -234,3 +234,20 @@ TEST(GltfLooks, MeshesMayBeCompressedByDraco) {
         GTEST_SKIP() << "this build of Assimp has no Draco";
     }
 }
+
+TEST(GltfLooks, ColoursOfOneMeshAreDrawnBesideOthersWithout) {
+    GltfColumn column;
+    json& primitives = column.json["meshes"][0]["primitives"];
+    json red = primitives[0];
+    std::vector<double> colours;
+    for (int v = 0; v < 24; ++v) colours.insert(colours.end(), {1.0, 0.0, 0.0});
+    red["attributes"]["COLOR_0"] = column.accessor("VEC3", colours);
+    primitives.push_back(red);
+    const ImportedMesh mesh = osgSkin::importMesh(column.save("one_is_red.gltf"));
+    std::size_t found = 0;
+    for (const osgSkin::MeshPart& part : mesh.parts)
+        if (const auto* drawn = dynamic_cast<const osg::Vec4Array*>(part.geometry->getColorArray()))
+            for (const osg::Vec4& colour : *drawn)
+                if ((colour - osg::Vec4(1, 0, 0, 1)).length() < 1e-5f) ++found;
+    EXPECT_EQ(found, 24u);
+}

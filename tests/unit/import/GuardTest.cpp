@@ -250,6 +250,13 @@ TEST(Guard, MotionsAreAsLargeAsTheirFiles) {
     expectError([&] { osgSkin::importMotion(path); }, "3000 frames of 3001 joints");
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("maxSamples=10000000");
     EXPECT_EQ(osgSkin::importMotion(path, 0, {}, options).frames, 3000u);
+    const std::string fits = bvh(9, 200, false);
+    const auto limit = [&](std::size_t samples) {
+        return new osgDB::Options("maxSamples=" + std::to_string(samples - fits.size() / 2));
+    };
+    const std::string just = save("just.bvh", fits);
+    EXPECT_EQ(osgSkin::importMotion(just, 0, {}, limit(2000)).frames, 200u);
+    expectError([&] { osgSkin::importMotion(just, 0, {}, limit(1999)); }, "at most 1999 rotations");
     const std::string many = save("many.bvh", bvh(20'000, 1, false));
     expectError([&] { osgSkin::importSkeleton(many); },
                 "one of more than 10000 (option maxJoints)");
