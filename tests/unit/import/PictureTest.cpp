@@ -200,6 +200,37 @@ TEST(Pictures, AreAsLargeAsTheirFilesAreWorth) {
                   "(option maxPixels)", "maxPixels=100");
 }
 
+TEST(Pictures, OfAModelCountTogether) {
+    const std::string small = written("png");
+    std::string materials, text = "mtllib picture_many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
+    for (const std::string name : {"first", "second", "third"}) {
+        savePicture("picture_" + name + ".png", small);
+        materials += "newmtl " + name + "\nmap_Kd picture_" + name + ".png\n";
+        text += "usemtl " + name + "\nf 1/1 2/1 3/1\n";
+    }
+    savePicture("picture_many.mtl", materials);
+    savePicture("picture_many.obj", text);
+    const auto drawn = [&](std::size_t pixels) {
+        const osg::ref_ptr<osgDB::Options> words =
+            new osgDB::Options("maxPixels=" + std::to_string(pixels));
+        std::size_t count = 0;
+        for (const osgSkin::MeshPart& part :
+             osgSkin::importMesh(testing::TempDir() + "picture_many.obj", words).parts)
+            if (part.geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE))
+                ++count;
+        return count;
+    };
+    EXPECT_EQ(drawn(1), 3u);
+    // Each larger than its file is worth: room for two of them.
+    const std::size_t side = 100, each = side * side - 16 * small.size();
+    for (const std::string name : {"first", "second", "third"})
+        savePicture("picture_" + name + ".png", with(small, 16, big(side, 4) + big(side, 4)));
+    const test::Notices notices;
+    drawn(2 * each);
+    EXPECT_TRUE(notices.say("of four bytes beside those before it (option maxPixels)"))
+        << notices.text();
+}
+
 TEST(Pictures, HaveWhatTheirReadersTakeForGranted) {
     expectRefused("short.tga",
                   tga(10, "\x02"

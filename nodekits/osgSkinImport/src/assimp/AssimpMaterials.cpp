@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/AssimpMaterials.h"
 
-#include "pictures/CheckPicture.h"
-
 #include <osgDB/Registry>
 
 #include <assimp/GltfMaterial.h>
@@ -58,13 +56,13 @@ osg::ref_ptr<osg::Image> rawImage(const aiTexture& texture) {
 
 /// A texture that is packed into the scene's own file, as in .glb; null where it cannot be decoded.
 osg::ref_ptr<osg::Image> embeddedImage(const aiTexture& texture, const std::string& path,
-                                       const ReadLimits& limits) {
+                                       PictureCheck& pictures) {
     if (texture.mHeight != 0) return rawImage(texture);
     osgDB::ReaderWriter* reader =
         osgDB::Registry::instance()->getReaderWriterForExtension(texture.achFormatHint);
     if (reader == nullptr) return nullptr;
     const std::string bytes(reinterpret_cast<const char*>(texture.pcData), texture.mWidth);
-    checkPicture(path, texture.achFormatHint, bytes, limits);
+    pictures.take(path, texture.achFormatHint, bytes);
     std::istringstream stream(bytes);
     return reader->readImage(stream).getImage();
 }
@@ -113,7 +111,7 @@ Material readMaterial(const aiScene& scene, const aiMaterial& source, const std:
     material.image = embedded == nullptr
                          ? readTexture(name.C_Str(), path, options, reads)
                          : reads.once(name.C_Str(), [&] {
-                               return embeddedImage(*embedded, path, ReadLimits::of(options));
+                               return embeddedImage(*embedded, path, reads.pictures());
                            });
     material.wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE);
     material.wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE);
@@ -126,7 +124,7 @@ AssimpMaterials::AssimpMaterials(const aiScene& scene, const std::string& path,
                                  const osgDB::Options* options) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         _hasColours = _hasColours || scene.mMeshes[m]->HasVertexColors(0);
-    TextureReads reads(path);
+    TextureReads reads(path, options);
     for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
         _materials.push_back(readMaterial(scene, *scene.mMaterials[m], path, options, reads));
         _isLinear.push_back(isLinear(*scene.mMaterials[m]));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/Material.h"
 
-#include "pictures/CheckPicture.h"
 #include "text/FileText.h"
 #include "text/SafeNames.h"
 
@@ -43,7 +42,7 @@ void setAlpha(osg::StateSet& state, const Material& material) {
 }
 
 osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::string& meshPath,
-                                       const osgDB::Options* options) {
+                                       const osgDB::Options* options, PictureCheck& pictures) {
     osg::ref_ptr<osgDB::Options> local =
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
@@ -52,7 +51,7 @@ osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::strin
     if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName)) return nullptr;
     const std::string found = osgDB::findDataFile(fileName, local);
     if (!isRegularFile(found)) return nullptr;
-    checkPictureFile(found, ReadLimits::of(options));
+    pictures.takeFile(found);
     // osgDB::readImageFile() would warn of each by itself.
     return osgDB::Registry::instance()->readImage(fileName, local).getImage();
 }
@@ -84,7 +83,8 @@ osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material) {
 osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string& meshPath,
                                      const osgDB::Options* options, TextureReads& reads) {
     if (name.empty()) return nullptr;
-    return reads.once(name, [&] { return readImageFile(name, meshPath, options); });
+    return reads.once(name,
+                      [&] { return readImageFile(name, meshPath, options, reads.pictures()); });
 }
 
 } // namespace osgSkin

@@ -41,7 +41,7 @@ public:
     MaterialTable(const std::vector<tinyobj::material_t>& materials, const std::string& path,
                   const osgDB::Options* options, bool vertexColours, CornerMesh& mesh)
         : _materials(materials), _path(path), _options(options), _vertexColours(vertexColours),
-          _mesh(mesh), _reads(path) {}
+          _mesh(mesh), _reads(path, options) {}
 
     std::uint32_t index(int number) {
         const auto [entry, isNew] =

@@ -182,7 +182,7 @@ CornerMesh readPlyMesh(const std::string& path, const osgDB::Options* options) {
                 [&](const PlyHeader::Element& element, std::size_t index, const PlyValues& values) {
                     collector.take(element, index, values);
                 });
-    TextureReads reads(path);
+    TextureReads reads(path, options);
     std::vector<osg::ref_ptr<osg::StateSet>> stateSets;
     CornerMesh result = collector.finish([&](double texture) {
         Material material;

@@ -29,11 +29,14 @@ TextureReads::~TextureReads() {
         if (missing++ == 0) first = name;
     }
     if (missing == 0) return;
+    std::string reason;
+    if (!_reasons.empty()) {
+        first = _reasons.begin()->first;
+        reason = ": " + _reasons.begin()->second;
+    }
     std::string what = "texture \"" + first + '"';
     if (missing > 1) what = std::to_string(missing) + " textures, \"" + first + "\" among them,";
-    const auto reason = _reasons.find(first);
-    tellOf(_path, what + " cannot be read; drawn without" +
-                      (reason == _reasons.end() ? "" : ": " + reason->second));
+    tellOf(_path, what + " cannot be read; drawn without" + reason);
 }
 
 } // namespace osgSkin

@@ -2,6 +2,8 @@
 #ifndef OSGSKINIMPORT_TEXTUREREADS_H
 #define OSGSKINIMPORT_TEXTUREREADS_H 1
 
+#include "pictures/PictureCheck.h"
+
 #include <osg/Image>
 #include <osg/ref_ptr>
 
@@ -17,7 +19,9 @@ namespace osgSkin {
 class TextureReads {
 public:
     /// \param path of the file that names the textures
-    explicit TextureReads(std::string path) : _path(std::move(path)) {}
+    /// \param options whose limits hold for all of them together; may be null
+    TextureReads(std::string path, const osgDB::Options* options)
+        : _path(std::move(path)), _pictures(ReadLimits::of(options)) {}
     ~TextureReads();
     TextureReads(const TextureReads&) = delete;
     TextureReads& operator=(const TextureReads&) = delete;
@@ -28,8 +32,12 @@ public:
     osg::ref_ptr<osg::Image> once(const std::string& name,
                                   const std::function<osg::ref_ptr<osg::Image>()>& read);
 
+    /// What looks at each before it is read.
+    PictureCheck& pictures() { return _pictures; }
+
 private:
     const std::string _path;
+    PictureCheck _pictures;
     std::map<std::string, osg::ref_ptr<osg::Image>> _images; ///< by their names
     std::map<std::string, std::string> _reasons;             ///< of some that cannot be read
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "osg/GuardedReads.h"
 
-#include "pictures/CheckPicture.h"
 #include "saved/ReadSaved.h"
 #include "text/FileText.h"
 #include "text/SafeNames.h"
@@ -21,7 +20,8 @@ constexpr std::size_t kDeepestFile = 8;
 
 } // namespace
 
-GuardedReads::GuardedReads(const osgDB::Options* options) : _limits(ReadLimits::of(options)) {
+GuardedReads::GuardedReads(const osgDB::Options* options)
+    : _limits(ReadLimits::of(options)), _pictures(_limits) {
     if (options != nullptr) _next = options->getReadFileCallback();
     if (!_next) _next = osgDB::Registry::instance()->getReadFileCallback();
     if (!_next) _next = new osgDB::ReadFileCallback;
@@ -82,7 +82,7 @@ GuardedReads::Result GuardedReads::readImage(const std::string& name,
                                              const osgDB::Options* options) {
     return guarded(name, options, [&](const std::string& found) {
         if (isSaved(name)) failFile(name, "a saved scene, expected a picture");
-        if (!found.empty()) checkPictureFile(found, _limits);
+        if (!found.empty()) _pictures.takeFile(found);
         return _next->readImage(name, options);
     });
 }

@@ -2,6 +2,8 @@
 #ifndef OSGSKINIMPORT_GUARDEDREADS_H
 #define OSGSKINIMPORT_GUARDEDREADS_H 1
 
+#include "pictures/PictureCheck.h"
+
 #include <osgSkinImport/ReadLimits>
 
 #include <osgDB/Callbacks>
@@ -39,6 +41,7 @@ private:
     Result readSavedFile(const std::string& found, const osgDB::Options* options);
 
     const ReadLimits _limits;
+    PictureCheck _pictures;
     osg::ref_ptr<osgDB::ReadFileCallback> _next;
     std::string _reason;
     std::vector<std::string> _open; ///< saved files that are being read

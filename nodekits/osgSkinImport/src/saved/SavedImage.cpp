@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "saved/SavedImage.h"
 
-#include "pictures/CheckPicture.h"
 #include "saved/SavedInput.h"
 #include "text/FileText.h"
 
@@ -127,10 +126,10 @@ void SavedImage::tookText(const std::string& text, SavedInput& input) {
     }
 }
 
-void SavedImage::tookBytes(std::string_view bytes, const ReadLimits& limits) {
+void SavedImage::tookBytes(std::string_view bytes) {
     const std::string extension = osgDB::getFileExtension(_name);
     if (_isFile && !extension.empty())
-        checkPicture("the picture " + inQuotes(_name), extension, bytes, limits);
+        _pictures.take("the picture " + inQuotes(_name), extension, bytes);
     _isFile = false;
 }
 

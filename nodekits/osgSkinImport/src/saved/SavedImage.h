@@ -2,7 +2,7 @@
 #ifndef OSGSKINIMPORT_SAVEDIMAGE_H
 #define OSGSKINIMPORT_SAVEDIMAGE_H 1
 
-#include <osgSkinImport/ReadLimits>
+#include "pictures/PictureCheck.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,13 +23,15 @@ class SavedInput;
 /// the number of levels and a text for each.
 class SavedImage {
 public:
+    explicit SavedImage(const ReadLimits& limits) : _pictures(limits) {}
+
     void tookProperty(const std::string& name);
     /// \param left bytes that the file has still
     /// \return the number for OSG to see
     std::int64_t tookNumber(std::int64_t number, std::size_t left, SavedInput& input);
     void tookText(const std::string& text, SavedInput& input);
     /// Of a picture that is a whole file within this one.
-    void tookBytes(std::string_view bytes, const ReadLimits& limits);
+    void tookBytes(std::string_view bytes);
 
     /// Between a picture's class and its file's name.
     bool isNamed() const { return _named; }
@@ -44,6 +46,7 @@ private:
     bool _named = false, _fileName = false, _open = false;
     bool _isFile = false; ///< its bytes come next
     std::string _name;    ///< of the picture's file
+    PictureCheck _pictures;
 };
 
 } // namespace osgSkin

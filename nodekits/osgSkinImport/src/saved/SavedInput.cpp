@@ -22,7 +22,7 @@ constexpr std::uint64_t kSlack = 65536;
 } // namespace
 
 SavedInput::SavedInput(std::string content, const ReadLimits& limits)
-    : _content(std::move(content)), _limits(limits) {
+    : _content(std::move(content)), _image(limits), _limits(limits) {
     setStream(&_none);
 }
 

@@ -47,7 +47,7 @@ protected:
     void tookProperty(const std::string& name);
     void tookBegin();
     void tookMatch(const std::string& name) { _property = name; }
-    void tookBytes(std::string_view bytes) { _image.tookBytes(bytes, _limits); }
+    void tookBytes(std::string_view bytes) { _image.tookBytes(bytes); }
     std::string took(std::string word);
     std::string tookWrapped(std::string text);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/CheckPicture.h"
+#include "pictures/PictureCheck.h"
 
 #include "pictures/formats/BmpPicture.h"
 #include "pictures/formats/DdsPicture.h"
@@ -33,10 +33,10 @@ const std::map<std::string, SizeOf>& formats() {
 
 } // namespace
 
-void checkPicture(const std::string& name, const std::string& extension, std::string_view bytes,
-                  const ReadLimits& limits) {
+void PictureCheck::take(const std::string& name, const std::string& extension,
+                        std::string_view bytes) {
     const std::string format = osgDB::convertToLowerCase(extension);
-    const auto& others = limits.pictures;
+    const auto& others = _limits.pictures;
     if (std::find(others.begin(), others.end(), format) != others.end()) return;
     const auto known = formats().find(format);
     if (known == formats().end()) {
@@ -56,17 +56,20 @@ void checkPicture(const std::string& name, const std::string& extension, std::st
     // Sides are below 2^17 and images fewer than bytes, but for what is far beyond any limit.
     const double needed = double(size.width) * double(size.height) * double(size.images) *
                           double(size.bytesPerPixel) / 4.0;
-    const std::size_t most = limits.pixelsOf(bytes.size());
-    if (needed <= double(most)) return;
-    picture.fail("a picture of " + sides + " pixels" +
-                 (size.images > 1 ? ", " + std::to_string(size.images) + " times" : "") +
-                 ", expected at most " + std::to_string(most) +
-                 " of four bytes (option maxPixels)");
+    const double most = double(_limits.pixelsOf(_bytes + bytes.size())) - _pixels;
+    if (needed > most)
+        picture.fail("a picture of " + sides + " pixels" +
+                     (size.images > 1 ? ", " + std::to_string(size.images) + " times" : "") +
+                     ", expected at most " + std::to_string(static_cast<std::size_t>(most)) +
+                     " of four bytes" + (_bytes > 0 ? " beside those before it" : "") +
+                     " (option maxPixels)");
+    _pixels += needed;
+    _bytes += bytes.size();
 }
 
-void checkPictureFile(const std::string& path, const ReadLimits& limits) {
-    checkPicture(path, osgDB::getFileExtension(path),
-                 readWholeFile(path, limits.fileMegabytes, "maxFileMB"), limits);
+void PictureCheck::takeFile(const std::string& path) {
+    take(path, osgDB::getFileExtension(path),
+         readWholeFile(path, _limits.fileMegabytes, "maxFileMB"));
 }
 
 } // namespace osgSkin
