@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+//
+// Included by PoseKernel.cpp once for each instruction set.
+#if defined(OSGSKIN_JOINTSPLITS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef OSGSKIN_JOINTSPLITS_INL_H
+#undef OSGSKIN_JOINTSPLITS_INL_H
+#else
+#define OSGSKIN_JOINTSPLITS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "pose/JointLanes-inl.h"
+#include "pose/SplitUnit.h"
+
+#include <cstddef>
+
+HWY_BEFORE_NAMESPACE();
+namespace osgSkin {
+namespace HWY_NAMESPACE {
+
+struct Root {
+    Joints root, inverse;
+};
+
+/// Of what is not 0, nor denormal; to the last digits.
+HWY_INLINE Root rootOf(const Joints& square) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    // Two of Newton's steps: the instructions for it take three times as long.
+    Joints inverse{_mm512_rsqrt14_pd(square.raw)};
+    const Joints half = hn::Mul(each(0.5), square), more = each(1.5);
+    for (int i = 0; i < 2; ++i)
+        inverse = hn::Mul(inverse, hn::NegMulAdd(half, hn::Mul(inverse, inverse), more));
+    return {hn::Mul(square, inverse), inverse};
+#else
+    const Joints root = hn::Sqrt(square);
+    return {root, hn::Div(each(1.0), root)};
+#endif
+}
+
+/// Of a rotation, with that part found first which is largest.
+HWY_INLINE Quaternions quaternionsOf(const Joints (&m)[3][3]) {
+    const JointTag d;
+    const Joints one = each(1.0), half = each(0.5);
+    const Joints xPlusY = hn::Add(m[0][0], m[1][1]), xLessY = hn::Sub(m[0][0], m[1][1]);
+    const Joints forW = hn::Add(xPlusY, m[2][2]), forX = hn::Sub(xLessY, m[2][2]);
+    const Joints forY = hn::Neg(hn::Add(xLessY, m[2][2])), forZ = hn::Sub(m[2][2], xPlusY);
+    const Joints largestAxis = hn::Max(forX, hn::Max(forY, forZ));
+    const Joints square = hn::Add(hn::Max(forW, largestAxis), one);
+    const Root root = rootOf(square);
+    const Joints largest = hn::Mul(half, root.root), factor = hn::Mul(half, root.inverse);
+    const Joints lessX = hn::Mul(factor, hn::Sub(m[1][2], m[2][1]));
+    const Joints lessY = hn::Mul(factor, hn::Sub(m[2][0], m[0][2]));
+    const Joints lessZ = hn::Mul(factor, hn::Sub(m[0][1], m[1][0]));
+    const JointMask isW = hn::Ge(forW, largestAxis);
+    Quaternions q{largest, lessX, lessY, lessZ};
+    if (HWY_LIKELY(hn::AllTrue(d, isW))) return q;
+    const Joints xy = hn::Mul(factor, hn::Add(m[0][1], m[1][0]));
+    const Joints yz = hn::Mul(factor, hn::Add(m[1][2], m[2][1]));
+    const Joints zx = hn::Mul(factor, hn::Add(m[2][0], m[0][2]));
+    const JointMask isX = hn::Eq(forX, largestAxis), isY = hn::Eq(forY, largestAxis);
+    const auto choose = [&](Joints w, Joints x, Joints y, Joints z) HWY_ATTR {
+        return hn::IfThenElse(isW, w, hn::IfThenElse(isX, x, hn::IfThenElse(isY, y, z)));
+    };
+    q.w = choose(q.w, lessX, lessY, lessZ);
+    q.x = choose(q.x, largest, xy, zx);
+    q.y = choose(q.y, xy, largest, yz);
+    q.z = choose(q.z, zx, yz, largest);
+    return q;
+}
+
+/// What is too near to a half turn for the arithmetic of the others.
+HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t joint, const double (&q)[4],
+                             double (&angles)[4]) {
+    const auto rest = [&](std::size_t row) {
+        const double* at = call.rest + row * call.count + joint;
+        return glm::dvec3(at[0], at[call.count], at[2 * call.count]);
+    };
+    const BendTwist split = splitUnit({q[0], q[1], q[2], q[3]}, rest(PoseAccess::RestRow::kPole));
+    angles[0] = split.bendAngle;
+    angles[1] = split.twistAngle;
+    angles[2] = glm::dot(split.bendAxis, rest(PoseAccess::RestRow::kE1));
+    angles[3] = glm::dot(split.bendAxis, rest(PoseAccess::RestRow::kE2));
+}
+
+HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t first,
+                             const double (&q)[4][PoseCall::kAtOnce], const double* alone,
+                             double (&angles)[4][PoseCall::kAtOnce]) {
+    for (std::size_t lane = 0; lane < hn::Lanes(JointTag()); ++lane) {
+        if (alone[lane] == 0.0) continue;
+        double own[4];
+        splitAlone(call, first + lane, {q[0][lane], q[1][lane], q[2][lane], q[3][lane]}, own);
+        for (std::size_t i = 0; i < 4; ++i) angles[i][lane] = own[i];
+    }
+}
+
+/// splitUnit() of several joints.
+HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternions& q) {
+    /// Bend axes are nothing below this sine of half the bend.
+    constexpr double kNoBend = 1e-100;
+    /// Below this cosine of half the bend, its axis and the twist are not told apart.
+    constexpr double kHalfTurn = 1e-12;
+    const JointTag d;
+    const Joints zero = hn::Zero(d), one = each(1.0), two = each(2.0);
+    const Joints xyz[3] = {q.x, q.y, q.z};
+    const auto along = [&](std::size_t row) HWY_ATTR {
+        const double* at = call.rest + row * call.count + first;
+        const Joints axis[3] = {hn::LoadU(d, at), hn::LoadU(d, at + call.count),
+                                hn::LoadU(d, at + 2 * call.count)};
+        return dot(xyz, axis);
+    };
+    // c + s w is the twist, u1 e1 + u2 e2 what is perpendicular to w; of q and -q the one where c
+    // is positive.
+    const Joints sign = hn::And(q.w, hn::SignBit(d));
+    const Joints c = hn::Xor(q.w, sign);
+    const Joints s = hn::Xor(along(PoseAccess::RestRow::kPole), sign);
+    const Joints u1 = hn::Xor(along(PoseAccess::RestRow::kE1), sign);
+    const Joints u2 = hn::Xor(along(PoseAccess::RestRow::kE2), sign);
+    const Joints cosines = hn::MulAdd(c, c, hn::Mul(s, s));
+    const Joints sines = hn::MulAdd(u1, u1, hn::Mul(u2, u2));
+    const JointMask bends = hn::Ge(sines, each(kNoBend * kNoBend));
+    const Root cosine = rootOf(cosines), sine = rootOf(hn::IfThenElse(bends, sines, one));
+    Angles angles;
+    angles.bend = hn::IfThenElseZero(bends, hn::Mul(two, angleOf(sine.root, cosine.root)));
+    angles.twist = hn::Mul(two, angleOf(s, c));
+    // q times the inverse twist: eq. 3.
+    const Joints length = hn::Mul(sine.inverse, cosine.inverse);
+    angles.cosine = hn::Mul(hn::MulSub(c, u1, hn::Mul(s, u2)), length);
+    angles.sine = hn::Mul(hn::MulAdd(c, u2, hn::Mul(s, u1)), length);
+    angles.cosine = hn::IfThenElse(bends, angles.cosine, one);
+    angles.sine = hn::IfThenElseZero(bends, angles.sine);
+    const JointMask alone = hn::Or(hn::Eq(c, zero), hn::Lt(cosines, each(kHalfTurn * kHalfTurn)));
+    if (HWY_LIKELY(hn::AllFalse(d, alone))) return angles;
+    constexpr std::size_t kAtOnce = PoseCall::kAtOnce;
+    double quaternions[4][kAtOnce], all[4][kAtOnce], which[kAtOnce];
+    Joints* const parts[4] = {&angles.bend, &angles.twist, &angles.cosine, &angles.sine};
+    const Joints* const from[4] = {&q.w, &q.x, &q.y, &q.z};
+    for (std::size_t i = 0; i < 4; ++i) {
+        hn::StoreU(*from[i], d, quaternions[i]);
+        hn::StoreU(*parts[i], d, all[i]);
+    }
+    hn::StoreU(hn::IfThenElseZero(alone, one), d, which);
+    splitAlone(call, first, quaternions, which, all);
+    for (std::size_t i = 0; i < 4; ++i) *parts[i] = hn::LoadU(d, all[i]);
+    return angles;
+}
+
+/// `twist` or 2 pi more or less, see Pose::Twist.
+HWY_INLINE Joints continued(const Joints& before, const Joints& twist) {
+    const Joints turn = each(6.283185307179586477), near = each(0.25 * 6.283185307179586477);
+    Joints result = twist;
+    const auto choose = [&](const Joints& angle) HWY_ATTR {
+        const JointMask good =
+            hn::And(hn::Lt(hn::Abs(angle), turn), hn::Le(hn::Abs(hn::Sub(angle, before)), near));
+        result = hn::IfThenElse(good, angle, result);
+    };
+    // The first that is good is to be taken, so it comes last.
+    choose(hn::Sub(twist, turn));
+    choose(hn::Add(twist, turn));
+    choose(twist);
+    return result;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace osgSkin
+HWY_AFTER_NAMESPACE();
+
+#endif
