@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+//
+// Included by ChainKernel.cpp once for each instruction set.
+#if defined(OSGSKIN_CHAINJOINTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef OSGSKIN_CHAINJOINTS_INL_H
+#undef OSGSKIN_CHAINJOINTS_INL_H
+#else
+#define OSGSKIN_CHAINJOINTS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "chains/ChainKernel.h"
+#include "points/Doubles-inl.h"
+#include "pose/PoseAccess.h"
+
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace osgSkin {
+namespace HWY_NAMESPACE {
+
+/// A number of up to eight joints each.
+constexpr std::size_t kAtOnce = 8;
+using JointTag = hn::CappedTag<double, kAtOnce>;
+using Joints = hn::Vec<JointTag>;
+using JointMask = hn::Mask<JointTag>;
+using JointFloats = hn::Rebind<float, JointTag>;
+using JointSteps = hn::Rebind<std::int32_t, JointTag>;
+
+HWY_INLINE Joints each(double x) {
+    return hn::Set(JointTag(), x);
+}
+
+/// The last column of a map that moves nothing.
+alignas(16) constexpr float kNoMove[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+
+/// Rounding errors are taken as 0: their products would be denormal numbers, which processors are
+/// many times slower with.
+template <typename V, typename T>
+HWY_INLINE V flushed(const V& x, T least) {
+    return hn::IfThenElseZero(hn::Ge(hn::Abs(x), hn::Set(hn::DFromV<V>(), least)), x);
+}
+
+/// Rows of a pose's joints, as they stand in it or gathered.
+struct JointRows {
+    const double* own;  ///< by PoseAccess::Row
+    const double* rest; ///< by PoseAccess::RestRow
+    const std::int32_t* azimuths;
+    const int* parents;
+    std::size_t stride;
+
+    HWY_INLINE Joints ownOf(std::size_t row, std::size_t first) const {
+        return hn::LoadU(JointTag(), own + row * stride + first);
+    }
+    HWY_INLINE Joints restOf(std::size_t row, std::size_t first) const {
+        return hn::LoadU(JointTag(), rest + row * stride + first);
+    }
+};
+
+HWY_INLINE JointRows rowsOf(const Pose& pose) {
+    const double* const rows = PoseAccess::rows(pose);
+    return {rows, PoseAccess::restRows(pose), PoseAccess::azimuths(rows, pose.size()),
+            PoseAccess::parents(pose), pose.size()};
+}
+
+/// Where rows of a section's own are put together.
+struct GatheredRows {
+    double own[PoseAccess::kNumberRows * ChainPlan::kMostJoints];
+    double rest[PoseAccess::kRestRows * ChainPlan::kMostJoints];
+    std::int32_t azimuths[2 * ChainPlan::kMostJoints];
+    int parents[ChainPlan::kMostJoints];
+};
+
+/// Of several joints: which of the ranges that its sine is known in an angle is in, and the angle
+/// as it is told there.
+HWY_INLINE void putAngle(const Joints& whole, float* wholes, float* angles, std::int32_t* ranges) {
+    const JointFloats d;
+    const JointSteps steps;
+    const auto angle = hn::DemoteTo(d, flushed(whole, 1e-9));
+    const auto size = hn::Abs(angle);
+    const auto beyond = [&](float end) HWY_ATTR { return hn::Gt(size, hn::Set(d, end)); };
+    const auto large = beyond(1.5708f), larger = beyond(3.1416f);
+    const auto one = hn::Set(steps, 1);
+    auto range = hn::Zero(steps);
+    for (const auto& end : {beyond(0.34f), beyond(0.9f), large, larger})
+        range = hn::Add(range, hn::IfThenElseZero(hn::RebindMask(steps, end), one));
+    auto part = hn::IfThenElse(large, hn::Set(d, 0.5f), hn::Set(d, 1.0f));
+    part = hn::IfThenElse(larger, hn::Set(d, 0.25f), part);
+    hn::StoreU(angle, d, wholes);
+    hn::StoreU(hn::Mul(angle, part), d, angles);
+    hn::StoreU(range, steps, ranges);
+}
+
+/// How far joints are moved, those without parents left out: the root's centre has nothing to be
+/// moved against.
+HWY_INLINE void movesOf(const JointRows& rows, std::size_t first, const Joints (&turn)[3][3],
+                        Joints (&move)[3]) {
+    const JointTag d;
+    const Joints centre[3] = {rows.restOf(PoseAccess::RestRow::kCentre, first),
+                              rows.restOf(PoseAccess::RestRow::kCentre + 1, first),
+                              rows.restOf(PoseAccess::RestRow::kCentre + 2, first)};
+    const Joints parents = hn::PromoteTo(d, hn::LoadU(JointSteps(), rows.parents + first));
+    const Joints from = hn::IfThenElseZero(hn::Ge(parents, hn::Zero(d)), each(1.0));
+    const Joints scale = rows.ownOf(PoseAccess::Row::kScale, first);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Joints row[3] = {turn[0][axis], turn[1][axis], turn[2][axis]};
+        const Joints turned = hn::MulSub(scale, dot(row, centre), centre[axis]);
+        move[axis] = hn::MulAdd(from, turned, rows.ownOf(PoseAccess::Row::kOffset + axis, first));
+    }
+}
+
+/// What joints from `first` on give in any chain.
+HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, const ChainCall& call,
+                           PosedChains& chains, JointMask& adjusted, JointMask& scaled) {
+    using Own = PoseAccess::Row;
+    const JointTag d;
+    const JointFloats floats;
+    const JointSteps steps;
+    const Joints zero = hn::Zero(d), one = each(1.0);
+
+    // The whole turn.
+    const Joints w = rows.ownOf(Own::kW, first), x = rows.ownOf(Own::kX, first),
+                 y = rows.ownOf(Own::kY, first), z = rows.ownOf(Own::kZ, first);
+    const Joints x2 = hn::Add(x, x), y2 = hn::Add(y, y), z2 = hn::Add(z, z);
+    const Joints xx = hn::Mul(x2, x), yy = hn::Mul(y2, y), zz = hn::Mul(z2, z);
+    const Joints xy = hn::Mul(x2, y), yz = hn::Mul(y2, z), zx = hn::Mul(z2, x);
+    const Joints wx = hn::Mul(x2, w), wy = hn::Mul(y2, w), wz = hn::Mul(z2, w);
+    const Joints turn[3][3] = {{hn::Sub(hn::Sub(one, yy), zz), hn::Add(xy, wz), hn::Sub(zx, wy)},
+                               {hn::Sub(xy, wz), hn::Sub(hn::Sub(one, xx), zz), hn::Add(yz, wx)},
+                               {hn::Add(zx, wy), hn::Sub(yz, wx), hn::Sub(hn::Sub(one, xx), yy)}};
+    for (std::size_t column = 0; column < 3; ++column)
+        for (std::size_t row = 0; row < 3; ++row)
+            hn::StoreU(turn[column][row], d, chains.turns[3 * column + row] + first);
+
+    KernelJoints& joints = chains.joints;
+    putAngle(rows.ownOf(Own::kBend, first), joints.wholeBend + first, joints.bend + first,
+             joints.bendRange + first);
+    putAngle(rows.ownOf(Own::kTwist, first), joints.wholeTwist + first, joints.twist + first,
+             joints.twistRange + first);
+    const auto step = hn::Set(floats, static_cast<float>(PoseAccess::kAzimuthStep));
+    const auto azimuth = [&](std::size_t row, float* to) HWY_ATTR {
+        const auto whole = hn::LoadU(steps, rows.azimuths + row * rows.stride + first);
+        hn::StoreU(hn::Mul(step, hn::ConvertTo(floats, whole)), floats, to + first);
+    };
+    azimuth(0, joints.azimuthCosine);
+    azimuth(1, joints.azimuthSine);
+
+    Joints move[3], square = zero;
+    movesOf(rows, first, turn, move);
+    for (const Joints& axis : move) square = hn::MulAdd(axis, axis, square);
+    const JointMask grows = hn::Ne(rows.ownOf(Own::kScale, first), one);
+    const JointMask moves = hn::Gt(square, each(call.smallMove * call.smallMove));
+    // The root moves as a rule, and nothing follows it in part.
+    const std::int32_t* const partial = &call.plan.arePartial[call.section.joint + first];
+    const JointMask isPartial = hn::Ne(hn::PromoteTo(d, hn::LoadU(steps, partial)), zero);
+    const JointMask changed = hn::Or(grows, hn::And(moves, isPartial));
+    scaled = hn::Or(scaled, grows);
+    adjusted = hn::Or(adjusted, changed);
+    hn::StoreU(hn::DemoteTo(steps, hn::IfThenElseZero(changed, one)), steps,
+               joints.adjusted + first);
+}
+
+/// Where and how much joints from `first` on are moved and scaled, in their frames.
+HWY_INLINE void poseMoves(const JointRows& rows, std::size_t first, PosedChains& chains) {
+    using Rest = PoseAccess::RestRow;
+    const JointTag d;
+    const JointFloats floats;
+    Joints turn[3][3], move[3];
+    for (std::size_t i = 0; i < 9; ++i) turn[i / 3][i % 3] = hn::LoadU(d, chains.turns[i] + first);
+    movesOf(rows, first, turn, move);
+    const auto azimuth = [&](std::size_t row) HWY_ATTR {
+        const auto whole = hn::LoadU(JointSteps(), rows.azimuths + row * rows.stride + first);
+        return hn::Mul(each(PoseAccess::kAzimuthStep), hn::PromoteTo(d, whole));
+    };
+    const Joints cosine = azimuth(0), sine = azimuth(1);
+    Joints along[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)}; // e1, e2, w
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        along[0] = hn::MulAdd(move[axis], rows.restOf(Rest::kE1 + axis, first), along[0]);
+        along[1] = hn::MulAdd(move[axis], rows.restOf(Rest::kE2 + axis, first), along[1]);
+        along[2] = hn::MulAdd(move[axis], rows.restOf(Rest::kPole + axis, first), along[2]);
+    }
+    KernelJoints& joints = chains.joints;
+    const auto put = [&](const Joints& value, float* row) HWY_ATTR {
+        hn::StoreU(hn::DemoteTo(floats, flushed(value, 1e-15)), floats, row + first);
+    };
+    put(hn::Sub(rows.ownOf(PoseAccess::Row::kScale, first), each(1.0)), joints.growth);
+    put(hn::MulAdd(cosine, along[0], hn::Mul(sine, along[1])), joints.move[0]);
+    put(hn::MulSub(cosine, along[1], hn::Mul(sine, along[0])), joints.move[1]);
+    put(along[2], joints.move[2]);
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace osgSkin
+HWY_AFTER_NAMESPACE();
+
+#endif
