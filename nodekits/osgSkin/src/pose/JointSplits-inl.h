@@ -70,8 +70,8 @@ HWY_INLINE Quaternions quaternionsOf(const Joints (&m)[3][3]) {
 }
 
 /// What is too near to a half turn for the arithmetic of the others.
-HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t joint, const double (&q)[4],
-                             double (&angles)[4]) {
+inline HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t joint, const double (&q)[4],
+                                    double (&angles)[4]) {
     const auto rest = [&](std::size_t row) {
         const double* at = call.rest + row * call.count + joint;
         return glm::dvec3(at[0], at[call.count], at[2 * call.count]);
@@ -83,9 +83,9 @@ HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t joint, const doub
     angles[3] = glm::dot(split.bendAxis, rest(PoseAccess::RestRow::kE2));
 }
 
-HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t first,
-                             const double (&q)[4][PoseCall::kAtOnce], const double* alone,
-                             double (&angles)[4][PoseCall::kAtOnce]) {
+inline HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t first,
+                                    const double (&q)[4][PoseCall::kAtOnce], const double* alone,
+                                    double (&angles)[4][PoseCall::kAtOnce]) {
     for (std::size_t lane = 0; lane < hn::Lanes(JointTag()); ++lane) {
         if (alone[lane] == 0.0) continue;
         double own[4];
