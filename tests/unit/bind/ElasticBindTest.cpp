@@ -6,9 +6,11 @@
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindWeights>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <stdexcept>
 
@@ -111,4 +113,54 @@ TEST(ElasticBind, TakesPaintedWeightsAndSeams) {
     EXPECT_FALSE(hasNote(report, "not elastic"));
     EXPECT_FALSE(binding.correctives.empty());
     EXPECT_TRUE(bindWeights(mesh, bones(), weights).correctives.empty());
+}
+
+/// A sleeve of the arm's own faces, a little off it.
+TEST(ElasticBind, ClothesMoveAsTheSkinBelowThem) {
+    SkinMesh mesh = arm();
+    const SkinMesh bare = mesh;
+    const auto skin = static_cast<std::uint32_t>(bare.positions.size());
+    std::vector<std::uint32_t> copyOf(skin, 0);
+    const auto isSleeve = [&](std::uint32_t v) {
+        return std::abs(bare.positions[v].y - 7.0) < 3.1;
+    };
+    for (std::uint32_t v = 0; v < skin; ++v) {
+        if (!isSleeve(v)) continue;
+        copyOf[v] = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.push_back(bare.positions[v] * glm::dvec3(1.03, 1.0, 1.03));
+    }
+    std::size_t corner = 0;
+    for (const std::uint32_t size : bare.faceSizes) {
+        const std::uint32_t* face = &bare.faceVertices[corner];
+        corner += size;
+        if (!std::all_of(face, face + size, isSleeve)) continue;
+        mesh.faceSizes.push_back(size);
+        for (std::uint32_t k = 0; k < size; ++k) mesh.faceVertices.push_back(copyOf[face[k]]);
+    }
+    BindReport report;
+    const Binding binding = bind(mesh, bones(), elasticOptions(), &report);
+    EXPECT_FALSE(hasNote(report, "not elastic"));
+    ASSERT_GT(report.layeredVertices, 50u);
+    const Correctives& shapes = binding.correctives;
+    ASSERT_EQ(shapes.joints.size(), 1u);
+    const std::size_t modes = shapes.joints[0].modes;
+    const auto moveOf = [&](std::uint32_t v, std::size_t mode) {
+        glm::vec3 move(0.0f);
+        for (std::uint32_t e = shapes.firstEntry[v]; e < shapes.firstEntry[v + 1]; ++e)
+            for (int axis = 0; axis < 3; ++axis)
+                move[axis] =
+                    shapes.shares[shapes.entries[e].firstShare + 3 * mode + std::size_t(axis)];
+        return move;
+    };
+    float largest = 0.0f, apart = 0.0f;
+    for (std::uint32_t v = 0; v < skin; ++v) {
+        if (copyOf[v] == 0 || std::abs(bare.positions[v].y - 7.0) > 2.0) continue;
+        for (std::size_t k = 0; k < modes; ++k) {
+            const glm::vec3 below = moveOf(v, k);
+            largest = std::max(largest, glm::length(below));
+            apart = std::max(apart, glm::length(moveOf(copyOf[v], k) - below));
+        }
+    }
+    EXPECT_GT(largest, 1000.0f); // of 32767, as shares are kept
+    EXPECT_LT(apart, 0.02f * largest);
 }

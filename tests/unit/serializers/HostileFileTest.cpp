@@ -133,6 +133,22 @@ TEST(Primitives, GoodRunsAreRead) {
         EXPECT_NE(loadWith(good, nullptr), nullptr) << good->className();
 }
 
+TEST(Primitives, EndAtTheLastVertex) {
+    for (const unsigned int last : {2u, 3u}) {
+        const osg::ref_ptr<osg::DrawElementsUShort> elements =
+            new osg::DrawElementsUShort(GL_TRIANGLES);
+        for (const unsigned int corner : {0u, 1u, last}) elements->addElement(corner);
+        const osg::ref_ptr<osg::PrimitiveSet> run =
+            new osg::DrawArrays(GL_TRIANGLES, static_cast<int>(last) - 2, 3);
+        for (osg::PrimitiveSet* each : {static_cast<osg::PrimitiveSet*>(elements), run.get()}) {
+            const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+            geometry->addPrimitiveSet(each);
+            EXPECT_EQ(osgSkin::brokenPrimitive(*geometry, 3).empty(), last == 2)
+                << each->className();
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, HostilePrimitives, testing::ValuesIn(kBadPrimitives),
                          [](const auto& bad) { return std::string(bad.param.name); });
 

@@ -19,9 +19,9 @@ namespace {
 using Shapes = BindOptions::Shapes;
 
 Correctives elasticShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
-                          const WeldedMesh& mesh, const BindOptions& options,
-                          const Progress& progress, const Binding& binding,
-                          std::vector<std::string>& notes) {
+                          const WeldedMesh& mesh, const SkinLayers* layers,
+                          const BindOptions& options, const Progress& progress,
+                          const Binding& binding, std::vector<std::string>& notes) {
     std::optional<ShapesCache> cache;
     if (!options.cacheFolder.empty()) {
         cache.emplace(options.cacheFolder, digestOf(skeleton, joints, mesh, binding));
@@ -31,7 +31,8 @@ Correctives elasticShapes(const RestSkeleton& skeleton, const std::vector<Planne
         }
     }
     MadeShapes made;
-    made.correctives = makeElasticShapes(skeleton, joints, mesh, binding, progress, made.notes);
+    made.correctives =
+        makeElasticShapes(skeleton, joints, mesh, layers, binding, progress, made.notes);
     notes.insert(notes.end(), made.notes.begin(), made.notes.end());
     if (cache) cache->write(made, notes);
     return made.correctives;
@@ -47,14 +48,14 @@ BindOptions decided(BindOptions options, bool ownRatios) {
 }
 
 void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
-               const WeldedMesh& mesh, const BindOptions& options, const Progress& progress,
-               Binding& binding, std::vector<std::string>& notes) {
+               const WeldedMesh& mesh, const SkinLayers* layers, const BindOptions& options,
+               const Progress& progress, Binding& binding, std::vector<std::string>& notes) {
     if (options.shapes != Shapes::None) {
         if (progress) progress({"shapes", 0.0});
         binding.correctives =
             options.shapes == Shapes::Fast
                 ? makeFastShapes(skeleton, joints, mesh, binding)
-                : elasticShapes(skeleton, joints, mesh, options, progress, binding, notes);
+                : elasticShapes(skeleton, joints, mesh, layers, options, progress, binding, notes);
         if (progress) progress({"shapes", 1.0});
     }
     if (options.muscles || !options.ownMuscles.empty())

@@ -173,8 +173,8 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     binding.joints = boundJoints(skeleton, joints);
     addRatios(skin, regions, std::move(bend), std::move(twist), options.maxPartialInfluences,
               binding, found);
-    addShapes(skeleton, joints, skin, options, subProgress(options.progress, shapesBegin, 1.0),
-              binding, found.notes);
+    addShapes(skeleton, joints, skin, &layers, options,
+              subProgress(options.progress, shapesBegin, 1.0), binding, found.notes);
     binding.validate();
 
     found.vertices = mesh.positions.size();

@@ -178,7 +178,7 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
             if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
-    addShapes(skeleton, joints, skin, options, options.progress, binding, found.notes);
+    addShapes(skeleton, joints, skin, nullptr, options, options.progress, binding, found.notes);
     binding.validate();
 
     found.regions = regionsOf(binding);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "elastic/MakeElasticShapes.h"
 
+#include "elastic/LayeredShapes.h"
 #include "elastic/PlanElastic.h"
 #include "elastic/SolveElastic.h"
 #include "shapes/FastShapes.h"
@@ -140,8 +141,9 @@ void noteBadSamples(const ElasticShapes& solved, std::vector<std::string>& notes
 } // namespace
 
 Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
-                              const WeldedMesh& mesh, const Binding& binding,
-                              const Progress& progress, std::vector<std::string>& notes) {
+                              const WeldedMesh& mesh, const SkinLayers* layers,
+                              const Binding& binding, const Progress& progress,
+                              std::vector<std::string>& notes) {
     const std::vector<ElasticPlan> plans = planElastic(skeleton, joints, mesh, binding);
     std::vector<ElasticJoint> toSolve;
     toSolve.reserve(plans.size());
@@ -162,6 +164,7 @@ Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<Pl
         fitted[joint] =
             fitShapes(ElasticOffsets(plans[i], solved[i]).shapes(),
                       plans[i].joint.hinge ? kHingeModes : kBallModes, kTolerance * shaped.radius);
+        if (layers) followBelow(*layers, mesh.vertexCount(), fitted[joint]);
     }
     for (const ShapedJoint& shaped : findShapedJoints(skeleton, joints, mesh, binding)) {
         const std::uint32_t joint = shaped.functions.joint;

@@ -71,9 +71,10 @@ void SkinLayers::follow(Regions& regions) const {
     removeIslands(_mesh, std::vector<bool>(_mesh.vertexCount()), regions.jointOf);
 }
 
-void SkinLayers::blend(std::vector<double>& field) const {
+template <typename Value>
+void SkinLayers::blend(std::vector<Value>& field) const {
     for (const Attached& a : _attached) {
-        double below = 0.0;
+        Value below(0.0);
         for (int k = 0; k < 3; ++k)
             below += a.on.shares[k] * field[a.on.corners[static_cast<std::size_t>(k)]];
         field[a.vertex] += a.hold * (below - field[a.vertex]);
@@ -95,6 +96,10 @@ void SkinLayers::follow(JointFields& bend, JointFields& twist) const {
             for (const Attached& a : _attached) field[a.vertex] = smooth[a.vertex];
             fields->set(j, field);
         }
+}
+
+void SkinLayers::follow(std::vector<glm::dvec3>& moves) const {
+    blend(moves);
 }
 
 } // namespace osgSkin

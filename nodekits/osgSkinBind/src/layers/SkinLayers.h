@@ -8,6 +8,8 @@
 #include "mesh/WeldedMesh.h"
 #include "regions/RegionLabels.h"
 
+#include <glm/vec3.hpp>
+
 #include <vector>
 
 namespace osgSkin {
@@ -38,10 +40,15 @@ public:
     /// \param twist likewise
     void follow(JointFields& bend, JointFields& twist) const;
 
+    /// Gives attached vertices what the skin below them is moved by.
+    /// \param moves of each welded vertex
+    void follow(std::vector<glm::dvec3>& moves) const;
+
 private:
     std::vector<bool> layers(double hold) const;
     WeldedMesh layersAlone() const;
-    void blend(std::vector<double>& field) const;
+    template <typename Value>
+    void blend(std::vector<Value>& field) const;
 
     const WeldedMesh& _mesh;
     std::vector<Attached> _attached;
