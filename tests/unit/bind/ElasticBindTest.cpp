@@ -44,6 +44,27 @@ bool hasNote(const BindReport& report, const std::string& text) {
     });
 }
 
+/// How far a joint's shapes take the vertex that they take furthest, where the hinge is bent to x.
+double mostMoved(const Correctives& shapes, double x) {
+    const CorrectiveJoint& joint = shapes.joints[0];
+    CorrectiveJoint::Functions phi;
+    joint.evaluate({x, 0.0}, phi);
+    std::vector<double> weights(joint.modes, 0.0);
+    for (std::size_t k = 0; k < joint.modes; ++k)
+        for (std::size_t f = 0; f < joint.functionCount(); ++f)
+            weights[k] += joint.coefficients[k * joint.functionCount() + f] * phi[f];
+    double most = 0.0;
+    for (const Correctives::Entry& entry : shapes.entries) {
+        glm::dvec3 move(0.0);
+        for (std::size_t k = 0; k < joint.modes; ++k)
+            for (int axis = 0; axis < 3; ++axis)
+                move[axis] +=
+                    weights[k] * shapes.shares[entry.firstShare + 3 * k + std::size_t(axis)];
+        most = std::max(most, glm::length(move) / Correctives::kUnit);
+    }
+    return most;
+}
+
 } // namespace
 
 TEST(ElasticBind, ShapesAHingeAndKeepsWhatItMade) {
@@ -55,6 +76,12 @@ TEST(ElasticBind, ShapesAHingeAndKeepsWhatItMade) {
     ASSERT_EQ(first.correctives.joints.size(), 1u);
     EXPECT_EQ(first.correctives.joints[0].joint, 1u);
     EXPECT_EQ(first.correctives.joints[0].basis, CorrectiveJoint::Basis::Hinge);
+    // It is solved a little the other way, too: shapes that are not run away there.
+    const CorrectiveJoint& hinge = first.correctives.joints[0];
+    ASSERT_LT(hinge.low.x, -0.2);
+    const double other = mostMoved(first.correctives, hinge.low.x);
+    EXPECT_GT(other, 0.01);
+    EXPECT_LT(other, 0.2 * mostMoved(first.correctives, hinge.high.x));
     const auto files = scratch.files();
     ASSERT_EQ(files.size(), 1u);
 
