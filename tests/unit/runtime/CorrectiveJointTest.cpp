@@ -107,6 +107,7 @@ TEST(Correctives, AreRefusedWithAReason) {
         {"ascend", [](auto& c) { std::swap(c.joints[1].knots[0], c.joints[1].knots[1]); }},
         {"modes", [](auto& c) { c.joints[0].modes = 0; }},
         {"input 5 is not there", [](auto& c) { c.joints.back().joint = 5; }},
+        {"input 0 is not there", [](auto& c) { c.inputs.clear(); }},
         {"does not hold 0", [](auto& c) { c.joints.back().low.x = 0.5; }},
         {"does not hold 0", [](auto& c) { c.joints.back().high.x = std::nan(""); }},
         {"none for an input",
