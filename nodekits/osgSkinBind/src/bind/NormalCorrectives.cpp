@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bind/NormalCorrectives.h"
 
-#include "shapes/JointRatios.h"
+#include "ratios/JointRatios.h"
 
 #include <osgSkin/BendTwist>
 #include <osgSkin/GlmTypes>

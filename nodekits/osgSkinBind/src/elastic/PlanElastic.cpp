@@ -2,7 +2,7 @@
 #include "elastic/PlanElastic.h"
 
 #include "elastic/ElasticSamples.h"
-#include "shapes/JointRatios.h"
+#include "ratios/JointRatios.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

@@ -4,7 +4,7 @@
 
 #include "mesh/WeldedMesh.h"
 #include "muscles/Muscle.h"
-#include "shapes/JointRatios.h"
+#include "ratios/JointRatios.h"
 
 #include <array>
 #include <vector>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ratios/RatioGradients.h"
 
+#include "ratios/JointRatios.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -23,47 +25,36 @@ struct Sum {
     glm::dvec3 bend{0.0}, twist{0.0};
 };
 
-/// Ratios by welded vertex. Where they are partial they have a number each.
-class WeldedRatios {
+/// The partial influences of welded vertices, numbered.
+class PartialInfluences {
 public:
-    WeldedRatios(const WeldedMesh& mesh, const Binding& binding)
-        : _binding(binding), _copyOf(mesh.vertexCount()) {
-        for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v) _copyOf[mesh.weldedOf[v]] = v;
-        for (const std::uint32_t copy : _copyOf) {
-            _firstPartial.push_back(_partials.size());
+    PartialInfluences(const WeldedMesh& mesh, const Binding& binding, const JointRatios& ratios) {
+        for (std::uint32_t welded = 0; welded < mesh.vertexCount(); ++welded) {
+            const std::uint32_t copy = ratios.copyOf(welded);
+            _first.push_back(_joints.size());
             for (std::uint32_t i = binding.firstInfluence[copy];
                  i < binding.firstInfluence[copy + 1]; ++i)
-                if (binding.influences[i].isPartial()) _partials.push_back(i);
+                if (binding.influences[i].isPartial())
+                    _joints.push_back(binding.influences[i].joint);
         }
-        _firstPartial.push_back(_partials.size());
+        _first.push_back(_joints.size());
     }
-    std::size_t partialCount() const { return _partials.size(); }
-    std::size_t firstPartial(std::uint32_t welded) const { return _firstPartial[welded]; }
-    const Influence& partial(std::size_t number) const {
-        return _binding.influences[_partials[number]];
-    }
-    Influence of(std::uint32_t welded, std::uint32_t joint) const {
-        const std::uint32_t copy = _copyOf[welded];
-        const auto first = _binding.influences.begin() + _binding.firstInfluence[copy];
-        const auto last = _binding.influences.begin() + _binding.firstInfluence[copy + 1];
-        const auto found = std::lower_bound(
-            first, last, joint, [](const Influence& i, std::uint32_t j) { return i.joint < j; });
-        return found != last && found->joint == joint ? *found : Influence{joint, 0.0f, 0.0f};
-    }
+    std::size_t count() const { return _joints.size(); }
+    std::size_t first(std::uint32_t welded) const { return _first[welded]; }
+    std::uint32_t joint(std::size_t number) const { return _joints[number]; }
 
 private:
-    const Binding& _binding;
-    std::vector<std::uint32_t> _copyOf;     ///< a vertex of the mesh as given
-    std::vector<std::size_t> _firstPartial; ///< size: welded vertices + 1; into `_partials`
-    std::vector<std::uint32_t> _partials;   ///< in Binding::influences, of `_copyOf`
+    std::vector<std::size_t> _first;    ///< size: welded vertices + 1; into `_joints`
+    std::vector<std::uint32_t> _joints; ///< of each
 };
 
 } // namespace
 
 std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh, const Binding& binding) {
-    const WeldedRatios ratios(mesh, binding);
+    const JointRatios ratios(mesh, binding);
+    const PartialInfluences partials(mesh, binding, ratios);
     std::vector<Around> around(mesh.vertexCount());
-    std::vector<Sum> sums(ratios.partialCount());
+    std::vector<Sum> sums(partials.count());
     for (const std::array<std::uint32_t, 3>& t : mesh.triangles) {
         const glm::dvec3& a = mesh.positions[t[0]];
         const glm::dvec3& b = mesh.positions[t[1]];
@@ -73,11 +64,10 @@ std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh, const Binding&
         for (const std::uint32_t corner : t) {
             around[corner].areas += area;
             around[corner].area += glm::length(area);
-            for (std::size_t i = ratios.firstPartial(corner); i < ratios.firstPartial(corner + 1);
-                 ++i) {
+            for (std::size_t i = partials.first(corner); i < partials.first(corner + 1); ++i) {
                 // The normal times the gradient is minus this over twice the area.
                 for (std::size_t k = 0; k < 3; ++k) {
-                    const Influence at = ratios.of(t[k], ratios.partial(i).joint);
+                    const Influence at = ratios.of(t[k], partials.joint(i));
                     sums[i].bend -= double(at.bend) * opposite[k];
                     sums[i].twist -= double(at.twist) * opposite[k];
                 }
@@ -92,7 +82,7 @@ std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh, const Binding&
         if (!(length > 0.0)) continue;
         const glm::dvec3 normal = skin.areas / length;
         const double span = std::max(length, kLeastSpan * skin.area);
-        std::size_t next = ratios.firstPartial(welded);
+        std::size_t next = partials.first(welded);
         for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i) {
             if (!binding.influences[i].isPartial()) continue;
             const Sum& sum = sums[next++];

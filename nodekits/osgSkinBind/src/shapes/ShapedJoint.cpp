@@ -3,8 +3,8 @@
 
 #include "joints/TrunkByShape.h"
 #include "limbs/HermiteRatio.h"
+#include "ratios/JointRatios.h"
 #include "shapes/BendRange.h"
-#include "shapes/JointRatios.h"
 #include "shapes/MainAxis.h"
 
 #include <glm/geometric.hpp>

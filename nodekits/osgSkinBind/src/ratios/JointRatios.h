@@ -20,6 +20,9 @@ public:
         for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v) _copyOf[mesh.weldedOf[v]] = v;
     }
 
+    /// The last of the copies of a welded vertex.
+    std::uint32_t copyOf(std::uint32_t welded) const { return _copyOf[welded]; }
+
     /// Zeros where the vertex does not follow the joint.
     Influence of(std::uint32_t welded, std::uint32_t joint) const {
         const std::uint32_t v = _copyOf[welded];
