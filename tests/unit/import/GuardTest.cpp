@@ -171,7 +171,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "face 0: expected a line with 1 to 8 and so many numbers below 3"},
         Guarded{"short.off", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "vertex 1: expected"},
         Guarded{"dimensions.off", "nOFF\n3 90199019 1 0\n", "\"90199019\" vertices"},
-        Guarded{"deep.bvh", bvh(25'000, 1, true), "no face in a BVH file"}),
+        Guarded{"deep.bvh", bvh(25'000, 1, true), "no face in a BVH file"},
+        Guarded{"other.skin", "{}", "a character, expected a mesh"}),
     [](const auto& c) {
         std::string name = c.param.name;
         std::replace(name.begin(), name.end(), '.', '_');

@@ -12,9 +12,9 @@
 
 namespace {
 
-const glm::dvec3 x(1, 0, 0);
-const glm::dvec3 y(0, 1, 0);
-const glm::dvec3 z(0, 0, 1);
+const glm::dvec3 kX(1, 0, 0);
+const glm::dvec3 kY(0, 1, 0);
+const glm::dvec3 kZ(0, 0, 1);
 
 glm::dquat turn(double degrees, const glm::dvec3& axis) {
     return glm::angleAxis(glm::radians(degrees), axis);
@@ -22,7 +22,7 @@ glm::dquat turn(double degrees, const glm::dvec3& axis) {
 
 double difference(const glm::dquat& a, const glm::dquat& b) {
     return glm::length(a * glm::conjugate(b) * glm::dvec3(1, 2, 3) - glm::dvec3(1, 2, 3)) +
-           glm::length(a * glm::conjugate(b) * x - x);
+           glm::length(a * glm::conjugate(b) * kX - kX);
 }
 
 TEST(ImportMotion, ReadsTheDeclaredChannelOrderOfEachJoint) {
@@ -32,9 +32,9 @@ TEST(ImportMotion, ReadsTheDeclaredChannelOrderOfEachJoint) {
     EXPECT_EQ(motion.name, "two_joints");
     EXPECT_EQ(motion.frameTime, 0.025);
     EXPECT_LT(difference(motion.rotation(0, 0), {1, 0, 0, 0}), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(10, z) * turn(20, y) * turn(30, x)), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 1), turn(40, x) * turn(50, y) * turn(60, z)), 1e-12);
-    EXPECT_GT(difference(motion.rotation(1, 1), turn(60, z) * turn(50, y) * turn(40, x)), 0.1);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(10, kZ) * turn(20, kY) * turn(30, kX)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 1), turn(40, kX) * turn(50, kY) * turn(60, kZ)), 1e-12);
+    EXPECT_GT(difference(motion.rotation(1, 1), turn(60, kZ) * turn(50, kY) * turn(40, kX)), 0.1);
 }
 
 TEST(ImportMotion, PositionChannelsReplaceTheRootsOffset) {
@@ -49,7 +49,7 @@ TEST(ImportMotion, RootWithoutPositionChannelsStaysAtItsOffset) {
     ASSERT_EQ(motion.frames, 1u);
     EXPECT_EQ(motion.frameTime, 0.5);
     EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
-    EXPECT_LT(difference(motion.rotation(0, 0), turn(10, y) * turn(20, x) * turn(30, z)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(0, 0), turn(10, kY) * turn(20, kX) * turn(30, kZ)), 1e-12);
 }
 
 /// Of hips that move over a root on the ground, the path is the hips': rotated by the root, from
@@ -64,7 +64,7 @@ TEST(ImportMotion, BeginsWithTheJointThatMoves) {
     ASSERT_EQ(motion.rotations.size(), 6u);
     EXPECT_LT(glm::distance(motion.rootPositions[0], glm::dvec3(0, 10, 0)), 1e-12);
     EXPECT_LT(glm::distance(motion.rootPositions[1], glm::dvec3(5 + 3, 11, 0)), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, y)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, kY)), 1e-12);
     EXPECT_LT(difference(motion.rotation(1, 1), {1, 0, 0, 0}), 1e-12);
 }
 
@@ -133,10 +133,10 @@ TEST(Motion, IsMadeOfSamples) {
     motion.skeleton = skeleton;
     const osg::Quat bow(osg::PI_2, osg::X_AXIS);
     motion.addFrame(osg::Vec3d(1, 2, 3), {osg::Quat(), bow});
-    motion.addFrame(glm::dvec3(4, 5, 6), {turn(90, x), glm::dquat(1, 0, 0, 0)});
+    motion.addFrame(glm::dvec3(4, 5, 6), {turn(90, kX), glm::dquat(1, 0, 0, 0)});
     ASSERT_EQ(motion.frames, 2u);
-    EXPECT_LT(difference(motion.rotation(0, 1), turn(90, x)), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, x)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(0, 1), turn(90, kX)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, kX)), 1e-12);
     EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
     EXPECT_EQ(motion.rootPositions[1], glm::dvec3(4, 5, 6));
 

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 
 namespace {
@@ -183,6 +184,24 @@ TEST_P(SurfaceNormals, DifferFromTurnedOnesWherePositionsDoNot) {
     for (std::size_t v = 0; v < with.normals.size(); ++v)
         most = std::max(most, angleBetween(with.normals[v], without.normals[v]));
     EXPECT_GE(glm::degrees(most), 10.0);
+}
+
+TEST_P(SurfaceNormals, KeepTheirPrecisionBesideASteepGradient) {
+    std::mt19937_64 random(14);
+    const test::SlopedTube tube(25, 18);
+    test::SlopedTube steep = tube;
+    const std::uint32_t last = static_cast<std::uint32_t>(tube.positions.size()) / 2;
+    for (std::uint32_t i = steep.binding.firstInfluence[last];
+         i < steep.binding.firstInfluence[last + 1]; ++i)
+        steep.binding.gradients[i].bend = glm::vec3(1e6f, 1e6f, -1e6f);
+    const auto model = tube.model(), other = steep.model();
+    const osgSkin::Pose pose = poseOf(tube.binding, random, false);
+    Posed without(*model, nullptr, pose), with(*other, nullptr, pose);
+    ASSERT_TRUE(run(without.job) && run(with.job));
+    for (std::size_t v = 0; v < with.normals.size(); ++v) {
+        if (v == last) continue;
+        ASSERT_LE(angleBetween(without.normals[v], with.normals[v]), kTolerance) << v;
+    }
 }
 
 TEST_P(SurfaceNormals, AreTheRestNormalsInTheRestPose) {

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 using osgSkin::SkinModel;
 
 namespace {
@@ -67,6 +70,21 @@ TEST(SkinModelBlock, GradientsComeBackExactly) {
             EXPECT_LE(glm::distance(is.bend, was.bend), 1e-4f) << i;
             EXPECT_LE(glm::distance(is.twist, was.twist), 1e-4f) << i;
         }
+    }
+}
+
+TEST(SkinModelBlock, GradientsOfAnySteepnessComeBackExactly) {
+    std::mt19937_64 random(7);
+    std::normal_distribution<float> number;
+    for (int i = 0; i < 200; ++i) {
+        test::SlopedTube tube(9, 7);
+        const float spread = 0.02f * static_cast<float>(i); // from all alike to 1e7 times as steep
+        for (osgSkin::RatioGradient& gradient : tube.binding.gradients)
+            for (glm::vec3* of : {&gradient.bend, &gradient.twist})
+                *of = std::exp(spread * number(random)) *
+                      glm::vec3(number(random), number(random), number(random));
+        const std::vector<std::uint32_t> words = osgSkin::packSkinModel(*tube.model());
+        ASSERT_EQ(osgSkin::packSkinModel(*osgSkin::unpackSkinModel(words)), words) << spread;
     }
 }
 

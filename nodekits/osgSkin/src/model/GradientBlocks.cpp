@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -48,11 +49,6 @@ std::vector<LinkComponents> componentsOf(const Binding& binding, std::uint32_t v
     return result;
 }
 
-double largestOf(const LinkComponents& c) {
-    return std::max(
-        {std::abs(c.bend.u), std::abs(c.bend.v), std::abs(c.twist.u), std::abs(c.twist.v)});
-}
-
 /// So large that the largest component, rounded down, still fits; the same for what comes of that.
 double unitFor(double largest) {
     if (!(largest > 0.0)) return 1.0;
@@ -64,6 +60,42 @@ double unitFor(double largest) {
 std::int16_t rounded(double value) {
     constexpr double kMost = 32767.0;
     return static_cast<std::int16_t>(std::lrint(std::clamp(value, -kMost, kMost)));
+}
+
+/// Components steeper than so many times what nine of ten are below are cut: ratios that step
+/// within an edge would coarsen the normals of the whole skin.
+constexpr double kSteep = 64.0;
+
+/// \param sizes of all components; those that are 0 are dropped
+double unitOf(std::vector<double>& sizes) {
+    sizes.erase(std::remove(sizes.begin(), sizes.end(), 0.0), sizes.end());
+    if (sizes.empty()) return 1.0;
+    const auto high = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 9 / 10);
+    std::nth_element(sizes.begin(), high, sizes.end());
+    return unitFor(std::min(*std::max_element(high, sizes.end()), kSteep * *high));
+}
+
+/// What components are rounded to, one after the other: to the first alone as a rule. What comes of
+/// the last one is rounded to itself, so that what is read from a model gives the same model.
+std::vector<double> unitsOf(std::vector<double> sizes) {
+    constexpr std::size_t kMost = 4;
+    std::vector<double> units;
+    while (units.size() < kMost) {
+        const double unit = unitOf(sizes);
+        if (!units.empty() && unit == units.back()) break;
+        units.push_back(unit);
+        for (double& size : sizes) size = unit * rounded(size / unit);
+    }
+    return units;
+}
+
+std::int16_t rounded(double component, const std::vector<double>& units) {
+    std::int16_t result = 0;
+    for (const double unit : units) {
+        result = rounded(component / unit);
+        component = unit * result;
+    }
+    return result;
 }
 
 glm::dvec3 inFrame(const glm::vec3& normal, const glm::dmat3& frame) {
@@ -142,7 +174,7 @@ const BlockAcross& GradientBlocks::acrossOf(const SkinModel& model, std::size_t 
 GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
                                const std::vector<std::uint32_t>& source)
     : across(acrossOfBlocks(model)) {
-    double largest = 0.0;
+    std::vector<double> sizes;
     for (std::size_t g = 0; g < model.groups().size(); ++g) {
         const SkinModel::Group& group = model.groups()[g];
         const glm::dmat3 frame = restFrame(model, group);
@@ -151,10 +183,12 @@ GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
             const SkinDirections at =
                 skinDirections(model.normals()[v], frame, acrossOf(model, g, row));
             for (const LinkComponents& link : componentsOf(binding, source[v], model, group, at))
-                largest = std::max(largest, largestOf(link));
+                for (const double c : {link.bend.u, link.bend.v, link.twist.u, link.twist.v})
+                    sizes.push_back(std::abs(c));
         }
     }
-    unit = unitFor(largest);
+    const std::vector<double> units = unitsOf(std::move(sizes));
+    unit = units.back();
 
     for (std::size_t g = 0; g < model.groups().size(); ++g) {
         const SkinModel::Group& group = model.groups()[g];
@@ -172,7 +206,9 @@ GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
             const double sizeU = std::max(glm::length(at.u), kLeastLength);
             const double sizeV = std::max(glm::length(at.v), kLeastLength);
             GradientRow* to = rows.data() + firstRow.back() + row / kBlock * blockRows;
-            const auto put = [&](double number) { (to++)->lane[row % kBlock] = rounded(number); };
+            const auto put = [&](double number) {
+                (to++)->lane[row % kBlock] = rounded(number, units);
+            };
             const std::vector<LinkComponents> links =
                 componentsOf(binding, source[v], model, group, at);
             // Joints further in turn the vertex, too: what they keep is its distance from theirs.
@@ -186,8 +222,8 @@ GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
                 if (!model.links()[i].partial) continue;
                 Reach& most = reach[firstReach.back() + --k];
                 const auto take = [&](const Components& c, float& farthest) {
-                    put(c.u / unit);
-                    put(c.v / unit);
+                    put(c.u);
+                    put(c.v);
                     const double slope = std::hypot(c.u / sizeU, c.v / sizeV);
                     farthest = std::max(farthest, static_cast<float>(distance * slope));
                 };

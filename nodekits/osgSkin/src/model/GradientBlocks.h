@@ -61,8 +61,8 @@ struct GradientBlocks {
 
     static std::size_t rowsPerBlock(std::size_t partialCount) { return 4 * partialCount; }
 
-    /// What 1 in `rows` is, per rest unit. A power of two: what is read from a model gives the same
-    /// model again.
+    /// What 1 in `rows` is, per rest unit; a few gradients that are far steeper than the others are
+    /// cut. A power of two: what is read from a model gives the same model again.
     double unit = 1.0;
     std::vector<BlockAcross> across; ///< of SkinBlocks::firstBlock's blocks
     std::vector<GradientRow> rows;

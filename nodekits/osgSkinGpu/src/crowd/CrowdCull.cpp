@@ -82,7 +82,7 @@ void CrowdCull::drawImplementation(osg::RenderInfo& renderInfo) const {
     const GLint counts[] = {_count, static_cast<GLint>(_sizes.size()), _parts, _capacity};
     gl.glUniform4iv(at("osgSkinCounts"), 1, counts);
     gl.glUniform1fv(at("osgSkinSizes"), static_cast<GLsizei>(_sizes.size()), _sizes.data());
-    gl.glDispatchCompute((static_cast<GLuint>(_count) + 63) / 64, 1, 1);
+    gl.glDispatchCompute((static_cast<GLuint>(_count) + kCullThreads - 1) / kCullThreads, 1, 1);
     gl.glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "crowd/CrowdDraws.h"
+#include "shader/CrowdText.h"
 
 #include <osg/Drawable>
 #include <osg/StateSet>
@@ -15,6 +16,9 @@ public:
     /// \param draws indirect ones
     CrowdCull(const CrowdCharacter& character, const CrowdDraws& draws,
               osg::TextureBuffer* instances);
+
+    /// What one dispatch can look at, in every driver.
+    static constexpr std::size_t kMostMembers = std::size_t{65535} * kCullThreads;
 
     osg::StateSet& state() const { return *_state; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crowd/CrowdDraws.h"
 
+#include "crowd/TexelCheck.h"
 #include "shader/CrowdText.h"
 
 #include <osg/BufferObject>
@@ -17,6 +18,11 @@ namespace {
 
 bool hasTexture(const osg::StateSet* state) {
     return state && state->getTextureAttribute(0, osg::StateAttribute::TEXTURE);
+}
+
+std::size_t texelsOf(const osg::TextureBuffer& texture) {
+    const osg::BufferData* data = texture.getBufferData();
+    return data ? data->getTotalDataSize() / sizeof(osg::Vec4f) : 0;
 }
 
 } // namespace
@@ -58,6 +64,10 @@ CrowdDraws::Draw CrowdDraws::makeDraw(const CrowdCharacter& character,
     geometry->setUpdateCallback(nullptr);
     geometry->setCullCallback(nullptr);
     geometry->setCullingActive(false);
+    geometry->setDrawCallback(
+        new TexelCheck(std::max({_capacity * CrowdInstance::kTexels, std::size_t{_list->size()},
+                                 texelsOf(*part.model), texelsOf(*skin.clips)}),
+                       geometry->getDrawCallback()));
     geometry->setComputeBoundingBoxCallback(new osg::Drawable::ComputeBoundingBoxCallback);
 
     const osg::ref_ptr<osg::StateSet> state = new osg::StateSet;

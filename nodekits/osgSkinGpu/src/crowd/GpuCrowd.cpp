@@ -150,7 +150,8 @@ void GpuCrowd::traverse(osg::NodeVisitor& nv) {
         return;
     }
     in.findBounds();
-    if (in.culling == Culling::Automatic && canCompute(state) && !in.cull->isIn(*cv)) {
+    if (in.culling == Culling::Automatic && getInstanceCount() <= CrowdCull::kMostMembers &&
+        canCompute(state) && !in.cull->isIn(*cv)) {
         addToStage(*cv, *in.cull, in.cull->state());
         in.indirect->cull(*cv);
     } else {

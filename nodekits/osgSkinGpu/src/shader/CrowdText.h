@@ -23,8 +23,10 @@ std::string crowdText();
 /// drawn with that has no program of its own.
 osg::Program* plainCrowdProgram();
 
-/// Finds which instances a camera sees, and in which level of detail; one a thread, 64 threads a
-/// group. GLSL 4.30.
+/// Finds which instances a camera sees, and in which level of detail; one a thread. GLSL 4.30.
 osg::Program* cullProgram();
+
+/// Threads of one group of it.
+constexpr unsigned int kCullThreads = 64;
 
 } // namespace osgSkin

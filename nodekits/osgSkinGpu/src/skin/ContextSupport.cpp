@@ -37,9 +37,13 @@ void noteCannotCompute(unsigned int contextId) {
     if (contextId < kMostContexts) failed()[contextId] = true;
 }
 
-bool canReadTexels(std::size_t texels) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+bool canReadTexels(unsigned int contextId, std::size_t texels) {
+    static std::array<std::atomic<GLint>, kMostContexts> known{}; // a driver may be slow to ask
+    GLint most = contextId < kMostContexts ? known[contextId].load() : 0;
+    if (most == 0) {
+        glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+        if (contextId < kMostContexts) known[contextId] = most;
+    }
     return most > 0 && texels <= static_cast<std::size_t>(most);
 }
 

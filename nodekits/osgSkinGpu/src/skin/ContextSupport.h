@@ -19,7 +19,7 @@ bool canCompute(const osg::State& state);
 /// Notes that a context cannot, whatever it says of itself.
 void noteCannotCompute(unsigned int contextId);
 
-/// Whether a buffer of so many texels can be read by the current context's shaders.
-bool canReadTexels(std::size_t texels);
+/// Whether a buffer of so many texels can be read by the shaders of a context, the current one.
+bool canReadTexels(unsigned int contextId, std::size_t texels);
 
 } // namespace osgSkin

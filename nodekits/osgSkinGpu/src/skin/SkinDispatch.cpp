@@ -33,7 +33,7 @@ void SkinDispatch::drawImplementation(osg::RenderInfo& renderInfo) const {
     if (id >= kMostContexts || isDone(id)) return;
     const unsigned int pose = _pose;
     const auto* extensions = state.get<osg::GLExtensions>();
-    if (!state.getLastAppliedProgramObject() || !canReadTexels(_model->texelCount())) {
+    if (!state.getLastAppliedProgramObject() || !canReadTexels(id, _model->texelCount())) {
         OSG_WARN << "osgSkin: this driver cannot run the compute shader or read a skin of "
                  << _model->texelCount() << " texels; the processor deforms" << std::endl;
         noteCannotCompute(id);

@@ -11,6 +11,7 @@
 
 #include <osgDB/FileNameUtils>
 
+#include <string>
 #include <utility>
 
 namespace osgSkin {
@@ -19,9 +20,12 @@ namespace {
 CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
+    const std::string format = osgDB::getLowerCaseFileExtension(path);
+    if (format == "skin")
+        failFile(path, "a character, expected a mesh: name the file that its \"mesh\" names");
     // Assimp's and OSG's OBJ readers reorder the vertices.
-    if (osgDB::getLowerCaseFileExtension(path) == "obj") return readObjMesh(path, options);
-    if (osgDB::getLowerCaseFileExtension(path) == "ply") return readPlyMesh(path, options);
+    if (format == "obj") return readObjMesh(path, options);
+    if (format == "ply") return readPlyMesh(path, options);
     if (!assimpReads(path)) return readOsgMesh(path, options);
     return readAssimpMesh(path, options);
 }
