@@ -68,26 +68,26 @@ test::GltfBuilder triangle() {
 TEST(GuardedCharacter, FilesThatNameThemselvesAreRefused) {
     const std::string folder = test::makeTestFolder();
     const std::string rig = kCharacter + "rig.bvh", body = kCharacter + "body.obj";
-    const std::string itself = "is a part of itself";
-    expectSays(refusal(skin(folder, "mesh", parts("mesh.skin", rig))), itself);
+    const std::string itself = "is a part of itself", noMesh = "a character, expected a mesh";
+    expectSays(refusal(skin(folder, "mesh", parts("mesh.skin", rig))), noMesh);
     expectSays(refusal(skin(folder, "bones", parts(body, "bones.skin"))), itself);
-    expectSays(refusal(skin(folder, "twice", parts("twice.skin.skin", rig))), itself);
+    expectSays(refusal(skin(folder, "twice", parts("twice.skin.skin", rig))), noMesh);
     // The other plug-in keeps the reason to itself.
     EXPECT_NE(refusal(skin(folder, "scaled", parts("scaled.skin.2.scale", rig))), "read");
-    skin(folder, "b", parts("a.skin", rig));
-    expectSays(refusal(skin(folder, "a", parts("b.skin", rig))), itself);
+    skin(folder, "b", parts(body, "a.skin"));
+    expectSays(refusal(skin(folder, "a", parts(body, "b.skin"))), itself);
     expectSays(refusal(skin(folder, "prop",
                             parts(body, rig) + ", \"motions\": [{\"file\": \"" + kCharacter +
                                 "move.bvh\", \"name\": \"m\"}], \"props\": [{\"mesh\": "
                                 "\"prop.skin\", \"motion\": \"m\", \"file\": \"" +
                                 kCharacter + "move.bvh\"}]")),
-               itself);
+               noMesh);
     for (int k = 0; k < 20; ++k)
-        skin(folder, "c" + std::to_string(k), parts("c" + std::to_string(k + 1) + ".skin", rig));
+        skin(folder, "c" + std::to_string(k), parts(body, "c" + std::to_string(k + 1) + ".skin"));
     expectSays(refusal(folder + "/c0.skin"), "expected no more than 8");
     skin(folder, "c8", parts(body, rig));
     expectSays(refusal(folder + "/c0.skin"), "expected no more than 8");
-    expectSays(refusal(folder + "/c1.skin"), "c8.skin: no face");
+    EXPECT_EQ(refusal(folder + "/c1.skin"), "read");
     // What was refused is not open any more.
     EXPECT_EQ(refusal(kCharacter + "good.skin"), "read");
     EXPECT_EQ(refusal(kCharacter + "good.skin"), "read");
