@@ -105,7 +105,8 @@ def join(unit, part):
     """Takes another target's sources into a unit; False where one of them would be read otherwise then."""
     if len(unit[1]) + len(part[1]) > MOST_FILES or unit[3] + part[3] > MOST_LINES or unit[2] & part[2]:
         return False
-    if room(unit[1][0]) != room(part[1][0]):
+    # Names of two namespaces that are both opened may be alike.
+    if len(opened(unit[1]) | opened(part[1])) > 1:
         return False
     flags = pairs(unit[0])
     added = [flag for flag in pairs(part[0]) if flag not in flags]
@@ -126,9 +127,14 @@ def join(unit, part):
     return True
 
 
-def room(file):
-    """The folder of the project that a source is in."""
-    return pathlib.Path(file).relative_to(ROOT).parts[0]
+def opened(files):
+    """The namespaces whose names sources use as their own."""
+    return {name for file in files for name in opened_by(file)}
+
+
+@functools.lru_cache(maxsize=None)
+def opened_by(file):
+    return re.findall(r"^using namespace (\w+);", pathlib.Path(file).read_text(), re.M)
 
 
 def pairs(words):
