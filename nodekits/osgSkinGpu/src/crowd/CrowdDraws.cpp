@@ -4,6 +4,8 @@
 #include "crowd/TexelCheck.h"
 #include "shader/CrowdText.h"
 
+#include <osgSkinGpu/CrowdInstance>
+
 #include <osg/BufferObject>
 #include <osg/Uniform>
 
