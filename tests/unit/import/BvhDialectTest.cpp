@@ -2,6 +2,7 @@
 // What exporters write that differs in form from the plain file must be read like it, or refused
 // with a reason.
 #include "ExpectError.h"
+#include "Notices.h"
 #include "Paths.h"
 
 #include <osgSkinImport/ImportMotion>
@@ -208,7 +209,11 @@ TEST(BvhDialect, PositionsOfOtherJointsAreReadAndOnlyTheRootsAreUsed) {
     text = replaced(text, "0 10 0 0 0 0 0 0 0", "0 10 0 0 0 0 0 5 1 0 0 0");
     text = replaced(text, "10 20 30 40", "10 20 30 7 7 7 40");
     const TemporaryBvh file(text);
+    const test::Notices notices;
     const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    EXPECT_TRUE(notices.say("joint \"Spine\" moves from its place; only moves of \"Hips\""))
+        << notices.text();
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
     ASSERT_EQ(motion.skeleton.joints.size(), 3u);
     EXPECT_EQ(motion.rootPositions, plain.rootPositions);
     EXPECT_EQ(motion.rotation(1, 2), plain.rotation(1, 1));

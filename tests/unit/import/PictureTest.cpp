@@ -194,6 +194,13 @@ TEST(Pictures, AreAsLargeAsTheirFilesAreWorth) {
     expectRefused("large.dds", dds(8000, 8000), "expected at least 32000000");
     expectRefused("large.bmp", with(bmp("\x10\x01\x10\0"s), 18, little(60000, 4)),
                   "expected at least");
+    const std::string row(65536, 'g');
+    savePicture("longest.pgm", "P5\n65536 1\n255\n" + row);
+    EXPECT_TRUE(drawnWith("longest.pgm").image.valid()) << drawnWith("longest.pgm").notices;
+    savePicture("highest.pgm", "P5\n1 65536\n255\n" + row);
+    EXPECT_TRUE(drawnWith("highest.pgm").image.valid()) << drawnWith("highest.pgm").notices;
+    expectRefused("longer.pgm", "P5\n65537 1\n255\n" + row + "g", "a PNM picture without a size");
+    expectRefused("higher.pgm", "P5\n1 65537\n255\n" + row + "g", "a PNM picture without a size");
     savePicture("small.png", written("png"));
     EXPECT_TRUE(drawnWith("small.png", "maxPixels=1").image.valid());
     expectRefused("option.png", with(written("png"), 16, big(300, 4) + big(300, 4)),

@@ -110,6 +110,23 @@ TEST(AutoPlayManager, LinksWhatOsgLinks) {
         }
 }
 
+TEST(AutoPlayManager, PlaysTheFirstClipUnlessAnotherPlays) {
+    const osgAnimation::AnimationList some = clips();
+    some[0]->setName("first");
+    some[1]->setName("second");
+    for (const bool chosen : {false, true}) {
+        const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
+        manager->registerAnimations(some);
+        if (chosen) manager->playAnimation(some[1]);
+        manager->update(0.0);
+        EXPECT_EQ(manager->isPlaying("first"), !chosen);
+        EXPECT_EQ(manager->isPlaying("second"), chosen);
+        manager->stopAll();
+        manager->update(1.0); // begins by itself once
+        EXPECT_FALSE(manager->isPlaying("first"));
+    }
+}
+
 /// A visitor that an application gave links, as with OSG's managers.
 TEST(AutoPlayManager, LeavesLinkingToVisitorsOfTheApplication) {
     const osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
