@@ -153,10 +153,15 @@ TEST(GuardedCharacter, MotionsOfWideRigsAreAsLargeAsTheirFiles) {
     for (int f = 0; f < 3000; ++f) motion << "0\n";
     rig.close();
     motion.close();
-    expectSays(refusal(skin(folder, "wide",
-                            parts(kCharacter + "body.obj", "rig.bvh") +
-                                ", \"motions\": [{\"file\": \"motion.bvh\"}]")),
-               "3000 frames for 301 joints");
+    const std::string wide = skin(folder, "wide",
+                                  parts(kCharacter + "body.obj", "rig.bvh") +
+                                      ", \"motions\": [{\"file\": \"motion.bvh\"}]");
+    expectSays(refusal(wide), "3000 frames for 301 joints");
+    const std::size_t just =
+        std::size_t(301 * 3000) - std::filesystem::file_size(folder + "/motion.bvh") / 2;
+    EXPECT_EQ(refusal(wide, ("maxSamples=" + std::to_string(just)).c_str()), "read");
+    expectSays(refusal(wide, ("maxSamples=" + std::to_string(just - 1)).c_str()),
+               "3000 frames for 301 joints, expected at most 902999 rotations (option maxSamples)");
 }
 
 TEST(GuardedCharacter, AFileIsNamedSoOftenAtMost) {

@@ -392,6 +392,16 @@ TEST(JointSpelling, WhatIsNoCodeOfASignStays) {
         EXPECT_EQ(wrong(spelledBody(mixamo, before, prefix, "")), "") << prefix;
 }
 
+/// A figure's name runs on into the side and the part, with no sign between them.
+TEST(JointSpelling, NamesMayRunOnIntoSides) {
+    RestSkeleton body =
+        spelledBody(test::dialects().front(), {"left", "right", true, ""}, "neo", "");
+    for (RestJoint& joint : body.joints)
+        for (char& c : joint.name)
+            c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    EXPECT_EQ(wrong(body), "");
+}
+
 TEST(JointSpelling, OtherNamesAreNoJointsOfTheBody) {
     EXPECT_GE(std::size(kOthers), 200u);
     const test::SideStyle before{"Left", "Right", true, ""}, after{"L", "R", false, "."};
