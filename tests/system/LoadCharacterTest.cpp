@@ -7,6 +7,7 @@
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
 
+#include <osg/MatrixTransform>
 #include <osg/Notify>
 #include <osgAnimation/Bone>
 #include <osgAnimation/RigGeometry>
@@ -14,7 +15,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -53,6 +56,17 @@ std::string rigOfOsg() {
     return file;
 }
 
+/// Where nodes of this name stand, against their parents.
+std::vector<osg::Matrix> placesOf(osg::Node& node, const std::string& name) {
+    std::vector<osg::Matrix> places;
+    if (node.asTransform() && node.asTransform()->asMatrixTransform() && node.getName() == name)
+        places.push_back(node.asTransform()->asMatrixTransform()->getMatrix());
+    for (unsigned i = 0; node.asGroup() && i < node.asGroup()->getNumChildren(); ++i)
+        for (const osg::Matrix& place : placesOf(*node.asGroup()->getChild(i), name))
+            places.push_back(place);
+    return places;
+}
+
 } // namespace
 
 TEST(LoadCharacter, MakesASkinFile) {
@@ -73,6 +87,29 @@ TEST(LoadCharacter, MakesASkinFile) {
     EXPECT_LT((osg::Vec3d(0, 1, 0) * character.toWorld - osg::Vec3d(0, 0, 1)).length(), 1e-12);
     EXPECT_EQ(character.root->getUpdateCallback(), character.manager);
     EXPECT_TRUE(character.root->getBound().valid());
+}
+
+/// Each prop goes with its own motion, from where that begins, in whatever order they are named.
+TEST(LoadCharacter, PropsGoWithTheirMotions) {
+    const std::string file = testing::TempDir() + "load_character_props.skin";
+    const std::string data = OSGSKIN_TEST_DATA "/character/";
+    const auto prop = [&](const char* motion) {
+        return "{\"mesh\": \"" + data + "body.obj\", \"motion\": \"" + motion + "\", \"file\": \"" +
+               kMove + "\"}";
+    };
+    std::ofstream(file) << "{\"osgskin\": 1, \"mesh\": \"" << data << "body.obj\", \"skeleton\": \""
+                        << data << "rig.bvh\", \"motions\": [{\"file\": \"" << kMove
+                        << "\", \"name\": \"move\"}, {\"file\": \"" << kMove
+                        << "\", \"name\": \"later\", \"skipFrames\": 2}], \"props\": ["
+                        << prop("later") << ", " << prop("move") << ", " << prop("later") << "]}";
+    const Character character = loadCharacter(file);
+    const std::pair<const char*, double> places[] = {
+        {"prop:later:0", 0.2}, {"prop:move:1", 0.0}, {"prop:later:2", 0.2}};
+    for (const auto& [name, x] : places) {
+        const std::vector<osg::Matrix> found = placesOf(*character.root, name);
+        ASSERT_EQ(found.size(), 1u) << name;
+        EXPECT_NEAR(found[0].getTrans().x(), x, 1e-6) << name;
+    }
 }
 
 TEST(LoadCharacter, MakesARiggedModelWithAndWithoutSkinAfterItsName) {

@@ -8,6 +8,7 @@
 
 #include "TubeSkin.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -70,6 +71,20 @@ osg::ref_ptr<const osgSkin::SkinModel> modelWithOtherNames() {
 }
 
 } // namespace
+
+TEST(ClipTrust, JointsAreFoundByNameAndTheRootByItsMoves) {
+    const osg::ref_ptr<const SampledClip> still = bentClip(false);
+    EXPECT_EQ(still->find("root"), 0);
+    EXPECT_EQ(still->find("end"), 2);
+    EXPECT_EQ(still->find("nobody"), -1);
+    EXPECT_EQ(still->rootJoint(), 0u); // none is translated
+    osgSkin::Clip motion = bentMotion();
+    motion.rootPositions[1].x = 3.0;
+    const osg::ref_ptr<const SampledClip> going = SampledClip::create(motion, namedRig(false));
+    EXPECT_EQ(going->rootJoint(), 0u);
+    EXPECT_NEAR(glm::distance(going->sample(1)->translation, going->sample(0)->translation), 3.0,
+                1e-12);
+}
 
 /// Memory is given out again: a new clip may stand where another one stood.
 TEST(ClipTrust, AClipIsNotItsAddress) {
