@@ -23,7 +23,7 @@ class GpuSkin : public testing::TestWithParam<std::string> {};
 /// OSGSKIN_GPU_SUBJECTS names others, with commas between them.
 std::vector<std::string> subjects() {
     const char* named = std::getenv("OSGSKIN_GPU_SUBJECTS");
-    std::istringstream list(named ? named : "tube,thrower,climber");
+    std::istringstream list(named ? named : "tube,small,large,thrower,climber");
     std::vector<std::string> names;
     for (std::string name; std::getline(list, name, ',');) names.push_back(name);
     return names;
@@ -77,6 +77,21 @@ TEST(GpuSkinScale, NormalsAreTheProcessorsWhateverTheScale) {
                 ASSERT_LE((posed.normals[v] - expected[v]).length(), 2e-3f) << v;
             skin->releaseGLObjects(nullptr);
         }
+}
+
+TEST(GpuSkinState, WhatIsDrawnUsesVertexArrayObjectsAsTheSkinDoes) {
+    const osg::ref_ptr<osgSkin::DeformableSkin> skin = test::makeSkin();
+    osgSkin::setGpu(*skin, true);
+    GpuStage stage(skin);
+    for (const bool used : {true, false, true}) {
+        skin->setUseVertexArrayObject(used);
+        test::bend(*skin, used ? 0.4 : 0.7);
+        stage.draw();
+        const osg::Geometry* drawn = skin->getDrawer()->cull(*skin, *stage.cullVisitor());
+        ASSERT_TRUE(drawn);
+        EXPECT_EQ(drawn->getUseVertexArrayObject(), used);
+    }
+    skin->releaseGLObjects(nullptr);
 }
 
 TEST(GpuOption, SwitchesTheReadersSkins) {

@@ -32,6 +32,7 @@ public:
 /// Each time has a pose of its own, far from rest.
 class TurnTube : public osg::DrawableUpdateCallback {
 public:
+    explicit TurnTube(double unit) : _unit(unit) {}
     void update(osg::NodeVisitor* nv, osg::Drawable* drawable) override {
         auto& skin = static_cast<osgSkin::DeformableSkin&>(*drawable);
         const double time = nv->getFrameStamp()->getSimulationTime();
@@ -39,18 +40,26 @@ public:
         std::vector<glm::dquat> turns;
         for (std::size_t j = 0; j < skin.getModel()->joints().size(); ++j)
             turns.push_back(randomRotation(random));
-        auto skinning = skinningFrom(skin.getModel()->joints(), turns, glm::dvec3(0.3, -0.2, 0.5));
-        // The last joint moves and grows.
-        skinning.back() = glm::translate(skinning.back(), glm::dvec3(0.1, 0.2, -0.1));
+        auto skinning =
+            skinningFrom(skin.getModel()->joints(), turns, _unit * glm::dvec3(0.3, -0.2, 0.5));
+        // One joint moves, the last one moves and grows.
+        skinning[1] = glm::translate(skinning[1], _unit * glm::dvec3(0.005, 0.0, -0.01));
+        skinning.back() = glm::translate(skinning.back(), _unit * glm::dvec3(0.1, 0.2, -0.1));
         skinning.back() = glm::scale(skinning.back(), glm::dvec3(1.2));
         skin.setPose(skinning.data(), skinning.size());
         skin.setActivation("breath", 0.6f);
     }
+
+private:
+    double _unit;
 };
 
-osg::ref_ptr<osgSkin::DeformableSkin> movingTube() {
+/// \param unit the tube's radius
+osg::ref_ptr<osgSkin::DeformableSkin> movingTube(double unit) {
     Tube tube;
-    tube.binding.correctives = someCorrectives(tube.binding, 0.05, 7);
+    for (glm::vec3& position : tube.positions) position *= static_cast<float>(unit);
+    for (osgSkin::BoundJoint& joint : tube.binding.joints) joint.centre *= unit;
+    tube.binding.correctives = someCorrectives(tube.binding, 0.05 * unit, 7);
     const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(tube);
     const osg::ref_ptr<osg::Vec4Array> tangents = new osg::Vec4Array(osg::Array::BIND_PER_VERTEX);
     for (std::size_t v = 0; v < tube.positions.size(); ++v)
@@ -59,7 +68,7 @@ osg::ref_ptr<osgSkin::DeformableSkin> movingTube() {
     osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
     skin->setTangentAttribute(6);
     skin->setSkin(geometry, tube.model());
-    skin->setUpdateCallback(new TurnTube);
+    skin->setUpdateCallback(new TurnTube(unit));
     return skin;
 }
 
@@ -101,7 +110,9 @@ double angle(const osg::Vec3d& a, const osg::Vec3d& b) {
 
 GpuSubject::GpuSubject(const std::string& name) {
     osg::ref_ptr<osg::Node> node;
-    if (name == "tube") node = movingTube();
+    if (name == "tube") node = movingTube(1.0);
+    if (name == "small") node = movingTube(1e-4);
+    if (name == "large") node = movingTube(1e4);
     if (name == "thrower")
         node = osgDB::readRefNodeFile(std::string(OSGSKIN_DATA) + "/thrower.skin");
     const std::string data = OSGSKIN_DATA, human = std::string(OSGSKIN_SHARED_DATA) + "/makehuman";

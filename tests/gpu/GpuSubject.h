@@ -12,7 +12,8 @@ namespace test {
 
 /// A scene with skins that move with the simulation time.
 struct GpuSubject {
-    /// \param name tube (random turns, correctives, tangents, a moved and scaled joint), thrower,
+    /// \param name tube (random turns, correctives, tangents, moved and scaled joints), small or
+    ///        large (the same, 1e-4 and 1e4 times as large), thrower,
     ///        climber (the thrower's body in a motion that it was not made for), body (MakeHuman's,
     ///        with shapes, in the same motion) or painted (a rig with painted weights), or a file
     explicit GpuSubject(const std::string& name);

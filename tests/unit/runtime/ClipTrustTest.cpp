@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <osg/MatrixTransform>
 
 #include <cmath>
 #include <utility>
@@ -132,6 +133,36 @@ TEST(ClipTrust, ABakedSkinMayGetAnotherModel) {
     EXPECT_EQ(skinPosedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
     skin.setSkin(test::makeGeometry(test::Tube()), modelWithOtherNames());
     EXPECT_EQ(skinPosedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
+}
+
+TEST(ClipTrust, EverySkinOfACharacterIsBaked) {
+    const auto skeleton = test::makeBones();
+    for (int i = 0; i < 2; ++i) {
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrix::translate(100.0 * i, 0, 0));
+        place->addChild(test::makeSkin());
+        skeleton->addChild(place);
+    }
+    const auto character = osgSkin::ClipCharacter::create(*skeleton);
+    const auto clip = bentClip(false);
+    character->bake(clip);
+    EXPECT_NEAR(character->bakedBounds().xMax(), 101.0f, 1.0f);
+    EXPECT_NEAR(character->bakedBounds().xMin(), -1.0f, 1.0f);
+    const auto copy = character->makeInstance(false);
+    copy.player->setTrack(0, {clip});
+    ASSERT_TRUE(copy.player->pose());
+    std::size_t skins = 0;
+    for (unsigned i = 0; i < copy.node->getNumChildren(); ++i) {
+        const auto* skin =
+            dynamic_cast<DeformableSkin*>(copy.node->getChild(i)->asGroup()->getChild(0));
+        if (!skin) continue;
+        ++skins;
+        const auto& posed =
+            static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
+        EXPECT_EQ(posed.asVector(), posedAfresh(skin->getModel(), clip)) << i;
+        EXPECT_TRUE(skin->getBoundingBox().valid());
+    }
+    EXPECT_EQ(skins, 2u);
 }
 
 TEST(ClipTrust, NothingIsNotAdded) {
