@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <numeric>
@@ -194,6 +195,20 @@ TEST(Regions, JointOutsideInTheMiddleOfAChainStillBends) {
         if (height > 6.5) {
             EXPECT_EQ(ratiosOf(binding, v, 1).bend, 1.0f) << "at " << height;
         }
+    }
+}
+
+/// Its region begins where it is, not half-way between the joints that lie in the skin.
+TEST(Regions, OfAJointOutsideBeginBesideIt) {
+    std::size_t above = 0; // of the skin's rings, those that the joint above keeps
+    for (const double height : {2.5, 4.1, 5.5}) {
+        RestSkeleton skeleton = shapes::chainAlongY({1.1, height, 7.0}, 7.6);
+        skeleton.joints[1].centre.x = 1.2;
+        const Binding binding = bind(shapes::cylinder(), skeleton);
+        const auto count = static_cast<std::size_t>(
+            std::count(binding.regions.begin(), binding.regions.end(), 0u));
+        EXPECT_GT(count, above + 50) << "at " << height;
+        above = count;
     }
 }
 
