@@ -93,12 +93,13 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--count", count, "how many characters")->check(CLI::Range(1, 100000));
     app.add_option("--threads", threads, "most threads that pose and deform; 0: all processors");
-    app.add_flag("--gpu", gpu,
-                 "everything on the graphics card (OpenGL 3.3; 4.3 culls there, too)");
+    CLI::Option* const onCard = app.add_flag(
+        "--gpu", gpu, "everything on the graphics card (OpenGL 3.3; 4.3 culls there, too)");
     app.add_option("--pictures", pictures, "write pictures to this folder; no window to look at");
     app.add_option("--frames", frames, "how many pictures")->check(CLI::Range(1u, 99u));
     app.add_option("--time", timed, "time so many frames without drawing; no window")
-        ->check(CLI::Range(1u, 10000u));
+        ->check(CLI::Range(1u, 10000u))
+        ->excludes(onCard);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
