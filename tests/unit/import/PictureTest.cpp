@@ -207,6 +207,27 @@ TEST(Pictures, AreAsLargeAsTheirFilesAreWorth) {
                   "(option maxPixels)", "maxPixels=100");
 }
 
+/// What libjpeg refuses when the pixels are there already, OpenSceneGraph's reader loses.
+TEST(Pictures, EndBehindTheirOnlyScan) {
+    const std::string whole = written("jpg");
+    ASSERT_GT(whole.size(), 100u);
+    const auto goesOn = [&](const std::string& more) {
+        return whole.substr(0, whole.size() - 2) + more + whole.substr(whole.size() - 2);
+    };
+    const std::string scan = whole.substr(whole.rfind("\xff\xda"));
+    for (const std::string& more :
+         {"\xff\x2c"s, "\xff\xff\x2c"s, "\xff\xc4\0\3\0"s, "\xff\xdb\0\3\7"s, "\xff\xc8"s,
+          "\xff\xf7"s, scan.substr(0, scan.size() - 2)})
+        expectRefused("more.jpg", goesOn(more), "a JPEG picture that goes on behind its last scan");
+    for (const std::string& more :
+         {"\xff\xfe\0\4ab"s, "\xff\xe1\0\4ab"s, "\xff\xff\xff"s, "\xff\xd0"s}) {
+        savePicture("comment.jpg", goesOn(more));
+        EXPECT_TRUE(drawnWith("comment.jpg").image.valid()) << drawnWith("comment.jpg").notices;
+    }
+    savePicture("cut.jpg", whole.substr(0, whole.size() - 2));
+    EXPECT_TRUE(drawnWith("cut.jpg").image.valid()) << drawnWith("cut.jpg").notices;
+}
+
 TEST(Pictures, OfAModelCountTogether) {
     const std::string small = written("png");
     std::string materials, text = "mtllib picture_many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";

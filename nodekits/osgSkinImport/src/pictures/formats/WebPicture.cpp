@@ -13,7 +13,11 @@ enum Marker : std::uint32_t {
     kFirstRestart = 0xd0,
     kPictureStart = 0xd8,
     kPictureEnd = 0xd9,
-    kScan = 0xda
+    kScan = 0xda,
+    kLines = 0xdc, ///< how many there are
+    kFirstApplication = 0xe0,
+    kLastApplication = 0xef,
+    kComment = 0xfe
 };
 
 constexpr std::uint64_t kPngChunks = 8, kPngHeader = 33;
@@ -25,6 +29,16 @@ constexpr std::uint64_t kUsualScans = 16;
 bool isFrame(std::uint32_t marker) {
     return marker >= kFirstFrame && marker <= kLastFrame && marker != kHuffmanTables &&
            marker != kReserved && marker != kArithmeticTables;
+}
+
+bool isProgressive(std::uint32_t frame) {
+    return frame % 4 == 2;
+}
+
+/// Whether libjpeg passes over it behind a scan.
+bool isPassedOver(std::uint32_t marker) {
+    return marker == kLines || marker == kComment ||
+           (marker >= kFirstApplication && marker <= kLastApplication);
 }
 
 /// Where the next marker begins, behind what stands between two; the size where there is none.
@@ -64,14 +78,24 @@ PictureSize jpegSize(const PictureBytes& bytes) {
     bytes.require(bytes.startsWith("\xff\xd8"), "no JPEG picture");
     PictureSize size;
     std::uint64_t scans = 0;
+    std::uint32_t frame = 0, components = 0;
+    bool isWhole = false; // what is behind the only scan that there can be
     for (std::uint64_t at = nextMarker(bytes, 2); at < bytes.size();) {
         const std::uint32_t marker = bytes.byte(at + 1);
         if (marker == kPictureEnd) break;
+        // OpenSceneGraph's reader loses the pixels where libjpeg refuses what comes behind them.
+        bytes.require(!isWhole || isPassedOver(marker),
+                      "a JPEG picture that goes on behind its last scan");
         if (isFrame(marker)) {
+            frame = marker;
+            components = bytes.byte(at + 9);
             size.height = bytes.big(at + 5, 2);
             size.width = bytes.big(at + 7, 2);
         }
-        if (marker == kScan) ++scans;
+        if (marker == kScan) {
+            ++scans;
+            isWhole = scans == 1 && !isProgressive(frame) && bytes.byte(at + 4) == components;
+        }
         at = nextMarker(bytes, at + 2 + bytes.big(at + 2, 2));
     }
     size.images = 1 + scans / kUsualScans;
