@@ -74,10 +74,10 @@ std::string with(std::string text, std::size_t at, const std::string& bytes) {
     return text.replace(at, bytes.size(), bytes);
 }
 
-/// A picture of 5 x 3 pixels as OpenSceneGraph writes it.
-std::string written(const std::string& extension) {
+/// A picture as OpenSceneGraph writes it.
+std::string written(const std::string& extension, int width = 5, int height = 3) {
     const osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(5, 3, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    image->allocateImage(width, height, 1, GL_RGB, GL_UNSIGNED_BYTE);
     for (unsigned i = 0; i < image->getTotalSizeInBytes(); ++i)
         image->data()[i] = static_cast<unsigned char>(40 + i);
     const std::string path = testing::TempDir() + "picture_written." + extension;
@@ -228,8 +228,64 @@ TEST(Pictures, EndBehindTheirOnlyScan) {
     EXPECT_TRUE(drawnWith("cut.jpg").image.valid()) << drawnWith("cut.jpg").notices;
 }
 
+/// OpenSceneGraph's reader loses a picture that libpng refuses half way.
+TEST(Pictures, PngPixelsUnpack) {
+    const std::string whole = written("png");
+    const std::size_t pixels = whole.find("IDAT"), end = whole.find("IEND");
+    ASSERT_LT(end, whole.size());
+    for (const std::size_t at : {pixels + 4, pixels + 9, end - 12, end - 6})
+        expectRefused("broken.png", with(whole, at, {static_cast<char>(whole[at] ^ 0x55)}),
+                      "a PNG picture whose pixels cannot be unpacked");
+    expectRefused("none.png", whole.substr(0, pixels - 4) + whole.substr(end - 4),
+                  "a PNG picture whose pixels cannot be unpacked");
+}
+
+/// ... and every GIF picture behind one that giflib refuses.
+TEST(Pictures, GifPixelsUnpack) {
+    const std::string whole = gif(5, 3, 2);
+    const std::size_t frame = whole.rfind(',');
+    expectRefused("broken.gif", with(whole, frame + 12, "\xff"),
+                  "a GIF picture whose pixels cannot be unpacked");
+    expectRefused("wide.gif", with(whole, frame + 5, little(6, 2)),
+                  "a frame that is not within it");
+    expectRefused("right.gif", with(whole, frame + 1, little(5, 2)),
+                  "a frame that is not within it");
+    expectRefused("high.gif", with(whole, frame + 7, little(4, 2)),
+                  "a frame that is not within it");
+    expectRefused("few.gif", with(whole, frame + 7, little(3, 2)),
+                  "a GIF picture whose pixels cannot be unpacked");
+    savePicture("after.gif", whole);
+    EXPECT_TRUE(drawnWith("after.gif").image.valid()) << drawnWith("after.gif").notices;
+}
+
+/// A thousand texts of 8 kB can unpack to 8 GB.
+TEST(Pictures, PngTextsAreFew) {
+    const std::string whole = written("png");
+    const std::size_t first = 33;
+    const auto withTexts = [&](const std::string& chunk, const std::string& content, int count) {
+        std::string texts;
+        for (int i = 0; i < count; ++i)
+            texts += big(std::uint32_t(content.size()), 4) + chunk + content + big(0, 4);
+        return whole.substr(0, first) + texts + whole.substr(first);
+    };
+    const std::string packed = "key\0\0"s + std::string(8000, 'x');
+    for (const std::string chunk : {"zTXt", "iCCP"})
+        expectRefused("texts.png", withTexts(chunk, packed, 9), "more than 64 MB");
+    expectRefused("texts.png", withTexts("iTXt", "key\0\1"s + std::string(8000, 'x'), 9),
+                  "more than 64 MB");
+    const std::pair<const char*, std::string> fine[] = {
+        {"zTXt", packed.substr(0, 100)}, {"iTXt", packed}, {"iTXt", "key"}, {"tEXt", packed}};
+    for (const auto& [chunk, content] : fine) {
+        savePicture("text.png", withTexts(chunk, content, 9));
+        EXPECT_TRUE(drawnWith("text.png").image.valid()) << chunk << drawnWith("text.png").notices;
+    }
+}
+
 TEST(Pictures, OfAModelCountTogether) {
-    const std::string small = written("png");
+    // Larger than its file is worth.
+    const int side = 200;
+    const std::string small = written("png", side, side);
+    ASSERT_LT(16 * small.size(), std::size_t(side) * side);
     std::string materials, text = "mtllib picture_many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
     for (const std::string name : {"first", "second", "third"}) {
         savePicture("picture_" + name + ".png", small);
@@ -248,13 +304,10 @@ TEST(Pictures, OfAModelCountTogether) {
                 ++count;
         return count;
     };
-    EXPECT_EQ(drawn(1), 3u);
-    // Each larger than its file is worth: room for two of them.
-    const std::size_t side = 100, each = side * side - 16 * small.size();
-    for (const std::string name : {"first", "second", "third"})
-        savePicture("picture_" + name + ".png", with(small, 16, big(side, 4) + big(side, 4)));
+    const std::size_t each = std::size_t(side) * side - 16 * small.size();
+    EXPECT_EQ(drawn(3 * each), 3u);
     const test::Notices notices;
-    drawn(2 * each);
+    EXPECT_EQ(drawn(2 * each), 2u);
     EXPECT_TRUE(notices.say("of four bytes beside those before it (option maxPixels)"))
         << notices.text();
 }

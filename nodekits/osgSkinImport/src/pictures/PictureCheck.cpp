@@ -9,6 +9,8 @@
 #include "pictures/formats/TgaPicture.h"
 #include "pictures/formats/TiffPicture.h"
 #include "pictures/formats/WebPicture.h"
+#include "pictures/pixels/GifPixels.h"
+#include "pictures/pixels/PngPixels.h"
 #include "text/FileText.h"
 
 #include <osgDB/FileNameUtils>
@@ -65,6 +67,8 @@ void PictureCheck::take(const std::string& name, const std::string& extension,
                      " (option maxPixels)");
     _pixels += needed;
     _bytes += bytes.size();
+    if (format == "png") unpackPng(picture);
+    if (format == "gif") unpackGif(picture);
 }
 
 void PictureCheck::takeFile(const std::string& path) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/formats/WebPicture.h"
 
+#include <algorithm>
+
 namespace osgSkin {
 namespace {
 
@@ -22,6 +24,11 @@ enum Marker : std::uint32_t {
 
 constexpr std::uint64_t kPngChunks = 8, kPngHeader = 33;
 
+/// libpng unpacks each text to at most so much; zlib packs at most so well.
+constexpr std::uint64_t kLongestText = 8000000, kBestPacking = 1032;
+/// What the packed texts of a picture may be together, when they are unpacked.
+constexpr std::uint64_t kMostText = 64000000;
+
 /// A progressive picture is gone through for each of its scans; they have about ten. More of them
 /// count as more pictures.
 constexpr std::uint64_t kUsualScans = 16;
@@ -39,6 +46,17 @@ bool isProgressive(std::uint32_t frame) {
 bool isPassedOver(std::uint32_t marker) {
     return marker == kLines || marker == kComment ||
            (marker >= kFirstApplication && marker <= kLastApplication);
+}
+
+/// The most that libpng makes of a chunk's packed text; 0 of other chunks.
+std::uint64_t packedText(std::string_view chunk, std::string_view content) {
+    bool isPacked = chunk == "zTXt" || chunk == "iCCP";
+    if (chunk == "iTXt") {
+        const std::size_t flag = content.find('\0');
+        isPacked = flag != std::string_view::npos && flag + 1 < content.size() &&
+                   content[flag + 1] != '\0';
+    }
+    return isPacked ? std::min<std::uint64_t>(kLongestText, kBestPacking * content.size()) : 0;
 }
 
 /// Where the next marker begins, behind what stands between two; the size where there is none.
@@ -61,12 +79,17 @@ PictureSize pngSize(const PictureBytes& bytes) {
     bytes.require(bytes.all().substr(12, 4) == "IHDR",
                   "a PNG picture that begins without a header");
     // OpenSceneGraph's reader goes on beyond the file's end with what it read before.
+    std::uint64_t text = 0;
     for (std::uint64_t at = kPngChunks; at < bytes.size();) {
-        const std::uint64_t next = at + 12 + bytes.big(at, 4);
-        bytes.requireSize(next);
-        if (bytes.all().substr(at + 4, 4) == "IEND") break;
-        at = next;
+        const std::uint64_t length = bytes.big(at, 4);
+        bytes.requireSize(at + 12 + length);
+        const std::string_view chunk = bytes.all().substr(at + 4, 4);
+        if (chunk == "IEND") break;
+        text += packedText(chunk, bytes.all().substr(at + 8, length));
+        at += 12 + length;
     }
+    bytes.require(text <= kMostText,
+                  "a PNG picture with packed texts that may unpack to more than 64 MB");
     PictureSize size;
     size.width = bytes.big(16, 4);
     size.height = bytes.big(20, 4);
