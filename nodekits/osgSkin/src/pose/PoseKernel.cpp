@@ -30,7 +30,7 @@ bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFram
     JointMask good = hn::Eq(zero, zero);
     const auto require = [&good](const JointMask& that) HWY_ATTR { good = hn::And(good, that); };
     for (std::size_t row = 0; row < kFrameRows; ++row) // no turn
-        frames.rows[row * frames.stride - 1] = row == 0 || row == 4 || row == 8 || row == 12;
+        *(frames.rows + row * frames.stride - 1) = row == 0 || row == 4 || row == 8 || row == 12;
     for (std::size_t next = 0; next < call.count; next += lanes) {
         const std::size_t first = HWY_MIN(next, call.count - lanes); // the last ones overlap
         const double* from[PoseCall::kAtOnce];

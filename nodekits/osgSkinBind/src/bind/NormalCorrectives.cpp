@@ -236,6 +236,7 @@ Eigen::MatrixXd fit(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts
 
 /// The same with as few of the first modes for each vertex as that allows; 0 for the others.
 Eigen::MatrixXd fitWithFewest(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts) {
+    if (tilts.cols() == 0) return {weights.cols(), 0};
     Eigen::MatrixXd modes = fit(weights, tilts);
     const Eigen::MatrixXd all = weights * modes;
     std::vector<bool> open(std::size_t(tilts.cols() / 3), true);
