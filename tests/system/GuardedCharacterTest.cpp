@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -193,6 +194,37 @@ TEST(GuardedCharacter, JointsTimesVerticesAreLimited) {
     expectSays(refusal(file, "maxRatios=10"),
                "expected at most 10 if multiplied (option maxRatios)");
     expectSays(refusal(file, "maxRatios=10"), file);
+}
+
+/// A vertex follows every joint above it, hundreds in a deep chain: a small file took gigabytes.
+TEST(GuardedCharacter, JointsThatVerticesFollowAreLimited) {
+    constexpr int kJoints = 900, kRings = 100, kSides = 40;
+    const std::string folder = test::makeTestFolder();
+    std::ofstream rig(folder + "/deep.bvh");
+    rig << "HIERARCHY\nROOT j0\n{\nOFFSET 0 0 0\nCHANNELS 1 Zrotation\n";
+    for (int j = 1; j < kJoints; ++j) rig << "JOINT j" << j << "\n{\nOFFSET 0 0.1 0\nCHANNELS 0\n";
+    rig << "End Site\n{\nOFFSET 0 0.1 0\n}\n";
+    for (int j = 0; j < kJoints; ++j) rig << "}\n";
+    rig << "MOTION\nFrames: 1\nFrame Time: 0.1\n0\n";
+    rig.close();
+    std::ofstream body(folder + "/deep.obj");
+    for (int ring = 0; ring < kRings; ++ring)
+        for (int side = 0; side < kSides; ++side) {
+            const double angle = 2.0 * 3.14159265 * side / kSides;
+            body << "v " << 3.0 * std::cos(angle) << ' ' << 90.0 * ring / (kRings - 1) << ' '
+                 << 3.0 * std::sin(angle) << '\n';
+        }
+    for (int ring = 0; ring + 1 < kRings; ++ring)
+        for (int side = 0; side < kSides; ++side) {
+            const int a = ring * kSides + side + 1, b = ring * kSides + (side + 1) % kSides + 1;
+            body << "f " << a << ' ' << a + kSides << ' ' << b + kSides << ' ' << b << '\n';
+        }
+    body.close();
+    const std::string file = skin(folder, "deep", parts("deep.obj", "deep.bvh"));
+    const std::string refused = refusal(file);
+    expectSays(refused, file + ": bind: 4000 vertices that follow chains of up to 900 joints");
+    expectSays(refused, "expected at most 600000 (option maxInfluences)");
+    EXPECT_EQ(refusal(file, "maxInfluences=4000000"), "read");
 }
 
 /// As many clips as a megabyte names; each was compared with all before it.

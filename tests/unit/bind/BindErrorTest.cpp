@@ -55,6 +55,8 @@ const BadInput kCases[] = {
     {"NoPartialJoint", [](Input& i) { i.options.maxPartialInfluences = 0; }, "expected 1 to 8"},
     {"TooManyPartialJoints", [](Input& i) { i.options.maxPartialInfluences = 9; },
      "expected 1 to 8"},
+    {"TooManyInfluences", [](Input& i) { i.options.maxInfluences = i.mesh.positions.size(); },
+     "(option maxInfluences)"},
     {"BoundariesSwapped",
      [](Input& i) {
          i.options.joints["joint1"].bendUpper = 0.5;

@@ -3,6 +3,7 @@
 #include "Ratios.h"
 #include "Shapes.h"
 
+#include <osgSkin/Error>
 #include <osgSkinBind/Bind>
 
 #include <gtest/gtest.h>
@@ -204,6 +205,28 @@ TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
     static_cast<void>(before);
 #endif
     EXPECT_EQ(binding.vertexCount(), mesh.positions.size());
+}
+
+/// A vertex of a chain's last joint has all of them, one of its first joint that alone.
+TEST(Ratios, AreAsManyAsJointsAboveVertices) {
+    const SkinMesh mesh = shapes::cylinder();
+    const RestSkeleton skeleton = shapes::chainAlongY({1.0, 4.0, 6.0}, 7.0);
+    BindOptions options;
+    std::size_t above = 0;
+    for (const std::uint32_t region : bind(mesh, skeleton, options).regions) above += region + 1;
+    options.maxInfluences = above;
+    EXPECT_NO_THROW(bind(mesh, skeleton, options));
+    options.maxInfluences = above - 1;
+    try {
+        bind(mesh, skeleton, options);
+        FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.what(), "bind: " + std::to_string(mesh.positions.size()) +
+                                    " vertices that follow chains of up to 3 joints have " +
+                                    std::to_string(above) +
+                                    " influences together, expected at most " +
+                                    std::to_string(above - 1) + " (option maxInfluences)");
+    }
 }
 
 /// Each vertex has every joint of a long chain above it: 36 bytes each are the binding itself.

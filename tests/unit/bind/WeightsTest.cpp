@@ -98,6 +98,17 @@ TEST(BindWeights, TakeMemoryAsTheyAreManyNotAsJointsAre) {
     EXPECT_EQ(binding.regions.back(), 1u);
 }
 
+TEST(BindWeights, InfluencesAreLimited) {
+    const PaintedCylinder input;
+    BindOptions options;
+    std::size_t above = 0;
+    for (const std::uint32_t region : input.bind().regions) above += region + 1;
+    options.maxInfluences = above;
+    EXPECT_NO_THROW(bindWeights(input.mesh, input.skeleton, input.weights, options));
+    options.maxInfluences = above - 1;
+    EXPECT_THROW(bindWeights(input.mesh, input.skeleton, input.weights, options), Error);
+}
+
 TEST(BindWeights, ScaleOfTheWeightsDoesNotMatter) {
     PaintedCylinder input;
     const Binding before = input.bind();

@@ -2,6 +2,7 @@
 #include <osgSkinBind/Bind>
 
 #include "bind/AddShapes.h"
+#include "bind/CheckInfluences.h"
 #include "bind/CheckOptions.h"
 #include "fields/VertexRatios.h"
 #include "joints/BoundJoints.h"
@@ -147,6 +148,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
 
     SkinLayers(skin, joints, regions).follow(regions);
     const SkinLayers layers(skin, joints, regions);
+    checkInfluences(joints, regions.jointOf, skin.weldedOf, options.maxInfluences);
 
     // Section 3: what fraction of each joint's rotation each vertex takes.
     const BinaryField binary{skin, joints, regions.jointOf};

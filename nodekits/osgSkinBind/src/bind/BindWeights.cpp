@@ -2,6 +2,7 @@
 #include <osgSkinBind/BindWeights>
 
 #include "bind/AddShapes.h"
+#include "bind/CheckInfluences.h"
 #include "bind/CheckOptions.h"
 #include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
@@ -111,6 +112,18 @@ private:
     std::vector<JointRatio> _ratios;
 };
 
+/// \param rows none of them empty
+std::vector<std::uint32_t> heaviestJoints(const WeightRows& rows) {
+    std::vector<std::uint32_t> result;
+    result.reserve(rows.size());
+    for (const auto& row : rows)
+        result.push_back(
+            std::max_element(row.begin(), row.end(), [](const JointShare& a, const JointShare& b) {
+                return a.weight < b.weight;
+            })->joint);
+    return result;
+}
+
 std::vector<BindReport::Region> regionsOf(const Binding& binding) {
     std::vector<BindReport::Region> all(binding.joints.size());
     for (const std::uint32_t joint : binding.regions) ++all[joint].vertices;
@@ -162,16 +175,16 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
         found.notes.push_back(std::to_string(gaps) +
                               " vertices have no weights, they take those of the nearest that has");
 
+    const std::vector<std::uint32_t> heaviest = heaviestJoints(rows);
+    checkInfluences(joints, heaviest, skin.weldedOf, options.maxInfluences);
+
     Binding binding;
     binding.joints = boundJoints(skeleton, joints);
     binding.firstInfluence.push_back(0);
     WeightRatios ratios(joints);
     std::size_t partial = 0;
     for (const std::uint32_t v : skin.weldedOf) {
-        const auto heaviest = std::max_element(
-            rows[v].begin(), rows[v].end(),
-            [](const JointShare& a, const JointShare& b) { return a.weight < b.weight; });
-        binding.regions.push_back(heaviest->joint);
+        binding.regions.push_back(heaviest[v]);
         if (packInfluences(ratios.of(rows[v]), options.maxPartialInfluences, binding.influences))
             ++found.cappedVertices;
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)

@@ -110,7 +110,7 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
         {"pictures=<extension,extension>",
          "formats of textures that are read though nothing checks them, as ktx,hdr"},
         {"maxFileMB=, maxTextMB=, maxJoints=, maxDepth=, maxSamples=, maxUses=, maxRatios=, "
-         "maxPixels=<number>",
+         "maxInfluences=, maxPixels=<number>",
          "raises a limit of what files may ask for; errors say which"},
         {"show=<skin|regions>", "regions: each joint's region in a colour of its own"},
     };

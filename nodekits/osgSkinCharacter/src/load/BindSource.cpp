@@ -49,6 +49,8 @@ Binding bindSource(const CharacterSource& source, const Progress& progress, Bind
     checkSize(source);
     BindOptions options = source.bind;
     options.progress = progress;
+    if (options.maxInfluences == 0)
+        options.maxInfluences = source.limits.influencesOf(source.body.mesh.positions.size());
     VertexWeights weights;
     if (source.painted != Painted::No || carriesWeights(source)) weights = paintedWeights(source);
     const bool byWeights = source.painted == Painted::Yes ||

@@ -66,7 +66,8 @@ ReadLimits ReadLimits::of(const osgDB::Options* options) {
         {"maxFileMB", &limits.fileMegabytes}, {"maxTextMB", &limits.textMegabytes},
         {"maxJoints", &limits.joints},        {"maxDepth", &limits.depth},
         {"maxSamples", &limits.samples},      {"maxUses", &limits.uses},
-        {"maxRatios", &limits.ratios},        {"maxPixels", &limits.pixels}};
+        {"maxRatios", &limits.ratios},        {"maxInfluences", &limits.influences},
+        {"maxPixels", &limits.pixels}};
     for (const auto& [key, value] : optionValues(options->getOptionString())) {
         for (const auto& [name, count] : counts)
             if (key == name) *count = countOf(key, value);
