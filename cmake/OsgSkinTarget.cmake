@@ -15,8 +15,9 @@ function(osgskin_settings target)
   if(OSGSKIN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE})
-    if(OSGSKIN_SANITIZE MATCHES undefined) # which a test would pass with
-      target_compile_options(${target} PRIVATE -fno-sanitize-recover=undefined)
+    if(OSGSKIN_SANITIZE MATCHES undefined)
+      target_compile_options(${target} PRIVATE -fno-sanitize-recover=undefined) # which tests would pass with
+      target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
     endif()
     get_target_property(type ${target} TYPE)
     if(OSGSKIN_SANITIZE MATCHES address AND type STREQUAL EXECUTABLE)

@@ -9,7 +9,7 @@ __attribute__((visibility("default"))) int dlclose(void*) noexcept {
 }
 
 __attribute__((visibility("default"))) const char* __lsan_default_suppressions() {
-    return "leak:_dri.so\nleak:libGL\nleak:libEGL\nleak:libLLVM\nleak:libgallium\n";
+    return "leak:_dri.so\nleak:libGL\nleak:libXext\nleak:libEGL\nleak:libLLVM\nleak:libgallium\n";
 }
 
 } // extern "C"
