@@ -253,7 +253,8 @@ TEST(Guard, MotionsAreAsLargeAsTheirFiles) {
     EXPECT_EQ(osgSkin::importMotion(path, 0, {}, options).frames, 3000u);
     const std::string fits = bvh(9, 200, false);
     const auto limit = [&](std::size_t samples) {
-        return new osgDB::Options("maxSamples=" + std::to_string(samples - fits.size() / 2));
+        const auto most = std::to_string(samples - fits.size() / 2);
+        return osg::ref_ptr<osgDB::Options>(new osgDB::Options("maxSamples=" + most));
     };
     const std::string just = save("just.bvh", fits);
     EXPECT_EQ(osgSkin::importMotion(just, 0, {}, limit(2000)).frames, 200u);

@@ -61,7 +61,8 @@ void expectRefused(const std::string& name, const std::string& content, const st
 /// A number of so many bytes, the least significant one first.
 std::string little(std::uint32_t number, int count) {
     std::string result;
-    for (int i = 0; i < count; ++i) result += static_cast<char>(number >> 8 * i & 0xff);
+    for (int i = 0; i < count; ++i)
+        result += i < 4 ? static_cast<char>(number >> 8 * i & 0xff) : '\0';
     return result;
 }
 std::string big(std::uint32_t number, int count) {
@@ -254,7 +255,7 @@ TEST(Pictures, GifPixelsUnpack) {
                   "a frame that is not within it");
     expectRefused("few.gif", with(whole, frame + 7, little(3, 2)),
                   "a GIF picture whose pixels cannot be unpacked");
-    savePicture("after.gif", whole);
+    savePicture("after.gif", gif(5, 3, 1));
     EXPECT_TRUE(drawnWith("after.gif").image.valid()) << drawnWith("after.gif").notices;
 }
 

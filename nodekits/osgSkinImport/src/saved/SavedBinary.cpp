@@ -70,7 +70,6 @@ void SavedBinary::readProperty(osgDB::ObjectProperty& property) {
 void SavedBinary::readCharArray(char* bytes, unsigned size) {
     std::fill_n(bytes, size, '\0');
     takeBytes(bytes, size, false);
-    tookBytes({bytes, size});
 }
 
 void SavedBinary::readMark(osgDB::ObjectMark& mark) {

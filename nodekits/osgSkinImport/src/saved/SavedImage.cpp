@@ -70,7 +70,7 @@ void SavedImage::checkSize(SavedInput& input, std::uint64_t level, double bytes)
     input.refuse("a picture whose size is not that of its data");
 }
 
-std::int64_t SavedImage::tookNumber(std::int64_t number, std::size_t left, SavedInput& input) {
+std::int64_t SavedImage::tookNumber(std::int64_t number, std::string_view rest, SavedInput& input) {
     if (!_open) return number;
     _numbers.push_back(number);
     const std::size_t place = _numbers.size() - 1;
@@ -80,9 +80,9 @@ std::int64_t SavedImage::tookNumber(std::int64_t number, std::size_t left, Saved
         return number;
     if (place < kKind) return number;
     if (!inFile) { // a whole file of a picture, or only the name of one
-        if (place > kKind && number > std::int64_t(left))
+        if (place > kKind && number > std::int64_t(rest.size()))
             input.refuse("a picture with more bytes than the file");
-        _isFile = place > kKind;
+        if (place > kKind && input.isBinary()) checkFile(rest.substr(0, std::size_t(number)));
         _open = false;
         return number;
     }
@@ -96,7 +96,7 @@ std::int64_t SavedImage::tookNumber(std::int64_t number, std::size_t left, Saved
         return number;
     }
     if (place == kBytes) {
-        if (number > std::int64_t(left))
+        if (number > std::int64_t(rest.size()))
             input.refuse("a picture with more bytes than the file");
         else if (number > 0)
             checkSize(input, 0, double(number));
@@ -126,11 +126,9 @@ void SavedImage::tookText(const std::string& text, SavedInput& input) {
     }
 }
 
-void SavedImage::tookBytes(std::string_view bytes) {
+void SavedImage::checkFile(std::string_view bytes) {
     const std::string extension = osgDB::getFileExtension(_name);
-    if (_isFile && !extension.empty())
-        _pictures.take("the picture " + inQuotes(_name), extension, bytes);
-    _isFile = false;
+    if (!extension.empty()) _pictures.take("the picture " + inQuotes(_name), extension, bytes);
 }
 
 } // namespace osgSkin

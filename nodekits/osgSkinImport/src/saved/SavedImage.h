@@ -26,12 +26,12 @@ public:
     explicit SavedImage(const ReadLimits& limits) : _pictures(limits) {}
 
     void tookProperty(const std::string& name);
-    /// \param left bytes that the file has still
+    /// A picture that is a whole file within this one is looked at where its size is told: OSG
+    /// takes memory for it next, which it would lose.
+    /// \param rest of the saved file, behind the number
     /// \return the number for OSG to see
-    std::int64_t tookNumber(std::int64_t number, std::size_t left, SavedInput& input);
+    std::int64_t tookNumber(std::int64_t number, std::string_view rest, SavedInput& input);
     void tookText(const std::string& text, SavedInput& input);
-    /// Of a picture that is a whole file within this one.
-    void tookBytes(std::string_view bytes);
 
     /// Between a picture's class and its file's name.
     bool isNamed() const { return _named; }
@@ -40,12 +40,12 @@ public:
 
 private:
     void checkSize(SavedInput& input, std::uint64_t level, double bytes) const;
+    void checkFile(std::string_view bytes);
 
     std::vector<std::int64_t> _numbers; ///< since the write hint
     std::uint64_t _texts = 0;           ///< of these, read
     bool _named = false, _fileName = false, _open = false;
-    bool _isFile = false; ///< its bytes come next
-    std::string _name;    ///< of the picture's file
+    std::string _name; ///< of the picture's file
     PictureCheck _pictures;
 };
 

@@ -77,7 +77,7 @@ int SavedInput::took(int number) {
         refuse("an array with a binding of " + std::to_string(number) + ", expected -1 to 4");
     _number = number;
     _numberIsLast = true;
-    return static_cast<int>(_image.tookNumber(number, remaining(), *this));
+    return static_cast<int>(_image.tookNumber(number, rest(), *this));
 }
 
 unsigned SavedInput::took(unsigned number) {
@@ -86,7 +86,7 @@ unsigned SavedInput::took(unsigned number) {
         return number;
     }
     if (_image.isOpen()) {
-        _image.tookNumber(number, remaining(), *this);
+        _image.tookNumber(number, rest(), *this);
         return number;
     }
     _number = number;

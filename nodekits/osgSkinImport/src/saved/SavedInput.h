@@ -14,6 +14,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace osgSkin {
@@ -39,6 +40,7 @@ protected:
     /// For each thing that is read, before it is. A serializer that refused what came before has
     /// left nothing where OSG goes on as if something were there.
     void begin();
+    std::string_view rest() const { return std::string_view(_content).substr(_at); }
     std::size_t remaining() const { return _content.size() - _at; }
 
     // What was read, to be checked. \return what OSG is to see of it
@@ -47,7 +49,6 @@ protected:
     void tookProperty(const std::string& name);
     void tookBegin();
     void tookMatch(const std::string& name) { _property = name; }
-    void tookBytes(std::string_view bytes) { _image.tookBytes(bytes); }
     std::string took(std::string word);
     std::string tookWrapped(std::string text);
 
