@@ -50,11 +50,11 @@ HWY_INLINE void poseFrame(const PlannedFrame& of, float cosine, float sine, Kern
 /// By cosine and sine of the joint's azimuth.
 HWY_INLINE void poseWideInto(const PlannedWideInto& of, double cosine, double sine, PosedMap& to) {
     const JointTag d;
+    double* const into = to.column[0]; // of all sixteen
     for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
         const auto rest =
             hn::MulAdd(hn::Load(d, of.bySine + i), each(sine), hn::Load(d, of.constant + i));
-        hn::Store(hn::MulAdd(hn::Load(d, of.byCosine + i), each(cosine), rest), d,
-                  to.column[0] + i);
+        hn::Store(hn::MulAdd(hn::Load(d, of.byCosine + i), each(cosine), rest), d, into + i);
     }
 }
 
