@@ -167,6 +167,21 @@ TEST(Retarget, ScalesTheWayByHipHeight) {
               1e-9);
 }
 
+TEST(Retarget, StandsWhereItRestsWhereverTheActorWasModelled) {
+    const RestSkeleton rig = makeFigure(0.0, 0.5);
+    RestSkeleton actor = makeFigure(0.0);
+    const glm::dvec3 aside(3, 0, -2);
+    for (osgSkin::RestJoint& joint : actor.joints) {
+        joint.centre += aside;
+        if (joint.tip) *joint.tip += aside;
+    }
+    Motion motion = standStill(actor, 2);
+    motion.rootPositions[1] += glm::dvec3(4, 0, -2);
+    const Clip clip = osgSkin::retarget(motion, rig);
+    EXPECT_LT(glm::length(clip.rootPositions[0] - glm::dvec3(0, 5, 0)), 1e-9);
+    EXPECT_LT(glm::length(clip.rootPositions[1] - glm::dvec3(2, 5, -1)), 1e-9);
+}
+
 TEST(Retarget, StandsOnTheRestPosesFloorWhateverTheMotionsFloorIs) {
     const RestSkeleton rig = makeFigure(0.0);
     Motion motion = standStill(makeFigure(0.0), 100);

@@ -199,6 +199,26 @@ TEST_F(StandingPose, AStandingZeroPoseStaysWhatItIs) {
     EXPECT_TRUE(report.notes.empty()) << report.notes[0];
 }
 
+/// Whose neck and head have no joints is upright by his arms.
+TEST_F(StandingPose, AHeadlessActorsZeroPoseStaysWhatItIs) {
+    Motion headless = actor;
+    for (RestJoint& joint : headless.skeleton.joints)
+        for (const char* top : {"Neck", "Head"})
+            if (joint.name.find(top) != std::string::npos)
+                joint.name = "x" + std::to_string(joint.parent);
+    RestSkeleton wide = rig; // not the actor's own
+    for (RestJoint& joint : wide.joints) joint.centre.x *= 1.3;
+    RetargetReport ours, theirs;
+    const Clip expected = retarget(actor, wide, {}, &ours);
+    const Clip clip = retarget(headless, wide, {}, &theirs);
+    EXPECT_EQ(theirs.notes, ours.notes);
+    const auto arm = std::size_t(wide.find("LeftArm"));
+    for (std::size_t f = 0; f < clip.frames; ++f)
+        ASSERT_LT(angleBetween(clip.rotations[f * clip.joints + arm],
+                               expected.rotations[f * clip.joints + arm]),
+                  1e-6);
+}
+
 /// Who stands nowhere cannot be carried over, and is not made up.
 TEST_F(StandingPose, WhoNeverStandsIsRefusedWithAReason) {
     Motion sitting = actor;
