@@ -90,6 +90,18 @@ TEST(MeshLooks, PlyFacesHaveTheTexturesThatTheyName) {
     EXPECT_EQ(faces[-1], (std::vector<std::uint32_t>{2, 3}));
 }
 
+TEST(MeshLooks, APlyTextureWithoutANameIsNone) {
+    const std::string path = saveLooks(
+        "nameless.ply",
+        "ply\nformat ascii 1.0\ncomment TextureFile\nelement vertex 3\nproperty float x\nproperty "
+        "float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+        "3 0 1 2 6 0 0 1 0 0 1\n");
+    const test::Notices notices;
+    EXPECT_EQ(greyOf(osgSkin::importMesh(path).parts.at(0)), -1);
+    EXPECT_EQ(notices.text(), "");
+}
+
 TEST(MeshLooks, NothingThatIsToldReachesTheTerminal) {
     const std::string evil = "no\x1b]0;title\x07where\xc2\x9b.png";
     saveLooks("evil.mtl", "newmtl m\nmap_Kd " + evil + "\n");
