@@ -128,6 +128,8 @@ TEST(MakeSkins, RefusesPartsThatWouldBeReadBeyondTheirEnds) {
     refuses(
         [](MeshPart&, osg::DrawElementsUInt& elements) { elements.setMode(GL_TRIANGLE_STRIP); });
     refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.sourceFace.resize(3); });
+    refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.geometry->setNormalArray(nullptr); });
+    refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.geometry->setVertexArray(nullptr); });
 }
 
 TEST(PlaceSkins, HangsSkinsUnderTheSkeletonAndRigidPartsUnderTheirBones) {

@@ -157,6 +157,22 @@ TEST(GltfLooks, ThingsBesideTheFigureAreNoneOfIt) {
     EXPECT_EQ(vertices(1.0, 2.0), 24u) << "a thing that stands apart is part of it";
 }
 
+/// The figure is all that its skin's parts are, not the first one alone.
+TEST(GltfLooks, ThingsBesideThePartsOfAFigureAreNoneOfIt) {
+    test::GltfColumn column;
+    std::vector<double> aside = column.places;
+    for (std::size_t i = 0; i < aside.size(); i += 3) aside[i] += 2.0;
+    json& primitives = column.json["meshes"][0]["primitives"];
+    primitives.push_back(primitives[0]);
+    primitives[1]["attributes"]["POSITION"] = column.accessor("VEC3", aside);
+    column.json["meshes"].push_back(
+        {{"primitives",
+          {{{"attributes",
+             {{"POSITION", column.accessor("VEC3", {2, 0, 0, 2, 1, 0, 2.1, 0, 0})}}}}}}});
+    column.json["scenes"][0]["nodes"].push_back(column.node({{"mesh", 1}}));
+    EXPECT_EQ(osgSkin::importRig(column.save("parts.gltf")).body.mesh.positions.size(), 51u);
+}
+
 TEST(GltfLooks, ATextureThatMaterialsShareIsReadOnce) {
     GltfColumn column;
     addTexture(column);
