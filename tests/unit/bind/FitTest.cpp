@@ -209,3 +209,17 @@ TEST(Fit, LeavesSmallShellsOut) {
     ASSERT_EQ(report.notes.size(), 1u);
     EXPECT_NE(report.notes[0].find("largest of 2 shells"), std::string::npos) << report.notes[0];
 }
+
+/// Of many triangles, and far from the origin: the body has the larger area.
+TEST(Fit, LeavesFineShellsOut) {
+    const KnownBody body = KnownBody::thrower();
+    const SkinMesh pole = shapes::moved(shapes::cylinder(8.0, 512), {0.0, 0.8, 0.3}, 0.1);
+    const glm::dvec3 away(0.0, 0.0, 50.0);
+    FitReport report;
+    const RestSkeleton with =
+        fitSkeleton(shapes::moved(shapes::joined(body.mesh, pole), away), {}, &report);
+    const RestSkeleton without = fitSkeleton(shapes::moved(body.mesh, away));
+    for (std::size_t j = 0; j < with.joints.size(); ++j)
+        EXPECT_LT(glm::distance(with.joints[j].centre, without.joints[j].centre), 1e-9);
+    EXPECT_NE(report.notes.at(0).find("largest of 2 shells"), std::string::npos) << report.notes[0];
+}
