@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace osgSkin;
@@ -46,6 +47,23 @@ TEST(Twist, OfAHandBuildsUpAlongTheForearm) {
     for (double height = 1.0; height < 16.0; height += 0.25)
         EXPECT_LT(twistAt(binding, 3, height) - twistAt(binding, 3, height - 0.25), 0.12f)
             << "at " << height;
+}
+
+/// Skin is sheared alike everywhere: where the forearm is thinner a hand's twist grows faster.
+TEST(Twist, OfAHandGrowsFasterWhereTheForearmIsThinner) {
+    SkinMesh tapered = arm();
+    for (glm::dvec3& p : tapered.positions) {
+        const double radius = 1.0 - 0.5 * std::clamp((p.y - 7.0) / 6.0, 0.0, 1.0);
+        p.x *= radius;
+        p.z *= radius;
+    }
+    const auto ofRates = [](const Binding& binding) {
+        return (twistAt(binding, 3, 12.0) - twistAt(binding, 3, 11.0)) /
+               (twistAt(binding, 3, 10.5) - twistAt(binding, 3, 9.5));
+    };
+    const float straight = ofRates(bind(arm(), armSkeleton()));
+    // Rates go with the inverse of the radii there.
+    EXPECT_NEAR(ofRates(bind(tapered, armSkeleton())) / straight, 0.75 / 0.625, 0.06);
 }
 
 TEST(Twist, OfALimbBuildsUpTowardsTheChild) {
