@@ -272,6 +272,16 @@ TEST(Saved, LengthsAreInTheFile) {
     }
 }
 
+/// What a binary file is to hold is a number, which no enumerator may have.
+TEST(Saved, KindsAreScenesAndObjects) {
+    const std::string whole = saved("osgb");
+    for (const std::uint32_t kind : {0u, 2u, 4u, 0x50001u, 0xffffffffu}) {
+        std::string text = whole;
+        std::memcpy(&text[8], &kind, sizeof kind);
+        expectError([&] { read(scratch("kind.osgb", text)); }, "no scene, expected one");
+    }
+}
+
 TEST(Saved, ScenesKeepToTheirOptions) {
     const std::string path = scratch("group.osgt", kHead + nested(5));
     EXPECT_EQ(whyRefused(path), "read");

@@ -36,7 +36,10 @@ bool SavedBinary::begins(const std::string& content) {
 void SavedBinary::skipBeginning() {
     setByteSwap(beginning(_content) == kHeader ? 0 : 1);
     if (_content.size() < 16) refuse("it ends too early");
-    _at = 16; // and the kind and the version of the file, which OSG reads again
+    _at = sizeof kHeader;
+    if (take<unsigned>() > osgDB::InputStream::READ_OBJECT) // OSG makes an enumerator of any number
+        refuse("no scene, expected one");
+    take<unsigned>(); // the version, which OSG reads again, as all of this
     const unsigned attributes = take<unsigned>();
     if ((attributes & ~kBrackets) != 0)
         refuse("a file with layouts or versions of its own classes, expected a plain one");
