@@ -6,9 +6,9 @@
 
 Works in a copy of the last commit, build/mutation/tree. Each mutant changes one operator, number or
 order in one line; a kit's mutants are spread over its sources. One source is compiled and one library
-linked a mutant, into build/mutation/broken, where the test programs find it first; what the source reads
-beyond a vector ends the program, as in tests/sanitizers. A kit's programs run in the order of KITS until
-one notices. What survives is listed with its place, to be given a test or, where no test could notice, to
+linked a mutant, into build/mutation/broken, where the test programs find it first; the source's
+assertions hold, the standard library's among them, as in tests/sanitizers. A kit's programs run in the order
+of KITS until one notices. What survives is listed with its place, to be given a test or, where no test could notice, to
 be explained in explained.txt. --again tries what was printed before.
 """
 import argparse
@@ -108,7 +108,7 @@ def compile_broken(kit, entry):
     words = shlex.split(entry["command"])
     made = words[words.index("-o") + 1]
     words[words.index("-o") + 1] = str(BROKEN / "broken.o")
-    words.insert(1, "-D_GLIBCXX_ASSERTIONS")
+    words += ["-D_GLIBCXX_ASSERTIONS", "-UNDEBUG"]
     if shell(shlex.join(words), entry["directory"]):
         return False
     library = sorted((BUILD / "lib").glob(f"lib{kit}.so.*"), key=lambda path: len(path.name))
