@@ -7,9 +7,9 @@
 Works in a copy of the last commit, build/mutation/tree. Each mutant changes one operator, number or
 order in one line; a kit's mutants are spread over its sources. One source is compiled and one library
 linked a mutant, into build/mutation/broken, where the test programs find it first; the source's
-assertions hold, the standard library's among them, as in tests/sanitizers. A kit's programs run in the order
-of KITS until one notices. What survives is listed with its place, to be given a test or, where no test could notice, to
-be explained in explained.txt. --again tries what was printed before.
+assertions hold, the standard library's among them, as in tests/sanitizers. A kit's programs run in the
+order of KITS until one notices. What survives is listed with its place, to be given a test or, where no
+test could notice, to be explained in explained.txt. --again tries what was printed before.
 """
 import argparse
 import json
