@@ -59,6 +59,8 @@ void takePictures(viewer::Stage& stage, const std::string& keys, const std::stri
     }
 }
 
+constexpr double kLatest = 1e6; ///< seconds; where frames can still be told apart
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -102,8 +104,8 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    if (!std::isfinite(at)) { // passes for being in any range
-        std::cerr << "osgskinviewer: --at: expected finite numbers" << std::endl;
+    if (!(std::abs(at) <= kLatest)) { // not a number passes for being in any range
+        std::cerr << "osgskinviewer: --at: expected at most a million seconds" << std::endl;
         return 2;
     }
     try {
