@@ -195,13 +195,32 @@ TEST(Retarget, StandsOnTheRestPosesFloorWhateverTheMotionsFloorIs) {
     EXPECT_NEAR(clip.rootPositions[99].y, 15.0, 1e-9);
 }
 
-TEST(Retarget, RigMayHaveARootOfItsOwn) {
+/// A skeleton below a root of its own, every joint's index one more.
+RestSkeleton onGround(const RestSkeleton& figure) {
     RestSkeleton rig;
     rig.joints.push_back({"Ground", -1, {0, 0, 0}, {}});
-    for (osgSkin::RestJoint joint : makeFigure(0.0).joints) {
+    for (osgSkin::RestJoint joint : figure.joints) {
         ++joint.parent;
         rig.joints.push_back(joint);
     }
+    return rig;
+}
+
+TEST(Retarget, ARootOfTheRigsOwnLeavesTheMovements) {
+    const RestSkeleton rig = makeFigure(48.0);
+    const Motion motion = wave(makeFigure(30.0), 20);
+    const Clip with = osgSkin::retarget(motion, onGround(rig));
+    const Clip without = osgSkin::retarget(motion, rig);
+    for (std::size_t f = 0; f < without.frames; ++f)
+        for (std::size_t j = 0; j < without.joints; ++j)
+            ASSERT_LT(angleBetween(with.rotations[f * with.joints + j + 1],
+                                   without.rotations[f * without.joints + j]),
+                      1e-6)
+                << rig.joints[j].name;
+}
+
+TEST(Retarget, RigMayHaveARootOfItsOwn) {
+    const RestSkeleton rig = onGround(makeFigure(0.0));
     Motion motion = standStill(makeFigure(0.0), 1);
     motion.rotations[0] = turnDegrees(90, {0, 1, 0});
     motion.rootPositions[0] += glm::dvec3(3, 0, 4);

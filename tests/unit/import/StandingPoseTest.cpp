@@ -199,9 +199,15 @@ TEST_F(StandingPose, AStandingZeroPoseStaysWhatItIs) {
     EXPECT_TRUE(report.notes.empty()) << report.notes[0];
 }
 
-/// Whose neck and head have no joints is upright by his arms.
+/// Whose neck and head have no joints is upright by his arms, wherever he stands.
 TEST_F(StandingPose, AHeadlessActorsZeroPoseStaysWhatItIs) {
-    Motion headless = actor;
+    Motion aside = actor;
+    for (RestJoint& joint : aside.skeleton.joints) {
+        joint.centre.x += 40.0;
+        if (joint.tip) joint.tip->x += 40.0;
+    }
+    for (glm::dvec3& root : aside.rootPositions) root.x += 40.0;
+    Motion headless = aside;
     for (RestJoint& joint : headless.skeleton.joints)
         for (const char* top : {"Neck", "Head"})
             if (joint.name.find(top) != std::string::npos)
@@ -209,7 +215,7 @@ TEST_F(StandingPose, AHeadlessActorsZeroPoseStaysWhatItIs) {
     RestSkeleton wide = rig; // not the actor's own
     for (RestJoint& joint : wide.joints) joint.centre.x *= 1.3;
     RetargetReport ours, theirs;
-    const Clip expected = retarget(actor, wide, {}, &ours);
+    const Clip expected = retarget(aside, wide, {}, &ours);
     const Clip clip = retarget(headless, wide, {}, &theirs);
     EXPECT_EQ(theirs.notes, ours.notes);
     const auto arm = std::size_t(wide.find("LeftArm"));
