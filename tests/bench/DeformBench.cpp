@@ -6,6 +6,7 @@
 #include "CrowdBench.h"
 #include "OsgRig.h"
 #include "RatioTable.h"
+#include "SetUpShare.h"
 
 #include <osgSkin/DeformPool>
 #include <osgSkin/PoseBounds>
@@ -95,82 +96,6 @@ void shapes(benchmark::State& state, std::uint32_t parts, bench::Kind kind, bool
     count(state, positions.size());
 }
 
-/// A skin, and one that has every vertex of it twice, and so the same groups, chains and joints;
-/// each in memory of its own.
-struct OnceAndTwice {
-    explicit OnceAndTwice(const bench::Body& body) {
-        std::vector<glm::vec3> positions, normals;
-        std::vector<std::uint32_t> source;
-        for (std::size_t i = 0; i < 2; ++i) {
-            positions.insert(positions.end(), body.positions.begin(), body.positions.end());
-            normals.insert(normals.end(), body.normals.begin(), body.normals.end());
-            for (std::uint32_t v = 0; v < body.positions.size(); ++v) source.push_back(v);
-            model[i] =
-                osgSkin::SkinModel::createInBestOrder(body.binding, positions, normals, source)
-                    .model;
-            outputs[i].resize(2 * positions.size());
-        }
-    }
-
-    /// Seconds that an update of one of them takes, of several: the caches get used to it.
-    double update(const bench::Body& body, std::size_t which, std::size_t frame,
-                  osgSkin::Pose& pose) {
-        constexpr std::size_t kUpdates = 20;
-        osgSkin::DeformJob job;
-        job.model = model[which].get();
-        job.pose = &pose;
-        job.positionCount = job.normalCount = model[which]->vertexCount();
-        job.positions = outputs[which].data();
-        job.normals = job.positions + job.positionCount;
-        const std::clock_t start = std::clock();
-        for (std::size_t i = 0; i < kUpdates; ++i) {
-            const auto& skinning = body.skinning[(frame + i) % body.skinning.size()];
-            pose.set(skinning.data(), skinning.size());
-            job.run();
-            benchmark::ClobberMemory();
-        }
-        return static_cast<double>(std::clock() - start) / (CLOCKS_PER_SEC * kUpdates);
-    }
-
-    osg::ref_ptr<const osgSkin::SkinModel> model[2];
-    std::vector<glm::vec3> outputs[2];
-};
-
-double median(std::vector<double> numbers) {
-    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-    std::nth_element(numbers.begin(), middle, numbers.end());
-    return *middle;
-}
-
-/// What an update costs beside its vertices: two updates less one of a skin that has every vertex
-/// twice. How fast a skin is depends on where its memory happens to be, so there are several; what
-/// is told is the median of them, and how far they are apart.
-void setUp(benchmark::State& state, bench::Kind kind) {
-    constexpr std::size_t kSkins = 9, kRounds = 25;
-    const bench::Body& body = bench::body(1, kind);
-    osgSkin::Pose pose(body.binding.joints, body.binding.correctives.inputs.size());
-    std::vector<OnceAndTwice> skins;
-    for (std::size_t i = 0; i < kSkins; ++i) skins.emplace_back(body);
-    for ([[maybe_unused]] auto iteration : state) {
-        std::vector<double> rests, updates, shares;
-        for (OnceAndTwice& skin : skins) {
-            std::vector<double> took[2];
-            for (std::size_t round = 0; round < kRounds; ++round)
-                for (std::size_t i = 0; i < 2; ++i)
-                    took[i].push_back(skin.update(body, i, round, pose));
-            const double once = median(took[0]), twice = median(took[1]);
-            rests.push_back(2.0 * once - twice);
-            updates.push_back(once);
-            shares.push_back(100.0 * rests.back() / once);
-        }
-        state.SetIterationTime(std::max(0.0, median(rests)));
-        state.counters["update us"] = 1e6 * median(updates);
-        state.counters["set-up %"] = median(shares);
-        state.counters["least %"] = *std::min_element(shares.begin(), shares.end());
-        state.counters["most %"] = *std::max_element(shares.begin(), shares.end());
-    }
-}
-
 void osgAnimationRig(benchmark::State& state, std::uint32_t parts) {
     const bench::Body& body = bench::body(parts);
     bench::OsgRig rig(body);
@@ -258,13 +183,16 @@ int main(int argc, char** argv) {
     const std::string joints = std::to_string(bench::body(1).binding.joints.size()) + " joints";
     benchmark::RegisterBenchmark(("pose set-up/" + joints).c_str(), poseSetUp);
     for (const auto& [name, kind] :
-         {std::pair("set-up share/4k", bench::Kind::Turned),
-          std::pair("set-up share, surface normals/4k", bench::Kind::Surface),
-          std::pair("set-up share, fast shapes/4k", bench::Kind::Shaped)})
-        benchmark::RegisterBenchmark(name, setUp, kind)
-            ->Unit(benchmark::kMicrosecond)
-            ->UseManualTime()
-            ->Iterations(1); // which are many updates
+         {std::pair("", bench::Kind::Turned), std::pair(", surface normals", bench::Kind::Surface),
+          std::pair(", fast shapes", bench::Kind::Shaped)})
+        for (const auto& [larger, than] : {std::pair(" to 40k", bench::Larger::FinerMesh),
+                                           std::pair(" to twice", bench::Larger::EveryVertexTwice)})
+            benchmark::RegisterBenchmark(
+                ("set-up share" + std::string(name) + larger + "/4k").c_str(), bench::setUpShare,
+                kind, than)
+                ->Unit(benchmark::kMicrosecond)
+                ->UseManualTime()
+                ->Iterations(1); // which are many updates
     benchmark::RegisterBenchmark("pose bounds/4k", poseBounds, bench::Kind::Turned);
     benchmark::RegisterBenchmark("pose bounds, fast shapes/4k", poseBounds, bench::Kind::Shaped);
     std::vector<std::int64_t> targets;

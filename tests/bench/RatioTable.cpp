@@ -58,11 +58,11 @@ void RatioTable::ReportRuns(const std::vector<Run>& runs) {
 void RatioTable::Finalize() {
     ConsoleReporter::Finalize();
     std::printf("\nMedians, positions and normals, pose set-up included\n"
-                "%-34s %8s %12s %10s %12s %18s\n",
+                "%-42s %8s %12s %10s %12s %18s\n",
                 "", "vertices", "us/update", "ns/vertex", "x memcpy", "x osgAnimation");
     for (const Row& row : _rows) {
         const double seconds = row.median();
-        std::printf("%-34s ", (row.what + "/" + row.size).c_str());
+        std::printf("%-42s ", (row.what + "/" + row.size).c_str());
         if (row.vertices == 0.0) {
             std::printf("%8s %12.2f\n", "", 1e6 * seconds);
             continue;
