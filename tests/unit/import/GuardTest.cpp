@@ -104,6 +104,12 @@ std::string plyOfManyElements() {
     return text + kPlyVertices + kPlyFaces + kPlyTriangle;
 }
 
+std::string plyOfManyProperties() {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n";
+    for (int i = 0; i < 1100; ++i) text += "property int p" + std::to_string(i) + "\n";
+    return text;
+}
+
 class GuardedMesh : public testing::TestWithParam<Guarded> {};
 
 } // namespace
@@ -140,6 +146,18 @@ INSTANTIATE_TEST_SUITE_P(
                     "end_header\n0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n",
                 "element \"vertex\" 1: a word that is no number"},
         Guarded{"elements.ply", plyOfManyElements(), "line 103: one of more than 100 elements"},
+        Guarded{"properties.ply", plyOfManyProperties(),
+                "line 1004: one of more than 1000 properties of \"vertex\""},
+        Guarded{"nameless.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float\n",
+                "line 5: a property without a name"},
+        Guarded{"property_twice.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float x\n",
+                "line 5: a second property \"x\" of \"vertex\""},
+        // Rows would have a number more than columns are known of.
+        Guarded{"misspelt.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\npropertty float quality\n",
+                "line 4: \"propertty\" begins no line of a header"},
         Guarded{"spline.gltf", kLongSpline, "animation \"0\": sampler 0: a spline of"},
         Guarded{"sparse.gltf", sparse(9, 5121),
                 "malformed glTF: accessors[0].sparse.indices: expected numbers below 9"},

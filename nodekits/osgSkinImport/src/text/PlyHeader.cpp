@@ -27,7 +27,9 @@ constexpr NamedType kTypes[] = {
     {"float64", {kFloating, 8}},
 };
 
-constexpr std::size_t kMostElements = 100; ///< others have ten; each is compared with all
+// Others have ten and, where they hold splats, sixty; each is compared with all.
+constexpr std::size_t kMostElements = 100;
+constexpr std::size_t kMostProperties = 1000; ///< of an element
 
 /// Reads line by line; a line ends with LF, CR or both.
 class PlyHeaderReader {
@@ -52,6 +54,10 @@ public:
                 readProperty(words);
             else if (keyword == "comment")
                 readComment(words);
+            else if (!keyword.empty() && keyword != "obj_info")
+                failLine(_path, _line,
+                         inQuotes(keyword) + " begins no line of a header, expected format, "
+                                             "element, property, comment or end_header");
         }
         if (!_hasFormat) failFile(_path, "the header has no line \"format\"");
         _header.end = _at;
@@ -130,7 +136,17 @@ private:
         }
         property.type = type(name);
         words >> property.name;
-        _header.elements.back().properties.push_back(property);
+        PlyHeader::Element& element = _header.elements.back();
+        if (property.name.empty()) failLine(_path, _line, "a property without a name");
+        if (element.properties.size() >= kMostProperties)
+            failLine(_path, _line,
+                     "one of more than " + std::to_string(kMostProperties) + " properties of " +
+                         inQuotes(element.name));
+        if (element.find({property.name.c_str()}))
+            failLine(_path, _line,
+                     "a second property " + inQuotes(property.name) + " of " +
+                         inQuotes(element.name));
+        element.properties.push_back(property);
     }
 
     void readComment(std::istream& words) {
