@@ -120,6 +120,13 @@ TEST_P(GuardedMesh, IsRefusedWithFileAndPlace) {
     expectError([&] { osgSkin::importMesh(path); }, path + ": " + file.message);
 }
 
+TEST(GuardedPly, RemarksWithoutAKeywordAreNone) {
+    const std::string path =
+        save("remark.ply", "ply\nformat ascii 1.0\nCreated by Blender3D 247\n\n" + kPlyVertices +
+                               kPlyFaces + kPlyTriangle);
+    EXPECT_EQ(osgSkin::importMesh(path).mesh.positions.size(), 3u);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Files, GuardedMesh,
     testing::Values(
@@ -157,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(
         // Rows would have a number more than columns are known of.
         Guarded{"misspelt.ply",
                 "ply\nformat ascii 1.0\nelement vertex 3\npropertty float quality\n",
-                "line 4: \"propertty\" begins no line of a header"},
+                "line 4: \"propertty\" begins no line, expected \"property\""},
         Guarded{"spline.gltf", kLongSpline, "animation \"0\": sampler 0: a spline of"},
         Guarded{"sparse.gltf", sparse(9, 5121),
                 "malformed glTF: accessors[0].sparse.indices: expected numbers below 9"},

@@ -4,6 +4,7 @@
 #include "text/FileText.h"
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <string_view>
 
@@ -54,10 +55,8 @@ public:
                 readProperty(words);
             else if (keyword == "comment")
                 readComment(words);
-            else if (!keyword.empty() && keyword != "obj_info")
-                failLine(_path, _line,
-                         inQuotes(keyword) + " begins no line of a header, expected format, "
-                                             "element, property, comment or end_header");
+            else
+                checkRemark(keyword);
         }
         if (!_hasFormat) failFile(_path, "the header has no line \"format\"");
         _header.end = _at;
@@ -147,6 +146,17 @@ private:
                      "a second property " + inQuotes(property.name) + " of " +
                          inQuotes(element.name));
         element.properties.push_back(property);
+    }
+
+    /// Other lines are remarks (Blender 2.4's have no keyword), but not where one is misspelt: rows
+    /// would be longer than what is known of them.
+    void checkRemark(std::string keyword) {
+        const std::string word = keyword;
+        for (char& c : keyword) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        for (const char* known : {"element", "property"})
+            if (keyword.compare(0, 4, known, 4) == 0)
+                failLine(_path, _line,
+                         inQuotes(word) + " begins no line, expected " + inQuotes(known));
     }
 
     void readComment(std::istream& words) {
