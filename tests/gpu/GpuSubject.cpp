@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "GpuSubject.h"
 
+#include "FindNodes.h"
 #include "SomeCorrectives.h"
 #include "TubeSkin.h"
 
@@ -18,16 +19,6 @@
 
 namespace test {
 namespace {
-
-class FindSkins : public osg::NodeVisitor {
-public:
-    FindSkins() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Drawable& drawable) override {
-        if (auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&drawable))
-            found.emplace_back(skin);
-    }
-    std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> found;
-};
 
 /// Each time has a pose of its own, far from rest.
 class TurnTube : public osg::DrawableUpdateCallback {
@@ -135,9 +126,10 @@ GpuSubject::GpuSubject(const std::string& name) {
 }
 
 std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skinsIn(osg::Node& scene) {
-    FindSkins visitor;
-    scene.accept(visitor);
-    return visitor.found;
+    std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins;
+    for (const auto& found : findNodes<osgSkin::DeformableSkin>(scene))
+        skins.emplace_back(found.node);
+    return skins;
 }
 
 void Difference::take(const Difference& other) {

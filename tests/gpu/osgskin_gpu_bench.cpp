@@ -3,6 +3,7 @@
 // as many characters as that makes, each in a pose of its own: our deformation, copying the same
 // bytes, and linear blending of four matrices in the same shader language. No display is needed.
 #include "EglWindow.h"
+#include "FindNodes.h"
 
 #include "shader/DeformText.h"
 
@@ -14,7 +15,6 @@
 #include <osgSkin/GlmOsg>
 
 #include <osg/GLExtensions>
-#include <osg/NodeVisitor>
 #include <osgDB/ReadFile>
 
 #include <algorithm>
@@ -31,15 +31,15 @@ namespace {
 constexpr GLenum kShaderStorage = 0x90D2, kComputeShader = 0x91B9;
 constexpr GLuint kThreads = 64;
 
-struct FindSkin : osg::NodeVisitor {
-    FindSkin() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Drawable& drawable) override {
-        auto* found = dynamic_cast<osgSkin::DeformableSkin*>(&drawable);
-        if (found && (!skin || found->getModel()->vertexCount() > skin->getModel()->vertexCount()))
-            skin = found;
+/// Null where a scene has none.
+const osgSkin::SkinModel* largestSkin(osg::Node& scene) {
+    const osgSkin::SkinModel* largest = nullptr;
+    for (const auto& found : test::findNodes<osgSkin::DeformableSkin>(scene)) {
+        const osgSkin::SkinModel* model = found.node->getModel();
+        if (!largest || model->vertexCount() > largest->vertexCount()) largest = model;
     }
-    osg::ref_ptr<osgSkin::DeformableSkin> skin;
-};
+    return largest;
+}
 
 /// The context that is current.
 class Card {
@@ -275,14 +275,13 @@ int main(int argc, char** argv) {
         const std::string file = argc > 1 ? argv[1] : std::string(OSGSKIN_DATA) + "/thrower.skin";
         const unsigned long wanted = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 500000;
         const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);
-        FindSkin found;
-        if (scene) scene->accept(found);
-        if (!found.skin) throw std::runtime_error(file + ": expected a character with a skin");
+        const osgSkin::SkinModel* model = scene ? largestSkin(*scene) : nullptr;
+        if (!model) throw std::runtime_error(file + ": expected a character with a skin");
         const osg::ref_ptr<test::EglWindow> window = new test::EglWindow(16, 16);
         if (!window->valid() || !window->realize() || !window->makeCurrent())
             throw std::runtime_error("EGL gives no context");
-        const int result = bench(*found.skin->getModel(), static_cast<GLuint>(wanted),
-                                 Card(window->getState()->getContextID()));
+        const int result =
+            bench(*model, static_cast<GLuint>(wanted), Card(window->getState()->getContextID()));
         window->releaseContext();
         return result;
     } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 // The same body, read by the plug-in under names of several families: it must bend, keep its rigid
 // parts and move alike.
 #include "Command.h"
+#include "FindNodes.h"
 #include "RenamedBody.h"
 #include "UpdateAt.h"
 
@@ -9,7 +10,6 @@
 #include <osgSkin/RigidPart>
 #include <osgSkinImport/ImportSkeleton>
 
-#include <osg/NodeVisitor>
 #include <osgDB/ReadFile>
 
 #include <gtest/gtest.h>
@@ -52,25 +52,19 @@ void writeBvh(const RestSkeleton& skeleton, const std::string& file) {
 }
 
 /// What is drawn of a character at a time, in the world.
-struct Drawn : osg::NodeVisitor {
-    Drawn() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+struct Drawn {
+    explicit Drawn(osg::Node& scene) {
+        for (const auto& found : test::findNodes<osgSkin::DeformableSkin>(scene)) {
+            const auto& vertices = static_cast<const osg::Vec3Array&>(
+                *found.node->getDeformedGeometry()->getVertexArray());
+            skin.insert(skin.end(), vertices.begin(), vertices.end());
+        }
+        for (const auto& found : test::findNodes<osgSkin::RigidPart>(scene))
+            rigids[found.node->getParent(0)->getName()] = found.toWorld;
+    }
 
     std::vector<osg::Vec3> skin;                ///< vertices of the skins, one after the other
     std::map<std::string, osg::Matrixd> rigids; ///< by the name of their bone
-
-    void apply(osg::Drawable& drawable) override {
-        const auto* deformable = dynamic_cast<osgSkin::DeformableSkin*>(&drawable);
-        if (deformable == nullptr) return;
-        const auto& vertices = static_cast<const osg::Vec3Array&>(
-            *deformable->getDeformedGeometry()->getVertexArray());
-        skin.insert(skin.end(), vertices.begin(), vertices.end());
-    }
-
-    void apply(osg::Transform& node) override {
-        if (dynamic_cast<osgSkin::RigidPart*>(&node) != nullptr)
-            rigids[node.getParent(0)->getName()] = osg::computeLocalToWorld(getNodePath());
-        traverse(node);
-    }
 };
 
 /// Reads the thrower on `skeleton` with its throw, at a time in which its hands are turned.

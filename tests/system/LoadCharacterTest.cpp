@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // loadCharacter() as an application calls it: what it takes, what it gives, what it refuses.
 #include "DrawnSkin.h"
+#include "FindNodes.h"
 #include "QuadRig.h"
 #include "WhyRefused.h"
 
@@ -59,11 +60,8 @@ std::string rigOfOsg() {
 /// Where nodes of this name stand, against their parents.
 std::vector<osg::Matrix> placesOf(osg::Node& node, const std::string& name) {
     std::vector<osg::Matrix> places;
-    if (node.asTransform() && node.asTransform()->asMatrixTransform() && node.getName() == name)
-        places.push_back(node.asTransform()->asMatrixTransform()->getMatrix());
-    for (unsigned i = 0; node.asGroup() && i < node.asGroup()->getNumChildren(); ++i)
-        for (const osg::Matrix& place : placesOf(*node.asGroup()->getChild(i), name))
-            places.push_back(place);
+    for (const auto& found : test::findNodes<osg::MatrixTransform>(node))
+        if (found.node->getName() == name) places.push_back(found.node->getMatrix());
     return places;
 }
 

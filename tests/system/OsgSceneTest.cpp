@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Characters that OSG's own scenes hold: bones, rigs and clips of osgAnimation.
 #include "Command.h"
+#include "FindNodes.h"
 #include "Notices.h"
 #include "WhyRefused.h"
 
@@ -116,19 +117,14 @@ double leanOf(osg::Node& root) {
         stamp->setFrameNumber(stamp->getFrameNumber() + 1);
         root.accept(visitor);
     }
-    struct Finder : osg::NodeVisitor {
-        Finder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-        void apply(osg::Transform& node) override {
-            if (node.getName() == "upper") bone = dynamic_cast<osgAnimation::Bone*>(&node);
-            traverse(node);
-        }
-        osgAnimation::Bone* bone = nullptr;
-    } finder;
-    root.accept(finder);
-    EXPECT_NE(finder.bone, nullptr);
-    if (finder.bone == nullptr) return 0.0;
-    const osg::Vec3d up = osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), finder.bone->getMatrix());
-    return osg::RadiansToDegrees(std::acos(std::min(1.0, up.z())));
+    for (const auto& bone : test::findNodes<osgAnimation::Bone>(root)) {
+        if (bone.node->getName() != "upper") continue;
+        const osg::Vec3d up =
+            osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), bone.node->getMatrix());
+        return osg::RadiansToDegrees(std::acos(std::min(1.0, up.z())));
+    }
+    ADD_FAILURE() << "no bone \"upper\"";
+    return 0.0;
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `model.glb.skin`: any rigged model, re-skinned, as a viewer reads it.
+#include "FindNodes.h"
 #include "QuadRig.h"
 #include "RiggedModels.h"
 
@@ -48,27 +49,20 @@ std::string complaint(const std::string& file, const std::string& options = {}) 
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
-struct Parts : osg::NodeVisitor {
-    explicit Parts(osg::Node& scene) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {
-        scene.accept(*this);
-    }
-    void apply(osg::Node& node) override {
-        if (auto* found =
-                dynamic_cast<osgAnimation::BasicAnimationManager*>(node.getUpdateCallback()))
-            manager = found;
-        traverse(node);
-    }
-    void apply(osg::Transform& node) override {
-        if (dynamic_cast<osgSkin::RigidPart*>(&node) != nullptr) ++rigid;
-        traverse(node);
-    }
-    void apply(osg::Drawable& drawable) override {
-        if (auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&drawable)) {
-            skins.push_back(skin);
-            toWorld = osg::computeLocalToWorld(getNodePath());
+struct Parts {
+    explicit Parts(osg::Node& scene) {
+        for (const auto& found : test::findNodes<osg::Node>(scene))
+            if (auto* of = dynamic_cast<osgAnimation::BasicAnimationManager*>(
+                    found.node->getUpdateCallback()))
+                manager = of;
+        for (const auto& found : test::findNodes<osgSkin::DeformableSkin>(scene)) {
+            skins.push_back(found.node);
+            toWorld = found.toWorld;
         }
-        if (dynamic_cast<osgAnimation::RigGeometry*>(&drawable) != nullptr) ++rigs;
+        rigid = test::findNodes<osgSkin::RigidPart>(scene).size();
+        rigs = test::findNodes<osgAnimation::RigGeometry>(scene).size();
     }
+
     std::vector<osgSkin::DeformableSkin*> skins;
     osg::Matrix toWorld;
     osgAnimation::BasicAnimationManager* manager = nullptr;

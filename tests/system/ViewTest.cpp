@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a viewer sees first: the whole figure, standing, from the front, and not from far away.
 #include "Command.h"
+#include "FindNodes.h"
 #include "GltfBuilder.h"
 
 #include <osgSkin/GlmOsg>
@@ -134,17 +135,10 @@ struct GltfPerson : test::GltfBuilder {
 
 /// Where a scene's bones are drawn.
 std::map<std::string, osg::Vec3d> bonesOf(Character& character) {
-    struct Visitor : osg::NodeVisitor {
-        std::map<std::string, osg::Vec3d> found;
-        Visitor() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-        void apply(osg::Transform& node) override {
-            if (dynamic_cast<osgAnimation::Bone*>(&node) != nullptr)
-                found[node.getName()] = osg::computeLocalToWorld(getNodePath()).getTrans();
-            traverse(node);
-        }
-    } visitor;
-    character.root->accept(visitor);
-    return visitor.found;
+    std::map<std::string, osg::Vec3d> result;
+    for (const auto& found : test::findNodes<osgAnimation::Bone>(*character.root))
+        result[found.node->getName()] = found.toWorld.getTrans();
+    return result;
 }
 
 } // namespace

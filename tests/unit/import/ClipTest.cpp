@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ExpectError.h"
 #include "Figure.h"
+#include "FindNodes.h"
 #include "UpdateAt.h"
 
 #include <osgSkin/GlmOsg>
@@ -22,15 +23,10 @@ namespace {
 using osgSkin::Clip;
 using osgSkin::RestSkeleton;
 
-class Bones : public osg::NodeVisitor {
-public:
-    explicit Bones(osg::Node& root) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {
-        root.accept(*this);
-    }
-
-    void apply(osg::Transform& node) override {
-        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) byName[node.getName()] = bone;
-        traverse(node);
+struct Bones {
+    explicit Bones(osg::Node& root) {
+        for (const auto& found : test::findNodes<osgAnimation::Bone>(root))
+            byName[found.node->getName()] = found.node;
     }
 
     std::map<std::string, osg::ref_ptr<osgAnimation::Bone>> byName;

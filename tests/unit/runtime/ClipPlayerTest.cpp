@@ -9,6 +9,7 @@
 #include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 
+#include "FindNodes.h"
 #include "Tube.h"
 #include "Turns.h"
 
@@ -117,15 +118,7 @@ struct Character {
 
 /// The only skin below a node.
 osgSkin::DeformableSkin& skinOf(osg::Node& node) {
-    struct Find : osg::NodeVisitor {
-        Find() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-        void apply(osg::Drawable& drawable) override {
-            if (auto* found = dynamic_cast<osgSkin::DeformableSkin*>(&drawable)) skin = found;
-        }
-        osgSkin::DeformableSkin* skin = nullptr;
-    } find;
-    node.accept(find);
-    return *find.skin;
+    return *test::findNodes<osgSkin::DeformableSkin>(node).at(0).node;
 }
 
 using Vertices = std::vector<osg::Vec3>;
