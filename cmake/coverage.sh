@@ -9,6 +9,7 @@ cd "$osgskin_root"
 
 osgskin_install $osgskin_build_packages $osgskin_test_packages gcovr
 build=build/coverage
+failed=false
 cmake --preset coverage >build-coverage.log
 rm build-coverage.log
 # Counts of an earlier run would add up.
@@ -21,10 +22,11 @@ if [ $# -gt 0 ]; then
 else
   osgskin_install $osgskin_show_packages
   osgskin_build coverage
-  ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
+  ctest --test-dir "$build" --output-on-failure -j "$(nproc)" || failed=true # the table is of use anyway
 fi
 
 mkdir -p "$build/report"
 gcovr --root . --filter nodekits/ --filter osgPlugin/ --object-directory "$build" --sort-uncovered \
   --exclude-unreachable-branches --print-summary --html-details "$build/report/index.html"
 echo "Line by line: $build/report/index.html"
+! $failed
