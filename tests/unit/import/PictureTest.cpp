@@ -259,6 +259,16 @@ TEST(Pictures, GifPixelsUnpack) {
     EXPECT_TRUE(drawnWith("after.gif").image.valid()) << drawnWith("after.gif").notices;
 }
 
+/// As nearly all have: how long a frame stays, a remark, how often they are shown.
+TEST(Pictures, GifExtensionsAreReadOver) {
+    const std::string extensions =
+        "!\xf9\x04\0\0\0\0\0"s + "!\xfe\x03xyz\x02xy\0"s + "!\xff\x0bNETSCAPE2.0\x03\x01\0\0\0"s;
+    savePicture("extended.gif", gif(5, 3, 2, extensions));
+    EXPECT_TRUE(drawnWith("extended.gif").image.valid()) << drawnWith("extended.gif").notices;
+    const std::string open = gif(5, 3, 1, "!\xfe\x03xyz"s);
+    expectRefused("open.gif", open.substr(0, open.rfind("xyz") + 3), "open.gif");
+}
+
 /// A thousand texts of 8 kB can unpack to 8 GB.
 TEST(Pictures, PngTextsAreFew) {
     const std::string whole = written("png");

@@ -133,6 +133,34 @@ TEST(Primitives, GoodRunsAreRead) {
         EXPECT_NE(loadWith(good, nullptr), nullptr) << good->className();
 }
 
+TEST(RestArrays, AreAsLongAsWhatTheyAreBoundTo) {
+    struct Case {
+        osg::Array::Binding binding;
+        unsigned int missing, enough;
+    };
+    const unsigned int vertices = test::skinsOf(*test::makeScene())
+                                      .front()
+                                      ->getRestGeometry()
+                                      ->getVertexArray()
+                                      ->getNumElements();
+    for (const Case& of :
+         {Case{osg::Array::BIND_OVERALL, 0, 1}, Case{osg::Array::BIND_PER_PRIMITIVE_SET, 0, 1},
+          Case{osg::Array::BIND_PER_VERTEX, vertices - 1, vertices}})
+        for (const unsigned int count : {of.missing, of.enough}) {
+            const osg::ref_ptr<osg::Group> scene = test::makeScene();
+            for (const osgSkin::DeformableSkin* skin : test::skinsOf(*scene))
+                const_cast<osg::Geometry*>(skin->getRestGeometry())
+                    ->setColorArray(new osg::Vec4Array(count), of.binding);
+            std::string reason;
+            const osg::ref_ptr<osg::Node> loaded =
+                test::load(test::save(*scene, "osgb"), "osgb", &reason);
+            EXPECT_EQ(loaded.valid(), count == of.enough) << of.binding << ": " << reason;
+            EXPECT_EQ(reason.find("elements, expected at least") != std::string::npos,
+                      count == of.missing)
+                << reason;
+        }
+}
+
 TEST(Primitives, EndAtTheLastVertex) {
     for (const unsigned int last : {2u, 3u}) {
         const osg::ref_ptr<osg::DrawElementsUShort> elements =
