@@ -76,11 +76,9 @@ Drawn drawn(const RestSkeleton& skeleton, const std::string& extra) {
         << R"("skeleton": "rig.bvh", "motions": [ { "file": ")" << OSGSKIN_DATA
         << R"(/throw.bvh" } ])" << extra << " }";
     const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(folder + "/body.skin");
-    Drawn result;
-    if (!scene) return result;
+    if (!scene) return Drawn(*osg::ref_ptr<osg::Node>(new osg::Node));
     for (const double time : {0.0, 1.1}) test::updateAt(*scene, time); // the first starts the clock
-    scene->accept(result);
-    return result;
+    return Drawn(*scene);
 }
 
 std::string asJson(const osgSkin::JointNames& names) {
