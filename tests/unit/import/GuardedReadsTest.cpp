@@ -61,7 +61,8 @@ public:
     std::string file(const std::string& name) const { return _folder + name; }
 
 private:
-    const std::string _folder = testing::TempDir() + "guarded_reads/";
+    const std::string _folder = testing::TempDir() + "guarded_reads_" +
+                                testing::UnitTest::GetInstance()->current_test_info()->name() + "/";
     const osg::ref_ptr<Asker> _asker = new Asker;
 };
 
