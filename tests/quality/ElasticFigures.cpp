@@ -118,7 +118,7 @@ public:
         std::printf("  angle   axis             | steps    J  volume | pairs: LBS DQS plain fitted "
                     "elastic | RMS/r: LBS DQS plain fitted | outer side, 2 and 98 %%: plain, "
                     "elastic, fitted\n");
-        for (std::size_t i = 0; i < _shapes.samples.size(); ++i) line(_shapes.samples[i], i);
+        for (std::size_t i = 0; i < _joint.samples.size(); ++i) line(_shapes.samples[i], i);
         for (const bool between : {false, true}) {
             const Summary& sum = _summary[between];
             if (sum.lines == 0) continue;

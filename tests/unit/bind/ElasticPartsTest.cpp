@@ -5,6 +5,7 @@
 #include <elastic/ElasticSamples.h>
 #include <elastic/energy/BoneCores.h>
 #include <elastic/energy/Fascia.h>
+#include <elastic/energy/OuterSkin.h>
 #include <elastic/lattice/DeformedCells.h>
 #include <elastic/lattice/Unsolvable.h>
 #include <elastic/skin/WindingTree.h>
@@ -16,6 +17,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <memory>
 #include <optional>
 #include <random>
 #include <set>
@@ -175,6 +177,61 @@ TEST(Fascia, PullsEachNodeTowardsItsGoalByItsVolume) {
     EXPECT_NEAR(energy, 0.5 * 3.0 * volume * (0.01 + 0.04 + 0.0025), 1e-9);
     EXPECT_LT((gradient.rowwise().sum() + 3.0 * volume * Point(0.1, -0.2, 0.05)).norm(), 1e-9);
     EXPECT_EQ(fascia.value(goals, goals, gradient), 0.0);
+}
+
+/// What holds a tube's outer side, which is where z is negative.
+class OuterSkinTest : public ::testing::Test {
+protected:
+    OuterSkinTest() { core.outwards = -Point::UnitZ(), core.along = Point::UnitY(); }
+
+    /// Energy of the tube widened by a factor, straight or bent.
+    double widened(double factor, const HingeCore* hinge, double angle = 0.0) const {
+        const OuterSkin outer(patch, points, bones, hinge, OuterSizes());
+        Points nodes = lattice.rest();
+        nodes.row(0) *= factor;
+        nodes.row(2) *= factor;
+        Points gradient = Points::Zero(3, nodes.cols());
+        const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Point::UnitX()));
+        return outer.value(nodes, outer.posed(turn), gradient);
+    }
+
+    ElasticTube tube;
+    Points points = pointsOf(tube);
+    RestSkin rest{points, tube.triangles};
+    VoxelLattice lattice{rest, 1.0 / 3.0, 4.0};
+    SkinPatch patch{lattice, rest, std::vector<double>(tube.positions.size(), 0.5)};
+    std::vector<Bone> bones{{{0, -6, 0}, {0, 0, 0}, false}, {{0, 0, 0}, {0, 6, 0}, true}};
+    HingeCore core;
+};
+
+TEST_F(OuterSkinTest, IsFreeAtRestAndHeldWhereItSwellsOrCavesIn) {
+    EXPECT_EQ(widened(1.0, &core), 0.0);
+    EXPECT_GT(widened(1.1, &core), 0.1);
+    EXPECT_GT(widened(0.9, &core), 0.1);
+    EXPECT_EQ(widened(1.1, nullptr), 0.0);
+    EXPECT_EQ(widened(1.1, std::make_unique<HingeCore>().get()), 0.0); // nobody knows where it is
+    EXPECT_GT(widened(1.0, &core, 0.5), 0.01); // the bone turned into it, or away
+}
+
+TEST_F(OuterSkinTest, PullsAsItsEnergyGrowsAndOnTheOuterSideAlone) {
+    const OuterSkin outer(patch, points, bones, &core, OuterSizes());
+    std::mt19937 random(7);
+    Points nodes = 1.08 * lattice.rest(), way = nodes;
+    for (Eigen::Index i = 0; i < way.cols(); ++i) way.col(i) = randomPoint(random, 1.0);
+    const auto turned = outer.posed(Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Point::UnitX())));
+    Points gradient = Points::Zero(3, nodes.cols()), unused = gradient;
+    outer.value(nodes, turned, gradient);
+    const double step = 1e-5;
+    const double growth = (outer.value(nodes + step * way, turned, unused) -
+                           outer.value(nodes - step * way, turned, unused)) /
+                          (2.0 * step);
+    EXPECT_NEAR(gradient.cwiseProduct(way).sum(), growth, 1e-4 * std::abs(growth));
+    EXPECT_GT(std::abs(growth), 0.1);
+    for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
+        const Point at = lattice.rest().col(i);
+        if (at.z() < 0.7 && std::abs(at.y()) < 2.5) continue;
+        EXPECT_EQ(gradient.col(i).norm(), 0.0) << at.transpose();
+    }
 }
 
 TEST(Minimise, FindsTheMinimumOfACurvedValley) {

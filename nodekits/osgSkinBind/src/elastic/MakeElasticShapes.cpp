@@ -5,12 +5,14 @@
 #include "elastic/PlanElastic.h"
 #include "elastic/SolveElastic.h"
 #include "shapes/FastShapes.h"
+#include "shapes/LimitSteps.h"
 #include "shapes/PackShapes.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -19,14 +21,21 @@ namespace osgSkin {
 namespace {
 
 constexpr std::size_t kHingeModes = 8;
-constexpr std::size_t kBallModes = 9;
+constexpr std::size_t kBallModes = 7;
 
-/// What makes no difference, in radii of the limb.
+/// What makes no difference, in radii of the limb: of a mode to all vertices, and of all modes to a
+/// vertex.
 constexpr double kTolerance = 2e-3;
+constexpr double kVertexTolerance = 6e-3;
 
 /// What a sample counts that is not good: enough that functions do not run away there, too little
 /// to spoil the bends beside it.
 constexpr double kBadCounts = 0.1;
+
+/// What a hinge's bend counts that is turned sideways: its functions have few terms for those, and
+/// would blur the fold of straight bends for them.
+constexpr double kSidewaysCounts = 0.2;
+constexpr double kSideways = 0.02; ///< sine of half the angle from the main axis
 
 /// Of a joint with fewer good samples than this share no shapes are made.
 constexpr double kEnoughSamples = 0.5;
@@ -34,18 +43,18 @@ constexpr double kEnoughSamples = 0.5;
 /// Whose shape a sample takes: its own where that is good, or penetrates less than the plain skin.
 /// Else of the good sample that comes nearest to it and bends less; nothing where the rest pose
 /// does.
-std::optional<std::size_t> standInFor(const ElasticPlan& plan, const ElasticShapes& shapes,
-                                      std::size_t sample) {
+/// \param at the samples' coordinates
+std::optional<std::size_t> standInFor(const std::vector<glm::dvec2>& at,
+                                      const ElasticShapes& shapes, std::size_t sample) {
     const ElasticSample& own = shapes.samples[sample];
     if (own.reason.empty() || (!own.positions.empty() && own.crossings <= own.plainCrossings))
         return sample;
-    const double length = glm::length(plan.samples[sample]);
+    const double length = glm::length(at[sample]);
     std::optional<std::size_t> best;
     double nearest = length;
-    for (std::size_t i = 0; i < plan.samples.size(); ++i) {
-        const double away = glm::distance(plan.samples[i], plan.samples[sample]);
-        if (!shapes.samples[i].reason.empty() || glm::length(plan.samples[i]) >= length ||
-            away >= nearest)
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const double away = glm::distance(at[i], at[sample]);
+        if (!shapes.samples[i].reason.empty() || glm::length(at[i]) >= length || away >= nearest)
             continue;
         nearest = away;
         best = i;
@@ -72,16 +81,20 @@ public:
         JointShapes result;
         result.functions = _plan.shaped.functions;
         for (const Moved& moved : _moved) result.vertices.push_back(moved.vertex->index);
-        for (std::size_t i = 0; i < _plan.samples.size(); ++i) {
-            result.samples.push_back(_plan.samples[i]);
+        for (const ElasticSample& sample : _solved.samples)
+            result.samples.push_back(_plan.coordinatesOf(sample.rotation));
+        const bool hinge = result.functions.basis == CorrectiveJoint::Basis::Hinge;
+        for (std::size_t i = 0; i < result.samples.size(); ++i) {
             // Where it cannot be solved the joint tends to the shape of the way there: functions
             // that nothing holds would run away.
-            const std::optional<std::size_t> taken = standInFor(_plan, _solved, i);
+            const std::optional<std::size_t> taken = standInFor(result.samples, _solved, i);
             result.offsets.push_back(taken
-                                         ? offsetsAt(*taken)
+                                         ? offsetsAt(result.samples[*taken], *taken)
                                          : std::vector<glm::dvec3>(_moved.size(), glm::dvec3(0.0)));
+            const bool sideways = hinge && std::abs(result.samples[i].y) > kSideways;
             result.weights.emplace_back(_moved.size(),
-                                        _solved.samples[i].reason.empty() ? 1.0 : kBadCounts);
+                                        (_solved.samples[i].reason.empty() ? 1.0 : kBadCounts) *
+                                            (sideways ? kSidewaysCounts : 1.0));
         }
         return result;
     }
@@ -92,8 +105,8 @@ private:
         std::size_t solved; ///< index in ElasticShapes::vertices
     };
 
-    std::vector<glm::dvec3> offsetsAt(std::size_t sample) const {
-        const BendTwist bend = _plan.shaped.bendAt(_plan.samples[sample]);
+    std::vector<glm::dvec3> offsetsAt(const glm::dvec2& xy, std::size_t sample) const {
+        const BendTwist bend = _plan.shaped.bendAt(xy);
         std::vector<glm::dvec3> offsets;
         offsets.reserve(_moved.size());
         for (const Moved& moved : _moved) {
@@ -113,18 +126,19 @@ private:
 };
 
 /// Why shapes cannot be made of what was solved; empty where they can.
-std::string reasonAgainst(const ElasticShapes& solved) {
+std::string reasonAgainst(const ElasticPlan& plan, const ElasticShapes& solved) {
     if (!solved.reason.empty()) return solved.reason;
-    std::size_t good = 0;
-    for (const ElasticSample& sample : solved.samples) good += sample.reason.empty() ? 1 : 0;
-    if (static_cast<double>(good) >= kEnoughSamples * static_cast<double>(solved.samples.size()))
-        return {};
-    return "only " + std::to_string(good) + " of " + std::to_string(solved.samples.size()) +
-           " bends can be solved";
+    const std::size_t asked = plan.joint.samples.size();
+    const auto good = static_cast<std::size_t>(
+        std::count_if(solved.samples.begin(), solved.samples.begin() + std::ptrdiff_t(asked),
+                      [](const ElasticSample& sample) { return sample.reason.empty(); }));
+    if (static_cast<double>(good) >= kEnoughSamples * static_cast<double>(asked)) return {};
+    return "only " + std::to_string(good) + " of " + std::to_string(asked) + " bends can be solved";
 }
 
 /// A line on the samples that others stand in for, where there are any.
-void noteBadSamples(const ElasticShapes& solved, std::vector<std::string>& notes) {
+void noteBadSamples(const ElasticPlan& plan, const ElasticShapes& solved,
+                    std::vector<std::string>& notes) {
     std::size_t bad = 0;
     std::string reason;
     for (const ElasticSample& sample : solved.samples) {
@@ -134,8 +148,8 @@ void noteBadSamples(const ElasticShapes& solved, std::vector<std::string>& notes
     }
     if (bad == 0) return;
     notes.push_back("elastic shapes of \"" + solved.joint + "\": " + std::to_string(bad) + " of " +
-                    std::to_string(solved.samples.size()) + " bends are guessed from others, as " +
-                    reason);
+                    std::to_string(plan.joint.samples.size()) +
+                    " bends are guessed from others, as " + reason);
 }
 
 } // namespace
@@ -156,14 +170,16 @@ Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<Pl
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const ShapedJoint& shaped = plans[i].shaped;
         const std::uint32_t joint = shaped.functions.joint;
-        if (std::string reason = reasonAgainst(solved[i]); !reason.empty()) {
+        if (std::string reason = reasonAgainst(plans[i], solved[i]); !reason.empty()) {
             unsolved[joint] = std::move(reason);
             continue;
         }
-        noteBadSamples(solved[i], notes);
+        noteBadSamples(plans[i], solved[i], notes);
         fitted[joint] =
             fitShapes(ElasticOffsets(plans[i], solved[i]).shapes(),
                       plans[i].joint.hinge ? kHingeModes : kBallModes, kTolerance * shaped.radius);
+        fitted[joint].tolerance = kVertexTolerance * shaped.radius;
+        limitSteps(shaped, fitted[joint]);
         if (layers) followBelow(*layers, mesh.vertexCount(), fitted[joint]);
     }
     for (const ShapedJoint& shaped : findShapedJoints(skeleton, joints, mesh, binding)) {

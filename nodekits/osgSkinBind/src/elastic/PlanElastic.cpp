@@ -20,6 +20,10 @@ constexpr double kMostFlexion = 139.0;
 /// Of a ball joint, degrees from the rest pose: beyond it limbs meet what is not their fold's.
 constexpr double kMostSwing = 90.0;
 
+/// Of a hinge's functions, degrees: farther apart, they blur where flesh meets flesh; nearer than
+/// the samples, nothing would hold them.
+constexpr double kKnotStep = 20.0;
+
 std::vector<ElasticBone> bonesOf(const RestSkeleton& skeleton, int joint) {
     std::vector<ElasticBone> bones;
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
@@ -53,10 +57,20 @@ std::vector<glm::dquat> samplesOf(const ShapedJoint& shaped) {
 
 } // namespace
 
+glm::dvec2 ElasticPlan::coordinatesOf(const glm::dquat& rotation) const {
+    const glm::dvec3 sine(rotation.x, rotation.y, rotation.z);
+    return {glm::dot(sine, shaped.functions.axis),
+            glm::dot(sine, glm::cross(shaped.twistAxis, shaped.functions.axis))};
+}
+
 std::vector<ElasticPlan> planElastic(const RestSkeleton& skeleton,
                                      const std::vector<PlannedJoint>& joints,
                                      const WeldedMesh& mesh, const Binding& binding) {
-    const ShapeScope scope{ElasticJoint::kHingeReach, ElasticJoint::kBallReach, true, kMostFlexion,
+    const ShapeScope scope{ElasticJoint::kHingeReach,
+                           ElasticJoint::kBallReach,
+                           true,
+                           kMostFlexion,
+                           kKnotStep,
                            kMostSwing};
     const JointRatios ratios(mesh, binding);
     std::vector<ElasticPlan> plans;
@@ -72,11 +86,6 @@ std::vector<ElasticPlan> planElastic(const RestSkeleton& skeleton,
         for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
             plan.joint.ratios.push_back(ratios.bend(v, functions.joint));
         plan.joint.samples = samplesOf(shaped);
-        const glm::dvec3 across = glm::cross(shaped.twistAxis, functions.axis);
-        for (const glm::dquat& q : plan.joint.samples) {
-            const glm::dvec3 sine(q.x, q.y, q.z);
-            plan.samples.emplace_back(glm::dot(sine, functions.axis), glm::dot(sine, across));
-        }
         plan.shaped = std::move(shaped);
     }
     return plans;

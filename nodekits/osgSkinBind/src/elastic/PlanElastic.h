@@ -13,7 +13,9 @@ namespace osgSkin {
 struct ElasticPlan {
     ShapedJoint shaped;
     ElasticJoint joint;
-    std::vector<glm::dvec2> samples; ///< joint.samples as coordinates of shaped.functions
+
+    /// A rotation of the joint without twist as coordinates of its functions.
+    glm::dvec2 coordinatesOf(const glm::dquat& rotation) const;
 };
 
 /// The joints whose limbs have the shape for it: between two limbs, where it is known which way

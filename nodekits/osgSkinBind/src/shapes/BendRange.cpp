@@ -16,8 +16,8 @@ namespace {
 /// Angles in degrees. How far a hinge goes beyond straight and to the sides.
 constexpr double kBeyondStraight = 12.0;
 constexpr double kSideways = 30.0;
-/// Between knots and between samples.
-constexpr double kKnotStep = 30.0;
+/// Between the angles that a hinge is bent sideways at, too; between knots; between samples.
+constexpr double kSidewaysStep = 30.0;
 constexpr double kRoundKnotStep = 20.0;
 constexpr double kSampleStep = 15.0;
 constexpr double kRoundSampleStep = 10.0;
@@ -39,7 +39,7 @@ std::vector<double> steps(double from, double to, double step) {
     return result;
 }
 
-void setHinge(const glm::dvec3& axis, double mostFlexion, ShapedJoint& joint) {
+void setHinge(const glm::dvec3& axis, double mostFlexion, double knotStep, ShapedJoint& joint) {
     const double atRest = glm::degrees(std::atan2(
         glm::dot(glm::cross(joint.above, joint.bone), axis), glm::dot(joint.above, joint.bone)));
     const double most = std::clamp(mostFlexion - atRest, 30.0, 170.0);
@@ -49,7 +49,7 @@ void setHinge(const glm::dvec3& axis, double mostFlexion, ShapedJoint& joint) {
     functions.axis = axis;
     functions.low = {sineOfHalf(least), -sineOfHalf(kSideways)};
     functions.high = {sineOfHalf(most), sineOfHalf(kSideways)};
-    for (const double angle : steps(least, most, kKnotStep))
+    for (const double angle : steps(least, most, knotStep))
         functions.knots.push_back(sineOfHalf(angle));
 }
 
@@ -73,9 +73,9 @@ void setRound(double mostFlexion, const glm::dvec3& across, ShapedJoint& joint) 
 } // namespace
 
 void setBendRange(const std::optional<glm::dvec3>& mainAxis, const glm::dvec3& across,
-                  ShapedJoint& joint, double mostFlexion) {
+                  ShapedJoint& joint, double mostFlexion, double knotStep) {
     if (mainAxis)
-        setHinge(*mainAxis, mostFlexion, joint);
+        setHinge(*mainAxis, mostFlexion, knotStep, joint);
     else
         setRound(mostFlexion, across, joint);
 }
@@ -95,7 +95,7 @@ std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint) {
         const double least = degreesOf(functions.low.x), most = degreesOf(functions.high.x);
         for (const double angle : steps(least, most, kSampleStep))
             if (std::abs(angle) > 1.0) samples.emplace_back(sineOfHalf(angle), 0.0);
-        for (const double angle : steps(least, most, kKnotStep))
+        for (const double angle : steps(least, most, kSidewaysStep))
             for (const double side : {functions.low.y, functions.high.y}) {
                 const glm::dvec2 xy(sineOfHalf(angle), 0.75 * side);
                 samples.push_back(xy * std::min(1.0, 0.99 / glm::length(xy)));

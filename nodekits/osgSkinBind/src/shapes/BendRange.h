@@ -16,8 +16,10 @@ namespace osgSkin {
 ///        twist axis
 /// \param joint above, bone and twistAxis are set
 /// \param mostFlexion degrees from the straight limb
+/// \param knotStep degrees between knots, at most, where there is a main axis
 void setBendRange(const std::optional<glm::dvec3>& mainAxis, const glm::dvec3& across,
-                  ShapedJoint& joint, double mostFlexion = ShapeScope().mostFlexion);
+                  ShapedJoint& joint, double mostFlexion = ShapeScope().mostFlexion,
+                  double knotStep = ShapeScope().knotStep);
 
 /// The same of a joint at the trunk, which may bend in all directions.
 /// \param across as for setBendRange()

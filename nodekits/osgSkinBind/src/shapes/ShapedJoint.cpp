@@ -110,15 +110,6 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
 
 } // namespace
 
-BendTwist ShapedJoint::bendAt(glm::dvec2 xy) const {
-    const double sine = glm::length(xy);
-    const glm::dvec3 other = glm::cross(twistAxis, functions.axis);
-    BendTwist bend;
-    bend.bendAxis = sine > 0.0 ? (xy.x * functions.axis + xy.y * other) / sine : functions.axis;
-    bend.bendAngle = 2.0 * std::asin(std::min(sine, 1.0));
-    return bend;
-}
-
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
                                           const WeldedMesh& mesh, const Binding& binding,
@@ -149,7 +140,7 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
             setBallRange(acrossOf(joints, j), shaped, scope.mostSwing);
         else
             setBendRange(findMainAxis(skeleton, joints, j), acrossOf(joints, j), shaped,
-                         scope.mostFlexion);
+                         scope.mostFlexion, scope.knotStep);
         addSkin(mesh, joints, ratios, above, scope, insideOut, shaped);
         if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
     }

@@ -8,7 +8,11 @@
 #include <osgSkin/BendTwist>
 #include <osgSkin/Binding>
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace osgSkin {
@@ -46,7 +50,14 @@ struct ShapedJoint {
     bool isAtTrunk() const { return functions.basis == CorrectiveJoint::Basis::Ball; }
 
     /// The bend at coordinates (x, y) of CorrectiveJoint.
-    BendTwist bendAt(glm::dvec2 xy) const;
+    BendTwist bendAt(const glm::dvec2& xy) const {
+        const double sine = glm::length(xy);
+        const glm::dvec3 other = glm::cross(twistAxis, functions.axis);
+        BendTwist bend;
+        bend.bendAxis = sine > 0.0 ? (xy.x * functions.axis + xy.y * other) / sine : functions.axis;
+        bend.bendAngle = 2.0 * std::asin(std::min(sine, 1.0));
+        return bend;
+    }
 
     /// What a bend does to a vertex at its own ratios, from the joint's centre to there.
     glm::dquat turnOf(const Vertex& vertex, const BendTwist& bend) const {
@@ -60,6 +71,7 @@ struct ShapeScope {
     double reachAtTrunk = 6.0;
     bool trunkToo = false;      ///< at the trunk its own skin is shaped like the limb's
     double mostFlexion = 155.0; ///< degrees from the straight limb
+    double knotStep = 30.0;     ///< degrees between a hinge's knots, at most
     double mostSwing = 130.0;   ///< of ball joints, degrees from the rest pose
 };
 

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "elastic/energy/BoneCores.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace osgSkin::elastic {
-namespace {
-
-double distanceTo(const Bone& bone, const Point& p) {
-    const Point along = bone.to - bone.from;
-    const double square = along.squaredNorm();
-    const double t = square > 0.0 ? std::clamp((p - bone.from).dot(along) / square, 0.0, 1.0) : 0.0;
-    return (bone.from + t * along - p).norm();
-}
-
-} // namespace
 
 BoneCores::BoneCores(const VoxelLattice& lattice, const RestSkin& skin,
                      const std::vector<Bone>& bones, const HingeCore* hinge, const CoreSizes& sizes)
@@ -32,7 +21,7 @@ BoneCores::BoneCores(const VoxelLattice& lattice, const RestSkin& skin,
             double nearest = std::numeric_limits<double>::infinity();
             bool moves = false;
             for (const Bone& bone : bones) {
-                const double away = distanceTo(bone, at);
+                const double away = (nearestOn(bone, at) - at).norm();
                 if (away >= nearest) continue;
                 nearest = away;
                 moves = bone.moves;

@@ -28,8 +28,8 @@ Point outwardsOf(const std::vector<Bone>& bones, const std::vector<Eigen::Quater
 
 HingeCore hingeCore(const Points& skin, const std::vector<Bone>& bones,
                     const std::vector<Eigen::Quaterniond>& rotations, const HingeSizes& sizes) {
-    HingeCore core{Point::Zero(), sizes.radius, Point::Zero(), sizes.halfWidth};
-    const Point outwards = outwardsOf(bones, rotations, core.along);
+    HingeCore core{Point::Zero(), sizes.radius, Point::Zero(), sizes.halfWidth, Point::Zero()};
+    const Point outwards = core.outwards = outwardsOf(bones, rotations, core.along);
     double nearest = std::numeric_limits<double>::infinity();
     for (Eigen::Index v = 0; v < skin.cols(); ++v) {
         const double height = outwards.dot(skin.col(v));

@@ -16,8 +16,9 @@ namespace osgSkin::elastic {
 struct HingeCore {
     Point centre = Point::Zero();
     double radius = 0.0;
-    Point along = Point::Zero(); ///< the limb, unit; zero where that is not known
-    double halfWidth = 0.0;      ///< of what turns with neither bone alone, along the limb
+    Point along = Point::Zero();    ///< the limb, unit; zero where that is not known
+    double halfWidth = 0.0;         ///< of what turns with neither bone alone, along the limb
+    Point outwards = Point::Zero(); ///< to the fold's outer side, unit; zero where not known
 
     bool contains(const Point& point) const { return (point - centre).norm() < radius; }
 

@@ -38,9 +38,10 @@ struct ElasticShapes {
     std::vector<std::uint32_t> vertices; ///< of the skin, within reach; rising
     std::vector<glm::dvec3> rest;        ///< their rest positions
     double reach = 0.0;                  ///< from the joint's centre; the rim there is pinned
-    std::vector<ElasticSample> samples;  ///< in the order asked for
-    std::size_t cells = 0, nodes = 0;    ///< of the lattice
-    double seconds = 0.0;                ///< of one processor
+    /// In the order asked for; behind them what was solved in place of bad ones, on the way there.
+    std::vector<ElasticSample> samples;
+    std::size_t cells = 0, nodes = 0; ///< of the lattice
+    double seconds = 0.0;             ///< of one processor
 };
 
 } // namespace osgSkin

@@ -22,6 +22,7 @@ JointSolid::JointSolid(Points skin, RestSkin::Triangles triangles,
       _lattice(_skin, options.edge, options.reach), _patch(_lattice, _skin, ratios),
       _ratios(ratioField(_lattice, _patch)), _body(_lattice, options.flesh),
       _cores(_lattice, _skin, bones, hinge, options.cores), _fascia(_lattice, options.fascia),
+      _outer(_patch, _skin.positions(), bones, hinge, options.outer),
       _preconditioner(_lattice, _cores) {}
 
 JointSolid::State JointSolid::rest() const {
@@ -61,6 +62,7 @@ JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& 
             return state;
         }
         const Points goals = _cores.goals(next);
+        const std::vector<Bone> bones = _outer.posed(next);
         const Points plain = turned(_lattice.rest(), _ratios, next);
         contact.restart();
         Energy energy;
@@ -69,7 +71,7 @@ JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& 
             double value = _body.value(at, gradient);
             if (!std::isfinite(value)) return value;
             value += _cores.value(at, goals, gradient) + _fascia.value(at, plain, gradient) +
-                     contact.value(at, gradient);
+                     _outer.value(at, bones, gradient) + contact.value(at, gradient);
             gradient.rightCols(at.cols() - _lattice.freeNodes()).setZero();
             return value;
         };

@@ -6,6 +6,7 @@
 #include "elastic/energy/ElasticBody.h"
 #include "elastic/energy/Fascia.h"
 #include "elastic/energy/FoldContact.h"
+#include "elastic/energy/OuterSkin.h"
 #include "elastic/lattice/RatioField.h"
 #include "elastic/lattice/SkinPatch.h"
 #include "elastic/solve/Minimise.h"
@@ -26,6 +27,7 @@ struct SolidOptions {
     CoreSizes cores;
     HingeSizes hinge;
     ContactSizes contact;
+    OuterSizes outer;
     MinimiseLimits limits;
 };
 
@@ -72,6 +74,7 @@ private:
     ElasticBody _body;
     BoneCores _cores;
     Fascia _fascia;
+    OuterSkin _outer;
     Preconditioner _preconditioner;
 };
 

@@ -21,6 +21,10 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kFewCrossings = 8;
 constexpr double kCrossingsShare = 0.25;
 
+/// Bends that are tried between a bad one and the good one before it, each halfway to where the
+/// last one did not do.
+constexpr int kHalvings = 2;
+
 double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -51,7 +55,11 @@ ElasticShapes JointSolving::run() {
         return shapes;
     }
     shapes.seconds = since(start);
-    follow(SampleTree::kRest, _solid->rest(), shapes.samples);
+    std::vector<Solved> solved(_rotations.size());
+    follow(SampleTree::kRest, _solid->rest(), solved);
+    for (Solved& each : solved) shapes.samples.push_back(std::move(each.sample));
+    for (Solved& each : solved)
+        for (ElasticSample& sample : each.before) shapes.samples.push_back(std::move(sample));
     for (const ElasticSample& sample : shapes.samples) shapes.seconds += sample.seconds;
     return shapes;
 }
@@ -91,26 +99,56 @@ void JointSolving::prepare(ElasticShapes& shapes) {
     shapes.reach = options.reach * _joint.radius;
     shapes.cells = _solid->lattice().cells().size();
     shapes.nodes = static_cast<std::size_t>(_solid->lattice().rest().cols());
-    shapes.samples.resize(_rotations.size());
 }
 
 void JointSolving::follow(std::size_t from, const JointSolid::State& state,
-                          std::vector<ElasticSample>& samples) const {
+                          std::vector<Solved>& samples) const {
+    const bool good = from == SampleTree::kRest || samples[from].sample.reason.empty();
     const std::vector<std::size_t>& next = _tree.startingFrom(from);
     eachAtOnce(next.size(), [&](std::size_t i) {
-        const auto start = Clock::now();
-        const JointSolid::State there =
-            _solid->bend(state, _rotations[next[i]], [this] { _progress.check(); });
-        samples[next[i]] = sampleOf(there, next[i]);
-        samples[next[i]].seconds = since(start);
+        Solved& solved = samples[next[i]];
+        const Eigen::Quaterniond& rotation = _rotations[next[i]];
+        const JointSolid::State there = bend(state, rotation, solved.sample);
+        if (good && !solved.sample.reason.empty()) solved.before = approach(state, rotation);
         _progress.done(_joint.name);
         follow(next[i], there, samples);
     });
 }
 
-ElasticSample JointSolving::sampleOf(const JointSolid::State& state, std::size_t index) const {
+/// How far towards a bad bend the solid can be bent: what functions are fitted to there is its own
+/// shape then. Arms that rest raised and hang at the sides come to lie on that way.
+std::vector<ElasticSample> JointSolving::approach(JointSolid::State from,
+                                                  const Eigen::Quaterniond& bad) const {
+    std::vector<ElasticSample> samples;
+    Eigen::Quaterniond end = bad;
+    for (int i = 0; i < kHalvings; ++i) {
+        const Eigen::Quaterniond halfway = from.turn.slerp(0.5, end);
+        ElasticSample sample;
+        JointSolid::State there = bend(from, halfway, sample);
+        if (sample.reason.empty()) {
+            samples.push_back(std::move(sample));
+            from = std::move(there);
+        } else {
+            end = halfway;
+        }
+    }
+    return samples;
+}
+
+/// Bends on to a rotation, and looks at what that gives.
+JointSolid::State JointSolving::bend(const JointSolid::State& from, const Eigen::Quaterniond& to,
+                                     ElasticSample& sample) const {
+    const auto start = Clock::now();
+    JointSolid::State there = _solid->bend(from, to, [this] { _progress.check(); });
+    sample = sampleOf(there, to);
+    sample.seconds = since(start);
+    return there;
+}
+
+ElasticSample JointSolving::sampleOf(const JointSolid::State& state,
+                                     const Eigen::Quaterniond& rotation) const {
     ElasticSample sample;
-    sample.rotation = _joint.samples[index];
+    sample.rotation = {rotation.w(), rotation.x(), rotation.y(), rotation.z()};
     sample.converged = state.converged && !state.tangled;
     sample.steps = state.steps;
     if (state.tangled) {
@@ -129,7 +167,7 @@ ElasticSample JointSolving::sampleOf(const JointSolid::State& state, std::size_t
     const Eigen::Map<const Eigen::VectorXd> ratios(
         patch.ratios().data(), static_cast<Eigen::Index>(patch.ratios().size()));
     sample.crossings = crossingsBeyondRest(posed);
-    sample.plainCrossings = crossingsBeyondRest(turned(rest, ratios, _rotations[index]));
+    sample.plainCrossings = crossingsBeyondRest(turned(rest, ratios, rotation));
     const double share = kCrossingsShare * static_cast<double>(sample.plainCrossings);
     if (sample.crossings > kFewCrossings && static_cast<double>(sample.crossings) > share)
         sample.reason = std::to_string(sample.crossings) + " pairs of triangles cut each other";

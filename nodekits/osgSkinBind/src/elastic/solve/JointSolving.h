@@ -26,9 +26,19 @@ private:
     Point toJoint(const glm::dvec3& point) const;
     glm::dvec3 fromJoint(const Point& point) const;
     void prepare(ElasticShapes& shapes);
+    /// A sample, and what was solved in its place where it is bad.
+    struct Solved {
+        ElasticSample sample;
+        std::vector<ElasticSample> before;
+    };
     void follow(std::size_t from, const JointSolid::State& state,
-                std::vector<ElasticSample>& samples) const;
-    ElasticSample sampleOf(const JointSolid::State& state, std::size_t index) const;
+                std::vector<Solved>& samples) const;
+    std::vector<ElasticSample> approach(JointSolid::State from,
+                                        const Eigen::Quaterniond& bad) const;
+    JointSolid::State bend(const JointSolid::State& from, const Eigen::Quaterniond& to,
+                           ElasticSample& sample) const;
+    ElasticSample sampleOf(const JointSolid::State& state,
+                           const Eigen::Quaterniond& rotation) const;
     std::size_t crossingsBeyondRest(const Points& posed) const;
 
     const ElasticSkin& _skin;

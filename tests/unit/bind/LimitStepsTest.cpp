@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shapes that move no vertex much faster than the joint turns.
+#include "shapes/LimitSteps.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace osgSkin;
+
+namespace {
+
+/// A hinge about x of a limb along y, and skin that follows it wholly, so far off the axis.
+ShapedJoint jointWith(const std::vector<double>& radii) {
+    ShapedJoint joint;
+    joint.functions.joint = 1;
+    joint.functions.basis = CorrectiveJoint::Basis::Ball;
+    joint.functions.axis = {1, 0, 0};
+    joint.functions.low = {-0.7, -0.7};
+    joint.functions.high = {0.7, 0.7};
+    joint.twistAxis = joint.bone = {0, 1, 0};
+    joint.radius = 1.0;
+    for (std::uint32_t v = 0; v < radii.size(); ++v)
+        joint.vertices.push_back({v, {0.0, 0.0, radii[v]}, 1.0, 1.0, 1.0, 1.0});
+    return joint;
+}
+
+/// All vertices are lifted off the axis as the joint bends, by so much at a right angle.
+FittedShapes lifted(const ShapedJoint& joint, double most) {
+    FittedShapes shapes;
+    shapes.functions = joint.functions;
+    shapes.functions.modes = 1;
+    shapes.functions.coefficients.assign(shapes.functions.functionCount(), 0.0);
+    shapes.functions.coefficients[0] = most / 0.7; // of x
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) {
+        shapes.vertices.push_back(vertex.index);
+        shapes.vectors.emplace_back(0.0, 0.0, 1.0);
+    }
+    return shapes;
+}
+
+/// The largest step by a degree about the joint's main axis, over a rigid body's.
+double fastest(const ShapedJoint& joint, const FittedShapes& shapes, std::size_t vertex) {
+    const ShapedJoint::Vertex& of = joint.vertices[vertex];
+    const auto at = [&](double degrees) {
+        const glm::dvec2 xy(std::sin(glm::radians(0.5 * degrees)), 0.0);
+        double weight = 0.0;
+        shapes.functions.weights(xy, &weight);
+        return joint.turnOf(of, joint.bendAt(xy)) * (of.from + weight * shapes.vectors[vertex]);
+    };
+    double most = 0.0;
+    for (double degrees = -179.0; degrees < 179.0; degrees += 1.0)
+        most = std::max(most, glm::distance(at(degrees), at(degrees + 1.0)));
+    return most / (2.0 * std::sin(glm::radians(0.5)) * of.from.z);
+}
+
+} // namespace
+
+TEST(LimitSteps, HoldBackWhatIsNearTheAxis) {
+    const ShapedJoint joint = jointWith({0.2, 0.6, 3.0});
+    FittedShapes shapes = lifted(joint, 0.25);
+    ASSERT_GT(fastest(joint, shapes, 0), 2.0); // else there was nothing to limit
+    limitSteps(joint, shapes);
+    EXPECT_LT(fastest(joint, shapes, 0), 1.53);
+    EXPECT_GT(fastest(joint, shapes, 0), 1.4); // no more than it takes
+    EXPECT_LT(fastest(joint, shapes, 1), 1.53);
+}
+
+TEST(LimitSteps, TakeNeighboursAlongAndLeaveOthersAlone) {
+    const ShapedJoint joint = jointWith({0.2, 0.6, 3.0});
+    FittedShapes shapes = lifted(joint, 0.25);
+    limitSteps(joint, shapes);
+    EXPECT_GT(shapes.vectors[0].z, 0.0);
+    EXPECT_NEAR(shapes.vectors[1].z, shapes.vectors[0].z + 0.4 / 0.7, 1e-9);
+    EXPECT_EQ(shapes.vectors[2], glm::dvec3(0, 0, 1));
+}
+
+TEST(LimitSteps, LeaveSlowShapesAsTheyAre) {
+    const ShapedJoint joint = jointWith({1.0, 2.0});
+    FittedShapes shapes = lifted(joint, 0.1);
+    limitSteps(joint, shapes);
+    for (const glm::dvec3& vector : shapes.vectors) EXPECT_EQ(vector, glm::dvec3(0, 0, 1));
+    FittedShapes none;
+    limitSteps(joint, none);
+    EXPECT_TRUE(none.vectors.empty());
+}
