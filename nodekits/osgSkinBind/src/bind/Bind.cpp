@@ -10,6 +10,7 @@
 #include "layers/SkinLayers.h"
 #include "limbs/LimbRadius.h"
 #include "mesh/NearestPoints.h"
+#include "mesh/RequireSurface.h"
 #include "mesh/WeldedMesh.h"
 #include "paper/PaperBoundaries.h"
 #include "paper/PaperFields.h"
@@ -25,8 +26,6 @@
 
 namespace osgSkin {
 namespace {
-
-constexpr std::size_t kFew = 1000, kMostTriangles = 12; ///< for each vertex
 
 /// Fractions of the time that have passed when the steps begin, measured at 280,000 vertices.
 constexpr double kRegionsBegin = 0.2;
@@ -137,11 +136,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     BindReport found;
     tell("welding", 0.0);
     const WeldedMesh skin(mesh);
-    // A skin has two; equations of what is no surface take minutes.
-    if (skin.vertexCount() > kFew && skin.triangles.size() > kMostTriangles * skin.vertexCount())
-        throw Error("mesh: " + std::to_string(skin.triangles.size()) + " triangles of " +
-                    std::to_string(skin.vertexCount()) + " vertices, expected at most " +
-                    std::to_string(kMostTriangles) + " for each vertex, as a skin has");
+    requireSurface(skin);
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
     Regions regions = findRegions(
         skin, joints, subProgress(ratiosProgress, kRegionsBegin, kBendsBegin)); // section 1

@@ -9,6 +9,7 @@
 #include "fit/place/PlaceTrunk.h"
 #include "fit/place/PushInside.h"
 #include "fit/place/Symmetrise.h"
+#include "mesh/RequireSurface.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
@@ -245,7 +246,9 @@ RestSkeleton fitSkeleton(const SkinMesh& mesh, const FitOptions& given, FitRepor
     FitOptions options = given;
     options.landmarks = renamed(given.landmarks);
     check(options, mesh);
-    Fitted found = fitBest(WeldedMesh(mesh), options);
+    const WeldedMesh skin(mesh);
+    requireSurface(skin);
+    Fitted found = fitBest(skin, options);
     found.report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (report) *report = found.report;
