@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
 
 namespace osgSkin {
@@ -17,6 +19,9 @@ constexpr float kFine = 0.006f;
 constexpr float kUsualBend = 0.5f, kUsualTwist = 0.25f;
 /// How many of many vertices are looked at to choose a cut.
 constexpr std::size_t kMostTried = 64;
+/// How many joints' ratios are looked at to choose a cut, of those that let vertices stray most. A
+/// body has fewer.
+constexpr std::size_t kMostJoints = 100;
 /// What differs by less than this share is worth the same.
 constexpr float kSame = 1e-4f;
 /// Where pieces are cut: not in the middle, which is where a symmetrical body has vertices.
@@ -163,15 +168,24 @@ private:
         std::size_t index, column;
     };
 
+    /// What a joint must let vertices stray for its ratios to be worth a cut.
+    float leastStray(std::vector<float> strays) const {
+        if (strays.size() <= kMostJoints) return 0.1f * _fine;
+        const auto last = strays.begin() + static_cast<std::ptrdiff_t>(kMostJoints);
+        std::nth_element(strays.begin(), last, strays.end(), std::greater<>());
+        return std::max(0.1f * _fine, *last);
+    }
+
     /// The way to cut the vertices in two that leaves the least excess.
     std::array<Rows, 2> halve(const Rows& rows) const {
         const Sample some = sampleOf(rows);
         const std::vector<float> strays = straysOf(some);
         std::vector<Axis> axes = {{0, 0}, {1, 0}, {2, 0}};
+        const float least = leastStray(strays);
         for (std::size_t kind = 3; kind <= 4; ++kind)
             for (std::size_t i = 0; i < strays.size(); ++i)
-                if (strays[i] > 0.1f * _fine) axes.push_back({kind, i});
-        float least = std::numeric_limits<float>::max();
+                if (strays[i] > least) axes.push_back({kind, i});
+        float leastExcess = std::numeric_limits<float>::max();
         Axis bestAxis = axes.front();
         float bestPlace = placeOf(some, bestAxis);
         for (const Axis& axis : axes) {
@@ -181,8 +195,8 @@ private:
                 halves[coordinate(some, row, axis) <= place ? 0 : 1].push_back(row);
             if (halves[0].empty() || halves[1].empty()) continue;
             const float a = excessOf(some, halves[0]), b = excessOf(some, halves[1]);
-            if (a * a + b * b >= (1.0f - kSame) * least) continue;
-            least = a * a + b * b;
+            if (a * a + b * b >= (1.0f - kSame) * leastExcess) continue;
+            leastExcess = a * a + b * b;
             bestAxis = axis;
             bestPlace = place;
         }
