@@ -192,6 +192,36 @@ TEST(GuardedCharacter, AFileIsNamedSoOftenAtMost) {
                "props[100]");
 }
 
+/// A short file took gigabytes where it was named often.
+TEST(GuardedCharacter, MotionsAreLimitedTogether) {
+    const std::string folder = test::makeTestFolder();
+    std::ofstream file(folder + "/long.bvh");
+    file << "HIERARCHY\nROOT root\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
+    for (int j = 1; j < 100; ++j) file << "JOINT j" << j << "\n{\nOFFSET 0 1 0\n}\n";
+    file << "}\nMOTION\nFrames: 3000\nFrame Time: 1\n";
+    for (int f = 0; f < 3000; ++f) file << "0\n";
+    file.close();
+    const auto named = [&](int motions, int props) {
+        std::string text =
+            parts(kCharacter + "body.obj", kCharacter + "rig.bvh") + ", \"joints\": {}";
+        for (int i = 0; i < motions; ++i)
+            text += (i == 0 ? ", \"motions\": [" : ", ") +
+                    std::string("{\"file\": \"long.bvh\", \"skipFrames\": 2990, ") +
+                    "\"joints\": {\"arm\": \"root\"}, \"name\": \"m" + std::to_string(i) + "\"}";
+        text += "]";
+        for (int i = 0; i < props; ++i)
+            text += (i == 0 ? ", \"props\": [" : ", ") + std::string("{\"mesh\": \"") + kCharacter +
+                    "body.obj\", \"motion\": \"m0\", \"file\": \"./long.bvh\"}";
+        return refusal(skin(folder, "often", text + (props > 0 ? "]" : "")));
+    };
+    EXPECT_EQ(named(1, 0), "read");
+    const std::string beside =
+        "3000 frames for 100 joints beside 300000 rotations of other motions";
+    expectSays(named(2, 0), "long.bvh: " + beside + ", expected at most 50");
+    expectSays(named(2, 0), " rotations (option maxSamples)");
+    expectSays(named(1, 1), "long.bvh: " + beside);
+}
+
 TEST(GuardedCharacter, JointsTimesVerticesAreLimited) {
     const std::string folder = test::makeTestFolder();
     const std::string file =

@@ -4,27 +4,20 @@
 #include "report/NamingFile.h"
 #include "report/TakeNote.h"
 
-#include <osgSkin/Error>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/Retarget>
 
-#include <filesystem>
+#include <algorithm>
 
 namespace osgSkin {
 namespace {
 
 /// A clip has a rotation of every joint of the rig in every frame, whatever the motion has.
-void checkSize(const std::string& file, std::size_t frames, const CharacterSource& source) {
-    std::error_code failure;
-    const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(file, failure));
-    const std::size_t joints = source.rest.joints.size();
-    const std::size_t most = source.limits.samplesOf(failure ? 0 : bytes);
-    if (frames > most / joints)
-        throw Error(std::to_string(frames) + " frames for " + std::to_string(joints) +
-                    " joints, expected at most " + std::to_string(most) +
-                    " rotations (option maxSamples)");
+void checkSize(CharacterSource& source, const SkinFile::MotionEntry& entry, const Motion& motion) {
+    const std::size_t joints = std::max(source.rest.joints.size(), motion.skeleton.joints.size());
+    source.samples.add(entry.file, motion.frames + entry.skipFrames, joints, source.limits);
 }
 
 } // namespace
@@ -38,7 +31,7 @@ std::vector<CharacterMotion> retargetMotions(CharacterSource& source, const Bind
         CharacterMotion& made = motions.emplace_back();
         namingFile(entry.file, [&] {
             Motion motion = importMotion(entry.file, entry.skipFrames, entry.clip, readOptions);
-            checkSize(entry.file, motion.frames, source);
+            checkSize(source, entry, motion);
             motion.name = entry.name;
             RetargetOptions options;
             options.joints = entry.joints;

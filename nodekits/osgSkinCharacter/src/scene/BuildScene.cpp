@@ -65,7 +65,7 @@ void play(Character& character) {
 
 } // namespace
 
-void buildScene(const CharacterSource& source, const LoadOptions& options, Character& character) {
+void buildScene(CharacterSource& source, const LoadOptions& options, Character& character) {
     if (options.showRegions) showRegions(character.body.parts, character.binding);
     attach(source, character);
     const JointRoles roles = recogniseJoints(character.rest, source.bind.names);

@@ -15,6 +15,6 @@ namespace osgSkin {
 /// \param options of the caller
 /// \param character with its body, rest skeleton, binding and retargeted motions; gets the scene
 /// \throw Error where parts do not fit, or a prop cannot be read
-void buildScene(const CharacterSource& source, const LoadOptions& options, Character& character);
+void buildScene(CharacterSource& source, const LoadOptions& options, Character& character);
 
 } // namespace osgSkin

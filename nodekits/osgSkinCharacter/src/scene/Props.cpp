@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/Props.h"
 
+#include "report/NamingFile.h"
+
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinRig/Motion>
 #include <osgSkinRig/Prop>
 
 namespace osgSkin {
 
-void addProps(const CharacterSource& source, const CharacterMotion& motion, osg::Group& parent,
+void addProps(CharacterSource& source, const CharacterMotion& motion, osg::Group& parent,
               const osgDB::Options* options) {
     for (std::size_t i = 0; i < source.props.size(); ++i) {
         const SkinFile::Prop& prop = source.props[i];
@@ -19,6 +21,10 @@ void addProps(const CharacterSource& source, const CharacterMotion& motion, osg:
         const std::string name = "prop:" + prop.motion + ":" + std::to_string(i);
         const ImportedMesh mesh = importMesh(prop.mesh, options);
         const Motion path = importMotion(prop.file, skip, {}, options);
+        namingFile(prop.file, [&] {
+            source.samples.add(prop.file, path.frames + skip, path.skeleton.joints.size(),
+                               source.limits);
+        });
         parent.addChild(makeProp(name, mesh.parts, path, motion.report, *motion.animation));
     }
 }

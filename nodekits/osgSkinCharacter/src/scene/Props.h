@@ -13,12 +13,12 @@ namespace osgSkin {
 /// Adds the props of a motion, moved by further channels of its animation, so that a prop keeps
 /// time with the figure. Their paths are scaled and placed as the root's was.
 ///
-/// \param source that names the props
+/// \param source that names the props; counts their samples
 /// \param motion that they belong to; retargeted
 /// \param parent gets a child for each prop; in skeleton space
 /// \param options for the props' meshes; may be null
 /// \throw Error with the file and the place in it
-void addProps(const CharacterSource& source, const CharacterMotion& motion, osg::Group& parent,
+void addProps(CharacterSource& source, const CharacterMotion& motion, osg::Group& parent,
               const osgDB::Options* options);
 
 } // namespace osgSkin

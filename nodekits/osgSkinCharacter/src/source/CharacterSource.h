@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "file/MotionSamples.h"
 #include "file/SkinFile.h"
 #include "report/LoadStages.h"
 
@@ -50,7 +51,8 @@ struct CharacterSource {
     bool clearHands = false;                    ///< of the body, in `motions`
     std::vector<SkinFile::Prop> props;
 
-    ReadLimits limits; ///< for all files
+    ReadLimits limits;     ///< for all files
+    MotionSamples samples; ///< of the motions read so far
 
     std::vector<std::string> notes; ///< what was unusual so far
 
