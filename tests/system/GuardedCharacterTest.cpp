@@ -222,6 +222,27 @@ TEST(GuardedCharacter, MotionsAreLimitedTogether) {
     expectSays(named(1, 1), "long.bvh: " + beside);
 }
 
+TEST(GuardedCharacter, MembersAreThereOnce) {
+    const std::string folder = test::makeTestFolder();
+    const std::string both = parts(kCharacter + "body.obj", kCharacter + "rig.bvh");
+    expectSays(refusal(skin(folder, "again", both + ",\n \"up\": \"y\", \"up\": \"z\"")),
+               "again.skin: line 2, column 13: \"up\" is there twice, expected each member once");
+    expectSays(refusal(skin(folder, "spelt", both + ", \"up\": \"y\", \"\\u0075p\" : \"z\"")),
+               "is there twice");
+    expectSays(refusal(skin(folder, "deep",
+                            both + ", \"joints\": {\"arm\": {\"skip\": true, \"skip\": false}}")),
+               "\"skip\" is there twice");
+    EXPECT_EQ(refusal(skin(folder, "apart",
+                           both + ", \"motions\": [{\"file\": \"" + kCharacter +
+                               "move.bvh\", \"name\": \"file\"}, {\"file\": \"" + kCharacter +
+                               "move.bvh\", \"name\": \"{\\\"file\"}]")),
+              "read");
+    std::ofstream(folder + "/w.json") << "{\"weights\": {\"arm\": [[0, 1]], \"arm\": [[1, 1]]}}";
+    expectSays(
+        refusal(skin(folder, "w", both + ", \"bind\": \"weights\", \"weights\": \"w.json\"")),
+        "w.json: line 1, column 32: \"arm\" is there twice");
+}
+
 TEST(GuardedCharacter, JointsTimesVerticesAreLimited) {
     const std::string folder = test::makeTestFolder();
     const std::string file =

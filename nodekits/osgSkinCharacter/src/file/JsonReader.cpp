@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file/JsonReader.h"
 
+#include "file/RepeatedKey.h"
+
 #include <osg/Notify>
 #include <osgSkin/Error>
 
@@ -47,8 +49,9 @@ nlohmann::json JsonReader::parseFile(const std::string& file, const ReadLimits& 
     if (depthOf(text) > kDeepest)
         throw Error(file + ": lists and objects stand in each other more than " +
                     std::to_string(kDeepest) + " deep");
+    nlohmann::json json;
     try {
-        return nlohmann::json::parse(text);
+        json = nlohmann::json::parse(text);
     } catch (const nlohmann::json::parse_error& error) {
         throw Error(file + ": " + placeOf(text, error.byte > 0 ? error.byte - 1 : 0) +
                     ": malformed JSON");
@@ -63,6 +66,11 @@ nlohmann::json JsonReader::parseFile(const std::string& file, const ReadLimits& 
                     (number.size() > 40 ? number.substr(0, 40) + "..." : number) +
                     ", expected a finite number");
     }
+    if (const auto repeated = RepeatedKey::find(text))
+        throw Error(onOneLine(file + ": " + placeOf(text, repeated->byte) + ": \"" +
+                              repeated->key.substr(0, 40) +
+                              "\" is there twice, expected each member once"));
+    return json;
 }
 
 JsonReader::JsonReader(const nlohmann::json& value, std::string file, std::string path)
