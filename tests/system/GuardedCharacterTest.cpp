@@ -2,6 +2,7 @@
 // Characters whose files name each other, ask for more than there is, or cannot be written whole.
 #include "Command.h"
 #include "GltfBuilder.h"
+#include "Notices.h"
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
@@ -241,6 +242,19 @@ TEST(GuardedCharacter, MembersAreThereOnce) {
     expectSays(
         refusal(skin(folder, "w", both + ", \"bind\": \"weights\", \"weights\": \"w.json\"")),
         "w.json: line 1, column 32: \"arm\" is there twice");
+}
+
+TEST(GuardedCharacter, VerticesThatNobodyPaintedAreToldOf) {
+    const std::string folder = test::makeTestFolder();
+    std::ofstream(folder + "/w.json") << "{\"weights\": {\"arm\": [[0, 1]]}}";
+    const test::Notices notices;
+    const osgSkin::Character character =
+        osgSkin::loadCharacter(skin(folder, "w",
+                                    parts(kCharacter + "body.obj", kCharacter + "rig.bvh") +
+                                        ", \"bind\": \"weights\", \"weights\": \"w.json\""));
+    ASSERT_FALSE(character.notes.empty());
+    expectSays(character.notes.front(), folder + "/w.json: 55 of 56 vertices have no weights");
+    EXPECT_TRUE(notices.say("55 of 56 vertices"));
 }
 
 TEST(GuardedCharacter, JointsTimesVerticesAreLimited) {

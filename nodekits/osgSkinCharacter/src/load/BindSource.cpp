@@ -3,6 +3,7 @@
 
 #include "load/KeepShells.h"
 #include "report/NamingFile.h"
+#include "report/TakeNote.h"
 #include "source/MeshWeights.h"
 
 #include <osgSkin/Error>
@@ -33,6 +34,20 @@ bool carriesWeights(const CharacterSource& source) {
                        [&](const BoneWeights& bone) { return source.rest.find(bone.bone) >= 0; });
 }
 
+/// Tells of vertices that nobody painted, where weights were asked for.
+void tellGaps(CharacterSource& source, const VertexWeights& weights) {
+    const auto gaps = std::count_if(weights.begin(), weights.end(), [](const auto& entries) {
+        return std::none_of(entries.begin(), entries.end(),
+                            [](const JointWeight& entry) { return entry.weight > 0.0; });
+    });
+    const std::string& file = source.weightsFile.empty() ? source.meshFile : source.weightsFile;
+    if (gaps > 0)
+        takeNote(source.notes, file + ": " + std::to_string(gaps) + " of " +
+                                   std::to_string(weights.size()) +
+                                   " vertices have no weights, they take those of the nearest "
+                                   "that has");
+}
+
 /// Throws osgSkin::Error where binding would take a minute.
 void checkSize(const CharacterSource& source) {
     const std::size_t joints = source.rest.joints.size();
@@ -45,7 +60,7 @@ void checkSize(const CharacterSource& source) {
 
 } // namespace
 
-Binding bindSource(const CharacterSource& source, const Progress& progress, BindReport& report) {
+Binding bindSource(CharacterSource& source, const Progress& progress, BindReport& report) {
     checkSize(source);
     BindOptions options = source.bind;
     options.progress = progress;
@@ -59,6 +74,7 @@ Binding bindSource(const CharacterSource& source, const Progress& progress, Bind
         return byWeights ? bindWeights(source.body.mesh, source.rest, weights, options, &report)
                          : bind(source.body.mesh, source.rest, options, &report);
     });
+    if (source.painted == Painted::Yes) tellGaps(source, weights);
     if (!byWeights)
         if (const std::size_t kept = keepShells(source, weights, binding))
             report.notes.push_back(std::to_string(kept) +

@@ -16,6 +16,6 @@ namespace osgSkin {
 /// \param report filled in
 /// \return the binding, vertex by vertex of the body's mesh
 /// \throw Error with the file and the reason
-Binding bindSource(const CharacterSource& source, const Progress& progress, BindReport& report);
+Binding bindSource(CharacterSource& source, const Progress& progress, BindReport& report);
 
 } // namespace osgSkin
