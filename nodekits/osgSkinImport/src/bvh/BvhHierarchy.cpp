@@ -37,6 +37,7 @@ private:
     void readMember() {
         const std::string_view word = _words.next();
         if (isSameWord(word, "OFFSET")) {
+            if (_open.back().hasOffset) _words.fail(owner() + " has OFFSET twice");
             _open.back().hasOffset = true;
             joint().offset = offset(owner());
         } else if (isSameWord(word, "CHANNELS")) {
