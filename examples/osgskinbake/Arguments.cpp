@@ -76,6 +76,22 @@ std::pair<std::string, float> parseActivation(const std::string& word) {
     return {word.substr(0, sign), value};
 }
 
+/// A shell makes empty words of variables that are not set; options would do as if they were not
+/// there.
+void requireWords(int argc, char** argv) {
+    bool hasOptions = true; // until "--"
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool isOption = hasOptions && word.rfind("--", 0) == 0;
+        if (word.empty())
+            throw UsageError{std::string(i > 1 ? argv[i - 1] : "CHARACTER") +
+                             ": expected a name or number behind it, found an empty word"};
+        if (isOption && word.find('=') == word.size() - 1)
+            throw UsageError{word + ": expected a name or number behind it, found none"};
+        if (word == "--") hasOptions = false;
+    }
+}
+
 /// `--rest` may stand alone, and then takes the place of the frames in --out; and a file name that
 /// follows it may turn out to be the character.
 void settleRest(const CLI::Option& rest, Arguments& arguments) {
@@ -138,6 +154,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.add_option("--binding", arguments.binding, "write joints, regions and ratios (JSON)");
     app.add_option("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
     app.add_flag("--quiet", arguments.quiet, "no progress and no summary");
+    requireWords(argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

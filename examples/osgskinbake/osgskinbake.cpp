@@ -148,6 +148,7 @@ void tense(Character& character, const Arguments& arguments) {
 int run(const Arguments& arguments) {
     Character character = load(arguments);
     tense(character, arguments);
+    if (!arguments.motion.empty()) chooseMotion(character, arguments); // before anything is written
     if (!arguments.binding.empty())
         bake::writeJson(arguments.binding, bake::bindingJson(character.binding));
     if (!arguments.rest.empty())

@@ -146,13 +146,33 @@ TEST(Bake, FramesAreTheFilesOwnSamples) {
 TEST(Bake, UsageErrorsExitWithTwo) {
     const std::string folder = test::makeTestFolder();
     const std::string skin = "'" OSGSKIN_TEST_DATA "/character/good.skin' ";
-    for (const char* arguments :
-         {"", "--nonsense", "--frames 3:1", "--frames 0:9", "--frames x", "--frames 0:1:0",
-          "--frames -1", "--motion nobody", "--out a%db%d.obj", "--out %s.obj", "--out one.obj"}) {
+    for (const char* arguments : {"",
+                                  "--nonsense",
+                                  "--frames 3:1",
+                                  "--frames 0:9",
+                                  "--frames x",
+                                  "--frames 0:1:0",
+                                  "--frames -1",
+                                  "--motion nobody",
+                                  "--out a%db%d.obj",
+                                  "--out %s.obj",
+                                  "--out one.obj",
+                                  "--rest r.obj --motion nobody",
+                                  "--binding b.json --motion nobody",
+                                  "--binding ''",
+                                  "--rest ''",
+                                  "--pose ''",
+                                  "--frames ''",
+                                  "--motion ''",
+                                  "--out ''",
+                                  "--binding=",
+                                  "--rest r.obj --frames="}) {
         const bool none = std::string(arguments).empty();
         const auto result = runBake((none ? "" : skin) + arguments, folder);
         EXPECT_EQ(result.status, 2) << arguments;
         EXPECT_FALSE(result.err.empty()) << arguments;
+        for (const char* file : {"/r.obj", "/b.json", "/rest.obj"})
+            EXPECT_FALSE(std::filesystem::exists(folder + file)) << arguments;
     }
     EXPECT_EQ(runBake("--help", folder).status, 0);
     EXPECT_NE(runBake("--help", folder).out.find("--frames"), std::string::npos);
