@@ -1,92 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Pictures that OpenSceneGraph's readers would follow beyond their ends, or for ever.
-#include "ExpectError.h"
 #include "GltfBuilder.h"
-#include "Notices.h"
+#include "PictureFiles.h"
 
-#include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ReadScene>
-
-#include <osg/Geometry>
-#include <osg/Image>
-#include <osg/Texture2D>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
-
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <sstream>
-#include <string>
 
 namespace {
 
 using std::string_literals::operator""s;
-
-struct Drawn {
-    osg::ref_ptr<const osg::Image> image; ///< null: the mesh came without
-    std::string notices;
-};
-
-void savePicture(const std::string& name, const std::string& content) {
-    std::ofstream(testing::TempDir() + name, std::ios::binary) << content;
-}
-
-/// What a mesh is drawn with whose material names a picture.
-Drawn drawnWith(const std::string& picture, const std::string& options = {}) {
-    savePicture("picture_" + picture + ".mtl", "newmtl skin\nKd 1 1 1\nmap_Kd " + picture + "\n");
-    savePicture("picture_" + picture + ".obj",
-                "mtllib picture_" + picture +
-                    ".mtl\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
-    const test::Notices notices;
-    const osg::ref_ptr<osgDB::Options> words = new osgDB::Options(options);
-    const osgSkin::ImportedMesh mesh =
-        osgSkin::importMesh(testing::TempDir() + "picture_" + picture + ".obj", words);
-    const auto* texture = dynamic_cast<const osg::Texture2D*>(
-        mesh.parts.at(0).geometry->getStateSet()->getTextureAttribute(
-            0, osg::StateAttribute::TEXTURE));
-    return {texture != nullptr ? texture->getImage() : nullptr, notices.text()};
-}
-
-void expectRefused(const std::string& name, const std::string& content, const std::string& reason,
-                   const std::string& options = {}) {
-    savePicture(name, content);
-    const Drawn drawn = drawnWith(name, options);
-    EXPECT_FALSE(drawn.image.valid()) << name;
-    EXPECT_NE(drawn.notices.find(name + "\" cannot be read; drawn without: "), std::string::npos)
-        << drawn.notices;
-    EXPECT_NE(drawn.notices.find(reason), std::string::npos) << drawn.notices;
-}
-
-/// A number of so many bytes, the least significant one first.
-std::string little(std::uint32_t number, int count) {
-    std::string result;
-    for (int i = 0; i < count; ++i)
-        result += i < 4 ? static_cast<char>(number >> 8 * i & 0xff) : '\0';
-    return result;
-}
-std::string big(std::uint32_t number, int count) {
-    const std::string result = little(number, count);
-    return {result.rbegin(), result.rend()};
-}
-
-/// `text` with other bytes at a place.
-std::string with(std::string text, std::size_t at, const std::string& bytes) {
-    return text.replace(at, bytes.size(), bytes);
-}
-
-/// A picture as OpenSceneGraph writes it.
-std::string written(const std::string& extension, int width = 5, int height = 3) {
-    const osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(width, height, 1, GL_RGB, GL_UNSIGNED_BYTE);
-    for (unsigned i = 0; i < image->getTotalSizeInBytes(); ++i)
-        image->data()[i] = static_cast<unsigned char>(40 + i);
-    const std::string path = testing::TempDir() + "picture_written." + extension;
-    if (!osgDB::writeImageFile(*image, path)) return {};
-    std::ostringstream content;
-    content << std::ifstream(path, std::ios::binary).rdbuf();
-    return content.str();
-}
+using test::big;
+using test::Drawn;
+using test::drawnWith;
+using test::expectRefused;
+using test::little;
+using test::savePicture;
+using test::with;
+using test::written;
 
 /// A TGA picture of 5 x 3 pixels.
 /// \param kind 1: by a table of two colours, 2: by colours; 8 more: packed
@@ -96,6 +25,15 @@ std::string tga(int kind, const std::string& pixels) {
            little(0, 2) + little(mapped ? 2 : 0, 2) + little(mapped ? 24 : 0, 1) + little(0, 4) +
            little(5, 2) + little(3, 2) + little(mapped ? 8 : 24, 1) + little(0, 1) +
            (mapped ? "\x01\x02\x03\x04\x05\x06" : "") + pixels;
+}
+
+/// A TGA picture of 5 x 3 packed colours with a table, of which it uses none.
+std::string tgaWithTable(std::uint32_t colours, std::uint32_t bits, std::size_t tableBytes) {
+    const std::string row = "\x84"
+                            "abc";
+    const std::string header = with(with(tga(10, {}), 1, "\1"), 5, little(colours, 2));
+    return with(header, 7, little(bits, 1)) + std::string(tableBytes, '\x7f') + row + row + row +
+           std::string(26, '\0');
 }
 
 /// An SGI picture of 5 x 3 grey pixels, each row packed.
@@ -134,12 +72,34 @@ std::string jpeg(std::uint32_t side, std::size_t scans) {
     return text + "\xff\xd9";
 }
 
+std::string tiffEntry(std::uint32_t tag, std::uint32_t value) {
+    return little(tag, 2) + little(4, 2) + little(1, 4) + little(value, 4);
+}
+
 std::string tiff(std::uint32_t width, std::uint32_t samples, std::uint32_t photometric) {
-    const auto entry = [](std::uint32_t tag, std::uint32_t value) {
-        return little(tag, 2) + little(4, 2) + little(1, 4) + little(value, 4);
-    };
+    const auto entry = tiffEntry;
     return "II*\0"s + little(8, 4) + little(5, 2) + entry(256, width) + entry(257, 60000) +
            entry(258, 8) + entry(262, photometric) + entry(277, samples) + little(0, 4);
+}
+
+/// A TIFF picture of 5 x 3 samples of eight bits, each row and plane for itself, with more tags at
+/// its end.
+std::string tiffOfPlanes(std::uint32_t samples, std::uint32_t photometric, std::uint32_t planes,
+                         const std::string& more = {}) {
+    const std::uint32_t tags = std::uint32_t(10 + more.size() / 12), rows = 3 * samples;
+    const std::uint32_t lists = 8 + 2 + 12 * tags + 4, pixels = lists + 4 * 2 * rows;
+    const auto list = [&](std::uint32_t tag, std::uint32_t at) {
+        return little(tag, 2) + little(4, 2) + little(rows, 4) + little(at, 4);
+    };
+    std::string text = "II*\0"s + little(8, 4) + little(tags, 2) + tiffEntry(256, 5) +
+                       tiffEntry(257, 3) +
+                       (little(258, 2) + little(3, 2) + little(1, 4) + little(8, 4)) +
+                       tiffEntry(259, 1) + tiffEntry(262, photometric) + list(273, lists) +
+                       tiffEntry(277, samples) + tiffEntry(278, 1) + list(279, lists + 4 * rows) +
+                       tiffEntry(284, planes) + more + little(0, 4);
+    for (std::uint32_t row = 0; row < rows; ++row) text += little(pixels + 5 * row, 4);
+    for (std::uint32_t row = 0; row < rows; ++row) text += little(5, 4);
+    return text + std::string(5 * rows, 'p');
 }
 
 std::string dds(std::uint32_t width, std::uint32_t height) {
@@ -350,6 +310,85 @@ TEST(Pictures, HaveWhatTheirReadersTakeForGranted) {
                   "expected at least 1073741");
     expectRefused("short.png", written("png").substr(0, 8), "expected at least 33");
     expectRefused("text.png", "a text", "no PNG picture");
+}
+
+TEST(Pictures, TgaTablesAreAsLongAsTheirReaderTakesThem) {
+    // Of 300 colours of 15 bits each the reader goes over 600 bytes.
+    for (const std::uint32_t bits : {15u, 16u, 24u, 32u}) {
+        const std::size_t bytes = std::size_t(300) * ((bits + 7) / 8);
+        savePicture("unused.tga", tgaWithTable(300, bits, bytes));
+        EXPECT_TRUE(drawnWith("unused.tga").image.valid()) << drawnWith("unused.tga").notices;
+        expectRefused("cut.tga", tgaWithTable(300, bits, bytes - 100), "expected at least");
+    }
+    for (const std::uint32_t bits : {0u, 1u, 8u, 17u, 25u, 33u, 255u})
+        expectRefused("unknown.tga", tgaWithTable(300, bits, std::size_t(300) * (bits / 8)),
+                      "a TGA picture whose table has colours of an unknown length");
+}
+
+/// However long it is: remarks and empty lines have no end.
+TEST(Pictures, PnmHeadersAreReadToTheirEnd) {
+    std::string header = "P6\n";
+    while (header.size() < 4096 - 7) header += header.size() % 2 == 1 ? "#\n" : "\n";
+    for (const char* rest : {"1846\n255\n", "0923\n255\n"})
+        expectRefused("cut.ppm", header + "65536 2" + rest + std::string(1000, 'A'),
+                      " pixels, expected at most");
+    savePicture("long.ppm",
+                "P6\n#" + std::string(9000, 'x') + "\n5 3\n255\n" + std::string(45, 'c'));
+    const Drawn drawn = drawnWith("long.ppm");
+    ASSERT_TRUE(drawn.image.valid()) << drawn.notices;
+    EXPECT_EQ(drawn.image->s(), 5);
+    // What a locale may take for one number.
+    expectRefused("locale.pgm", "P5\n5 3,000,000\n255\n" + std::string(15, 'c'),
+                  "a PNM picture without a size");
+}
+
+TEST(Pictures, TiffPlanesApartAreColours) {
+    const std::pair<const char*, std::string> drawn[] = {
+        {"grey.tif", tiffOfPlanes(1, 1, 2)},
+        {"together.tif", tiffOfPlanes(1, 1, 1)},
+        {"colours.tif", tiffOfPlanes(3, 2, 2)},
+        {"alpha.tif", tiffOfPlanes(4, 2, 2)},
+        {"first.tif", tiffOfPlanes(1, 1, 1, tiffEntry(277, 4) + tiffEntry(284, 2))}};
+    for (const auto& [name, content] : drawn) {
+        savePicture(name, content);
+        EXPECT_TRUE(drawnWith(name).image.valid()) << drawnWith(name).notices;
+    }
+    for (const std::uint32_t photometric : {0u, 1u})
+        for (const std::uint32_t samples : {2u, 3u, 4u})
+            expectRefused("apart.tif", tiffOfPlanes(samples, photometric, 2),
+                          "a TIFF picture with planes apart that are no colours");
+    expectRefused("few.tif", tiffOfPlanes(2, 2, 2), "planes apart that are no colours");
+    // libtiff goes by the first of a tag's values.
+    expectRefused("twice.tif", tiffOfPlanes(4, 1, 2, tiffEntry(284, 1) + tiffEntry(262, 2)),
+                  "planes apart that are no colours");
+    expectRefused("palette.tif", tiffOfPlanes(3, 3, 1, tiffEntry(262, 5)),
+                  "more colours than its table");
+}
+
+/// libjpeg goes by the first.
+TEST(Pictures, JpegsBeginOnce) {
+    const std::string whole = written("jpg"), frame = "\xff\xc2"s + big(11, 2) + "\x08"s +
+                                                      big(16, 2) + big(16, 2) + "\x01\x01\x11\0"s;
+    const std::string large = jpeg(60000, 1);
+    expectRefused("frames.jpg", large.substr(0, large.size() - 2) + frame + "\xff\xd9",
+                  "a JPEG picture that begins twice");
+    expectRefused("starts.jpg", "\xff\xd8" + whole, "a JPEG picture that begins twice");
+    expectRefused("end.jpg", whole.substr(0, whole.size() - 2) + "\xff\xd8" + "\xff\xd9",
+                  "a JPEG picture that");
+    savePicture("tem.jpg", whole.substr(0, whole.size() - 2) + "\xff\x01" + "\xff\xd9");
+    EXPECT_TRUE(drawnWith("tem.jpg").image.valid()) << drawnWith("tem.jpg").notices;
+}
+
+TEST(Pictures, DdsHeadersAreThere) {
+    const std::string second = with(dds(4, 4), 84, "DX10");
+    expectRefused("second.dds", second, "expected at least 148");
+    expectRefused("header.dds", dds(0, 0).substr(0, 100), "expected at least 128");
+}
+
+/// Readers count bytes in 31 bits.
+TEST(Pictures, ThatNoReaderCountsAreRefused) {
+    expectRefused("counted.ppm", "P6\n65536 21846\n255\n", "expected at most 2 GB when unpacked",
+                  "maxPixels=100000000000");
 }
 
 TEST(Pictures, OfOtherFormatsAreReadWhereTheyAreNamed) {

@@ -33,6 +33,9 @@ const std::map<std::string, SizeOf>& formats() {
     return all;
 }
 
+/// Beyond this readers count bytes past 31 bits.
+constexpr std::uint64_t kMostBytes = (std::uint64_t{1} << 31) - 1;
+
 } // namespace
 
 void PictureCheck::take(const std::string& name, const std::string& extension,
@@ -65,6 +68,8 @@ void PictureCheck::take(const std::string& name, const std::string& extension,
                      ", expected at most " + std::to_string(static_cast<std::size_t>(most)) +
                      " of four bytes" + (_bytes > 0 ? " beside those before it" : "") +
                      " (option maxPixels)");
+    if (size.width * size.height * size.bytesPerPixel > kMostBytes)
+        picture.fail("a picture of " + sides + " pixels, expected at most 2 GB when unpacked");
     _pixels += needed;
     _bytes += bytes.size();
     if (format == "png") unpackPng(picture);

@@ -5,6 +5,7 @@ namespace osgSkin {
 namespace {
 
 constexpr std::uint32_t kDdsHasDepth = 0x800000;
+constexpr std::uint64_t kDdsHeader = 128, kDdsSecondHeader = 20;
 
 /// Beyond this readers count bytes past 32 bits, at the most that a pixel has.
 constexpr std::uint64_t kMostDdsPixels = 1u << 26;
@@ -15,6 +16,8 @@ PictureSize ddsSize(const PictureBytes& bytes) {
     bytes.require(bytes.startsWith("DDS ") && bytes.little(4, 4) == 124 &&
                       bytes.little(76, 4) == 32,
                   "no DDS picture");
+    const bool hasSecond = bytes.all().substr(84, 4) == "DX10";
+    bytes.requireSize(kDdsHeader + (hasSecond ? kDdsSecondHeader : 0));
     PictureSize size;
     size.height = bytes.little(12, 4);
     size.width = bytes.little(16, 4);

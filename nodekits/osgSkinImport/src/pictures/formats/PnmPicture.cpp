@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/formats/PnmPicture.h"
 
+#include <algorithm>
 #include <locale>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace osgSkin {
 namespace {
 
-/// The next line that is neither empty nor a comment.
-std::string nextPnmLine(std::istringstream& text) {
-    std::string line;
-    while (std::getline(text, line)) {
-        const std::size_t begin = line.find_first_not_of(" \t\r\n\v\f");
-        if (begin != std::string::npos && line[begin] != '#') return line;
+constexpr std::string_view kBlank = " \t\r\n\v\f";
+
+/// The next line that is neither empty nor a comment, as a reader takes it that looks for one to
+/// the end of the file.
+std::string_view nextPnmLine(std::string_view& rest) {
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        const std::size_t begin = line.find_first_not_of(kBlank);
+        if (begin != std::string_view::npos && line[begin] != '#') return line;
     }
     return {};
 }
@@ -21,16 +28,21 @@ std::string nextPnmLine(std::istringstream& text) {
 } // namespace
 
 PictureSize pnmSize(const PictureBytes& bytes) {
-    constexpr std::size_t kPnmHeader = 4096;
-    std::istringstream text(std::string(bytes.all().substr(0, kPnmHeader)));
-    text.imbue(std::locale::classic());
-    const std::string kind = nextPnmLine(text);
+    std::string_view rest = bytes.all();
+    const std::string_view kind = nextPnmLine(rest);
     bytes.require(kind.size() > 1 && (kind[0] == 'P' || kind[0] == 'p'), "no PNM picture");
-    std::istringstream numbers(nextPnmLine(text));
+    constexpr std::size_t kLongestLine = 300;
+    const std::string_view line = nextPnmLine(rest);
+    bytes.require(line.size() <= kLongestLine, "a PNM picture without a size");
+    std::istringstream numbers{std::string(line)};
     numbers.imbue(std::locale::classic());
     std::int64_t width = 0, height = 0;
     numbers >> width >> height;
-    bytes.require(width > 0 && height > 0 && width <= std::int64_t(kLongestSide) &&
+    // What a program's locale takes for a part of a number must not follow.
+    const int next = numbers.peek();
+    const bool isEnd = next == std::istringstream::traits_type::eof() ||
+                       kBlank.find(static_cast<char>(next)) != std::string_view::npos;
+    bytes.require(width > 0 && height > 0 && isEnd && width <= std::int64_t(kLongestSide) &&
                       height <= std::int64_t(kLongestSide),
                   "a PNM picture without a size");
     PictureSize size;

@@ -47,14 +47,17 @@ PictureSize tgaSize(const PictureBytes& bytes) {
     const std::uint32_t kind = bytes.byte(2) & ~kTgaPacked, bits = bytes.byte(16);
     const bool hasTable = bytes.byte(1) == 1;
     const std::uint64_t colours = hasTable ? bytes.little(5, 2) : 0, colourBits = bytes.byte(7);
-    const bool mapped = kind == kTgaMapped && bits == 8 && hasTable && colours > 0 &&
-                        (colourBits == 16 || colourBits == 24 || colourBits == 32);
+    // The reader goes by a table that nothing names a colour of, too.
+    bytes.require(!hasTable || colourBits == 15 || colourBits == 16 || colourBits == 24 ||
+                      colourBits == 32,
+                  "a TGA picture whose table has colours of an unknown length");
+    const bool mapped = kind == kTgaMapped && bits == 8 && hasTable && colours > 0;
     bytes.require(bytes.byte(2) <= (kTgaPacked | kTgaGrey) &&
                       (mapped ||
                        (kind == kTgaColours && (bits == 16 || bits == 24 || bits == 32)) ||
                        (kind == kTgaGrey && (bits == 8 || bits == 16))),
                   "no TGA picture of a known kind");
-    const std::uint64_t tableBytes = hasTable ? colours * (colourBits / 8) : 0;
+    const std::uint64_t tableBytes = colours * ((colourBits + 7) / 8);
     TgaPixels pixels(bytes, 18 + bytes.byte(0) + tableBytes, bits / 8, mapped ? colours : 0);
     const std::uint64_t count = size.width * size.height;
     (bytes.byte(2) & kTgaPacked) != 0 ? pixels.takePacked(count) : pixels.take(count);

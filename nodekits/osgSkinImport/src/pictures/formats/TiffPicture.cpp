@@ -11,9 +11,11 @@ enum TiffTag : std::uint32_t {
     kTiffHeight,
     kTiffBits,
     kTiffPhotometric = 262,
-    kTiffSamples = 277
+    kTiffSamples = 277,
+    kTiffPlanes = 284
 };
-constexpr std::uint32_t kTiffShort = 3, kTiffLong = 4, kTiffPalette = 3;
+constexpr std::uint32_t kTiffShort = 3, kTiffLong = 4, kTiffColours = 2, kTiffPalette = 3,
+                        kTiffApart = 2;
 
 /// The first directory of a TIFF file, which is all that OpenSceneGraph reads.
 class TiffDirectory {
@@ -26,14 +28,13 @@ public:
         _count = number(_begin, 2);
     }
 
-    /// The largest that stands there by the tag: files may have several.
+    /// What stands there by the tag; by the first of several, as libtiff goes.
     std::uint64_t value(TiffTag tag, std::uint64_t otherwise) const {
-        std::uint64_t found = 0;
         for (std::uint64_t i = 0; i < _count; ++i) {
             const std::uint64_t at = _begin + 2 + 12 * i;
-            if (number(at, 2) == tag) found = std::max(found, valueAt(at));
+            if (number(at, 2) == tag) return valueAt(at);
         }
-        return found > 0 ? found : otherwise;
+        return otherwise;
     }
 
 private:
@@ -63,9 +64,13 @@ PictureSize tiffSize(const PictureBytes& bytes) {
                         bits = directory.value(kTiffBits, 1);
     bytes.require(samples <= 4 && (bits == 8 || bits == 16 || bits == 32),
                   "a TIFF picture with pixels of an unknown kind");
-    bytes.require(directory.value(kTiffPhotometric, 0) != kTiffPalette ||
-                      (samples == 1 && bits == 8),
+    const std::uint64_t photometric = directory.value(kTiffPhotometric, 0);
+    bytes.require(photometric != kTiffPalette || (samples == 1 && bits == 8),
                   "a TIFF picture with more colours than its table");
+    // Of planes apart the reader has a row of one, and goes on as if it had one of all.
+    bytes.require(directory.value(kTiffPlanes, 1) != kTiffApart || samples == 1 ||
+                      (photometric == kTiffColours && samples >= 3),
+                  "a TIFF picture with planes apart that are no colours");
     size.bytesPerPixel = std::max<std::uint64_t>(samples * bits / 8, 4);
     return size;
 }

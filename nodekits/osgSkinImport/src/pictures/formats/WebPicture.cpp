@@ -13,6 +13,7 @@ enum Marker : std::uint32_t {
     kArithmeticTables = 0xcc,
     kLastFrame = 0xcf,
     kFirstRestart = 0xd0,
+    kLastRestart = 0xd7,
     kPictureStart = 0xd8,
     kPictureEnd = 0xd9,
     kScan = 0xda,
@@ -66,7 +67,7 @@ std::uint64_t nextMarker(const PictureBytes& bytes, std::uint64_t at) {
         if (found == std::string_view::npos || found + 1 >= bytes.size()) return bytes.size();
         at = found;
         const std::uint32_t marker = bytes.byte(at + 1);
-        if (marker > 1 && marker != 0xff && (marker < kFirstRestart || marker > kPictureStart))
+        if (marker > 1 && marker != 0xff && (marker < kFirstRestart || marker > kLastRestart))
             return at;
     }
 }
@@ -109,6 +110,8 @@ PictureSize jpegSize(const PictureBytes& bytes) {
         // OpenSceneGraph's reader loses the pixels where libjpeg refuses what comes behind them.
         bytes.require(!isWhole || isPassedOver(marker),
                       "a JPEG picture that goes on behind its last scan");
+        bytes.require(marker != kPictureStart && (frame == 0 || !isFrame(marker)),
+                      "a JPEG picture that begins twice");
         if (isFrame(marker)) {
             frame = marker;
             components = bytes.byte(at + 9);
