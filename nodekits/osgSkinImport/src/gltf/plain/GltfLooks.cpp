@@ -6,6 +6,8 @@
 #include <osgDB/FileNameUtils>
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace osgSkin {
 namespace {
@@ -88,16 +90,34 @@ json GltfLooks::material(const json& from, const std::string& where) const {
     return result;
 }
 
-void GltfLooks::check(json& result) const {
+std::vector<std::size_t> GltfLooks::addImages(json& result) const {
+    // Assimp copies the bytes of each image, however many stand in the same place.
+    std::map<std::array<std::size_t, 3>, std::size_t> stored; // by buffer, offset and length
+    std::size_t bytes = 0;
+    std::vector<std::size_t> places;
     _parts.forEach("images", [&](const json& from, const std::string& where) {
         json image = json::object();
         _parts.copyName(from, image);
         const std::string mime = from.value("mimeType", "");
         if (isWord(mime) && !mime.empty()) image["mimeType"] = mime;
+        places.push_back(result["images"].size());
         if (from.contains("bufferView")) {
             const std::string wrong = _parts.beyondView(from.at("bufferView"), 0, 0, 0, true);
             if (!wrong.empty()) _parts.fail(where, wrong);
-            image["bufferView"] = from.at("bufferView");
+            const std::size_t number = from.at("bufferView").get<std::size_t>();
+            const json& view = result.at("bufferViews").at(number);
+            const std::size_t length = view.at("byteLength").get<std::size_t>();
+            const auto [found, isNew] =
+                stored.insert({{view.at("buffer").get<std::size_t>(),
+                                view.at("byteOffset").get<std::size_t>(), length},
+                               places.back()});
+            places.back() = found->second;
+            if (!isNew) return;
+            bytes += length;
+            if (bytes > _parts.bytes())
+                _parts.fail(where, "images of at most " + std::to_string(_parts.bytes()) +
+                                       " bytes together, as many as the file has");
+            image["bufferView"] = number;
         } else {
             const std::string uri = from.value("uri", "");
             const std::size_t comma = uri.find(',');
@@ -111,6 +131,11 @@ void GltfLooks::check(json& result) const {
         }
         result["images"].push_back(image);
     });
+    return places;
+}
+
+void GltfLooks::check(json& result) const {
+    const std::vector<std::size_t> images = addImages(result);
     _parts.forEach("samplers", [&](const json& from, const std::string& where) {
         json sampler = json::object();
         for (const char* key : {"magFilter", "minFilter", "wrapS", "wrapT"})
@@ -120,7 +145,7 @@ void GltfLooks::check(json& result) const {
     _parts.forEach("textures", [&](const json& from, const std::string& where) {
         json texture = json::object();
         if (const json* source = sourceOf(from))
-            texture["source"] = _parts.indexOf(*source, "images", where);
+            texture["source"] = images[_parts.indexOf(*source, "images", where)];
         if (from.contains("sampler"))
             texture["sampler"] = _parts.indexOf(from.at("sampler"), "samplers", where);
         result["textures"].push_back(texture);

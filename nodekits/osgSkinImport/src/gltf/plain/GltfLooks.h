@@ -6,7 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace osgSkin {
 
@@ -20,6 +22,9 @@ public:
     void check(nlohmann::json& result) const;
 
 private:
+    /// Adds the images, those of the same bytes once.
+    /// \return for each image of the file its place among them
+    std::vector<std::size_t> addImages(nlohmann::json& result) const;
     nlohmann::json textureInfo(const nlohmann::json& from, const std::string& where) const;
     nlohmann::json material(const nlohmann::json& from, const std::string& where) const;
 

@@ -21,6 +21,8 @@ public:
     explicit GltfParts(const GltfFile& file);
 
     const ReadLimits& limits() const { return _file.limits; }
+    /// Of the file and its buffers.
+    std::size_t bytes() const { return _bytes; }
     bool has(const char* key) const { return _file.json.contains(key); }
     const nlohmann::json& at(const char* key) const { return _file.json.at(key); }
 
