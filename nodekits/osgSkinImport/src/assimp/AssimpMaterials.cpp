@@ -111,7 +111,9 @@ Material readMaterial(const aiScene& scene, const aiMaterial& source, const std:
     material.image = embedded == nullptr
                          ? readTexture(name.C_Str(), path, options, reads)
                          : reads.once(name.C_Str(), [&] {
-                               return embeddedImage(*embedded, path, reads.pictures());
+                               return reads.pictures().shared().once(path, name.C_Str(), [&] {
+                                   return embeddedImage(*embedded, path, reads.pictures());
+                               });
                            });
     material.wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE);
     material.wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE);

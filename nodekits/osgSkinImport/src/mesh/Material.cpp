@@ -51,9 +51,11 @@ osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::strin
     if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName)) return nullptr;
     const std::string found = osgDB::findDataFile(fileName, local);
     if (!isRegularFile(found)) return nullptr;
-    pictures.takeFile(found);
-    // osgDB::readImageFile() would warn of each by itself.
-    return osgDB::Registry::instance()->readImage(fileName, local).getImage();
+    return pictures.shared().once(found, {}, [&]() -> osg::ref_ptr<osg::Image> {
+        pictures.takeFile(found);
+        // osgDB::readImageFile() would warn of each by itself.
+        return osgDB::Registry::instance()->readImage(fileName, local).getImage();
+    });
 }
 
 } // namespace

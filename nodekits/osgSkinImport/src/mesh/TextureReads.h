@@ -21,7 +21,7 @@ public:
     /// \param path of the file that names the textures
     /// \param options whose limits hold for all of them together; may be null
     TextureReads(std::string path, const osgDB::Options* options)
-        : _path(std::move(path)), _pictures(ReadLimits::of(options)) {}
+        : _path(std::move(path)), _pictures(options) {}
     ~TextureReads();
     TextureReads(const TextureReads&) = delete;
     TextureReads& operator=(const TextureReads&) = delete;

@@ -21,7 +21,7 @@ constexpr std::size_t kDeepestFile = 8;
 } // namespace
 
 GuardedReads::GuardedReads(const osgDB::Options* options)
-    : _limits(ReadLimits::of(options)), _pictures(_limits) {
+    : _limits(ReadLimits::of(options)), _pictures(options) {
     if (options != nullptr) _next = options->getReadFileCallback();
     if (!_next) _next = osgDB::Registry::instance()->getReadFileCallback();
     if (!_next) _next = new osgDB::ReadFileCallback;
@@ -82,8 +82,15 @@ GuardedReads::Result GuardedReads::readImage(const std::string& name,
                                              const osgDB::Options* options) {
     return guarded(name, options, [&](const std::string& found) {
         if (isSaved(name)) failFile(name, "a saved scene, expected a picture");
-        if (!found.empty()) _pictures.takeFile(found);
-        return _next->readImage(name, options);
+        if (found.empty()) return _next->readImage(name, options);
+        Result result;
+        const osg::ref_ptr<osg::Image> image =
+            _pictures.shared().once(found, {}, [&]() -> osg::ref_ptr<osg::Image> {
+                _pictures.takeFile(found);
+                result = _next->readImage(name, options);
+                return result.getImage();
+            });
+        return image ? Result(image.get()) : result;
     });
 }
 

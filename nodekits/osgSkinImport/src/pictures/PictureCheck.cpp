@@ -61,17 +61,18 @@ void PictureCheck::take(const std::string& name, const std::string& extension,
     // Sides are below 2^17 and images fewer than bytes, but for what is far beyond any limit.
     const double needed = double(size.width) * double(size.height) * double(size.images) *
                           double(size.bytesPerPixel) / 4.0;
-    const double most = double(_limits.pixelsOf(_bytes + bytes.size())) - _pixels;
+    const double most =
+        std::max(0.0, double(_limits.pixelsOf(_shared->bytes + bytes.size())) - _shared->pixels);
     if (needed > most)
         picture.fail("a picture of " + sides + " pixels" +
                      (size.images > 1 ? ", " + std::to_string(size.images) + " times" : "") +
                      ", expected at most " + std::to_string(static_cast<std::size_t>(most)) +
-                     " of four bytes" + (_bytes > 0 ? " beside those before it" : "") +
+                     " of four bytes" + (_shared->bytes > 0 ? " beside those before it" : "") +
                      " (option maxPixels)");
     if (size.width * size.height * size.bytesPerPixel > kMostBytes)
         picture.fail("a picture of " + sides + " pixels, expected at most 2 GB when unpacked");
-    _pixels += needed;
-    _bytes += bytes.size();
+    _shared->pixels += needed;
+    _shared->bytes += bytes.size();
     if (format == "png") unpackPng(picture);
     if (format == "gif") unpackGif(picture);
 }

@@ -2,11 +2,13 @@
 #ifndef OSGSKINIMPORT_PICTURECHECK_H
 #define OSGSKINIMPORT_PICTURECHECK_H 1
 
+#include "pictures/SharedPictures.h"
+
 #include <osgSkinImport/ReadLimits>
 
-#include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace osgSkin {
 
@@ -18,7 +20,12 @@ namespace osgSkin {
 /// names them.
 class PictureCheck {
 public:
-    explicit PictureCheck(ReadLimits limits) : _limits(std::move(limits)) {}
+    /// \param limits for its pictures
+    /// \param shared what they count together with; null: with none
+    PictureCheck(ReadLimits limits, SharedPictures* shared)
+        : _limits(std::move(limits)), _shared(shared != nullptr ? shared : new SharedPictures) {}
+    explicit PictureCheck(const osgDB::Options* options)
+        : PictureCheck(ReadLimits::of(options), SharedPictures::of(options)) {}
 
     /// \param name of the picture, for errors
     /// \param extension of the format, as the reader is found by
@@ -28,10 +35,11 @@ public:
     /// The same of a file.
     void takeFile(const std::string& path);
 
+    SharedPictures& shared() { return *_shared; }
+
 private:
     const ReadLimits _limits;
-    double _pixels = 0.0;   ///< of four bytes, of those that were taken
-    std::size_t _bytes = 0; ///< of their files
+    const osg::ref_ptr<SharedPictures> _shared;
 };
 
 } // namespace osgSkin

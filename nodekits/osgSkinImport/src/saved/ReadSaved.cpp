@@ -23,14 +23,16 @@ constexpr int kFirstVersion = 95;
 
 /// As OSG does: by what the file begins with, not by its name.
 osg::ref_ptr<SavedInput> makeInput(std::string content, const ReadLimits& limits,
-                                   const std::string& path) {
+                                   SharedPictures* pictures, const std::string& path) {
     constexpr const char* kAscii = "#Ascii";
-    if (content.compare(0, 6, kAscii) == 0) return new SavedAscii(content.substr(6), limits);
+    if (content.compare(0, 6, kAscii) == 0)
+        return new SavedAscii(content.substr(6), limits, pictures);
     if (content.compare(0, 5, "<?xml") == 0)
-        return new SavedXml(content.substr(std::min(content.find('\n'), content.size())), limits);
+        return new SavedXml(content.substr(std::min(content.find('\n'), content.size())), limits,
+                            pictures);
     if (!SavedBinary::begins(content))
         failFile(path, "it begins with neither #Ascii, <?xml nor what a binary file begins with");
-    const osg::ref_ptr<SavedBinary> input = new SavedBinary(std::move(content), limits);
+    const osg::ref_ptr<SavedBinary> input = new SavedBinary(std::move(content), limits, pictures);
     return input;
 }
 
@@ -76,7 +78,8 @@ osg::ref_ptr<osg::Node> readSaved(const std::string& path, const osgDB::Options*
     const osg::ref_ptr<osgDB::Options> local =
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(path));
-    const osg::ref_ptr<SavedInput> input = makeInput(std::move(content), limits, path);
+    const osg::ref_ptr<SavedInput> input =
+        makeInput(std::move(content), limits, SharedPictures::of(options), path);
     SavedStream stream(local.get());
     const osg::ref_ptr<osg::Node> scene = readScene(stream, *input, path);
     checkSavedObjects(stream.objects(), path);

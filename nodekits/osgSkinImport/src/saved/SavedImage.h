@@ -23,7 +23,8 @@ class SavedInput;
 /// the number of levels and a text for each.
 class SavedImage {
 public:
-    explicit SavedImage(const ReadLimits& limits) : _pictures(limits) {}
+    /// \param shared what its files count together with; null: with none
+    SavedImage(const ReadLimits& limits, SharedPictures* shared) : _pictures(limits, shared) {}
 
     void tookProperty(const std::string& name);
     /// A picture that is a whole file within this one is looked at where its size is told: OSG

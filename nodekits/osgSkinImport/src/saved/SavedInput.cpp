@@ -21,8 +21,8 @@ constexpr std::uint64_t kSlack = 65536;
 
 } // namespace
 
-SavedInput::SavedInput(std::string content, const ReadLimits& limits)
-    : _content(std::move(content)), _image(limits), _limits(limits) {
+SavedInput::SavedInput(std::string content, const ReadLimits& limits, SharedPictures* pictures)
+    : _content(std::move(content)), _image(limits, pictures), _limits(limits) {
     setStream(&_none);
 }
 

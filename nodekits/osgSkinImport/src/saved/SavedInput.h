@@ -29,7 +29,8 @@ namespace osgSkin {
 class SavedInput : public osgDB::InputIterator {
 public:
     /// \param content of the whole file
-    SavedInput(std::string content, const ReadLimits& limits);
+    /// \param pictures that those within it count together with; null: with none
+    SavedInput(std::string content, const ReadLimits& limits, SharedPictures* pictures);
 
     /// \throw osgSkin::Error without the file's name
     [[noreturn]] static void refuse(const std::string& reason);
