@@ -74,8 +74,9 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
             character.toWorld * turnToViewer(roles, restCentres(character.rest, character.toWorld));
     const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character.toWorld);
     upright->addChild(character.skeleton);
+    PropMeshes propMeshes(source.meshOptions.get());
     for (const CharacterMotion& motion : character.motions)
-        addProps(source, motion, *upright, options.readOptions.get());
+        addProps(source, motion, *upright, propMeshes, options.readOptions.get());
     character.root = new osg::Group;
     character.root->setName(osgDB::getStrippedName(character.file));
     character.root->addChild(upright);

@@ -10,7 +10,7 @@
 namespace osgSkin {
 
 void addProps(CharacterSource& source, const CharacterMotion& motion, osg::Group& parent,
-              const osgDB::Options* options) {
+              PropMeshes& meshes, const osgDB::Options* options) {
     for (std::size_t i = 0; i < source.props.size(); ++i) {
         const SkinFile::Prop& prop = source.props[i];
         if (prop.motion != motion.name()) continue;
@@ -19,7 +19,7 @@ void addProps(CharacterSource& source, const CharacterMotion& motion, osg::Group
             if (entry.name == prop.motion) skip = entry.skipFrames;
         // Bones and props share one table of animation targets, so the name must not be a joint's.
         const std::string name = "prop:" + prop.motion + ":" + std::to_string(i);
-        const ImportedMesh mesh = importMesh(prop.mesh, options);
+        const ImportedMesh& mesh = meshes.of(prop.mesh);
         const Motion path = importMotion(prop.file, skip, {}, options);
         namingFile(prop.file, [&] {
             source.samples.add(prop.file, path.frames + skip, path.skeleton.joints.size(),

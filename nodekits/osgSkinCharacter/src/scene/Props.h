@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "scene/PropMeshes.h"
 #include "source/CharacterSource.h"
 
 #include <osgSkinCharacter/CharacterMotion>
@@ -16,9 +17,10 @@ namespace osgSkin {
 /// \param source that names the props; counts their samples
 /// \param motion that they belong to; retargeted
 /// \param parent gets a child for each prop; in skeleton space
-/// \param options for the props' meshes; may be null
+/// \param meshes of the props of all motions
+/// \param options for the props' motions; may be null
 /// \throw Error with the file and the place in it
 void addProps(CharacterSource& source, const CharacterMotion& motion, osg::Group& parent,
-              const osgDB::Options* options);
+              PropMeshes& meshes, const osgDB::Options* options);
 
 } // namespace osgSkin

@@ -15,6 +15,7 @@
 #include <osg/ref_ptr>
 #include <osgAnimation/Animation>
 #include <osgAnimation/Skeleton>
+#include <osgDB/Options>
 
 #include <string>
 #include <vector>
@@ -50,6 +51,8 @@ struct CharacterSource {
     std::vector<SkinFile::MotionEntry> motions; ///< files to retarget
     bool clearHands = false;                    ///< of the body, in `motions`
     std::vector<SkinFile::Prop> props;
+    /// For the body and the props, whose pictures count together; may be null.
+    osg::ref_ptr<const osgDB::Options> meshOptions;
 
     ReadLimits limits;     ///< for all files
     MotionSamples samples; ///< of the motions read so far

@@ -6,6 +6,7 @@
 #include "source/ApplyOptions.h"
 
 #include <osgSkinImport/ImportSkeleton>
+#include <osgSkinImport/SharePictures>
 
 #include <osg/Math>
 
@@ -44,12 +45,13 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
     source.motions = skin.motions;
     source.clearHands = skin.clearHands;
     source.props = skin.props;
+    source.meshOptions = sharePictures(options.readOptions.get());
     applyOptions(source, options);
 
     stages.plan(LoadStages::kMesh + (skin.fit ? LoadStages::kFit : LoadStages::kSkeleton) +
                 source.laterSize());
     stages.begin("mesh", LoadStages::kMesh);
-    source.body = importMesh(skin.mesh, options.readOptions.get());
+    source.body = importMesh(skin.mesh, source.meshOptions.get());
     if (skin.fit) {
         fitRest(source, *skin.fit, stages.begin("skeleton", LoadStages::kFit));
     } else {
