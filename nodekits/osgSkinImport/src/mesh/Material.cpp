@@ -54,7 +54,10 @@ osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::strin
     return pictures.shared().once(found, {}, [&]() -> osg::ref_ptr<osg::Image> {
         pictures.takeFile(found);
         // osgDB::readImageFile() would warn of each by itself.
-        return osgDB::Registry::instance()->readImage(fileName, local).getImage();
+        const osg::ref_ptr<osg::Image> image =
+            osgDB::Registry::instance()->readImage(found, local).getImage();
+        if (image) image->setFileName(fileName); // for who saves it again
+        return image;
     });
 }
 

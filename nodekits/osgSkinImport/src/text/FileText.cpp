@@ -19,10 +19,17 @@ namespace {
 
 constexpr std::size_t kMegabyte = 1 << 20;
 
+/// What is too long for a file's name is no more than quoted.
+std::string shortened(const std::string& path) {
+    constexpr std::size_t longest = 200;
+    return path.size() > kLongestPath ? path.substr(0, longest) + "..." : path;
+}
+
 } // namespace
 
 std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
                        std::size_t& size) {
+    requireName(path);
     std::error_code failure;
     const std::filesystem::file_status status = std::filesystem::status(path, failure);
     if (status.type() == std::filesystem::file_type::directory)
@@ -46,11 +53,11 @@ std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const
 }
 
 void failFile(const std::string& path, const std::string& message) {
-    throw Error(path + ": " + message);
+    throw Error(shortened(path) + ": " + message);
 }
 
 void tellOf(const std::string& path, const std::string& message) {
-    OSG_NOTICE << onOneLine(path + ": " + message) << std::endl;
+    OSG_NOTICE << onOneLine(shortened(path) + ": " + message) << std::endl;
 }
 
 void failLine(const std::string& path, std::size_t line, const std::string& message) {

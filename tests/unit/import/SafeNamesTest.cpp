@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Names of files: what they lead through, where they end, and which file they mean.
+#include "ExpectError.h"
+#include "Paths.h"
+
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportRig>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinImport/ReadScene>
+#include <osgSkinRig/Motion>
+
+#include <osg/Geometry>
+#include <osg/Texture2D>
+#include <osgDB/Archive>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgDB/WriteFile>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace {
+
+class SafeNames : public testing::Test {
+public:
+    SafeNames() {
+        std::filesystem::remove_all(_folder);
+        std::filesystem::create_directories(_folder);
+    }
+    ~SafeNames() override { std::filesystem::remove_all(_folder); }
+
+    std::string file(const std::string& name) const { return _folder + name; }
+    std::string save(const std::string& name, const std::string& content) const {
+        std::ofstream(file(name), std::ios::binary) << content;
+        return file(name);
+    }
+    /// A triangle that OSG saved.
+    std::string saveScene(const std::string& name) const {
+        EXPECT_TRUE(osgDB::writeNodeFile(*triangle(), file(name)));
+        return file(name);
+    }
+    static osg::ref_ptr<osg::Geometry> triangle() {
+        osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        const osg::Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        geometry->setVertexArray(new osg::Vec3Array(3, corners));
+        geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+        return geometry;
+    }
+
+private:
+    const std::string _folder = testing::TempDir() + "safe_names_" +
+                                testing::UnitTest::GetInstance()->current_test_info()->name() + "/";
+};
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+bool hasTexture(const osgSkin::ImportedMesh& mesh) {
+    for (const osgSkin::MeshPart& part : mesh.parts)
+        if (part.geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE))
+            return true;
+    return false;
+}
+
+} // namespace
+
+TEST_F(SafeNames, LeadThroughNoArchive) {
+    const std::string archive = file("evil.osga");
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 2, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+    {
+        const osg::ref_ptr<osgDB::Archive> made =
+            osgDB::Registry::instance()
+                ->openArchive(archive, osgDB::ReaderWriter::CREATE, 4096, nullptr)
+                .takeArchive();
+        ASSERT_TRUE(made);
+        ASSERT_TRUE(made->writeNode(*triangle(), "inner.osgt").success());
+        ASSERT_TRUE(made->writeImage(*image, "inner.bmp").success());
+        made->close();
+    }
+    osgDB::Registry::instance()->clearArchiveCache(); // which holds what is closed
+    ASSERT_TRUE(osgDB::readRefNodeFile(archive + "/inner.osgt"));
+    osgDB::Registry::instance()->clearArchiveCache();
+    const char* const reason = "expected a file that only has to be read";
+    for (const char* behind : {"/inner.osgt", "\\inner.osgt", "/inner.osgt.2.scale", "/inner.stl"})
+        for (const std::string& packed : {archive, file("EVIL.ZIP"), file("a.osga/b")}) {
+            expectError([&] { osgSkin::importMesh(packed + behind); }, reason);
+            expectError([&] { osgSkin::importSkeleton(packed + behind); }, reason);
+            expectError([&] { osgSkin::readScene(packed + behind, nullptr); }, reason);
+        }
+    save("a.mtl", "newmtl a\nKd 1 0 0\nmap_Kd evil.osga/inner.bmp\n");
+    const std::string mesh = save("mesh.obj", "mtllib a.mtl\nusemtl a\n" + kTriangle);
+    EXPECT_FALSE(hasTexture(osgSkin::importMesh(mesh)));
+    // Folders may be called as they like.
+    std::filesystem::create_directory(file("folder.zip"));
+    EXPECT_EQ(osgSkin::importMesh(save("folder.zip/m.obj", kTriangle)).mesh.positions.size(), 3u);
+    EXPECT_EQ(osgSkin::importMesh(saveScene("folder.zip/m.osgt")).mesh.positions.size(), 3u);
+}
+
+/// Some readers end a name at a byte 0, others do not: what is checked would not be what is read.
+TEST_F(SafeNames, HaveNoByteZero) {
+    const char* const reason = "a name with a byte 0 in it";
+    for (const std::string& whole : {save("mesh.obj", kTriangle), testData("rig/tube.gltf"),
+                                     testData("bvh/two_joints.bvh"), testData("saved/tube.osgt")})
+        for (const std::string& behind : {std::string(1, '\0'), std::string("\0.obj", 5)}) {
+            const std::string name = whole + behind;
+            expectError([&] { osgSkin::importMesh(name); }, reason);
+            expectError([&] { osgSkin::importSkeleton(name); }, reason);
+            expectError([&] { osgSkin::importMotion(name); }, reason);
+            expectError([&] { osgSkin::importRig(name); }, reason);
+            expectError([&] { osgSkin::readScene(name, nullptr); }, reason);
+        }
+}
+
+TEST_F(SafeNames, AreNoLongerThanNamesOfFiles) {
+    const std::string scene = saveScene("m.osgt");
+    std::string scaled = scene;
+    for (int i = 0; i < 5000; ++i) scaled += ".1.scale";
+    for (const std::string& name : {scaled, std::string(500'000, 'n') + ".obj"}) {
+        expectError([&] { osgSkin::importMesh(name); }, "expected at most 4096");
+        expectError([&] { osgSkin::readScene(name, nullptr); }, "expected at most 4096");
+        try {
+            osgSkin::importMesh(name);
+        } catch (const osgSkin::Error& error) {
+            EXPECT_LT(std::string(error.what()).size(), 300u);
+        }
+    }
+}
+
+/// OSG would look for the name's last part in the working folder.
+TEST_F(SafeNames, MeanNoOtherFile) {
+    saveScene("named.osgt");
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(file(""));
+    EXPECT_EQ(osgSkin::importMesh("named.osgt").mesh.positions.size(), 3u);
+    EXPECT_EQ(osgSkin::importMesh("./named.osgt.2.scale").mesh.positions.size(), 3u);
+    for (const std::string name : {"sub/named.osgt", "sub/named.osgt.2.scale"}) {
+        expectError([&] { osgSkin::importMesh(name); }, "sub/named.osgt: cannot open");
+        expectError([&] { osgSkin::importSkeleton(name); }, "sub/named.osgt: cannot open");
+    }
+    std::filesystem::current_path(before);
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->getDatabasePathList().push_back(file(""));
+    EXPECT_TRUE(osgSkin::readScene("named.osgt", options));
+    expectError([&] { osgSkin::readScene("sub/named.osgt", options); }, "cannot open");
+}
