@@ -209,8 +209,25 @@ const Hostile kHostile[] = {
      "times of keys"},
     {"UnknownBinding", object("osg::Vec3Array", 1, "Binding 77\nvector 0\n"),
      "a binding of \"77\""},
+    {"NoNumber", object("osg::Vec3Array", 1, "vector 1 {\n0 banana 0\n}\n"),
+     "line 7: \"banana\", expected a number"},
+    {"DecimalComma", object("osg::Vec3Array", 1, "vector 1 {\n0 -1,5 0\n}\n"),
+     "line 7: \"-1,5\", expected a number"},
+    {"NotANumber", object("osg::Vec3Array", 1, "vector 1 {\n0 nan 0\n}\n"),
+     "line 7: \"nan\", expected a number"},
+    {"Infinite", object("osg::Vec3Array", 1, "vector 1 {\n0 -inf 0\n}\n"),
+     "line 7: \"-inf\", expected a number"},
+    {"NoIndex", elements("vector 3 {\n0 one 2\n}\n"), "\"one\", expected a whole number"},
+    {"HalfAnIndex", elements("vector 3 {\n0 1.5 2\n}\n"), "\"1.5\", expected a whole number"},
+    {"NoTruth", object("osg::Geometry", 1, "UseVertexBufferObjects yes\n"),
+     "line 6: \"yes\", expected TRUE or FALSE"},
+    {"NoEnumerator", object("osg::BlendFunc", 1, "SourceRGB BANANAS\n"),
+     "line 6: \"BANANAS\", expected a name"},
     {"UnknownClass", object("osg::HeightField", 1, ""), "class \"osg::HeightField\""},
     {"ClassOfAPath", object("../../x::y", 1, ""), "class \"../../x::y\""},
+    {"ClassWithoutReader", object("osgAnimation::Nothing", 1, ""),
+     "class \"osgAnimation::Nothing\", expected one that"},
+    {"ClassOfATerminal", object("osgAnimation::\x1b[31mRED\x07", 1, ""), "class \"osgAnimation::"},
     {"EndsInAText", object("osg::Group", 1, "Name \"no end"), "it ends within a text"},
 };
 
@@ -299,4 +316,26 @@ TEST(Saved, ScenesKeepToTheirOptions) {
                                              "FileNames 1 {\n\"" + std::to_string(::getpid()) +
                                                  "proxy.osgt\"\n}\n"));
     EXPECT_NE(whyRefused(proxy, "classes=osg").size(), 0u); // ends
+}
+
+/// As a hand or OSG itself may write them.
+TEST(Saved, NumbersAreReadInEveryFormThatOsgReads) {
+    const auto box = [](const std::string& row) {
+        const std::string vector = "vector 1 {\n" + row + "\n}\n";
+        const std::string path = scratch(
+            "numbers.osgt",
+            kHead + object("osg::Geometry", 1,
+                           "VertexArray TRUE {\n" + object("osg::Vec3Array", 2, vector) + "}\n"));
+        const osg::ref_ptr<osg::Node> node = read(path);
+        return static_cast<osg::Vec3Array&>(*node->asGeometry()->getVertexArray()).at(0);
+    };
+    EXPECT_EQ(box("1e1 -.5 +3."), osg::Vec3(10.0f, -0.5f, 3.0f));
+    EXPECT_EQ(box("0x10 1E-1 -0"), osg::Vec3(16.0f, 0.1f, 0.0f));
+    const std::string masked =
+        scratch("mask.osgt", kHead + object("osg::Group", 1, "NodeMask 0xff0f\n"));
+    EXPECT_EQ(read(masked)->getNodeMask(), 0xff0fu);
+    const std::string shown = scratch(
+        "mode.osgt", kHead + geometry("PrimitiveSetList 1 {\n" +
+                                      object("osg::DrawArrays", 7, "Mode 4\nCount 3\n") + "}\n"));
+    EXPECT_EQ(read(shown)->asGeometry()->getPrimitiveSet(0)->getMode(), GLenum(GL_TRIANGLES));
 }

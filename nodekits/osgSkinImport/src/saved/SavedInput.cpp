@@ -138,9 +138,13 @@ std::string SavedInput::tookWrapped(std::string text) {
 }
 
 void SavedInput::checkClass() {
-    if (isKnownClass(_word, _limits)) return;
-    refuse("an object of class " + inQuotes(_word) +
-           ", expected one that characters are made of (option classes)");
+    if (!isKnownClass(_word, _limits))
+        refuse("an object of class " + inQuotes(_word) +
+               ", expected one that characters are made of (option classes)");
+    // OSG would go on without the object.
+    if (osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(_word) == nullptr)
+        refuse("an object of class " + inQuotes(_word) +
+               ", expected one that OpenSceneGraph or a library of its name reads");
 }
 
 void SavedInput::tookIdentifier(unsigned id) {

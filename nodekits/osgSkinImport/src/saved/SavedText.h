@@ -14,7 +14,7 @@ public:
     using SavedInput::SavedInput;
 
     bool isBinary() const override { return false; }
-    void readBool(bool& value) override { value = nextWord() == "TRUE"; }
+    void readBool(bool& value) override { value = truth(); }
     void readChar(char& value) override { value = static_cast<char>(number()); }
     void readSChar(signed char& value) override { value = static_cast<signed char>(number()); }
     void readUChar(unsigned char& value) override { value = static_cast<unsigned char>(number()); }
@@ -44,7 +44,11 @@ protected:
     virtual std::string nextName(const std::string& expected) = 0;
 
 private:
+    /// \throw osgSkin::Error with the line, without the file's name
+    [[noreturn]] void refuseWord(const std::string& word, const char* expected) const;
     long number();
+    bool truth();
+    int valueOf(const std::string& table);
 };
 
 } // namespace osgSkin

@@ -49,7 +49,10 @@ bool isKnownClass(const std::string& className, const ReadLimits& limits) {
     const std::size_t sign = className.find("::");
     const std::string library = className.substr(0, sign);
     const auto isNameLetter = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-    if (sign == std::string::npos || !std::all_of(library.begin(), library.end(), isNameLetter))
+    const auto isLetter = [&](unsigned char c) { return isNameLetter(c) || c == ':'; };
+    // OSG names a library after the first part, and tells of classes that it does not know.
+    if (sign == std::string::npos || !std::all_of(library.begin(), library.end(), isNameLetter) ||
+        !std::all_of(className.begin(), className.end(), isLetter))
         return false;
     if (library == "osgAnimation" || library == "osgSkin") return true;
     if (library == "osg" && classesOfOsg().count(className.substr(sign + 2)) > 0) return true;
