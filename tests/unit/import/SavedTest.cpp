@@ -207,6 +207,17 @@ const Hostile kHostile[] = {
                        "Animations 1 {\n" + animation("1 0 0 0\n1e999 0 0 0\n") + "}\n") +
                 "}\n"),
      "times of keys"},
+    {"CallbackIsANode",
+     object("osg::Group", 1, "UpdateCallback TRUE {\n" + object("osg::Group", 2, "") + "}\n"),
+     "object 2 of class \"osg::Group\", expected one of a class that can stand there"},
+    {"AnimationIsAManager",
+     object("osg::Group", 1,
+            "UpdateCallback TRUE {\n" +
+                object("osgAnimation::BasicAnimationManager", 2,
+                       "Animations 1 {\n" + object("osgAnimation::BasicAnimationManager", 3, "") +
+                           "}\n") +
+                "}\n"),
+     "object 3 of class"},
     {"UnknownBinding", object("osg::Vec3Array", 1, "Binding 77\nvector 0\n"),
      "a binding of \"77\""},
     {"NoNumber", object("osg::Vec3Array", 1, "vector 1 {\n0 banana 0\n}\n"),

@@ -4,6 +4,7 @@
 #include "saved/CheckAnimation.h"
 #include "text/FileText.h"
 
+#include <osg/Callback>
 #include <osg/Geometry>
 #include <osg/Group>
 #include <osgAnimation/AnimationManagerBase>
@@ -79,6 +80,15 @@ std::string wrongIn(const osg::Geometry& geometry) {
     return {};
 }
 
+/// Whether OSG read a node, callback or animation and has not put it anywhere: it drops without a
+/// word what is of another class than it looks for, and a character would stand still.
+bool isDropped(const osg::Object* object) {
+    const bool isKept = dynamic_cast<const osg::Node*>(object) != nullptr ||
+                        dynamic_cast<const osg::Callback*>(object) != nullptr ||
+                        dynamic_cast<const osgAnimation::Animation*>(object) != nullptr;
+    return isKept && object->referenceCount() == 1; // by the list of what was read
+}
+
 /// Nodes, vertices and corners, as often as they are shown.
 double costOf(const osg::Node& node, std::map<const osg::Node*, double>& known) {
     const auto found = known.find(&node);
@@ -101,6 +111,10 @@ double costOf(const osg::Node& node, std::map<const osg::Node*, double>& known) 
 
 void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::string& path) {
     for (const auto& [id, object] : objects) {
+        if (isDropped(object.get()))
+            failFile(path, "object " + std::to_string(id) + " of class " +
+                               inQuotes(object->getCompoundClassName()) +
+                               ", expected one of a class that can stand there");
         if (const auto* geometry = dynamic_cast<const osg::Geometry*>(object.get())) {
             const std::string wrong = wrongIn(*geometry);
             if (!wrong.empty())

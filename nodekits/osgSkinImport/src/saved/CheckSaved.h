@@ -15,7 +15,7 @@ namespace osgSkin {
 
 /// Checks all that was read from a saved file, be it in the scene or not: geometries whose
 /// primitives are none or name vertices that are not there, arrays and morph targets that are too
-/// short, animations that are none.
+/// short, animations that are none, and nodes, callbacks and animations that OSG has dropped.
 /// \throw osgSkin::Error with the file and the reason
 void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::string& path);
 
