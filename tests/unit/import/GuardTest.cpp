@@ -11,9 +11,11 @@
 #include <osgSkinRig/Motion>
 
 #include <osg/Geometry>
+#include <osg/Material>
 #include <osgDB/WriteFile>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <functional>
 #include <ostream>
@@ -63,6 +65,25 @@ std::string repeated(std::size_t count, const std::function<std::string(std::siz
 
 std::string gltf(const std::string& parts) {
     return R"({"asset":{"version":"2.0"},)" + parts + "}";
+}
+
+/// Lists within each other.
+std::string nested(std::size_t lists) {
+    return std::string(lists, '[') + std::string(lists, ']');
+}
+
+std::string number(std::size_t value) {
+    std::string bytes;
+    for (int k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(value >> 8 * k & 0xff));
+    return bytes;
+}
+
+/// A binary file of a text and, where there are some, bytes.
+std::string glb(std::string text, const std::string& bytes = "") {
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string chunks = number(text.size()) + "JSON" + text;
+    if (!bytes.empty()) chunks += number(bytes.size()) + std::string("BIN\0", 4) + bytes;
+    return "glTF" + number(2) + number(12 + chunks.size()) + chunks;
 }
 
 /// Keys at 0 and 1e30 seconds; the values are zeros, which take no room.
@@ -185,6 +206,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "is string"},
         Guarded{"copies.gltf", kManyCopies,
                 "malformed glTF: nodes, bones, materials and channels: expected at most"},
+        Guarded{"deep.gltf", gltf("\"extras\":" + nested(200'000)), "lists and objects stand in"},
+        Guarded{"deep.glb", glb(gltf("\"extras\":" + nested(200'000))),
+                "lists and objects stand in each other more than 64 deep"},
         Guarded{"digits.off", "OFF\n500000000x 500000000 0\n0 0 0\n", "\"500000000x\""},
         Guarded{"marked.off", "N90199019 1 ", "\"N90199019\", expected OFF"},
         Guarded{"joined.off", "OFF90199019 1 0\n", "\"OFF90199019\", expected OFF"},

@@ -13,9 +13,6 @@
 namespace osgSkin {
 namespace {
 
-/// How deep lists and objects may stand in each other; a description has 4 levels.
-constexpr std::size_t kDeepest = 64;
-
 /// "line 3, column 7", from 1, of a byte.
 std::string placeOf(const std::string& text, std::size_t byte) {
     const std::size_t end = std::min(byte, text.size());
@@ -26,29 +23,11 @@ std::string placeOf(const std::string& text, std::size_t byte) {
     return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
-/// How deep lists and objects of a JSON text stand in each other. Its parser could tell, too, but
-/// looks through a list again after each of its objects then.
-std::size_t depthOf(const std::string& text) {
-    std::size_t depth = 0, deepest = 0;
-    bool inString = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (c == '"') inString = !inString;
-        if (inString && c == '\\') ++i; // what follows ends no string
-        if (inString) continue;
-        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
-        if ((c == ']' || c == '}') && depth > 0) --depth;
-    }
-    return deepest;
-}
-
 } // namespace
 
 nlohmann::json JsonReader::parseFile(const std::string& file, const ReadLimits& limits) {
     const std::string text = readWholeFile(file, limits.textMegabytes, "maxTextMB");
-    if (depthOf(text) > kDeepest)
-        throw Error(file + ": lists and objects stand in each other more than " +
-                    std::to_string(kDeepest) + " deep");
+    checkJsonDepth(file, text);
     nlohmann::json json;
     try {
         json = nlohmann::json::parse(text);

@@ -68,6 +68,7 @@ std::optional<GltfFile> GltfFile::read(const std::string& path, const ReadLimits
         if (numberAt(all, 4) != 2 || !readChunks(all, file, text)) return std::nullopt;
         all = std::move(text);
     }
+    checkJsonDepth(path, all);
     file.json = nlohmann::json::parse(all, nullptr, false);
     if (!isSecond(file.json)) return std::nullopt;
     return file;

@@ -35,6 +35,10 @@ std::vector<std::string> listOf(const std::string& key, const std::string& value
     return result;
 }
 
+/// How deep lists and objects of a JSON text may stand in each other; a `.skin` file has 4 levels,
+/// what VRM adds to glTF 10.
+constexpr std::size_t kDeepestJson = 64;
+
 } // namespace
 
 std::vector<std::pair<std::string, std::string>> optionValues(const std::string& text) {
@@ -97,6 +101,21 @@ std::string readWholeFile(const std::string& path, std::size_t mostMegabytes,
     if (static_cast<std::size_t>(stream.gcount()) != size)
         failFile(path, "cannot be read to its end");
     return text;
+}
+
+void checkJsonDepth(const std::string& path, std::string_view text) {
+    std::size_t depth = 0;
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') inString = !inString;
+        if (inString && c == '\\') ++i; // what follows ends no string
+        if (inString) continue;
+        if ((c == '[' || c == '{') && ++depth > kDeepestJson)
+            failFile(path, "lists and objects stand in each other more than " +
+                               std::to_string(kDeepestJson) + " deep");
+        if ((c == ']' || c == '}') && depth > 0) --depth;
+    }
 }
 
 } // namespace osgSkin
