@@ -354,6 +354,51 @@ TEST(Guard, MorphTargetsAndBuffersAreAsLargeAsTheirFiles) {
                 "malformed glTF: buffers: expected less than 1 MB in all (option maxFileMB)");
 }
 
+/// A library named by many spellings, of many materials, each of kilobytes.
+TEST(Guard, MaterialLibrariesAreReadOnce) {
+    std::string library, text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 20'000; ++i) library += "newmtl a" + std::to_string(i) + "\nKd 0 0 1\n";
+    save("spelled.mtl", library + "newmtl a7\nKd 1 0 0\n");
+    for (int i = 0; i < 200; ++i) {
+        text += "mtllib ";
+        for (int k = 0; k < 8; ++k) text += (i >> k) % 2 == 0 ? "./" : ".//";
+        text += "spelled.mtl\n";
+    }
+    const std::string path = save("spelled.obj", text + "usemtl a7\nf 1 2 3\n");
+    const auto begin = std::chrono::steady_clock::now();
+    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+    ASSERT_EQ(mesh.parts.size(), 1u);
+    const auto* material = dynamic_cast<const osg::Material*>(
+        mesh.parts[0].geometry->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
+    ASSERT_NE(material, nullptr);
+    EXPECT_EQ(material->getDiffuse(osg::Material::FRONT), osg::Vec4(0.0f, 0.0f, 1.0f, 1.0f));
+
+    std::string uses;
+    for (int i = 0; i < 100; ++i) uses += "usemtl " + std::to_string(i) + "\nf 1 2 3\n";
+    const std::string many = save("materials.obj", text + uses);
+    const osg::ref_ptr<osgDB::Options> few = new osgDB::Options("maxSamples=1");
+    const std::size_t most = (1 + (text.size() + uses.size()) / 2) / 20;
+    EXPECT_GT(most, 100u);
+    EXPECT_EQ(osgSkin::importMesh(many, few).mesh.positions.size(), 3u);
+    const std::string beyond = save("materials.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + uses);
+    expectError([&] { osgSkin::importMesh(beyond, few); }, "100 materials, expected at most ");
+}
+
+/// Numbers of any length are what they are, or refused.
+TEST(Guard, LongNumbersOfObjFilesAreTheirValues) {
+    const std::string rest = "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const std::string thirds(2000, '3');
+    const auto first = [&](const std::string& number) {
+        return osgSkin::importMesh(save("long.obj", "v " + number + " 0 0" + rest))
+            .mesh.positions.at(0)[0];
+    };
+    EXPECT_EQ(first("1." + thirds), 4.0 / 3.0);
+    EXPECT_EQ(first("-" + std::string(500, '0') + "12.5"), -12.5);
+    EXPECT_EQ(first("0." + std::string(500, '0') + "1"), 0.0);
+    expectError([&] { first(thirds.substr(0, 305)); }, "expected 3 finite numbers");
+}
+
 TEST(Guard, LimitsAndFormatsAreTheCallers) {
     const std::string path = testData("mesh/quads.obj");
     const auto import = [&](const char* words) {

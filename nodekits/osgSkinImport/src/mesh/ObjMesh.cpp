@@ -12,12 +12,17 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 namespace osgSkin {
 namespace {
+
+constexpr std::size_t kSamplesOf = 20; ///< that a material counts for: two kilobytes or three
 
 osg::Vec4 colour(const tinyobj::real_t (&rgb)[3], double alpha = 1.0) {
     return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]),
@@ -68,11 +73,13 @@ private:
     TextureReads _reads;
 };
 
-/// Reads a material library as it is when checked.
+/// Reads material libraries as they are when checked, each file once, and of them the materials
+/// that faces use: tinyobjloader takes kilobytes for each.
 class CheckedMaterials : public tinyobj::MaterialReader {
 public:
-    CheckedMaterials(std::string folder, const ReadLimits& limits)
-        : _folder(std::move(folder)), _limits(limits) {}
+    /// \param wanted names of materials
+    CheckedMaterials(std::string folder, const ReadLimits& limits, std::set<std::string> wanted)
+        : _folder(std::move(folder)), _limits(limits), _wanted(std::move(wanted)) {}
 
     bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                     std::map<std::string, int>* numbers, std::string* warning,
@@ -80,8 +87,11 @@ public:
         const std::string path = _folder.empty() || osgDB::isAbsolutePath(name)
                                      ? name
                                      : osgDB::concatPaths(_folder, name);
+        std::error_code missing;
+        const std::filesystem::path whole = std::filesystem::canonical(path, missing);
+        if (!missing && !_known.insert(whole.string()).second) return true;
         try {
-            std::istringstream lines(checkMtl(readText(path, _limits)));
+            std::istringstream lines(checkMtl(readText(path, _limits), _wanted));
             tinyobj::LoadMtl(numbers, materials, &lines, warning, error);
             return true;
         } catch (const Error& failure) {
@@ -93,6 +103,8 @@ public:
 private:
     const std::string _folder;
     const ReadLimits& _limits;
+    std::set<std::string> _wanted; ///< that no library had so far
+    std::set<std::string> _known;  ///< libraries that have been read, however they are spelled
 };
 
 glm::vec3 normalAt(const tinyobj::attrib_t& attributes, int index) {
@@ -130,15 +142,19 @@ void addShape(const tinyobj::mesh_t& shape, const tinyobj::attrib_t& attributes,
 
 CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
     const ReadLimits limits = ReadLimits::of(options);
-    const std::string text = checkObj(path, readText(path, limits));
+    const CheckedObj checked = checkObj(path, readText(path, limits));
+    const std::size_t most = limits.samplesOf(checked.text.size()) / kSamplesOf;
+    if (checked.materials.size() > most)
+        failFile(path, std::to_string(checked.materials.size()) + " materials, expected at most " +
+                           std::to_string(most) + " (option maxSamples)");
 
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warning;
     std::string error;
-    CheckedMaterials materialReader(osgDB::getFilePath(path), limits);
-    std::istringstream stream(text);
+    CheckedMaterials materialReader(osgDB::getFilePath(path), limits, checked.materials);
+    std::istringstream stream(checked.text);
     const bool read = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
                                        &materialReader, false, false);
     if (!read) failFile(path, error.empty() ? "cannot be parsed" : error);

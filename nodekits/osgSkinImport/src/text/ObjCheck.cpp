@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::string_view kLineEnds("\n\r\0", 3);
 constexpr std::size_t kLongestName = 4000;
+constexpr std::size_t kMostDigits = 32; // that are taken over as they stand
+constexpr std::size_t kLongestOption = 400;
 constexpr std::size_t kMostNumbers = 7;  // a place and a colour, or with a weight
 constexpr std::size_t mostCorners = 255; // tinyobjloader counts them in a byte
 
@@ -67,11 +69,25 @@ std::string libraryNames(std::string_view rest, const std::string& folder) {
     return name;
 }
 
-/// Adds a number as it stands; one that tinyobjloader would overflow at as 0.
+/// Whether tinyobjloader's power of ten stays a number.
+bool isInRange(double value) {
+    return std::abs(value) > 1e-300 && std::abs(value) < 1e300;
+}
+
+/// Adds a number as it stands; one that tinyobjloader would overflow at as 0, and one of more
+/// digits than it keeps apart in its shortest form.
 void addNumber(std::string_view word, double value, std::string& out) {
-    const double size = std::abs(value);
     out += ' ';
-    out += size > 1e-300 && size < 1e300 && word.size() < 400 ? word : std::string_view("0");
+    if (!isInRange(value)) {
+        out += '0';
+    } else if (word.size() <= kMostDigits) {
+        out += word;
+    } else {
+        std::array<char, 32> digits;
+        const char* const end =
+            std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+        out.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
+    }
 }
 
 /// What an OBJ face refers to, in the order of a corner's v/vt/vn.
@@ -114,13 +130,15 @@ public:
             face(rest);
             keep(keyword, rest);
         } else if (keyword == "usemtl") {
-            keep(keyword, ' ' + materialName(rest));
+            const std::string name = materialName(rest);
+            keep(keyword, ' ' + name);
+            _materials.insert(name);
         } else if (keyword == "mtllib" && !rest.empty() && _libraries.emplace(rest).second) {
             keep(keyword, ' ' + libraryNames(rest, osgDB::getFilePath(_path)));
         }
     }
 
-    std::string take() { return std::move(_checked); }
+    CheckedObj take() { return {std::move(_checked), std::move(_materials)}; }
 
 private:
     void keep(std::string_view keyword, std::string_view rest) {
@@ -135,7 +153,7 @@ private:
             double value = 0.0;
             const bool isNumber = parseNumber(word, value);
             // A body is drawn well enough without a broken normal: all are computed then.
-            const bool isFine = isNumber && (std::isfinite(value) || keyword == "vn");
+            const bool isFine = isNumber && (std::abs(value) < 1e300 || keyword == "vn");
             if (isFine) addNumber(word, value, _checked);
             if (!isFine && k >= expected) break;
             if (isFine) continue;
@@ -190,6 +208,7 @@ private:
     const Counts& _total;
     Counts _soFar;
     std::set<std::string_view> _libraries; ///< of materials: each is read once
+    std::set<std::string> _materials;
     std::string _checked;
     std::size_t _line = 0;
 };
@@ -198,10 +217,8 @@ private:
 bool hasOverflow(std::string_view words) {
     for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words)) {
         double value = 0.0;
-        std::string text;
         if (!parseNumber(word, value)) continue;
-        addNumber(word, value, text);
-        if (value != 0.0 && text == " 0") return true;
+        if (word.size() >= kLongestOption || (value != 0.0 && !isInRange(value))) return true;
     }
     return false;
 }
@@ -216,9 +233,12 @@ constexpr MtlKeyword kMtlKeywords[] = {{"newmtl", 0}, {"Kd", 3}, {"Ks", 3}, {"Ke
 
 } // namespace
 
-std::string checkMtl(std::string_view text) {
+std::string checkMtl(std::string_view text, std::set<std::string>& wanted) {
     std::string checked;
+    bool isWanted = false;
     forEachLine(text, [&](std::string_view keyword, std::string_view rest, std::size_t) {
+        if (keyword == "newmtl") isWanted = wanted.erase(materialName(rest)) > 0;
+        if (!isWanted) return;
         for (const MtlKeyword& known : kMtlKeywords) {
             if (keyword != known.name) continue;
             std::string line(keyword);
@@ -238,7 +258,7 @@ std::string checkMtl(std::string_view text) {
     return checked;
 }
 
-std::string checkObj(const std::string& path, std::string_view text) {
+CheckedObj checkObj(const std::string& path, std::string_view text) {
     Counts total;
     forEachLine(text, [&](std::string_view keyword, std::string_view, std::size_t) {
         const int kind = kindOf(keyword);
