@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfAccessors.h"
 
-#include "text/Base64.h"
 #include "text/FileText.h"
 
-#include <osgDB/FileNameUtils>
-
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -78,19 +75,6 @@ std::size_t sizeAt(const nlohmann::json& object, const char* key) {
 
 } // namespace
 
-std::string decodedUri(const std::string& uri) {
-    std::string result;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        unsigned code = 0;
-        const char* const digits = uri.data() + i + 1;
-        const bool isCode = uri[i] == '%' && i + 2 < uri.size() &&
-                            std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
-        result.push_back(isCode ? static_cast<char>(code) : uri[i]);
-        if (isCode) i += 2;
-    }
-    return result;
-}
-
 const nlohmann::json& GltfAccessors::accessor(std::size_t index) const {
     return _file.json.at("accessors").at(index);
 }
@@ -112,23 +96,10 @@ bool GltfAccessors::hasValues(std::size_t index) const {
     return accessor(index).contains("bufferView") || accessor(index).contains("sparse");
 }
 
-const std::string& GltfAccessors::buffer(std::size_t index) {
-    const auto known = _buffers.find(index);
-    if (known != _buffers.end()) return known->second;
-    const nlohmann::json& buffer = _file.json.at("buffers").at(index);
-    if (!buffer.contains("uri")) {
-        if (index != 0 || !_file.binary)
-            failFile(_file.path, "buffer " + std::to_string(index) + " has no content");
-        return *_file.binary;
-    }
-    const std::string uri = buffer.at("uri").get<std::string>();
-    std::string& content = _buffers[index];
-    if (uri.rfind("data:", 0) == 0)
-        content = fromBase64(std::string_view(uri).substr(std::min(uri.find(',') + 1, uri.size())));
-    else
-        content = readText(osgDB::concatPaths(osgDB::getFilePath(_file.path), decodedUri(uri)),
-                           _file.limits);
-    return content;
+const std::string& GltfAccessors::buffer(std::size_t index) const {
+    if (!_file.buffers.isThere(index))
+        failFile(_file.path, "buffer " + std::to_string(index) + " has no content");
+    return _file.buffers[index];
 }
 
 void GltfAccessors::read(std::size_t view, std::size_t offset, int type, std::size_t wide,
@@ -198,12 +169,10 @@ std::size_t GltfAccessors::add(const std::string& type, const std::vector<double
         std::memcpy(raw, &single, sizeof single);
         bytes.append(raw, sizeof single);
     }
-    nlohmann::json& buffers = _file.json["buffers"];
     nlohmann::json& views = _file.json["bufferViews"];
     nlohmann::json& accessors = _file.json["accessors"];
-    buffers.push_back({{"byteLength", bytes.size()},
-                       {"uri", "data:application/octet-stream;base64," + toBase64(bytes)}});
-    views.push_back({{"buffer", buffers.size() - 1}, {"byteLength", bytes.size()}});
+    const std::size_t length = bytes.size();
+    views.push_back({{"buffer", _file.addBuffer(std::move(bytes))}, {"byteLength", length}});
     accessors.push_back({{"bufferView", views.size() - 1},
                          {"componentType", int(kFloat)},
                          {"count", values.size() / widthOf(type)},

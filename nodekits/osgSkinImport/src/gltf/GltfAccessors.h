@@ -5,22 +5,18 @@
 #include "gltf/GltfFile.h"
 
 #include <cstddef>
-#include <map>
 #include <string>
 #include <vector>
 
 namespace osgSkin {
 
-/// A file's name as a URI has it, with "%20" for a space and the like, in plain characters.
-std::string decodedUri(const std::string& uri);
-
 /// The numbers of a glTF file, read as its specification says: normalised integers, sparse
-/// accessors, strides, buffers in the file, in its text or beside it.
+/// accessors, strides.
 ///
 /// What is malformed throws nlohmann::json::exception or osgSkin::Error.
 class GltfAccessors {
 public:
-    /// \param file is read, and added to; must outlive this
+    /// \param file is read, and added to, after loadBuffers(); must outlive this
     explicit GltfAccessors(GltfFile& file) : _file(file) {}
 
     /// How many elements, and numbers in each.
@@ -36,9 +32,9 @@ public:
     /// All numbers of an accessor, element by element.
     std::vector<double> values(std::size_t accessor);
 
-    /// What a buffer holds: the file's binary chunk, its own text's, or another file's content.
+    /// What a buffer holds.
     /// \param index of the buffer
-    const std::string& buffer(std::size_t index);
+    const std::string& buffer(std::size_t index) const;
 
     /// Adds an accessor of floats.
     /// \param type of its elements, as "VEC3"
@@ -51,7 +47,6 @@ private:
               std::vector<double>& result);
 
     GltfFile& _file;
-    std::map<std::size_t, std::string> _buffers; ///< those that have been read
 };
 
 } // namespace osgSkin

@@ -4,7 +4,10 @@
 #include "text/FileText.h"
 
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <string_view>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -22,13 +25,6 @@ std::uint32_t numberAt(std::string_view bytes, std::size_t offset) {
 
 void addNumber(std::string& bytes, std::size_t number) {
     for (std::size_t k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(number >> 8 * k & 0xff));
-}
-
-void addChunk(std::string& bytes, std::string_view type, std::string content, char padding) {
-    content.resize((content.size() + 3) / 4 * 4, padding);
-    addNumber(bytes, content.size());
-    bytes += type;
-    bytes += content;
 }
 
 /// Takes the chunks apart. False where they do not fit the file.
@@ -62,8 +58,8 @@ std::optional<GltfFile> GltfFile::read(const std::string& path, const ReadLimits
     file.limits = limits;
     std::string all = readText(path, limits);
     file.size = all.size();
-    file.isBinary = all.size() > kHeader && all.compare(0, 4, "glTF") == 0;
-    if (file.isBinary) {
+    const bool isBinary = all.size() > kHeader && all.compare(0, 4, "glTF") == 0;
+    if (isBinary) {
         std::string text;
         if (numberAt(all, 4) != 2 || !readChunks(all, file, text)) return std::nullopt;
         all = std::move(text);
@@ -74,16 +70,41 @@ std::optional<GltfFile> GltfFile::read(const std::string& path, const ReadLimits
     return file;
 }
 
-std::string GltfFile::bytes() const {
+std::size_t GltfFile::addBuffer(std::string bytes) {
+    nlohmann::json& list = json["buffers"];
+    list.push_back({{"byteLength", bytes.size()}});
+    buffers.add(std::make_shared<const std::string>(std::move(bytes)));
+    return list.size() - 1;
+}
+
+std::string GltfFile::bytes() {
+    const GltfBuffers::Layout layout = buffers.layout();
+    if (json.contains("bufferViews"))
+        for (nlohmann::json& view : json.at("bufferViews")) {
+            const auto buffer = view.at("buffer").get<std::size_t>();
+            view["byteOffset"] = view.value("byteOffset", std::size_t(0)) + layout.begins[buffer];
+            view["buffer"] = 0;
+        }
+    if (buffers.count() > 0)
+        json["buffers"] = nlohmann::json::array({{{"byteLength", layout.size}}});
     std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (!isBinary) return text;
-    std::string chunks;
-    addChunk(chunks, kJson, text, ' ');
-    if (binary) addChunk(chunks, kBinary, *binary, '\0');
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::size_t chunk = layout.size > 0 ? kChunkHeader + layout.size : 0;
+    const std::size_t all = kHeader + kChunkHeader + text.size() + chunk;
+    if (all > std::numeric_limits<std::uint32_t>::max())
+        failFile(path, std::to_string(all) + " bytes with its buffers, expected less than 4 GB");
     std::string result = "glTF";
+    result.reserve(all);
     addNumber(result, 2);
-    addNumber(result, kHeader + chunks.size());
-    return result + chunks;
+    addNumber(result, all);
+    addNumber(result, text.size());
+    result += kJson;
+    result += text;
+    if (chunk == 0) return result;
+    addNumber(result, layout.size);
+    result += kBinary;
+    buffers.append(result);
+    return result;
 }
 
 std::string reasonOf(const nlohmann::json::exception& error) {

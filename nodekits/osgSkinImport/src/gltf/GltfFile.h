@@ -2,6 +2,8 @@
 #ifndef OSGSKINIMPORT_GLTFFILE_H
 #define OSGSKINIMPORT_GLTFFILE_H 1
 
+#include "gltf/GltfBuffers.h"
+
 #include <osgSkinImport/ReadLimits>
 
 #include <nlohmann/json.hpp>
@@ -15,18 +17,23 @@ namespace osgSkin {
 struct GltfFile {
     std::string path; ///< other files are named relative to its folder
     nlohmann::json json;
-    std::optional<std::string> binary; ///< of a binary file: what buffer 0 holds, where it has one
+    std::optional<std::string> binary; ///< a binary file's chunk, until loadBuffers() takes it
+    GltfBuffers buffers;               ///< none before loadBuffers(); as many as of `json` then
 
-    bool isBinary = false;
-    ReadLimits limits;    ///< for the other files
-    std::size_t size = 0; ///< in bytes
+    ReadLimits limits;      ///< for the other files
+    std::size_t size = 0;   ///< in bytes
+    std::size_t beside = 0; ///< bytes of other files that buffers hold
 
     /// Reads a file. None where it is no glTF 2, or broken as a whole.
     /// \throw osgSkin::Error where the file cannot be opened
     static std::optional<GltfFile> read(const std::string& path, const ReadLimits& limits);
 
-    /// The whole file again, of the kind that it was.
-    std::string bytes() const;
+    /// Adds a buffer; returns its index.
+    std::size_t addBuffer(std::string bytes);
+
+    /// The whole file again, as a binary one with a single buffer.
+    /// \throw osgSkin::Error where that would be larger than such files can be
+    std::string bytes();
 };
 
 /// What the JSON library says of a member that is not there or of another kind, without its number.

@@ -2,14 +2,14 @@
 #include "gltf/MeshoptViews.h"
 
 #include "gltf/GltfAccessors.h"
-#include "text/Base64.h"
 #include "text/FileText.h"
 
 #ifdef OSGSKIN_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif
 
-#include <algorithm>
+#include <cstddef>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -30,9 +30,7 @@ const char* packedBy(const json& view) {
 
 /// A packed view may name a buffer with the same bytes unpacked, which need not be there.
 bool hasContent(const GltfFile& file, const json& view) {
-    const auto index = view.at("buffer").get<std::size_t>();
-    const json& buffer = file.json.at("buffers").at(index);
-    return buffer.contains("uri") || (index == 0 && file.binary.has_value());
+    return file.buffers.isThere(view.at("buffer").get<std::size_t>());
 }
 
 #ifdef OSGSKIN_HAS_MESHOPTIMIZER
@@ -40,6 +38,9 @@ bool hasContent(const GltfFile& file, const json& view) {
 /// How many bytes one can stand for at most. Version 0 of the vertices' codec spends two bits a
 /// group of 16; version 1, which younger libraries read, a quarter byte a block of 256.
 constexpr std::size_t kMostFromOne = MESHOPTIMIZER_VERSION < 230 ? 64 : 1024;
+
+/// Bytes that may be unpacked for each sample that a file may have: 16 MB, and 16 times the file.
+constexpr std::size_t kFairShare = 32;
 
 /// What the extension says of a view; checked before the decoders see it, which only assert.
 struct Packed {
@@ -85,7 +86,8 @@ struct Packed {
 class Unpacker {
 public:
     explicit Unpacker(GltfFile& file)
-        : _file(file), _accessors(file), _room(file.limits.fileMegabytes << 20) {}
+        : _file(file), _accessors(file), _room(file.limits.fileMegabytes << 20),
+          _fair(kFairShare * file.limits.samplesOf(file.size + file.beside)) {}
 
     /// \param name of the extension
     /// \param number of the view
@@ -111,6 +113,8 @@ private:
         if (packed.count > _room / packed.stride)
             fail("at most " + std::to_string(_file.limits.fileMegabytes) +
                  " MB unpacked in all (option maxFileMB)");
+        if (packed.count * packed.stride > _fair)
+            fail("no more unpacked in all than the file has room for (option maxSamples)");
         if (packed.count * packed.stride / kMostFromOne > packed.length)
             fail("as many bytes as it says");
         std::string bytes(packed.count * packed.stride, '\0');
@@ -118,16 +122,15 @@ private:
         if (!packed.decode(reinterpret_cast<const unsigned char*>(begin), bytes))
             fail("bytes that can be unpacked by this build's meshoptimizer");
         packed.unfilter(bytes);
-        replace(view, packed, bytes);
+        replace(view, packed, std::move(bytes));
     }
 
-    void replace(json& view, const Packed& packed, const std::string& bytes) {
-        _room -= bytes.size();
-        _file.size += bytes.size(); // what else the file may ask for goes by what it says unpacked
-        json& buffers = _file.json.at("buffers");
-        buffers.push_back({{"byteLength", bytes.size()},
-                           {"uri", "data:application/octet-stream;base64," + toBase64(bytes)}});
-        view = {{"buffer", buffers.size() - 1}, {"byteLength", bytes.size()}};
+    void replace(json& view, const Packed& packed, std::string bytes) {
+        const std::size_t length = bytes.size();
+        _room -= length;
+        _fair -= length;
+        _file.size += length; // what else the file may ask for goes by what it says unpacked
+        view = {{"buffer", _file.addBuffer(std::move(bytes))}, {"byteLength", length}};
         if (packed.mode == "ATTRIBUTES") view["byteStride"] = packed.stride;
     }
 
@@ -138,6 +141,7 @@ private:
     GltfFile& _file;
     GltfAccessors _accessors;
     std::size_t _room; ///< bytes that may still be unpacked
+    std::size_t _fair; ///< bytes that the file's own size allows to be unpacked still
     std::string _where;
 };
 
@@ -147,7 +151,7 @@ class Unpacker {
 public:
     explicit Unpacker(GltfFile& file) : _file(file) {}
 
-    [[noreturn]] void unpack(json&, const std::string& name, std::size_t) {
+    [[noreturn]] void unpackAt(json&, const std::string& name, std::size_t) {
         failFile(_file.path, "meshopt compression (" + name +
                                  ") is not read by this build; save the file without it");
     }

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "text/Base64.h"
 
+#include "text/FileText.h"
+
+#include <osgSkin/Error>
+
+#include <array>
 #include <cstdint>
 
 namespace osgSkin {
@@ -9,6 +14,18 @@ namespace {
 constexpr std::string_view kLetters =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
+/// What each byte stands for; no letter's value where it is none.
+std::size_t valueOf(char letter) {
+    static const std::array<unsigned char, 256> values = [] {
+        std::array<unsigned char, 256> result;
+        result.fill(255);
+        for (std::size_t i = 0; i < kLetters.size(); ++i)
+            result[static_cast<unsigned char>(kLetters[i])] = static_cast<unsigned char>(i);
+        return result;
+    }();
+    return values[static_cast<unsigned char>(letter)];
+}
+
 } // namespace
 
 std::string fromBase64(std::string_view text) {
@@ -16,9 +33,15 @@ std::string fromBase64(std::string_view text) {
     bytes.reserve(text.size() / 4 * 3);
     std::uint32_t bits = 0;
     int count = 0;
-    for (const char letter : text) {
-        const std::size_t value = kLetters.find(letter);
-        if (value == std::string_view::npos) continue;
+    // Padding is all that may follow it.
+    const std::size_t end = text.find_last_not_of("= \t\r\n");
+    for (std::size_t i = 0; end != std::string_view::npos && i <= end; ++i) {
+        const std::size_t value = valueOf(text[i]);
+        if (value >= kLetters.size()) {
+            if (std::string_view(" \t\r\n").find(text[i]) != std::string_view::npos) continue;
+            throw Error("letter " + std::to_string(i) + " is " + inQuotes(text.substr(i, 1)) +
+                        ", expected base64 (A to Z, a to z, 0 to 9, + and /)");
+        }
         bits = bits << 6 | static_cast<std::uint32_t>(value);
         count += 6;
         if (count < 8) continue;

@@ -7,7 +7,8 @@
 
 namespace osgSkin {
 
-/// The bytes that base64 stands for; what is no letter of it (line ends, padding) is passed over.
+/// The bytes that base64 stands for; blanks and line ends are passed over.
+/// \throw osgSkin::Error with the reason alone where there is anything else
 std::string fromBase64(std::string_view text);
 
 /// Bytes as base64, padded.

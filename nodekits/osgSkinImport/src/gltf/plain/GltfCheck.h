@@ -14,9 +14,10 @@ namespace osgSkin {
 /// Nodes are trees of no more than the allowed depth, each index names something, accessors lie in
 /// their buffer views and these in their buffers, attributes of a primitive have one count, and
 /// what is asked for is in proportion to the file's size. Extras, cameras, lights, morph targets
-/// and unknown extensions are not in it, and other files' buffers are.
+/// and unknown extensions are not in it.
 /// \throw osgSkin::Error with the file, the path in it and what was expected
 /// \throw nlohmann::json::exception where a member is missing or of another type
+/// \param file after loadBuffers()
 nlohmann::json checkedGltf(const GltfFile& file);
 
 } // namespace osgSkin

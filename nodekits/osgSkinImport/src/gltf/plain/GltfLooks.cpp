@@ -2,6 +2,9 @@
 #include "gltf/plain/GltfLooks.h"
 
 #include "text/Base64.h"
+#include "text/Uri.h"
+
+#include <osgSkin/Error>
 
 #include <osgDB/FileNameUtils>
 
@@ -19,6 +22,18 @@ bool isWord(const std::string& text) {
                return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '/' || c == '-' ||
                       c == '+' || c == '.';
            });
+}
+
+/// An image's data in base64. What is none is drawn without, as is any picture that is broken.
+std::string plainData(const std::string& uri) {
+    const std::string kind = uri.substr(5, uri.find_first_of(";,") - 5);
+    std::string bytes;
+    try {
+        bytes = dataOfUri(uri);
+    } catch (const Error&) {
+        bytes.clear();
+    }
+    return "data:" + (isWord(kind) ? kind : "") + ";base64," + toBase64(bytes);
 }
 
 /// Where an image stands that a texture has by an extension, for those who read its format; null
@@ -120,14 +135,7 @@ std::vector<std::size_t> GltfLooks::addImages(json& result) const {
             image["bufferView"] = number;
         } else {
             const std::string uri = from.value("uri", "");
-            const std::size_t comma = uri.find(',');
-            const bool isData = uri.rfind("data:", 0) == 0;
-            const std::string kind =
-                isData ? uri.substr(5, std::min(uri.find(';'), comma) - 5) : "";
-            image["uri"] = !isData ? uri
-                                   : "data:" + (isWord(kind) ? kind : "") + ";base64," +
-                                         toBase64(fromBase64(std::string_view(uri).substr(
-                                             std::min(comma, uri.size()))));
+            image["uri"] = isDataUri(uri) ? plainData(uri) : uri;
         }
         result["images"].push_back(image);
     });

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/plain/GltfParts.h"
 
-#include "gltf/GltfAccessors.h"
-#include "text/Base64.h"
 #include "text/FileText.h"
 
-#include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
-
-#include <osgDB/FileNameUtils>
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +45,7 @@ bool isCoordinate(const json& value) {
 
 } // namespace
 
-GltfParts::GltfParts(const GltfFile& file) : _file(file) {}
+GltfParts::GltfParts(const GltfFile& file) : _file(file), _bytes(file.size + file.beside) {}
 
 void GltfParts::fail(const std::string& where, const std::string& expected) const {
     failFile(_file.path, "malformed glTF: " + where + ": expected " + expected);
@@ -116,40 +111,8 @@ void GltfParts::copyWeights(const json& from, const std::string& where, json& to
 }
 
 void GltfParts::checkBuffers(json& result) {
-    _bytes = _file.size;
-    forEach("buffers", [&](const json& from, const std::string& where) {
-        const std::size_t number = _bufferSizes.size();
-        std::string content;
-        if (!from.contains("uri")) {
-            // A buffer that is no part of the file stands in for one that is compressed.
-            const std::size_t there = number == 0 && _file.binary ? _file.binary->size() : 0;
-            _bufferSizes.push_back(std::min(there, sizeOf(from, "byteLength")));
-            result["buffers"].push_back({{"byteLength", _bufferSizes.back()}});
-            return;
-        }
-        if (!from.at("uri").is_string()) fail(where + ".uri", "a string");
-        const std::string& uri = from.at("uri").get_ref<const std::string&>();
-        if (uri.rfind("data:", 0) == 0) {
-            content = fromBase64(std::string_view(uri).substr(std::min(uri.find(','), uri.size())));
-        } else {
-            if (osgDB::containsServerAddress(uri)) fail(where + ".uri", "a file");
-            try {
-                content =
-                    readText(osgDB::concatPaths(osgDB::getFilePath(_file.path), decodedUri(uri)),
-                             _file.limits);
-            } catch (const Error& error) {
-                failFile(_file.path, where + ": " + error.what());
-            }
-            _bytes += content.size();
-            if (_bytes >> 20 >= limits().fileMegabytes)
-                fail("buffers", "less than " + std::to_string(limits().fileMegabytes) +
-                                    " MB in all (option maxFileMB)");
-        }
-        _bufferSizes.push_back(content.size());
-        result["buffers"].push_back(
-            {{"byteLength", content.size()},
-             {"uri", "data:application/octet-stream;base64," + toBase64(content)}});
-    });
+    for (std::size_t i = 0; i < _file.buffers.count(); ++i)
+        result["buffers"].push_back({{"byteLength", _file.buffers.sizeOf(i)}});
     forEach("bufferViews", [&](const json& from, const std::string& where) {
         json view = {{"buffer", indexOf(from.at("buffer"), "buffers", where + ".buffer")},
                      {"byteOffset", sizeOf(from, "byteOffset")},
@@ -165,7 +128,7 @@ std::string GltfParts::beyondView(const json& view, std::size_t offset, std::siz
         return "a buffer view that is there";
     const json& source = at("bufferViews")[view.get<std::size_t>()];
     const std::size_t begin = sizeOf(source, "byteOffset"), length = sizeOf(source, "byteLength");
-    const std::size_t buffer = _bufferSizes[source.at("buffer").get<std::size_t>()];
+    const std::size_t buffer = _file.buffers.sizeOf(source.at("buffer").get<std::size_t>());
     if (begin > buffer || length > buffer - begin) return "a buffer view within its buffer";
     const std::size_t given = packed ? 0 : sizeOf(source, "byteStride");
     if (given != 0 && given < bytes) return "a stride of an element at least";

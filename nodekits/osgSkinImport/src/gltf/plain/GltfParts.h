@@ -17,7 +17,7 @@ namespace osgSkin {
 /// made of. Numbers in messages are the file's own.
 class GltfParts {
 public:
-    /// \param file must outlive this
+    /// \param file after loadBuffers(); must outlive this
     explicit GltfParts(const GltfFile& file);
 
     const ReadLimits& limits() const { return _file.limits; }
@@ -54,7 +54,7 @@ public:
     void copyWeights(const nlohmann::json& from, const std::string& where,
                      nlohmann::json& to) const;
 
-    /// Adds buffers, each with its content in the text or in the file's binary chunk, and views.
+    /// Adds buffers, whose contents stay the file's, and views.
     void checkBuffers(nlohmann::json& result);
     void checkAccessors(nlohmann::json& result);
     /// Adds what a primitive is compressed with.
@@ -98,9 +98,8 @@ private:
     std::string wrongWith(const nlohmann::json& accessor, const Accessor& known) const;
 
     const GltfFile& _file;
-    std::vector<std::size_t> _bufferSizes;
     std::vector<Accessor> _accessors;
-    std::size_t _bytes = 0;    ///< of the file and its buffers
+    const std::size_t _bytes;  ///< of the file and its buffers
     std::size_t _elements = 0; ///< that were asked for
     std::size_t _entries = 0;
 };

@@ -7,9 +7,11 @@
 #include "gltf/GltfMorphs.h"
 #include "gltf/GltfNames.h"
 #include "gltf/GltfTracks.h"
+#include "gltf/LoadBuffers.h"
 #include "gltf/MeshoptViews.h"
 #include "gltf/plain/GltfCheck.h"
 #include "text/FileText.h"
+#include "text/Uri.h"
 
 #include <osgDB/FileNameUtils>
 
@@ -42,8 +44,7 @@ public:
         for (json& mesh : list("meshes"))
             for (json& primitive : mesh.at("primitives")) makeFloats(primitive);
         makeTracksLinear(_file, _accessors);
-        for (const char* files : {"buffers", "images"})
-            for (json& named : list(files)) decodeUri(named);
+        for (json& image : list("images")) decodeUri(image);
     }
 
 private:
@@ -133,7 +134,7 @@ private:
     static void decodeUri(json& named) {
         if (!named.contains("uri")) return;
         const std::string uri = named.at("uri").get<std::string>();
-        if (uri.rfind("data:", 0) != 0) named["uri"] = decodedUri(uri);
+        if (!isDataUri(uri)) named["uri"] = decodedUri(uri);
     }
 
     GltfFile& _file;
@@ -156,6 +157,7 @@ std::optional<PlainGltf> plainGltf(const std::string& path, const ReadLimits& li
     try {
         const bool backwards = facesBackwards(*file);
         noteExtensions(*file);
+        loadBuffers(*file);
         unpackMeshopt(*file);
         file->json = checkedGltf(*file);
         Plainer(*file).run();

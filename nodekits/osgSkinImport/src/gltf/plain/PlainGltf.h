@@ -12,7 +12,7 @@ namespace osgSkin {
 /// A glTF 2 file in the words that Assimp reads rightly: nodes with names of their own, floats for
 /// quantised numbers, linear tracks, skins with their inverse bind matrices.
 struct PlainGltf {
-    std::string bytes;           ///< of the whole file
+    std::string bytes;           ///< of the whole file, a binary one
     bool facesBackwards = false; ///< the figure's front is -Z, not +Z
 };
 

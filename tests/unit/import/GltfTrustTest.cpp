@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// glTF buffers in every place that they may have.
+#include "ExpectError.h"
+#include "GltfBuilder.h"
+#include "Paths.h"
+
+#include <osgSkinImport/ImportMesh>
+
+#include <osgDB/Options>
+
+#include <cstdint>
+#include <ctime>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+
+namespace {
+
+using nlohmann::json;
+using test::GltfColumn;
+
+std::string number(std::size_t value) {
+    std::string bytes;
+    for (int k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(value >> 8 * k & 0xff));
+    return bytes;
+}
+
+/// A binary file of a text and, where there are some, bytes.
+std::string saveGlb(const std::string& name, std::string text, std::string bytes) {
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    std::string chunks = number(text.size()) + "JSON" + text;
+    if (!bytes.empty()) chunks += number(bytes.size()) + std::string("BIN\0", 4) + bytes;
+    const std::string path = testing::TempDir() + name;
+    std::ofstream(path, std::ios::binary)
+        << "glTF" << number(2) << number(12 + chunks.size()) << chunks;
+    return path;
+}
+
+std::string escaped(const std::string& bytes) {
+    static const char* const digits = "0123456789aBcDeF";
+    std::string result;
+    for (const char c : bytes) {
+        const auto byte = static_cast<std::uint8_t>(c);
+        result += {'%', digits[byte >> 4], digits[byte & 15]};
+    }
+    return result;
+}
+
+/// Megabytes that this program took at most.
+long peakMegabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;
+}
+
+void expectColumn(const std::string& path) {
+    const std::vector<double> known = GltfColumn().places;
+    const osgSkin::ImportedMesh found = osgSkin::importMesh(path);
+    ASSERT_EQ(found.mesh.positions.size(), known.size() / 3) << path;
+    ASSERT_EQ(found.mesh.faceSizes.size(), 36u) << path;
+    for (std::size_t v = 0; v < found.mesh.positions.size(); ++v)
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(found.mesh.positions[v][axis], known[3 * v + std::size_t(axis)], 1e-6);
+}
+
+} // namespace
+
+TEST(GltfBuffers, StandInTheChunkTheTextOrOtherFiles) {
+    GltfColumn column;
+    const std::string bytes = column.bytes();
+    const auto text = [&](const json& buffer) {
+        json file = column.json;
+        file["buffers"] = {buffer};
+        file["buffers"][0]["byteLength"] = bytes.size();
+        return file.dump();
+    };
+    std::ofstream(testing::TempDir() + "my buffer%.bin", std::ios::binary) << bytes;
+    const json beside = {{"uri", "my%20buffer%25.bin"}};
+    const json escapes = {{"uri", "data:," + escaped(bytes)}};
+    expectColumn(saveGlb("chunk.glb", text(json::object()), bytes));
+    // The chunk is nobody's where the first buffer has another place.
+    for (const std::string& chunk : {std::string(), std::string("abcd")}) {
+        expectColumn(saveGlb("beside.glb", text(beside), chunk));
+        expectColumn(saveGlb("escapes.glb", text(escapes), chunk));
+    }
+    expectColumn(saveGlb("mark.glb", "\xef\xbb\xbf" + text(json::object()), bytes));
+    const std::string path = saveGlb("empty.glb", text(json::object()), "");
+    expectError([&] { osgSkin::importMesh(path); }, "expected a buffer view within its buffer");
+}
+
+TEST(GltfBuffers, DataIsBase64OrRefused) {
+    const auto save = [](const std::function<std::string(std::string)>& change) {
+        GltfColumn column;
+        column.save("data.gltf");
+        std::string uri = column.json["buffers"][0]["uri"];
+        column.json["buffers"][0]["uri"] = change(uri);
+        return column.save("data.gltf");
+    };
+    const auto replaced = [](std::string text, const std::string& letter,
+                             const std::string& other) {
+        for (std::size_t at = text.find(','); (at = text.find(letter, at)) != std::string::npos;
+             at += other.size())
+            text.replace(at, letter.size(), other);
+        return text;
+    };
+    expectColumn(save([&](const std::string& uri) {
+        return replaced(replaced(replaced(uri, "/", "%2F"), "+", "%2b"), "=", "%3D");
+    }));
+    expectColumn(save([](std::string uri) { return uri.insert(uri.size() - 40, " \r\n\t"); }));
+    expectColumn(
+        save([](std::string uri) { return uri.replace(uri.find("base64"), 6, "BASE64"); }));
+    const std::string reason = "data.gltf: malformed glTF: buffers[0].uri: letter ";
+    for (const char* none : {"_", "-", "*", "%"}) {
+        const std::string path =
+            save([&](const std::string& uri) { return replaced(uri, "A", none); });
+        expectError([&] { osgSkin::importMesh(path); }, reason);
+    }
+}
+
+TEST(GltfBuffers, AFileIsReadOnce) {
+    GltfColumn column;
+    std::ofstream(testing::TempDir() + "shared.bin", std::ios::binary)
+        << column.bytes() << std::string(3'000'000, '\0');
+    json buffers = json::array();
+    for (int i = 0; i < 300; ++i) {
+        std::string name;
+        for (int k = 0; k < i % 9; ++k) name += "./";
+        buffers.push_back({{"byteLength", 1}, {"uri", name + "shared.bin"}});
+    }
+    column.json["buffers"] = buffers;
+    column.json["bufferViews"][0]["buffer"] = 200;
+    const std::string path = column.save("shared.gltf");
+    const std::clock_t begin = std::clock();
+    const long before = peakMegabytes();
+    expectColumn(path);
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 2.0);
+    EXPECT_LT(peakMegabytes() - before, 100);
+}
