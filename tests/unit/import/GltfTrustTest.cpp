@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// glTF buffers in every place that they may have.
+// glTF files whose numbers name what is not there, and buffers in every place that they may have.
 #include "ExpectError.h"
 #include "GltfBuilder.h"
 #include "Paths.h"
 
 #include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportRig>
 
 #include <osgDB/Options>
 
@@ -12,6 +13,7 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,47 @@ namespace {
 
 using nlohmann::json;
 using test::GltfColumn;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Corners of faces of the column.
+std::vector<double> indices() {
+    std::vector<double> result;
+    for (int j = 0; j < 3; ++j)
+        for (const int corner : {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6})
+            result.push_back(8.0 * j + corner);
+    return result;
+}
+
+void expectRefused(GltfColumn& column, const std::string& message) {
+    const std::string path = column.save("untrue.gltf");
+    expectError([&] { osgSkin::importMesh(path); }, path + ": " + message);
+    expectError([&] { osgSkin::importRig(path); }, path + ": " + message);
+}
+
+/// A column with some of its joint indices and weights changed: the first joint's is in front.
+void expectWeights(const std::vector<double>& joints, const std::vector<double>& weights,
+                   const std::string& message) {
+    GltfColumn column;
+    std::vector<double> allJoints(4 * 24, 0.0), allWeights(4 * 24, 0.0);
+    for (std::size_t v = 0; v < 24; ++v) {
+        allJoints[4 * v] = double(v / 8);
+        allWeights[4 * v] = 1.0;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        allJoints[4 * 5 + k] = joints[k];
+        allWeights[4 * 5 + k] = weights[k];
+    }
+    column.attributes()["JOINTS_0"] = column.accessor("VEC4", allJoints, 5121);
+    column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", allWeights);
+    if (!message.empty()) return expectRefused(column, message);
+    const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("true.gltf"));
+    ASSERT_EQ(rig.body.weights.size(), 3u);
+    double weight = 0.0;
+    for (const osgSkin::BoneWeights::Entry& entry : rig.body.weights[0].entries)
+        if (entry.vertex == 5) weight += entry.weight;
+    EXPECT_NEAR(weight, 1.0, 1e-6);
+}
 
 std::string number(std::size_t value) {
     std::string bytes;
@@ -68,6 +111,54 @@ void expectColumn(const std::string& path) {
 }
 
 } // namespace
+
+TEST(BadGltf, IndicesNameVerticesThatAreThere) {
+    for (const int beyond : {24, 65535}) {
+        GltfColumn column;
+        std::vector<double> corners = indices();
+        corners[5] = beyond;
+        column.json["meshes"][0]["primitives"][0]["indices"] =
+            column.accessor("SCALAR", corners, 5123);
+        expectRefused(column, "malformed glTF: accessors[5], meshes[0].primitives[0].indices: "
+                              "number 5 is " +
+                                  std::to_string(beyond) + ", expected a vertex below 24");
+    }
+}
+
+TEST(BadGltf, JointsAndWeightsAreSome) {
+    const std::string primitive = ", meshes[0].primitives[0].";
+    expectWeights(
+        {0, 3, 0, 0}, {0.5, 0.5, 0, 0},
+        "malformed glTF: accessors[5]" + primitive +
+            "JOINTS_0: vertex 5 follows joint 3, expected one of the 3 that the skin has");
+    expectWeights({0, 0, 0, 0}, {kNaN, 0, 0, 0},
+                  "malformed glTF: accessors[6]" + primitive +
+                      "WEIGHTS_0: vertex 5 has the weight nan, expected a number of 0 or more");
+    expectWeights({0, 1, 0, 0}, {1.5, -0.5, 0, 0},
+                  "malformed glTF: accessors[6]" + primitive +
+                      "WEIGHTS_0: vertex 5 has the weight -0.5");
+    // What exporters write: joints that are not followed, and rounding errors.
+    expectWeights({0, 200, 0, 0}, {1, 0, 0, 0}, "");
+    expectWeights({0, 200, 1, 0}, {1, 0, -1e-8, 0}, "");
+}
+
+TEST(BadGltf, TimesOfKeysDoNotGoBack) {
+    const auto moved = [](const std::vector<double>& times, const char* interpolation) {
+        GltfColumn column;
+        column.animate("bend", 1, "rotation", times, GltfColumn::turns({0, 60, 90}), interpolation);
+        return column;
+    };
+    for (const char* interpolation : {"LINEAR", "STEP"}) {
+        const std::string where = testing::TempDir() + "back.gltf: animation \"bend\": sampler 0: ";
+        for (const double back : {0.4, kNaN}) {
+            GltfColumn column = moved({0.0, 0.5, back}, interpolation);
+            const std::string path = column.save("back.gltf");
+            expectError([&] { osgSkin::importRig(path); }, where + "accessors[5]: key 2 is at ");
+        }
+        GltfColumn column = moved({0.0, 0.5, 0.5}, interpolation);
+        EXPECT_EQ(osgSkin::importRig(column.save("back.gltf")).animations.size(), 1u);
+    }
+}
 
 TEST(GltfBuffers, StandInTheChunkTheTextOrOtherFiles) {
     GltfColumn column;

@@ -78,6 +78,15 @@ Keys fromSplines(const Keys& track, bool isRotation) {
     return result;
 }
 
+/// Keys may share a time, as exporters of steps write them.
+void checkTimes(const std::vector<double>& times, std::size_t accessor, const std::string& where) {
+    for (std::size_t k = 0; k < times.size(); ++k)
+        if (!std::isfinite(times[k]) || (k > 0 && times[k] < times[k - 1]))
+            failFile(where, "accessors[" + std::to_string(accessor) + "]: key " +
+                                std::to_string(k) + " is at " + std::to_string(times[k]) +
+                                " seconds, expected times in order");
+}
+
 /// Takes a spline's pieces from those that all clips together may have.
 void takePieces(const std::vector<double>& times, const std::string& where, double& left) {
     double pieces = 1.0;
@@ -102,8 +111,10 @@ void makeLinear(json& sampler, const std::string& path, const std::string& where
         failFile(where, std::to_string(keys) + " keys and " +
                             std::to_string(accessors.count(output)) + " values, expected " +
                             std::to_string(width) + " numbers a key");
+    const std::vector<double> times = accessors.values(input);
+    checkTimes(times, input, where);
     if (!isSpline && !isStepped && accessors.isPlain(input) && accessors.isPlain(output)) return;
-    Keys track{width, accessors.values(input), accessors.values(output)};
+    Keys track{width, times, accessors.values(output)};
     if (isStepped) track = fromSteps(track);
     if (isSpline) takePieces(track.times, where, left);
     if (isSpline) track = fromSplines(track, path == "rotation");

@@ -10,6 +10,7 @@
 #include "gltf/LoadBuffers.h"
 #include "gltf/MeshoptViews.h"
 #include "gltf/plain/GltfCheck.h"
+#include "gltf/plain/GltfValues.h"
 #include "text/FileText.h"
 #include "text/Uri.h"
 
@@ -37,6 +38,7 @@ public:
 
     void run() {
         separateMeshes();
+        checkValues(_file, _accessors);
         applyMorphs(_file, _accessors);
         nameNodes(_file);
         moveTexCoords(_file, _accessors);
