@@ -194,3 +194,30 @@ TEST(Meshopt, HostileFilesAreRefused) {
         EXPECT_NE(why.find("meshopt_hostile.gltf"), std::string::npos) << name << ": " << why;
     }
 }
+
+/// Zeros, which pack well, and which many views unpack again.
+TEST(Meshopt, WhatIsUnpackedGoesByTheFilesSize) {
+    constexpr std::size_t count = 100'000, stride = 64, bytes = count * stride;
+    const std::string zeros(bytes, '\0');
+    std::string packed(meshopt_encodeVertexBufferBound(count, stride), '\0');
+    packed.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(packed.data()),
+                                             packed.size(), zeros.data(), count, stride));
+    const auto save = [&](int views) {
+        PackedColumn column = bent();
+        const json how = {{"buffer", 0},          {"byteOffset", column.packed.size()},
+                          {"count", count},       {"byteLength", packed.size()},
+                          {"byteStride", stride}, {"mode", "ATTRIBUTES"}};
+        for (int i = 0; i < views; ++i)
+            column.json["bufferViews"].push_back(
+                {{"buffer", 1}, {"byteLength", bytes}, {"extensions", {{kExt, how}}}});
+        column.packed += packed;
+        column.place(kExt);
+        return column.save("meshopt_shared.gltf");
+    };
+    EXPECT_EQ(test::whyRefused(save(1)), "read");
+    const std::string many = save(20);
+    EXPECT_NE(test::whyRefused(many).find("expected no more unpacked in all than the file has room "
+                                          "for (option maxSamples)"),
+              std::string::npos);
+    EXPECT_EQ(test::whyRefused(many, test::loadOptions("maxSamples=10000000")), "read");
+}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/LoadBuffers.h"
 
+#include "gltf/Uri.h"
 #include "text/FileText.h"
-#include "text/Uri.h"
 
 #include <osgSkin/Error>
 

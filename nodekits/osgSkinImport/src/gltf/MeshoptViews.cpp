@@ -8,6 +8,7 @@
 #include <meshoptimizer.h>
 #endif
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -41,6 +42,7 @@ constexpr std::size_t kMostFromOne = MESHOPTIMIZER_VERSION < 230 ? 64 : 1024;
 
 /// Bytes that may be unpacked for each sample that a file may have: 16 MB, and 16 times the file.
 constexpr std::size_t kFairShare = 32;
+constexpr std::size_t kMostCounted = 4; ///< times a file's size that count as its own when unpacked
 
 /// What the extension says of a view; checked before the decoders see it, which only assert.
 struct Packed {
@@ -87,7 +89,8 @@ class Unpacker {
 public:
     explicit Unpacker(GltfFile& file)
         : _file(file), _accessors(file), _room(file.limits.fileMegabytes << 20),
-          _fair(kFairShare * file.limits.samplesOf(file.size + file.beside)) {}
+          _fair(kFairShare * file.limits.samplesOf(file.size + file.beside)),
+          _counted(kMostCounted * (file.size + file.beside)) {}
 
     /// \param name of the extension
     /// \param number of the view
@@ -129,7 +132,10 @@ private:
         const std::size_t length = bytes.size();
         _room -= length;
         _fair -= length;
-        _file.size += length; // what else the file may ask for goes by what it says unpacked
+        // What else the file may ask for goes by what it says unpacked, as far as that is usual.
+        const std::size_t counted = std::min(length, _counted);
+        _counted -= counted;
+        _file.size += counted;
         view = {{"buffer", _file.addBuffer(std::move(bytes))}, {"byteLength", length}};
         if (packed.mode == "ATTRIBUTES") view["byteStride"] = packed.stride;
     }
@@ -140,8 +146,9 @@ private:
 
     GltfFile& _file;
     GltfAccessors _accessors;
-    std::size_t _room; ///< bytes that may still be unpacked
-    std::size_t _fair; ///< bytes that the file's own size allows to be unpacked still
+    std::size_t _room;    ///< bytes that may still be unpacked
+    std::size_t _fair;    ///< bytes that the file's own size allows to be unpacked still
+    std::size_t _counted; ///< bytes that may still be counted as the file's
     std::string _where;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/plain/GltfLooks.h"
 
+#include "gltf/Uri.h"
 #include "text/Base64.h"
-#include "text/Uri.h"
 
 #include <osgSkin/Error>
 

@@ -9,10 +9,10 @@
 #include "gltf/GltfTracks.h"
 #include "gltf/LoadBuffers.h"
 #include "gltf/MeshoptViews.h"
+#include "gltf/Uri.h"
 #include "gltf/plain/GltfCheck.h"
 #include "gltf/plain/GltfValues.h"
 #include "text/FileText.h"
-#include "text/Uri.h"
 
 #include <osgDB/FileNameUtils>
 

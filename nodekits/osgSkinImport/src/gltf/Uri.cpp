@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "text/Uri.h"
+#include "gltf/Uri.h"
 
 #include "text/Base64.h"
 
