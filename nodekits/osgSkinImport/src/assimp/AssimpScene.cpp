@@ -29,7 +29,6 @@ void checkBefore(const std::string& path, const ReadLimits& limits) {
     // Read by readBvh(): Assimp believes any number of frames.
     if (extension == "bvh")
         failFile(path, "no face in a BVH file: it holds a skeleton and no mesh with bones");
-    if (extension == "off") checkOff(path, readText(path, limits));
 }
 
 /// Makes a scene safe to walk: some readers of Assimp's leave null among a node's children.
@@ -80,6 +79,8 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
         name += plain->bytes.compare(0, 4, "glTF") == 0 ? ".glb" : ".gltf";
         facesBackwards = plain->facesBackwards;
         importer.SetIOHandler(new SceneFile(name, std::move(plain->bytes))); // takes it over
+    } else if (osgDB::getLowerCaseFileExtension(path) == "off") {
+        importer.SetIOHandler(new SceneFile(name, checkOff(path, readText(path, limits))));
     }
     const aiScene* scene = nullptr;
     std::string reason;

@@ -88,8 +88,9 @@ bool parseNumber(std::string_view token, double& value) {
     if (status == std::errc::result_out_of_range) {
         // Too small for a double is zero; too large has no finite value.
         const std::size_t exponent = token.find_first_of("eE");
-        const bool tiny = exponent != std::string_view::npos && exponent + 1 < token.size() &&
-                          token[exponent + 1] == '-';
+        const bool tiny = exponent == std::string_view::npos
+                              ? token.find_first_of("123456789") > token.find('.')
+                              : exponent + 1 < token.size() && token[exponent + 1] == '-';
         value = tiny ? 0.0 : std::numeric_limits<double>::infinity();
         return true;
     }

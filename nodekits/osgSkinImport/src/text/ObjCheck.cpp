@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "text/ObjCheck.h"
 
+#include "text/ByteOrderMark.h"
 #include "text/FileText.h"
 
 #include <osgDB/FileNameUtils>
@@ -99,9 +100,7 @@ constexpr std::array<const char*, 3> kinds{"vertex", "texture coordinate", "norm
 /// Calls `use(keyword, rest of the line, line number)` for each line that has a keyword.
 template <typename Use>
 void forEachLine(std::string_view text, const Use& use) {
-    const std::string_view byteOrderMark = "\xef\xbb\xbf";
-    if (text.substr(0, byteOrderMark.size()) == byteOrderMark)
-        text.remove_prefix(byteOrderMark.size());
+    text.remove_prefix(byteOrderMark(text));
     for (std::size_t number = 1; !text.empty(); ++number) {
         // What C takes for the end of a text ends a line here.
         std::string_view line = text.substr(0, text.find_first_of(kLineEnds));

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "text/OffCheck.h"
 
+#include "text/ByteOrderMark.h"
 #include "text/FileText.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -64,11 +68,51 @@ bool isDigits(std::string_view word) {
     return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// Whether a word is [ST][C][N][4][n]OFF.
-bool isKeyword(std::string_view word) {
-    for (const std::string_view part : {"ST", "C", "N", "4", "n"})
-        if (word.substr(0, part.size()) == part) word.remove_prefix(part.size());
-    return word == "OFF";
+/// What the first word, [ST][C][N][4][n]OFF, says of vertices.
+struct OffKind {
+    bool texCoords = false, colours = false, normals = false, divided = false, dimensions = false;
+
+    /// False where a word is none.
+    bool read(std::string_view word) {
+        const auto take = [&](std::string_view part) {
+            const bool has = word.substr(0, part.size()) == part;
+            if (has) word.remove_prefix(part.size());
+            return has;
+        };
+        texCoords = take("ST");
+        colours = take("C");
+        normals = take("N");
+        divided = take("4");
+        dimensions = take("n");
+        return word == "OFF";
+    }
+};
+
+/// A text with some of its parts replaced, which are given in their order.
+class Replaced {
+public:
+    explicit Replaced(std::string_view text) : _rest(text) {}
+
+    void replace(std::string_view part, std::string_view by) {
+        _done.append(_rest.data(), part.data()).append(by);
+        _rest.remove_prefix(static_cast<std::size_t>(part.data() + part.size() - _rest.data()));
+    }
+    std::string take() { return std::move(_done.append(_rest)); }
+
+private:
+    std::string_view _rest;
+    std::string _done;
+};
+
+/// Writes a long number, at whose digits Assimp overflows, as a float.
+void shorten(std::string_view word, Replaced& text) {
+    constexpr std::size_t kMostDigits = 18;
+    double number = 0.0;
+    if (word.size() <= kMostDigits || !parseNumber(word, number)) return;
+    std::array<char, 32> digits;
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<float>(number));
+    text.replace(word, {digits.data(), static_cast<std::size_t>(end.ptr - digits.data())});
 }
 
 bool isVertex(const std::vector<std::string_view>& words) {
@@ -91,14 +135,17 @@ bool isFace(const std::vector<std::string_view>& words, std::size_t vertices) {
 
 } // namespace
 
-void checkOff(const std::string& path, const std::string& text) {
+std::string checkOff(const std::string& path, const std::string& text) {
     if (text.find('\0') != std::string::npos) failFile(path, "a zero byte, expected text");
     // Assimp takes it for the end of some lines, and not of others.
     if (text.find('\f') != std::string::npos) failFile(path, "a form feed, expected lines of text");
-    OffText off(text);
+    const std::string_view all = std::string_view(text).substr(byteOrderMark(text));
+    OffText off(all);
+    Replaced checked(all);
     const std::string_view keyword = off.word();
     // Without the keyword Assimp takes a file's first digit for one of its marks.
-    if (!isKeyword(keyword))
+    OffKind kind;
+    if (!kind.read(keyword))
         failFile(path,
                  inQuotes(std::string(keyword)) + ", expected OFF, or STOFF, COFF, NOFF, ...");
     const auto count = [&](const char* what) {
@@ -113,20 +160,34 @@ void checkOff(const std::string& path, const std::string& text) {
                      inQuotes(word) + " " + what + ", expected no more than the file has room for");
         return static_cast<std::size_t>(number);
     };
-    if (keyword.size() > 3 && keyword[keyword.size() - 4] == 'n') count("dimensions");
+    // Assimp takes a normal's last number for the colour's first, and computes normals where the
+    // file has none.
+    const bool dropsNormals = kind.normals && (kind.colours || kind.texCoords);
+    if (dropsNormals) checked.replace(keyword.substr(keyword.find('N'), 1), "");
+    const std::size_t dimensions = kind.dimensions ? count("dimensions") : 3;
+    const std::size_t normal = dimensions + (kind.divided ? 1 : 0);
     const std::size_t vertices = count("vertices"), faces = count("faces");
     count("edges");
     off.skipToWord();
-    for (std::size_t i = 0; i < vertices; ++i)
-        if (!isVertex(off.line()))
-            failFile(path,
-                     "vertex " + std::to_string(i) + ": expected a line of three numbers or more");
+    for (std::size_t i = 0; i < vertices; ++i) {
+        const std::vector<std::string_view> words = off.line();
+        const std::size_t least = dropsNormals ? std::max<std::size_t>(3, normal + 3) : 3;
+        if (!isVertex(words) || words.size() < least)
+            failFile(path, "vertex " + std::to_string(i) + ": expected a line of " +
+                               (least == 3 ? "three" : std::to_string(least)) + " numbers or more");
+        for (std::size_t k = 0; k < words.size(); ++k)
+            if (dropsNormals && k >= normal && k < normal + 3)
+                checked.replace(words[k], "");
+            else
+                shorten(words[k], checked);
+    }
     // What it takes for no face Assimp counts off more faces than there are.
     for (std::size_t i = 0; i < faces; ++i)
         if (!isFace(off.line(), vertices))
             failFile(path, "face " + std::to_string(i) +
                                ": expected a line with 1 to 8 and so many numbers below " +
                                std::to_string(vertices));
+    return checked.take();
 }
 
 } // namespace osgSkin

@@ -8,8 +8,10 @@ namespace osgSkin {
 
 /// Checks counts, vertices and faces of an OFF file: Assimp 5.2.5 asks for the memory before it
 /// reads on, and counts faces that are none off more than there are.
+/// \return what Assimp reads rightly: without a byte order mark, numbers of many digits, and normals
+///         where colours or texture coordinates follow them
 /// \throw osgSkin::Error "PATH: what was expected".
-void checkOff(const std::string& path, const std::string& text);
+std::string checkOff(const std::string& path, const std::string& text);
 
 } // namespace osgSkin
 

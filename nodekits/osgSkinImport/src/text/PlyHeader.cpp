@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "text/PlyHeader.h"
 
+#include "text/ByteOrderMark.h"
 #include "text/FileText.h"
 
 #include <algorithm>
@@ -170,7 +171,7 @@ private:
 
     const std::string& _path;
     const std::string& _text;
-    std::size_t _at = 0, _line = 0;
+    std::size_t _at = byteOrderMark(_text), _line = 0;
     bool _hasFormat = false;
     PlyHeader _header;
     std::vector<std::size_t> _elementLines;
