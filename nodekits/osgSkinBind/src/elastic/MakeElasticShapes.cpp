@@ -21,7 +21,7 @@ namespace osgSkin {
 namespace {
 
 constexpr std::size_t kHingeModes = 8;
-constexpr std::size_t kBallModes = 7;
+constexpr std::size_t kBallModes = 6;
 
 /// What makes no difference, in radii of the limb: of a mode to all vertices, and of all modes to a
 /// vertex.
