@@ -99,7 +99,7 @@ std::string tiffOfPlanes(std::uint32_t samples, std::uint32_t photometric, std::
                        tiffEntry(284, planes) + more + little(0, 4);
     for (std::uint32_t row = 0; row < rows; ++row) text += little(pixels + 5 * row, 4);
     for (std::uint32_t row = 0; row < rows; ++row) text += little(5, 4);
-    return text + std::string(5 * rows, 'p');
+    return text + std::string(std::size_t(5) * rows, 'p');
 }
 
 std::string dds(std::uint32_t width, std::uint32_t height) {
