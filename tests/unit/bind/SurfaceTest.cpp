@@ -56,8 +56,8 @@ void expectRefused(const SkinMesh& mesh, const char* part) {
 } // namespace
 
 TEST(Surface, TrianglesAtRandomAreNone) {
-    expectRefused(trianglesAtRandom(1500, 4500), "4500 triangles of 1500 vertices join vertices "
-                                                 "across each other, expected a surface");
+    expectRefused(trianglesAtRandom(1500, 4500),
+                  "triangles of 1500 vertices join vertices across each other, expected a surface");
     expectRefused(trianglesAtRandom(160, 8000), "expected at most 12 for each vertex");
 }
 
