@@ -140,6 +140,23 @@ TEST(GuardedCharacter, DescriptionsMayBeLongAndHaveBracketsInNames) {
               "read");
 }
 
+TEST(GuardedCharacter, NamesAreNoLongerThanNamesOfFiles) {
+    const std::string folder = test::makeTestFolder();
+    const std::string many(500'000, 'n');
+    const std::string mesh = "\"mesh\": \"" + kCharacter + "body.obj\", ";
+    for (const std::string& members :
+         {parts(many, "rig.bvh"), mesh + "\"motions\": [{\"file\": \"" + many + "\"}]"}) {
+        const std::string refused = refusal(skin(folder, "long", members));
+        expectSays(refused, "a name of 500000 bytes, expected at most 4096");
+        EXPECT_LT(refused.size(), 1000u);
+    }
+    expectSays(refusal(skin(folder, "zero", parts("tube.gltf\\u0000", "rig.bvh"))),
+               "zero.skin: mesh: a name with a byte 0 in it");
+    for (const std::string& members :
+         {mesh + "\"bind\": \"" + many + '"', mesh + "\"joints\": {\"" + many + "\": 1}"})
+        EXPECT_LT(refusal(skin(folder, "quoted", members)).size(), 1000u);
+}
+
 TEST(GuardedCharacter, LandmarksAreInTheBody) {
     const std::string folder = test::makeTestFolder();
     for (const char* place : {"1e30", "-1e6", "-1e9"})

@@ -23,6 +23,13 @@ std::string placeOf(const std::string& text, std::size_t byte) {
     return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
+/// Names in a description have any length, and are quoted: its begin and end say enough.
+std::string shortened(const std::string& text) {
+    constexpr std::size_t part = 200;
+    if (text.size() <= 3 * part) return text;
+    return text.substr(0, part) + "..." + text.substr(text.size() - part);
+}
+
 } // namespace
 
 nlohmann::json JsonReader::parseFile(const std::string& file, const ReadLimits& limits) {
@@ -56,7 +63,8 @@ JsonReader::JsonReader(const nlohmann::json& value, std::string file, std::strin
     : _value(value), _file(std::move(file)), _path(std::move(path)) {}
 
 void JsonReader::failWith(const std::string& message) const {
-    std::string text = _file + ": " + (_path.empty() ? "" : _path + ": ") + message;
+    std::string text =
+        _file + ": " + (_path.empty() ? "" : shortened(_path) + ": ") + shortened(message);
     for (char& c : text) // keys may hold a terminal's commands
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
     throw Error(text);
@@ -129,7 +137,8 @@ void JsonReader::forEachMember(
 void JsonReader::warnUnknown(std::initializer_list<const char*> known) const {
     forEachMember([&](const std::string& key, const JsonReader& member) {
         if (std::find(known.begin(), known.end(), key) == known.end())
-            OSG_WARN << onOneLine(_file + ": " + member._path + ": not known, passed over")
+            OSG_WARN << onOneLine(_file + ": " + shortened(member._path) +
+                                  ": not known, passed over")
                      << std::endl;
     });
 }

@@ -19,6 +19,12 @@ namespace {
 std::string path(const JsonReader& reader, const std::string& folder) {
     const std::string name = reader.string();
     if (name.empty()) reader.failWith("expected a file name, found an empty string");
+    constexpr std::size_t longest = 4096; // no file has a longer one (PATH_MAX)
+    if (name.size() > longest)
+        reader.failWith("a name of " + std::to_string(name.size()) + " bytes, expected at most " +
+                        std::to_string(longest));
+    if (name.find('\0') != std::string::npos)
+        reader.failWith("a name with a byte 0 in it, expected none");
     return folder.empty() || osgDB::isAbsolutePath(name) ? name : osgDB::concatPaths(folder, name);
 }
 
