@@ -258,7 +258,7 @@ TEST(GuardedCharacter, MembersAreThereOnce) {
     std::ofstream(folder + "/w.json") << "{\"weights\": {\"arm\": [[0, 1]], \"arm\": [[1, 1]]}}";
     expectSays(
         refusal(skin(folder, "w", both + ", \"bind\": \"weights\", \"weights\": \"w.json\"")),
-        "w.json: line 1, column 32: \"arm\" is there twice");
+        "w.json: line 1, column 31: \"arm\" is there twice");
 }
 
 TEST(GuardedCharacter, VerticesThatNobodyPaintedAreToldOf) {
