@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"truncated_hierarchy.bvh", "line 10: found the end of the file in joint \"Spine\""},
         BadFile{"duplicate_joint.bvh", "line 6: second joint called \"Hips\""},
         BadFile{"missing_offset.bvh", "line 13: joint \"Spine\" has no OFFSET"},
-        BadFile{"second_offset.bvh", "line 8: joint \"Spine\" has OFFSET twice"},
+        BadFile{"second_offset.bvh", "line 9: joint \"Spine\" has OFFSET twice"},
         BadFile{"infinite_offset.bvh", "line 8: joint \"Spine\"'s OFFSET y is \"inf\""},
         BadFile{"no_channels.bvh", "line 5: no joint has CHANNELS"},
         BadFile{"unknown_channel.bvh", "line 9: joint \"Spine\" has the channel \"Wrotation\""},
