@@ -45,14 +45,16 @@ void expectRefused(GltfColumn& column, const std::string& message) {
 void expectWeights(const std::vector<double>& joints, const std::vector<double>& weights,
                    const std::string& message) {
     GltfColumn column;
-    std::vector<double> allJoints(4 * 24, 0.0), allWeights(4 * 24, 0.0);
-    for (std::size_t v = 0; v < 24; ++v) {
-        allJoints[4 * v] = double(v / 8);
+    constexpr std::size_t kVertices = 24, kChanged = 5;
+    std::vector<double> allJoints(4 * kVertices, 0.0), allWeights(4 * kVertices, 0.0);
+    for (std::size_t v = 0; v < kVertices; ++v) {
+        const std::size_t ring = v / 8;
+        allJoints[4 * v] = double(ring);
         allWeights[4 * v] = 1.0;
     }
     for (std::size_t k = 0; k < 4; ++k) {
-        allJoints[4 * 5 + k] = joints[k];
-        allWeights[4 * 5 + k] = weights[k];
+        allJoints[4 * kChanged + k] = joints[k];
+        allWeights[4 * kChanged + k] = weights[k];
     }
     column.attributes()["JOINTS_0"] = column.accessor("VEC4", allJoints, 5121);
     column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", allWeights);
@@ -77,7 +79,7 @@ std::string saveGlb(const std::string& name, std::string text, std::string bytes
     bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
     std::string chunks = number(text.size()) + "JSON" + text;
     if (!bytes.empty()) chunks += number(bytes.size()) + std::string("BIN\0", 4) + bytes;
-    const std::string path = testing::TempDir() + name;
+    std::string path = testing::TempDir() + name;
     std::ofstream(path, std::ios::binary)
         << "glTF" << number(2) << number(12 + chunks.size()) << chunks;
     return path;
