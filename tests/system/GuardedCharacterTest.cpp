@@ -240,6 +240,12 @@ TEST(GuardedCharacter, MotionsAreLimitedTogether) {
     expectSays(named(1, 1), "long.bvh: " + beside);
 }
 
+TEST(GuardedCharacter, DescriptionsEndAtNoByteZero) {
+    const std::string folder = test::makeTestFolder(), file = folder + "/zero.skin";
+    std::ofstream(file, std::ios::binary) << "{ \"osgskin\": 1 }\n" << '\0' << "\"a\": 1 } }\n";
+    expectSays(refusal(file), "zero.skin: line 2, column 1: malformed JSON");
+}
+
 TEST(GuardedCharacter, MembersAreThereOnce) {
     const std::string folder = test::makeTestFolder();
     const std::string both = parts(kCharacter + "body.obj", kCharacter + "rig.bvh");

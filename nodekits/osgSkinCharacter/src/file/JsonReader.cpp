@@ -35,6 +35,9 @@ std::string shortened(const std::string& text) {
 nlohmann::json JsonReader::parseFile(const std::string& file, const ReadLimits& limits) {
     const std::string text = readWholeFile(file, limits.textMegabytes, "maxTextMB");
     checkJsonDepth(file, text);
+    // The parser takes a byte 0 for the text's end, and passes over what follows.
+    if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
+        throw Error(file + ": " + placeOf(text, zero) + ": malformed JSON");
     nlohmann::json json;
     try {
         json = nlohmann::json::parse(text);

@@ -30,13 +30,13 @@ std::optional<RepeatedKey> RepeatedKey::find(const std::string& text) {
     for (std::size_t i = 0; i < text.size();) {
         const char c = text[i];
         if (c == '{' || c == '[') open.emplace_back();
-        if (c == '}' || c == ']') open.pop_back();
+        if ((c == '}' || c == ']') && !open.empty()) open.pop_back();
         if (c != '"') {
             ++i;
             continue;
         }
         const std::size_t end = endOfString(text, i), next = text.find_first_not_of(" \t\r\n", end);
-        if (next != std::string::npos && text[next] == ':' &&
+        if (next != std::string::npos && text[next] == ':' && !open.empty() &&
             !open.back().insert(meaning(text.substr(i, end - i))).second)
             return RepeatedKey{text.substr(i + 1, end - i - 2), i};
         i = end;
