@@ -16,7 +16,7 @@ PictureSize ddsSize(const PictureBytes& bytes) {
     bytes.require(bytes.startsWith("DDS ") && bytes.little(4, 4) == 124 &&
                       bytes.little(76, 4) == 32,
                   "no DDS picture");
-    const bool hasSecond = bytes.all().substr(84, 4) == "DX10";
+    const bool hasSecond = bytes.size() >= 88 && bytes.all().substr(84, 4) == "DX10";
     bytes.requireSize(kDdsHeader + (hasSecond ? kDdsSecondHeader : 0));
     PictureSize size;
     size.height = bytes.little(12, 4);
