@@ -383,6 +383,7 @@ TEST(Pictures, DdsHeadersAreThere) {
     const std::string second = with(dds(4, 4), 84, "DX10");
     expectRefused("second.dds", second, "expected at least 148");
     expectRefused("header.dds", dds(0, 0).substr(0, 100), "expected at least 128");
+    expectRefused("short.dds", dds(0, 0).substr(0, 82), "expected at least 128");
 }
 
 /// Readers count bytes in 31 bits.
