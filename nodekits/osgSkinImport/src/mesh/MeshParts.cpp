@@ -14,15 +14,10 @@ class PartBuilder {
 public:
     explicit PartBuilder(const CornerMesh& source) : _source(source) {}
 
-    void addFace(std::uint32_t face, std::size_t firstCorner, std::uint32_t size) {
-        const unsigned first = vertex(firstCorner);
-        unsigned previous = vertex(firstCorner + 1);
-        for (std::uint32_t k = 2; k < size; ++k) {
-            const unsigned next = vertex(firstCorner + k);
-            for (const unsigned index : {first, previous, next}) _triangles->push_back(index);
-            _part.sourceFace.push_back(face);
-            previous = next;
-        }
+    /// \param corners three places in the mesh's `faceVertices`
+    void addTriangle(std::uint32_t face, const std::uint32_t* corners) {
+        for (int k = 0; k < 3; ++k) _triangles->push_back(vertex(corners[k]));
+        _part.sourceFace.push_back(face);
     }
 
     MeshPart finish(osg::StateSet* stateSet) {
@@ -79,11 +74,11 @@ std::vector<MeshPart> makeMeshParts(const CornerMesh& source) {
     std::vector<PartBuilder> builders;
     builders.reserve(source.stateSets.size());
     for (std::size_t m = 0; m < source.stateSets.size(); ++m) builders.emplace_back(source);
-    std::size_t corner = 0;
-    for (std::uint32_t f = 0; f < source.mesh.faceSizes.size(); ++f) {
-        builders[source.materials[f]].addFace(f, corner, source.mesh.faceSizes[f]);
-        corner += source.mesh.faceSizes[f];
-    }
+    const std::vector<std::uint32_t> corners = source.mesh.triangleCorners();
+    const std::uint32_t* triangle = corners.data();
+    for (std::uint32_t f = 0; f < source.mesh.faceSizes.size(); ++f)
+        for (std::uint32_t k = 2; k < source.mesh.faceSizes[f]; ++k, triangle += 3)
+            builders[source.materials[f]].addTriangle(f, triangle);
     std::vector<MeshPart> result;
     for (std::size_t m = 0; m < builders.size(); ++m)
         if (!builders[m].empty()) result.push_back(builders[m].finish(source.stateSets[m]));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/SkinMesh>
 
+#include "mesh/CutPolygon.h"
+
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
 
@@ -35,18 +37,24 @@ void SkinMesh::validate() const {
     if (corner != faceVertices.size()) throw Error("mesh: corners beyond the last face");
 }
 
-std::vector<std::uint32_t> SkinMesh::triangles() const {
+std::vector<std::uint32_t> SkinMesh::triangleCorners() const {
     std::vector<std::uint32_t> result;
     result.reserve(3 * faceVertices.size());
+    PolygonCutter cutter(positions);
     std::size_t corner = 0;
     for (const std::uint32_t size : faceSizes) {
-        for (std::uint32_t k = 2; k < size; ++k) {
-            result.push_back(faceVertices[corner]);
-            result.push_back(faceVertices[corner + k - 1]);
-            result.push_back(faceVertices[corner + k]);
-        }
+        const std::size_t begin = result.size();
+        cutter.cut(&faceVertices[corner], size, result);
+        for (std::size_t k = begin; k < result.size(); ++k)
+            result[k] += static_cast<std::uint32_t>(corner);
         corner += size;
     }
+    return result;
+}
+
+std::vector<std::uint32_t> SkinMesh::triangles() const {
+    std::vector<std::uint32_t> result = triangleCorners();
+    for (std::uint32_t& corner : result) corner = faceVertices[corner];
     return result;
 }
 
