@@ -6,7 +6,6 @@
 #include "assimp/SceneFile.h"
 #include "gltf/plain/PlainGltf.h"
 #include "text/FileText.h"
-#include "text/OffCheck.h"
 
 #include <osgDB/FileNameUtils>
 
@@ -79,8 +78,6 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
         name += plain->bytes.compare(0, 4, "glTF") == 0 ? ".glb" : ".gltf";
         facesBackwards = plain->facesBackwards;
         importer.SetIOHandler(new SceneFile(name, std::move(plain->bytes))); // takes it over
-    } else if (osgDB::getLowerCaseFileExtension(path) == "off") {
-        importer.SetIOHandler(new SceneFile(name, checkOff(path, readText(path, limits))));
     }
     const aiScene* scene = nullptr;
     std::string reason;

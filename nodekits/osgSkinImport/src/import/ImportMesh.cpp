@@ -6,6 +6,7 @@
 #include "mesh/FinishMesh.h"
 #include "mesh/ObjMesh.h"
 #include "mesh/PlyMesh.h"
+#include "off/OffMesh.h"
 #include "osg/OsgMesh.h"
 #include "text/FileText.h"
 
@@ -25,6 +26,7 @@ CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
         failFile(path, "a character, expected a mesh: name the file that its \"mesh\" names");
     // Assimp's and OSG's OBJ readers reorder the vertices.
     if (format == "obj") return readObjMesh(path, options);
+    if (format == "off") return readOffMesh(path, options);
     if (format == "ply") return readPlyMesh(path, options);
     if (!assimpReads(path)) return readOsgMesh(path, options);
     return readAssimpMesh(path, options);

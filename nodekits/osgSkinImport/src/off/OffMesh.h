@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_OFFMESH_H
+#define OSGSKINIMPORT_OFFMESH_H 1
+
+#include "mesh/CornerMesh.h"
+
+#include <string>
+
+namespace osgSkin {
+
+/// Reads an OFF file of text: vertices and their normals, colours and texture coordinates, in
+/// single precision, and faces of any number of corners; faces' colours are passed over.
+/// \param options may be null
+/// \throw osgSkin::Error "PATH: what was expected".
+CornerMesh readOffMesh(const std::string& path, const osgDB::Options* options);
+
+} // namespace osgSkin
+
+#endif

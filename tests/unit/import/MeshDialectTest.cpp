@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Meshes in OBJ, PLY and OFF as other programs write them, and what looks like them and is none.
+#include "ExpectError.h"
+#include "Notices.h"
+#include "Paths.h"
+
+#include <osgSkinImport/ImportMesh>
+
+#include <osg/Array>
+#include <osg/Geometry>
+#include <osg/Material>
+
+#include <cmath>
+#include <fstream>
+
+namespace {
+
+using namespace std::string_literals;
+using osgSkin::ImportedMesh;
+
+ImportedMesh read(const std::string& name, const std::string& content) {
+    const std::string path = testing::TempDir() + name;
+    std::ofstream(path, std::ios::binary) << content;
+    return osgSkin::importMesh(path);
+}
+
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+osg::Vec4 diffuseOf(const ImportedMesh& mesh) {
+    return dynamic_cast<const osg::Material&>(
+               *mesh.parts.at(0).geometry->getStateSet()->getAttribute(
+                   osg::StateAttribute::MATERIAL))
+        .getDiffuse(osg::Material::FRONT);
+}
+
+/// A material library, and a square with its material "m".
+osg::Vec4 diffuseBy(const std::string& library) {
+    std::ofstream(testing::TempDir() + "dialect.mtl") << "newmtl m\n" << library;
+    return diffuseOf(
+        read("dialect.obj", "mtllib dialect.mtl\n" + kSquare + "usemtl m\nf 1 2 3 4\n"));
+}
+
+const std::string kVertices = "element vertex 3\nproperty float x\nproperty float y\n"
+                              "property float z\n",
+                  kFaces = "element face 1\nproperty list uchar int vertex_indices\n",
+                  kPlaces = "0 0 0\n1 0 0\n0 1 0\n";
+
+std::string ply(const std::string& header, const std::string& body) {
+    return "ply\nformat ascii 1.0\n" + header + "end_header\n" + body;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+const std::string kCorners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+} // namespace
+
+TEST(OffDialects, CommentsAndBlankLinesStandAnywhere) {
+    const ImportedMesh mesh =
+        read("comments.off", "# made by hand\nOFF # text\n\n4 1 0 # counts\n# places\n \t\n" +
+                                 replaced(kCorners, "1 1 0\n", "# one more\n1 1 0 # up\n\r\n") +
+                                 "\n4 0 1 2 3 255 0 0 # red\n");
+    EXPECT_EQ(mesh.mesh.positions.size(), 4u);
+    EXPECT_EQ(mesh.mesh.faceVertices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(diffuseOf(mesh), osg::Vec4(.6f, .6f, .6f, 1));
+}
+
+TEST(OffDialects, FacesHaveAnyNumberOfCorners) {
+    std::string text = "OFF\n300 3 0\n", face = "300";
+    for (int k = 0; k < 300; ++k) {
+        const double angle = 2.0 * std::acos(-1.0) * k / 300.0;
+        text += std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
+        face += " " + std::to_string(k);
+    }
+    // Points and lines are none.
+    const ImportedMesh mesh = read("wheel.off", text + "1 0\n" + face + "\n2 0 1\n");
+    EXPECT_EQ(mesh.mesh.faceSizes, std::vector<std::uint32_t>{300});
+    for (const char* broken :
+         {"0", "4 0 1 2", "-3 0 1 2", "3 0 1 4", "3 0 1 1.5", "3.5 0 1 2", "x"})
+        expectError([&] { read("broken.off", "OFF\n4 1 0\n" + kCorners + broken + "\n"); },
+                    "broken.off: face 0: expected a line with a number of corners and so many");
+}
+
+TEST(OffDialects, ColoursMayHaveNoAlpha) {
+    const auto colourOf = [](const std::string& keyword, const std::string& more) {
+        std::string text;
+        for (const char* place : {"0 0 0 ", "1 0 0 ", "0 1 0 "}) text += place + more + "\n";
+        const ImportedMesh mesh = read("colours.off", keyword + "\n3 1 0\n" + text + "3 0 1 2\n");
+        return dynamic_cast<const osg::Vec4Array&>(*mesh.parts.at(0).geometry->getColorArray())
+            .at(0);
+    };
+    EXPECT_EQ(colourOf("COFF", "255 0 51"), osg::Vec4(1, 0, .2f, 1));
+    EXPECT_EQ(colourOf("COFF", "1 0.5 0"), osg::Vec4(1, .5f, 0, 1));
+    EXPECT_EQ(colourOf("COFF", "255 0 51 0"), osg::Vec4(1, 0, .2f, 0));
+    EXPECT_EQ(colourOf("STCOFF", "1 0.5 0 0.25 0.75"), osg::Vec4(1, .5f, 0, 1));
+}
+
+TEST(OffDialects, NormalsAndTheDivisorAreTheFiles) {
+    const ImportedMesh mesh = read("normals.off", "N4OFF\n3 1 0\n0 0 0 2 0 1 1\n2 0 0 2 0 1 1\n"
+                                                  "0 2 0 2 0 1 1\n3 0 1 2\n");
+    EXPECT_EQ(mesh.mesh.positions.at(1), glm::dvec3(1, 0, 0));
+    const auto& normals =
+        dynamic_cast<const osg::Vec3Array&>(*mesh.parts.at(0).geometry->getNormalArray());
+    EXPECT_NEAR(normals.at(0).y(), std::sqrt(0.5), 1e-6);
+}
