@@ -57,6 +57,57 @@ const std::string kCorners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 } // namespace
 
+TEST(ObjDialects, LinesGoOnBehindBackslashes) {
+    for (const std::string end : {"\n", "\r\n"}) {
+        const ImportedMesh mesh =
+            read("lines.obj", "# C:\\folder\\" + end + "v 0 0 \\" + end + "0\nv 1 0 0\nv 1 1 0\n" +
+                                  "v 0 1 0\nf 1 2\\" + end + "3 \\" + end + "4\n");
+        EXPECT_EQ(mesh.mesh.positions.size(), 4u);
+        EXPECT_EQ(mesh.mesh.faceSizes, std::vector<std::uint32_t>{4});
+    }
+    expectError([] { read("end.obj", kSquare + "f 1 2 \\\n9 \\\n3\n"); },
+                "end.obj: line 5: \"9\" in a face");
+    expectError([] { read("last.obj", kSquare + "f 1 2 \\\n3\nf 1 2 9\n"); }, "line 7: \"9\"");
+}
+
+TEST(ObjDialects, CornersMayEndWithSlashes) {
+    for (const char* face : {"f 1// 2// 3//", "f 1/ 2/ 3/", "f 1/1/ 2/1/ 3/1/"})
+        EXPECT_EQ(read("slash.obj", kSquare + "vt 0 0\n" + face + "\n").mesh.faceSizes.size(), 1u);
+    for (const char* face : {"f 1/// 2 3", "f / 2 3", "f // 2 3", "f /1 2 3", "f 1/1/1/1 2 3"})
+        expectError([&] { read("slash.obj", kSquare + "vt 0 0\nvn 0 0 1\n" + face + "\n"); },
+                    "line 7: ");
+}
+
+TEST(ObjDialects, NormalsAndTextureCoordinatesMayBeNoNumbers) {
+    for (const char* lines :
+         {"vn -1.#IND00 1.#QNAN 0\nf 1//1 2//1 3//1\n", "vn nan(ind) inf 0\nf 1//1 2//1 3//1\n",
+          "vt nan -1.#INF\nf 1/1 2/1 3/1\n"}) {
+        const ImportedMesh mesh = read("broken.obj", kSquare + lines);
+        const osg::Geometry& drawn = *mesh.parts.at(0).geometry;
+        for (const osg::Vec3& normal : dynamic_cast<const osg::Vec3Array&>(*drawn.getNormalArray()))
+            EXPECT_EQ(normal, osg::Vec3(0, 0, 1));
+        if (drawn.getTexCoordArray(0) == nullptr) continue;
+        for (const osg::Vec2& t : dynamic_cast<const osg::Vec2Array&>(*drawn.getTexCoordArray(0)))
+            EXPECT_EQ(t, osg::Vec2());
+    }
+    expectError([] { read("broken.obj", "v -1.#IND00 0 0\n"); },
+                "line 1: \"-1.#IND00\" in a \"v\"");
+}
+
+TEST(ObjDialects, SomeVerticesWithColoursAreToldOf) {
+    const test::Notices notices;
+    read("coloured.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+    EXPECT_TRUE(notices.say("2 of 3 vertices have colours, which are left out")) << notices.text();
+}
+
+TEST(ObjDialects, MaterialsMayHaveOneNumberOrNone) {
+    EXPECT_EQ(diffuseBy("Kd 0.25\n"), osg::Vec4(.25f, .25f, .25f, 1));
+    EXPECT_EQ(diffuseBy("Kd 0.25 0.5 0.75\nd -halo 0.5\n"), osg::Vec4(.25f, .5f, .75f, 1));
+    const osg::Vec4 plain = diffuseBy("Ns 1\n");
+    EXPECT_EQ(diffuseBy("Kd spectral file.rfl 1\n"), plain);
+    EXPECT_EQ(diffuseBy("Kd nan 0 0\n"), plain);
+}
+
 TEST(OffDialects, CommentsAndBlankLinesStandAnywhere) {
     const ImportedMesh mesh =
         read("comments.off", "# made by hand\nOFF # text\n\n4 1 0 # counts\n# places\n \t\n" +

@@ -172,6 +172,10 @@ CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
                                            attributes.vertices[k + 2]);
     // Not in the standard, and written by many: three more numbers after a vertex's position.
     const bool coloured = attributes.colors.size() == attributes.vertices.size();
+    if (!coloured && checked.colouredVertices > 0)
+        tellOf(path, std::to_string(checked.colouredVertices) + " of " +
+                         std::to_string(result.mesh.positions.size()) +
+                         " vertices have colours, which are left out");
     MaterialTable table(materials, path, options, coloured, result);
     for (const tinyobj::shape_t& shape : shapes) addShape(shape.mesh, attributes, table, result);
     return result;

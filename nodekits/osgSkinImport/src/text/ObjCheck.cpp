@@ -22,7 +22,8 @@ constexpr std::string_view kLineEnds("\n\r\0", 3);
 constexpr std::size_t kLongestName = 4000;
 constexpr std::size_t kMostDigits = 32; // that are taken over as they stand
 constexpr std::size_t kLongestOption = 400;
-constexpr std::size_t kMostNumbers = 7;  // a place and a colour, or with a weight
+constexpr std::size_t kMostNumbers = 7; // a place and a colour, or with a weight
+constexpr std::size_t kPlaceAndColour = 6;
 constexpr std::size_t mostCorners = 255; // tinyobjloader counts them in a byte
 
 /// Takes the next word off `line`; empty at its end.
@@ -97,22 +98,48 @@ struct Counts {
 };
 constexpr std::array<const char*, 3> kinds{"vertex", "texture coordinate", "normal"};
 
-/// Calls `use(keyword, rest of the line, line number)` for each line that has a keyword.
+int kindOf(std::string_view keyword) {
+    return keyword == "v" ? 0 : keyword == "vt" ? 1 : keyword == "vn" ? 2 : -1;
+}
+
+std::string_view takeLine(std::string_view& text) {
+    // What C takes for the end of a text ends a line here.
+    const std::string_view line = text.substr(0, text.find_first_of(kLineEnds));
+    text.remove_prefix(line.size());
+    text.remove_prefix(text.substr(0, 2) == "\r\n" ? 2 : std::min<std::size_t>(1, text.size()));
+    return line;
+}
+
+/// Calls `use(keyword, rest of the line, line number)` for each line that has a keyword. A
+/// backslash at its end, of numbers or corners, goes on with the next.
 template <typename Use>
 void forEachLine(std::string_view text, const Use& use) {
     text.remove_prefix(byteOrderMark(text));
-    for (std::size_t number = 1; !text.empty(); ++number) {
-        // What C takes for the end of a text ends a line here.
-        std::string_view line = text.substr(0, text.find_first_of(kLineEnds));
-        text.remove_prefix(line.size());
-        text.remove_prefix(text.substr(0, 2) == "\r\n" ? 2 : std::min<std::size_t>(1, text.size()));
+    std::string joined;
+    std::size_t lines = 1;
+    for (std::size_t number = 1; !text.empty(); number += lines) {
+        std::string_view line = takeLine(text);
+        lines = 1;
         const std::string_view keyword = takeWord(line);
+        const bool mayGoOn = keyword == "f" || kindOf(keyword) >= 0;
+        if (mayGoOn && !line.empty() && line.back() == '\\') {
+            joined.clear();
+            for (; !line.empty() && line.back() == '\\'; ++lines) {
+                joined.append(line.substr(0, line.size() - 1)) += ' ';
+                line = takeLine(text);
+            }
+            line = joined.append(line);
+        }
         if (!keyword.empty()) use(keyword, line, number);
     }
 }
 
-int kindOf(std::string_view keyword) {
-    return keyword == "v" ? 0 : keyword == "vt" ? 1 : keyword == "vn" ? 2 : -1;
+/// What Microsoft's and other libraries write for what is no number, or has none.
+bool isBroken(std::string_view word, double value) {
+    return word.find("#IND") != std::string_view::npos ||
+           word.find("#QNAN") != std::string_view::npos ||
+           word.find("#INF") != std::string_view::npos || std::isnan(value) ||
+           std::abs(value) >= 1e300;
 }
 
 class Checker {
@@ -126,8 +153,7 @@ public:
             ++_soFar.of[static_cast<std::size_t>(kind)];
             numbers(keyword, rest);
         } else if (keyword == "f") {
-            face(rest);
-            keep(keyword, rest);
+            keep(keyword, face(rest));
         } else if (keyword == "usemtl") {
             const std::string name = materialName(rest);
             keep(keyword, ' ' + name);
@@ -137,7 +163,7 @@ public:
         }
     }
 
-    CheckedObj take() { return {std::move(_checked), std::move(_materials)}; }
+    CheckedObj take() { return {std::move(_checked), std::move(_materials), _coloured}; }
 
 private:
     void keep(std::string_view keyword, std::string_view rest) {
@@ -147,13 +173,14 @@ private:
     void numbers(std::string_view keyword, std::string_view rest) {
         const std::size_t expected = keyword == "vt" ? 1 : 3;
         _checked.append(keyword);
-        for (std::size_t k = 0; k < kMostNumbers; ++k) {
+        std::size_t k = 0;
+        for (; k < kMostNumbers; ++k) {
             const std::string_view word = takeWord(rest);
             double value = 0.0;
-            const bool isNumber = parseNumber(word, value);
+            const bool isNumber = parseNumber(word, value), broken = isBroken(word, value);
             // A body is drawn well enough without a broken normal: all are computed then.
-            const bool isFine = isNumber && (std::abs(value) < 1e300 || keyword == "vn");
-            if (isFine) addNumber(word, value, _checked);
+            const bool isFine = broken ? keyword != "v" : isNumber;
+            if (isFine) addNumber(word, broken ? 0.0 : value, _checked);
             if (!isFine && k >= expected) break;
             if (isFine) continue;
             failLine(_path, _line,
@@ -161,19 +188,27 @@ private:
                          std::string(keyword) + "\" line, expected " + std::to_string(expected) +
                          " finite numbers");
         }
+        if (keyword == "v" && k >= kPlaceAndColour) ++_coloured;
         _checked += '\n';
     }
 
-    void face(std::string_view rest) const {
+    /// A face's corners as tinyobjloader reads them: some write "1//" of one without a normal.
+    std::string face(std::string_view rest) const {
         std::size_t corners = 0;
+        std::string checked;
         for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
-            corner(word);
+            const std::string_view whole = word.substr(0, word.find_last_not_of('/') + 1);
+            const bool isShort = word.size() - whole.size() <= 2 && !whole.empty();
+            corner(isShort ? whole : word);
+            checked += ' ';
+            checked += whole;
             ++corners;
         }
         if (corners < 3 || corners > mostCorners)
             failLine(_path, _line,
                      "a face with " + std::to_string(corners) + " corners, expected 3 to " +
                          std::to_string(mostCorners));
+        return checked;
     }
 
     void corner(std::string_view word) const {
@@ -209,7 +244,7 @@ private:
     std::set<std::string_view> _libraries; ///< of materials: each is read once
     std::set<std::string> _materials;
     std::string _checked;
-    std::size_t _line = 0;
+    std::size_t _line = 0, _coloured = 0;
 };
 
 /// Whether an option among the words is a number that tinyobjloader would overflow at.
@@ -241,12 +276,19 @@ std::string checkMtl(std::string_view text, std::set<std::string>& wanted) {
         for (const MtlKeyword& known : kMtlKeywords) {
             if (keyword != known.name) continue;
             std::string line(keyword);
+            bool hasNumbers = true;
+            std::string_view first;
             for (std::size_t k = 0; k < known.numbers; ++k) {
-                const std::string_view word = takeWord(rest);
+                std::string_view word = takeWord(rest);
+                if (k == 0) first = word;
+                if (word.empty()) word = first; // the one number of a grey
                 double value = 0.0;
-                if (!parseNumber(word, value) || !std::isfinite(value)) value = 0.0;
+                hasNumbers = hasNumbers && parseNumber(word, value) && std::isfinite(value);
                 addNumber(word, value, line);
             }
+            // "Kd spectral x.rfl", "d -halo 0.5": better as if it were not there than black, or
+            // gone.
+            if (!hasNumbers) continue;
             if (keyword == "newmtl")
                 line += ' ' + materialName(rest);
             else if (known.numbers == 0)
