@@ -108,6 +108,50 @@ TEST(ObjDialects, MaterialsMayHaveOneNumberOrNone) {
     EXPECT_EQ(diffuseBy("Kd nan 0 0\n"), plain);
 }
 
+TEST(PlyDialects, WhatIsNoWholeNumberCountsNothing) {
+    const std::string floats = replaced(kFaces, "int", "float");
+    expectError([&] { read("half.ply", ply(kVertices + floats, kPlaces + "3 0 1.5 2\n")); },
+                "half.ply: face 0 names vertex 1.5");
+    EXPECT_EQ(
+        read("whole.ply", ply(kVertices + floats, kPlaces + "3 0 1 2\n")).mesh.faceSizes.size(),
+        1u);
+    expectError(
+        [&] {
+            read("c.ply", ply(replaced(kVertices, "3", "3.7") + kFaces, kPlaces + "3 0 1 2\n"));
+        },
+        "c.ply: line 3: \"3.7\" elements, expected a whole number");
+}
+
+TEST(PlyDialects, WordsBehindTheLastElementAreRefused) {
+    // Rows of four numbers, of which the header tells three.
+    const std::string longer = "0 0 0 3\n0 1 2 3\n1 0 0 3\n";
+    expectError([&] { read("rows.ply", ply(kVertices + kFaces, longer)); },
+                "rows.ply: words behind the last element");
+    for (const char* end : {"", "\n \r\n", "\n\x1a", "\n\x1a\n"})
+        EXPECT_EQ(read("end.ply", ply(kVertices + kFaces, kPlaces + "3 0 1 2" + end))
+                      .mesh.faceSizes.size(),
+                  1u);
+    const test::Notices notices;
+    read("bytes.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\n"
+                      "property uchar y\nproperty uchar z\nelement face 1\n"
+                      "property list uchar uchar vertex_indices\nend_header\n" +
+                          "\0\0\0\1\0\0\0\1\0\3\0\1\2\n\n"s);
+    EXPECT_TRUE(notices.say("bytes behind the last element, passed over")) << notices.text();
+}
+
+TEST(PlyDialects, ALineFeedMayBeTheBodysFirstByte) {
+    for (const std::string end : {"\r", "\n", "\r\n"}) {
+        std::string text;
+        for (const char* line :
+             {"ply", "format binary_little_endian 1.0", "element vertex 3", "property uchar x",
+              "property uchar y", "property uchar z", "element face 1",
+              "property list uchar uchar vertex_indices", "end_header"})
+            text += line + end;
+        const ImportedMesh mesh = read("feed.ply", text + "\n\0\0\1\0\0\0\1\0\3\0\1\2"s);
+        EXPECT_EQ(mesh.mesh.positions.at(0), glm::dvec3(10, 0, 0));
+    }
+}
+
 TEST(OffDialects, CommentsAndBlankLinesStandAnywhere) {
     const ImportedMesh mesh =
         read("comments.off", "# made by hand\nOFF # text\n\n4 1 0 # counts\n# places\n \t\n" +

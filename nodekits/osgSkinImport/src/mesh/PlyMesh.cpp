@@ -119,7 +119,7 @@ private:
     }
 
     std::uint32_t indexOf(double number, const std::string& where) const {
-        if (!(number >= 0.0 && number < 4294967295.0))
+        if (!(number >= 0.0 && number < 4294967295.0) || number != std::floor(number))
             failFile(_path, where + " names vertex " + std::to_string(number) +
                                 ", expected one of the file's");
         return static_cast<std::uint32_t>(number);

@@ -30,6 +30,8 @@ public:
         return entries >= 0.0 && entries * double(type.bytes) <= double(_rest.size());
     }
 
+    bool isAtEnd() const { return _rest.empty(); }
+
 private:
     static double numberOf(std::uint64_t bits, const PlyHeader::Type& type) {
         if (type.kind == PlyHeader::Kind::Floating) {
@@ -72,6 +74,10 @@ public:
         return entries >= 0.0 && 2.0 * entries <= double(_rest.size()) + 1.0;
     }
 
+    bool isAtEnd() const { // some systems end a text with Ctrl-Z
+        return _rest.find_first_not_of(std::string_view(" \t\r\n\x1a\0", 6)) == std::string::npos;
+    }
+
 private:
     std::string_view _rest;
 };
@@ -83,8 +89,9 @@ std::string lengthText(double length) {
                : std::to_string(length);
 }
 
+/// Whether nothing is left of the body.
 template <typename Body>
-void walk(const std::string& path, const PlyHeader& header, Body body, const TakePlyEntry& take) {
+bool walk(const std::string& path, const PlyHeader& header, Body body, const TakePlyEntry& take) {
     PlyValues values;
     for (const PlyHeader::Element& element : header.elements)
         for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
@@ -110,16 +117,23 @@ void walk(const std::string& path, const PlyHeader& header, Body body, const Tak
             }
             take(element, i, values);
         }
+    return body.isAtEnd();
 }
 
 } // namespace
 
 void readPlyBody(const std::string& path, const PlyHeader& header, std::string_view body,
                  const TakePlyEntry& take) {
-    if (header.format == PlyHeader::Format::Text)
-        walk(path, header, PlyWords(body), take);
-    else
-        walk(path, header, PlyBytes(body, header.format == PlyHeader::Format::BigEndian), take);
+    const bool isText = header.format == PlyHeader::Format::Text;
+    const bool isWhole =
+        isText ? walk(path, header, PlyWords(body), take)
+               : walk(path, header, PlyBytes(body, header.format == PlyHeader::Format::BigEndian),
+                      take);
+    if (isWhole) return;
+    // Rows that are longer than the header says have been read as if they were others.
+    if (isText)
+        failFile(path, "words behind the last element, expected as many as the header says");
+    tellOf(path, "bytes behind the last element, passed over");
 }
 
 } // namespace osgSkin

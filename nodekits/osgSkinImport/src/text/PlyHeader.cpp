@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <sstream>
 #include <string_view>
 
@@ -75,7 +76,10 @@ private:
         ++_line;
         const std::size_t end = std::min(_text.find_first_of("\r\n", _at), _text.size());
         std::string line = _text.substr(_at, end - _at);
-        _at = end + (_text.compare(end, 2, "\r\n") == 0 ? 2 : end < _text.size() ? 1 : 0);
+        // Where lines end with CR alone, the LF behind the last one is the body's first byte.
+        if (_line == 1) _endsWithCr = _text.compare(end, 1, "\r") == 0 && _text[end + 1] != '\n';
+        const bool two = !_endsWithCr && _text.compare(end, 2, "\r\n") == 0;
+        _at = end + (two ? 2 : end < _text.size() ? 1 : 0);
         return line;
     }
 
@@ -101,7 +105,9 @@ private:
         std::string count;
         words >> element.name >> count;
         double number = 0.0;
-        if (!parseNumber(count, number) || !(number >= 0.0 && number <= double(_text.size())))
+        if (!parseNumber(count, number) || number != std::floor(number))
+            failLine(_path, _line, inQuotes(count) + " elements, expected a whole number");
+        if (!(number >= 0.0 && number <= double(_text.size())))
             failLine(_path, _line,
                      inQuotes(count) + " elements, expected no more than the file has room for");
         element.count = static_cast<std::size_t>(number);
@@ -172,7 +178,7 @@ private:
     const std::string& _path;
     const std::string& _text;
     std::size_t _at = byteOrderMark(_text), _line = 0;
-    bool _hasFormat = false;
+    bool _hasFormat = false, _endsWithCr = false;
     PlyHeader _header;
     std::vector<std::size_t> _elementLines;
 };
