@@ -98,6 +98,8 @@ const Dialect kSame[] = {
          return replaced(replaced(t, "Frames: ", "Frames:"), "Time: ", "Time:");
      }},
     {"BlanksBeforeColons", [](const std::string& t) { return replaced(t, ":", " :"); }},
+    {"NamesOfEndSites",
+     [](const std::string& t) { return replaced(t, "End Site", "End Site Spine end"); }},
     {"Exponents", [](const std::string& t) { return replaced(t, " 40 50 ", " 4e1 5.0E+01 "); }},
     {"SignsAndPoints",
      [](const std::string& t) { return replaced(t, " 40 50 60", " +40 50. +60.0"); }},

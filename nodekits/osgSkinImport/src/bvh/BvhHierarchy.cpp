@@ -81,6 +81,7 @@ private:
 
     void readEndSite() {
         _words.expect("Site");
+        _words.skipName(); // that some give to it
         _words.expect("{");
         _words.expect("OFFSET");
         const glm::dvec3 end = offset("the End Site of " + owner());

@@ -92,6 +92,10 @@ std::string_view BvhTokens::jointName() {
     return take(length);
 }
 
+void BvhTokens::skipName() {
+    take(std::min(_rest.find_first_of("{}\r\n"), _rest.size()));
+}
+
 bool BvhTokens::isAtLineEnd() {
     const std::size_t before = _line;
     const std::string_view rest = _rest;

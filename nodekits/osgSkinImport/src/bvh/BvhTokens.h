@@ -26,6 +26,9 @@ public:
     /// The name of a joint: all up to a brace or the end of the line, inner blanks included.
     std::string_view jointName();
 
+    /// Passes over a name that need not be there, which ends as a joint's does.
+    void skipName();
+
     /// Whether nothing follows on the line of the word read last.
     bool isAtLineEnd();
 
