@@ -7,6 +7,8 @@
 
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportRig>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/JointRoles>
 
 #include <osg/Geometry>
 #include <osg/Group>
@@ -46,6 +48,29 @@ private:
 };
 
 } // namespace
+
+TEST_F(GuardedTime, NamesOfJointsMayBeLong) {
+    std::string name;
+    for (int k = 0; k < 1'000'000; ++k) name += "Aa";
+    const std::string path = testing::TempDir() + "long.bvh";
+    std::ofstream(path) << "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nJOINT "
+                        << name << "\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 0\nFrame Time: 1\n";
+    const osgSkin::RestSkeleton skeleton = osgSkin::importSkeleton(path);
+    EXPECT_EQ(skeleton.joints.at(1).name, name);
+    EXPECT_EQ(osgSkin::recogniseJoints(skeleton).roles.at(1), "");
+}
+
+TEST_F(GuardedTime, PrefixesOfNamesMayBeMany) {
+    osgSkin::RestSkeleton skeleton;
+    skeleton.add("Hips", -1, glm::dvec3(0.0));
+    for (int j = 0; j < 10'000; ++j) {
+        std::string prefix;
+        for (int rest = j / 4, k = 0; k < 4; ++k, rest /= 20) prefix += char('b' + rest % 20);
+        const char* const words[] = {"Head", "LeftHand", "LeftFoot", "Neck"};
+        skeleton.add("q" + prefix + "_" + words[j % 4], 0, glm::dvec3(0.0, j, 0.0));
+    }
+    for (int k = 0; k < 20; ++k) EXPECT_TRUE(osgSkin::recogniseJoints(skeleton).known());
+}
 
 TEST_F(GuardedTime, NodesMayBeCalledAlike) {
     GltfColumn column;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
@@ -62,8 +63,9 @@ void checkOptions(const RestSkeleton& skeleton, const BindOptions& options) {
         if (!muscles.insert(muscle.name).second)
             throw Error("bind: two muscles are called \"" + muscle.name + "\"");
     }
+    const std::map<std::string, int> jointOf = skeleton.byName();
     for (const auto& [name, joint] : options.joints) {
-        if (skeleton.find(name) < 0)
+        if (jointOf.count(name) == 0)
             throw Error("bind: joint \"" + name +
                         "\" is not in the skeleton, expected one of its joints");
         checkBoundaries(name, "bend", joint.bendUpper, joint.bendLower);

@@ -3,6 +3,8 @@
 
 #include <osgSkin/Error>
 
+#include <map>
+
 namespace osgSkin {
 
 std::vector<std::size_t> extremities(const RestSkeleton& skeleton, const JointRoles& roles) {
@@ -27,14 +29,15 @@ std::vector<std::string> automaticRigidJoints(const RestSkeleton& skeleton,
 }
 
 std::vector<int> rigidJoints(const RestSkeleton& skeleton, const BindOptions& options) {
+    const std::map<std::string, int> jointOf = skeleton.byName();
     std::vector<bool> named(skeleton.joints.size(), false);
     for (const std::string& name :
          options.rigid ? *options.rigid : automaticRigidJoints(skeleton, options.names)) {
-        const int joint = skeleton.find(name);
-        if (joint < 0)
+        const auto joint = jointOf.find(name);
+        if (joint == jointOf.end())
             throw Error("bind: rigid joint \"" + name +
                         "\" is not in the skeleton, expected one of its joints");
-        named[static_cast<std::size_t>(joint)] = true;
+        named[static_cast<std::size_t>(joint->second)] = true;
     }
     std::vector<int> result(skeleton.joints.size(), -1);
     for (std::size_t j = 0; j < result.size(); ++j) {

@@ -3,14 +3,24 @@
 
 #include <osgSkin/Error>
 
+#include <map>
+
 namespace osgSkin {
 namespace {
 
-int findJoint(const Binding& binding, const std::string& name) {
+std::vector<bool> findJoints(const Binding& binding, const std::vector<std::string>& names) {
+    std::map<std::string, std::size_t> jointOf;
     for (std::size_t j = 0; j < binding.joints.size(); ++j)
-        if (binding.joints[j].name == name) return static_cast<int>(j);
-    throw Error("rigid parts: \"" + name +
-                "\" is not a joint of the binding, expected one of its joints");
+        jointOf.emplace(binding.joints[j].name, j);
+    std::vector<bool> result(binding.joints.size(), false);
+    for (const std::string& name : names) {
+        const auto joint = jointOf.find(name);
+        if (joint == jointOf.end())
+            throw Error("rigid parts: \"" + name +
+                        "\" is not a joint of the binding, expected one of its joints");
+        result[joint->second] = true;
+    }
+    return result;
 }
 
 /// The rigid joint that the vertex moves with, or kSkin: its influences must be that joint and all
@@ -45,9 +55,7 @@ RigidSplit splitRigid(const SkinMesh& mesh, const Binding& binding,
                     " vertices, expected the binding's " + std::to_string(binding.vertexCount()));
     mesh.validate();
     binding.validate();
-    std::vector<bool> isRigid(binding.joints.size(), false);
-    for (const std::string& name : rigid)
-        isRigid[static_cast<std::size_t>(findJoint(binding, name))] = true;
+    const std::vector<bool> isRigid = findJoints(binding, rigid);
 
     std::vector<std::uint32_t> jointOf(binding.vertexCount());
     for (std::size_t v = 0; v < jointOf.size(); ++v) jointOf[v] = rigidJointOf(binding, isRigid, v);

@@ -19,8 +19,12 @@ FitOptions readFit(const JsonReader& reader) {
     const auto landmarks = reader.find("landmarks");
     if (!landmarks) return options;
     std::vector<std::string> names;
-    landmarks->forEachMember(
-        [&](const std::string& name, const JsonReader&) { names.push_back(name); });
+    constexpr std::size_t most = 100; // a body has about 30 joints; names are read together
+    landmarks->forEachMember([&](const std::string& name, const JsonReader& value) {
+        if (names.size() == most)
+            value.failWith("one of more than " + std::to_string(most) + " landmarks");
+        names.push_back(name);
+    });
     const std::map<std::string, std::string> known = fittedNamesOf(names);
     landmarks->forEachMember([&](const std::string& name, const JsonReader& value) {
         if (known.count(name) == 0)

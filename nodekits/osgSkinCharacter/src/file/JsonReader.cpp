@@ -117,6 +117,11 @@ glm::dvec3 JsonReader::vector() const {
     return {numbers[0].number(), numbers[1].number(), numbers[2].number()};
 }
 
+std::size_t JsonReader::size() const {
+    if (!_value.is_array()) failExpected("a list");
+    return _value.size();
+}
+
 std::vector<JsonReader> JsonReader::items() const {
     std::vector<JsonReader> result;
     forEachItem([&](const JsonReader& item) { result.push_back(item); });
@@ -138,12 +143,19 @@ void JsonReader::forEachMember(
 }
 
 void JsonReader::warnUnknown(std::initializer_list<const char*> known) const {
+    constexpr std::size_t mostLines = 10;
+    std::size_t unknown = 0;
     forEachMember([&](const std::string& key, const JsonReader& member) {
-        if (std::find(known.begin(), known.end(), key) == known.end())
+        if (std::find(known.begin(), known.end(), key) != known.end()) return;
+        if (++unknown <= mostLines)
             OSG_WARN << onOneLine(_file + ": " + shortened(member._path) +
                                   ": not known, passed over")
                      << std::endl;
     });
+    if (unknown > mostLines)
+        OSG_WARN << onOneLine(_file + ": " + std::to_string(unknown - mostLines) +
+                              " more members are not known, passed over")
+                 << std::endl;
 }
 
 } // namespace osgSkin

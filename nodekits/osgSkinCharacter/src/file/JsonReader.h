@@ -43,6 +43,7 @@ public:
     std::size_t count() const; ///< a whole number, not negative
 
     bool isList() const { return _value.is_array(); }
+    std::size_t size() const;              ///< of a list
     std::vector<JsonReader> items() const; ///< of a list
     void forEachItem(const std::function<void(const JsonReader&)>& visit) const;
     void

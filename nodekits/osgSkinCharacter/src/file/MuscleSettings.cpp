@@ -32,6 +32,10 @@ void readMuscles(const JsonReader& reader, BindOptions& bind) {
         bind.muscles = reader.boolean();
         return;
     }
+    constexpr std::size_t most = 1000; // a body has 640; each is laid on the skin by itself
+    if (reader.size() > most)
+        reader.failWith(std::to_string(reader.size()) + " muscles, expected at most " +
+                        std::to_string(most));
     reader.forEachItem([&](const JsonReader& item) {
         if (item.isObject())
             bind.ownMuscles.push_back(readMuscle(item));

@@ -55,23 +55,39 @@ SkinFile::MotionEntry readMotion(const JsonReader& reader, const std::string& fo
     return motion;
 }
 
-/// A family of names: role -> a joint's name, or a list of them.
-JointNames readNames(const std::string& family, const JsonReader& reader) {
-    std::set<std::string> roles;
-    for (const JointNames& known : knownJointNames())
-        for (const auto& [role, members] : known.roles) roles.insert(role);
-    JointNames names{family, {}};
-    reader.forEachMember([&](const std::string& role, const JsonReader& value) {
-        if (roles.count(role) == 0)
-            value.failWith("no such part of a body, expected Hips, Spine, LeftUpperArm, ...");
-        if (value.isList())
-            value.forEachItem(
-                [&](const JsonReader& name) { names.roles[role].push_back(name.string()); });
-        else
-            names.roles[role].push_back(value.string());
-    });
-    return names;
-}
+/// Families of names: role -> a joint's name, or a list of them.
+class NamesReader {
+public:
+    /// \param most names of all families together: each joint is looked up among them, often
+    explicit NamesReader(std::size_t most) : _most(most) {
+        for (const JointNames& known : knownJointNames())
+            for (const auto& [role, members] : known.roles) _roles.insert(role);
+    }
+
+    JointNames read(const std::string& family, const JsonReader& reader) {
+        JointNames names{family, {}};
+        reader.forEachMember([&](const std::string& role, const JsonReader& value) {
+            if (_roles.count(role) == 0)
+                value.failWith("no such part of a body, expected Hips, Spine, LeftUpperArm, ...");
+            const auto add = [&](const JsonReader& name) {
+                if (++_count > _most)
+                    name.failWith("one of more than " + std::to_string(_most) +
+                                  " names (option maxJoints)");
+                names.roles[role].push_back(name.string());
+            };
+            if (value.isList())
+                value.forEachItem(add);
+            else
+                add(value);
+        });
+        return names;
+    }
+
+private:
+    const std::size_t _most;
+    std::size_t _count = 0;
+    std::set<std::string> _roles;
+};
 
 SkinFile::Prop readProp(const JsonReader& reader, const SkinFile& skin, const std::string& folder) {
     reader.warnUnknown({"mesh", "motion", "file"});
@@ -146,12 +162,15 @@ bool readSurfaceNormals(const JsonReader& reader) {
     return name == "surface";
 }
 
-void readBinding(const JsonReader& root, BindOptions& bind) {
+void readBinding(const JsonReader& root, const ReadLimits& limits, BindOptions& bind) {
     if (const auto shapes = root.find("shapes")) bind.shapes = readShapes(*shapes);
     if (const auto muscles = root.find("muscles")) readMuscles(*muscles, bind);
     if (const auto normals = root.find("normals"))
         bind.surfaceNormals = readSurfaceNormals(*normals);
     if (const auto rigid = root.find("rigid")) {
+        if (rigid->size() > limits.joints)
+            rigid->failWith(std::to_string(rigid->size()) + " names, expected at most " +
+                            std::to_string(limits.joints) + " (option maxJoints)");
         bind.rigid.emplace();
         rigid->forEachItem([&](const JsonReader& name) { bind.rigid->push_back(name.string()); });
     }
@@ -191,10 +210,13 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
                                 "\" is taken, expected a \"name\" of its own");
         });
     }
-    if (const auto names = root.find("names"))
+    if (const auto names = root.find("names")) {
+        NamesReader reader(limits.joints);
         names->forEachMember([&](const std::string& family, const JsonReader& value) {
-            skin.bind.names.push_back(readNames(family, value));
+            JointNames read = reader.read(family, value);
+            if (!read.roles.empty()) skin.bind.names.push_back(std::move(read));
         });
+    }
     if (const auto props = root.find("props"))
         props->forEachItem([&](const JsonReader& reader) {
             skin.props.push_back(readProp(reader, skin, folder));
@@ -209,7 +231,7 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
     if (skin.fit && skin.zUp) skin.fit->up = {0.0, 0.0, 1.0};
     if (const auto clear = root.find("clearHands")) skin.clearHands = clear->boolean();
     readMethod(root, folder, skin);
-    readBinding(root, skin.bind);
+    readBinding(root, limits, skin.bind);
     return skin;
 }
 

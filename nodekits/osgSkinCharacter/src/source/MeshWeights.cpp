@@ -3,6 +3,8 @@
 
 #include <osgSkin/Error>
 
+#include <map>
+
 namespace osgSkin {
 
 VertexWeights meshWeights(const std::string& file, const ImportedMesh& body,
@@ -11,13 +13,15 @@ VertexWeights meshWeights(const std::string& file, const ImportedMesh& body,
         throw Error(file + ": the mesh carries no weights, expected bones with weights in it, or "
                            "a file of weights named by \"weights\"");
     VertexWeights result(body.mesh.positions.size());
+    const std::map<std::string, int> jointOf = skeleton.byName();
     for (const BoneWeights& bone : body.weights) {
-        const int joint = skeleton.find(bone.bone);
-        if (joint < 0)
+        const auto joint = jointOf.find(bone.bone);
+        if (joint == jointOf.end())
             throw Error(file + ": bone \"" + bone.bone +
                         "\" has weights, expected the name of a joint of the skeleton");
         for (const BoneWeights::Entry& entry : bone.entries)
-            result[entry.vertex].push_back({static_cast<std::uint32_t>(joint), entry.weight});
+            result[entry.vertex].push_back(
+                {static_cast<std::uint32_t>(joint->second), entry.weight});
     }
     return result;
 }

@@ -14,11 +14,12 @@ osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const Rest
 
     osg::ref_ptr<osgAnimation::Channel> root = rootChannel(clip);
     root->setTargetName(rig.joints[0].name);
-    animation->addChannel(root);
+    // addChannel() would look at all others again.
+    animation->getChannels().push_back(root);
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         osg::ref_ptr<osgAnimation::Channel> channel = rotationChannel(clip, j);
         channel->setTargetName(rig.joints[j].name);
-        animation->addChannel(channel);
+        animation->getChannels().push_back(channel);
     }
     animation->computeDuration();
     return animation;

@@ -33,6 +33,14 @@ const std::vector<Dictionary>& knownDictionaries() {
     return known;
 }
 
+/// How many roles a family fills: a caller may give thousands of families.
+std::size_t filledBy(const Dictionary& names, const std::set<std::string>& plainNames) {
+    std::set<std::string> filled;
+    for (const auto& [name, role] : names.roleOf)
+        if (plainNames.count(name) != 0) filled.insert(role);
+    return filled.size();
+}
+
 JointRoles rolesBy(const Dictionary& names, const std::vector<std::string>& plainNames) {
     JointRoles result;
     result.family = names.family;
@@ -53,11 +61,12 @@ JointRoles rolesByFamily(const RestSkeleton& skeleton, const std::vector<JointNa
     byCaller = false;
     std::vector<std::string> plainNames;
     for (const RestJoint& joint : skeleton.joints) plainNames.push_back(plainName(joint.name));
+    const std::set<std::string> known(plainNames.begin(), plainNames.end());
     const auto consider = [&](const Dictionary& names, bool callers) {
-        JointRoles roles = rolesBy(names, plainNames);
-        if (roles.joints.size() < kFewestRoles) return;
-        if (best.known() && roles.joints.size() <= best.joints.size()) return;
-        best = std::move(roles);
+        const std::size_t filled = filledBy(names, known);
+        if (filled < kFewestRoles) return;
+        if (best.known() && filled <= best.joints.size()) return;
+        best = rolesBy(names, plainNames);
         byCaller = callers;
     };
     for (auto names = extra.rbegin(); names != extra.rend(); ++names)

@@ -7,6 +7,9 @@
 namespace osgSkin {
 namespace {
 
+/// Beyond this a name is none that anybody gave a part of a body, and its words take long to read.
+constexpr std::size_t kLongestName = 1000;
+
 bool isLetter(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
@@ -98,6 +101,7 @@ std::string plainName(const std::string& name) {
 }
 
 std::vector<std::string> nameWords(const std::string& name) {
+    if (name.size() > kLongestName) return {};
     return wordsOf(withoutNote(withoutNamespace(withoutCodes(name), ":|/")));
 }
 

@@ -21,6 +21,9 @@ constexpr std::size_t kFewestShared = 4;
 /// called Wing.
 constexpr double kMostJoints = 0.8;
 
+/// A figure's joints have a few prefixes; each that is tried takes a look at all joints.
+constexpr std::size_t kMostPrefixes = 100;
+
 std::set<std::string> distinct(const std::vector<std::string>& roles) {
     std::set<std::string> result(roles.begin(), roles.end());
     result.erase("");
@@ -64,9 +67,9 @@ WordRoles wordRoles(const RestSkeleton& skeleton) {
             if (reading->foreign) foreign.insert(reading->prefix);
         }
     }
-    std::size_t most = 0;
+    std::size_t most = 0, tried = 0;
     for (const auto& [prefix, count] : prefixes) {
-        if (count < kFewestShared || count < most) continue;
+        if (count < kFewestShared || count < most || ++tried > kMostPrefixes) continue;
         if (foreign.count(prefix) != 0) {
             const auto sharing =
                 std::count_if(names.begin(), names.end(),

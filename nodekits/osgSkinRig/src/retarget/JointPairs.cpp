@@ -9,13 +9,16 @@
 namespace osgSkin {
 namespace {
 
-void checkNames(const RestSkeleton& rig, const RestSkeleton& motion,
+using ByName = std::map<std::string, int>;
+
+void checkNames(const RestSkeleton& rig, const ByName& motion,
                 const std::map<std::string, std::string>& names) {
+    const ByName rigJoints = rig.byName();
     for (const auto& [rigName, motionName] : names) {
-        if (rig.find(rigName) < 0)
+        if (rigJoints.count(rigName) == 0)
             throw Error("retarget: the map names the joint \"" + rigName +
                         "\", which the rig does not have");
-        if (!motionName.empty() && motion.find(motionName) < 0)
+        if (!motionName.empty() && motion.count(motionName) == 0)
             throw Error(std::string("retarget: the map gives \"")
                             .append(rigName)
                             .append("\" the joint \"")
@@ -50,21 +53,21 @@ int byRole(const JointPairs& map, std::size_t j) {
 }
 
 /// The motion joint of the same name, unless it is another part of the body.
-int byName(const JointPairs& map, const RestSkeleton& motion, const std::string& name,
-           std::size_t j) {
-    const int found = motion.find(name);
-    if (found < 0) return -1;
-    const std::string& theirs = map.motion.roles[static_cast<std::size_t>(found)];
+int byName(const JointPairs& map, const ByName& motion, const std::string& name, std::size_t j) {
+    const auto found = motion.find(name);
+    if (found == motion.end()) return -1;
+    const std::string& theirs = map.motion.roles[static_cast<std::size_t>(found->second)];
     const std::string& ours = map.rig.roles[j];
     const bool differs = map.rig.known() && map.motion.known() && theirs != ours;
-    return differs ? -1 : found;
+    return differs ? -1 : found->second;
 }
 
 } // namespace
 
 JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
                      const RetargetOptions& options) {
-    checkNames(rig, motion, options.joints);
+    const ByName motionJoints = motion.byName();
+    checkNames(rig, motionJoints, options.joints);
     JointPairs map;
     map.rig = recogniseJoints(rig, options.names);
     map.motion = recogniseJoints(motion, options.names);
@@ -72,11 +75,11 @@ JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
         const std::string& name = rig.joints[j].name;
         const auto named = options.joints.find(name);
         if (named != options.joints.end()) {
-            map.motionJoint.push_back(named->second.empty() ? -1 : motion.find(named->second));
+            map.motionJoint.push_back(named->second.empty() ? -1 : motionJoints.at(named->second));
             continue;
         }
         const int found = byRole(map, j);
-        map.motionJoint.push_back(found >= 0 ? found : byName(map, motion, name, j));
+        map.motionJoint.push_back(found >= 0 ? found : byName(map, motionJoints, name, j));
     }
     if (std::all_of(map.motionJoint.begin(), map.motionJoint.end(), [](int m) { return m < 0; }))
         throw Error("retarget: no joint of the rig has a joint of the same name in the motion");

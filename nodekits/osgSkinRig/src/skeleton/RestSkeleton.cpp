@@ -25,6 +25,13 @@ int RestSkeleton::find(const std::string& name) const {
     return -1;
 }
 
+std::map<std::string, int> RestSkeleton::byName() const {
+    std::map<std::string, int> result;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        result.emplace(joints[j].name, static_cast<int>(j));
+    return result;
+}
+
 std::vector<int> RestSkeleton::children(int joint) const {
     std::vector<int> result;
     for (std::size_t j = 0; j < joints.size(); ++j)

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// `.skin` files and files of weights with more of something than anybody writes, and names that
+// mean no file, or one that would be written over.
+#include "Command.h"
+#include "GltfBuilder.h"
+#include "Notices.h"
+#include "WhyRefused.h"
+
+#include <osgDB/ReadFile>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kCharacter = OSGSKIN_TEST_DATA "/character/";
+constexpr double kMostSeconds = 8.0; ///< of this program's own, with sanitizers, too
+
+class GuardedSkin : public testing::Test {
+public:
+    GuardedSkin() : folder(test::makeTestFolder()) {
+        for (const char* part : {"body.obj", "rig.bvh", "move.bvh"})
+            fs::copy_file(kCharacter + part, folder + "/" + part);
+    }
+    ~GuardedSkin() override {
+        EXPECT_LT(double(std::clock() - _begin) / CLOCKS_PER_SEC, kMostSeconds);
+    }
+
+    std::string save(const std::string& name, const std::string& content) const {
+        std::string path = folder + "/" + name;
+        std::ofstream(path) << content;
+        return path;
+    }
+
+    /// A `.skin` file; `members` stand behind the mesh.
+    std::string skin(const std::string& members,
+                     const std::string& skeleton = "\"rig.bvh\"") const {
+        return save("a.skin", "{\"osgskin\": 1, \"mesh\": \"body.obj\", \"skeleton\": " + skeleton +
+                                  ", " + members + "}");
+    }
+
+    /// A skeleton of so many joints, "j0" to "j...", and a motion of one frame.
+    std::string bones(const std::string& name, std::size_t count) const {
+        std::string text = "HIERARCHY\nROOT j0\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
+        for (std::size_t j = 1; j < count; ++j)
+            text += "JOINT j" + std::to_string(j) + "\n{\nOFFSET 0 " +
+                    std::to_string(2.0 * double(j) / double(count)) + " 0\n}\n";
+        save(name, text + "}\nMOTION\nFrames: 1\nFrame Time: 1\n0\n");
+        return '"' + name + '"';
+    }
+
+    const std::string folder;
+
+private:
+    const std::clock_t _begin = std::clock();
+};
+
+void expectSays(const std::string& refused, const std::string& part) {
+    EXPECT_NE(refused.find(part), std::string::npos) << '"' << part << "\" in: " << refused;
+    EXPECT_EQ(refused.find('\n'), std::string::npos) << refused;
+}
+
+/// `count` items, each made of its number, with commas between them.
+template <typename Item>
+std::string list(std::size_t count, const Item& item) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) text += (i > 0 ? "," : "") + item(std::to_string(i));
+    return text;
+}
+
+std::string contentOf(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+} // namespace
+
+TEST_F(GuardedSkin, RigidJointsMayBeNamedAgainAndAgain) {
+    const auto last = [](const std::string&) { return std::string("\"j9999\""); };
+    const std::string skeleton = bones("many.bvh", 10'000);
+    EXPECT_EQ(test::whyRefused(skin("\"rigid\": [" + list(10'000, last) + "]", skeleton)), "read");
+    expectSays(test::whyRefused(skin("\"rigid\": [" + list(10'001, last) + "]")),
+               "a.skin: rigid: 10001 names, expected at most 10000 (option maxJoints)");
+}
+
+TEST_F(GuardedSkin, FamiliesOfNamesTakeNoMinutes) {
+    const auto family = [](const std::string& number) {
+        return "\"f" + number +
+               R"(": {"Hips": "a", "Head": "b", "LeftHand": "c", "LeftFoot": "d"})";
+    };
+    const std::string skeleton = bones("many.bvh", 5'000);
+    EXPECT_EQ(test::whyRefused(skin("\"names\": {" + list(2'500, family) + "}", skeleton)), "read");
+    expectSays(test::whyRefused(skin("\"names\": {" + list(2'501, family) + "}")),
+               "a.skin: names.f999.Head: one of more than 10000 names (option maxJoints)");
+}
+
+TEST_F(GuardedSkin, MusclesAndLandmarksAreNoThousands) {
+    const auto muscle = [](const std::string& number) {
+        return "{\"name\": \"m" + number + "\", \"joint\": \"arm\"}";
+    };
+    expectSays(test::whyRefused(skin("\"muscles\": [" + list(1'001, muscle) + "]")),
+               "a.skin: muscles: 1001 muscles, expected at most 1000");
+    const auto landmark = [](const std::string& number) {
+        return "\"Left Hand " + number + "\": [0, 1, 0]";
+    };
+    expectSays(test::whyRefused(skin("\"up\": \"y\"", "{\"fit\": true, \"landmarks\": {" +
+                                                          list(101, landmark) + "}}")),
+               "one of more than 100 landmarks");
+}
+
+TEST_F(GuardedSkin, MotionsOfManyJointsTakeNoMinutes) {
+    const std::string skeleton = bones("many.bvh", 10'000);
+    const auto motion = [&](const std::string& number) {
+        return "{\"file\": " + skeleton + ", \"name\": \"" + number + "\"}";
+    };
+    EXPECT_EQ(test::whyRefused(skin("\"motions\": [" + list(8, motion) + "]", skeleton)), "read");
+}
+
+TEST_F(GuardedSkin, UnknownMembersAreAFewLines) {
+    const test::Notices notices;
+    EXPECT_EQ(test::whyRefused(skin(list(
+                  20'000, [](const std::string& number) { return "\"x" + number + "\": 1"; }))),
+              "read");
+    EXPECT_EQ(notices.lines(), 11u);
+    EXPECT_TRUE(notices.say("a.skin: 19990 more members are not known, passed over"));
+}
