@@ -132,3 +132,38 @@ TEST_F(GuardedSkin, UnknownMembersAreAFewLines) {
     EXPECT_EQ(notices.lines(), 11u);
     EXPECT_TRUE(notices.say("a.skin: 19990 more members are not known, passed over"));
 }
+
+TEST_F(GuardedSkin, WeightsAreAVertexAndANumberEach) {
+    const auto refused = [&](const std::string& weights) {
+        save("w.json", "{\"weights\": {" + weights + "}}");
+        return test::whyRefused(skin(R"("bind": "weights", "weights": "w.json")"));
+    };
+    const auto zero = [](const std::string&) { return std::string("0"); };
+    expectSays(refused("\"arm\": [[" + list(1'000'000, zero) + "]]"),
+               "expected a vertex and its weight, found a list of 1000000");
+    expectSays(refused("\"arm\": [[3, 1], [4, 1], [3, 0.5]]"),
+               "w.json: weights.arm[2][0]: vertex 3 is there twice, expected one weight for each");
+    expectSays(refused("\"arm\": [[3, 1e308]], \"base\": [[3, 1e308]]"),
+               "weights of vertex 3: expected weights with a finite sum");
+}
+
+TEST_F(GuardedSkin, WeightsThatAreAllZeroAreToldOf) {
+    for (const double weight : {1.0, 0.0}) {
+        test::GltfBuilder gltf;
+        const std::size_t joint = gltf.node({{"name", "joint"}});
+        const nlohmann::json attributes = {
+            {"POSITION", gltf.accessor("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0})},
+            {"JOINTS_0", gltf.accessor("VEC4", std::vector<double>(12, 0), 5121)},
+            {"WEIGHTS_0",
+             gltf.accessor("VEC4", {weight, 0, 0, 0, weight, 0, 0, 0, weight, 0, 0, 0})}};
+        gltf.json["meshes"] = {{{"primitives", {{{"attributes", attributes}}}}}};
+        gltf.json["skins"] = {{{"joints", {joint}}}};
+        gltf.json["scenes"][0]["nodes"] = {joint, gltf.node({{"mesh", 0}, {"skin", 0}})};
+        const std::string file = gltf.save("zero.gltf");
+        const test::Notices notices;
+        EXPECT_EQ(test::whyRefused(file), "read");
+        EXPECT_EQ(notices.say("zero.gltf: no weight is above 0, the body is bound by regions"),
+                  weight == 0.0)
+            << notices.text();
+    }
+}

@@ -41,6 +41,7 @@ double checkedSum(const std::vector<JointWeight>& entries, std::size_t vertex, s
                         std::to_string(entry.weight));
         sum += entry.weight;
     }
+    if (!std::isfinite(sum)) throw Error(where + ": expected weights with a finite sum");
     return sum;
 }
 

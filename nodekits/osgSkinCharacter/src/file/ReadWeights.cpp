@@ -3,21 +3,28 @@
 
 #include "file/JsonReader.h"
 
+#include <map>
+
 namespace osgSkin {
 namespace {
 
 /// [vertex, weight]
 void readPair(const JsonReader& reader, std::uint32_t joint, VertexWeights& weights) {
-    const std::vector<JsonReader> pair = reader.items();
-    if (pair.size() != 2)
+    const std::size_t size = reader.size();
+    if (size != 2)
         reader.failWith("expected a vertex and its weight, found a list of " +
-                        std::to_string(pair.size()));
+                        std::to_string(size));
+    const std::vector<JsonReader> pair = reader.items();
     const std::size_t vertex = pair[0].count();
     if (vertex >= weights.size())
         pair[0].failWith("expected a vertex of the mesh, below " + std::to_string(weights.size()) +
                          ", found " + std::to_string(vertex));
     const double weight = pair[1].number();
     if (weight < 0.0) pair[1].failWith("expected a weight of 0 or more");
+    // All that a joint has is read at once.
+    if (!weights[vertex].empty() && weights[vertex].back().joint == joint)
+        pair[0].failWith("vertex " + std::to_string(vertex) +
+                         " is there twice, expected one weight for each");
     weights[vertex].push_back({joint, weight});
 }
 
@@ -28,12 +35,14 @@ VertexWeights readWeights(const std::string& file, const RestSkeleton& skeleton,
     const nlohmann::json json = JsonReader::parseFile(file, limits);
     const JsonReader root(json, file);
     VertexWeights weights(vertices);
+    const std::map<std::string, int> jointOf = skeleton.byName();
     root.require("weights", "each joint's list of vertices and weights")
         .forEachMember([&](const std::string& name, const JsonReader& pairs) {
-            const int joint = skeleton.find(name);
-            if (joint < 0) pairs.failWith("expected the name of a joint of the skeleton");
+            const auto joint = jointOf.find(name);
+            if (joint == jointOf.end())
+                pairs.failWith("expected the name of a joint of the skeleton");
             pairs.forEachItem([&](const JsonReader& pair) {
-                readPair(pair, static_cast<std::uint32_t>(joint), weights);
+                readPair(pair, static_cast<std::uint32_t>(joint->second), weights);
             });
         });
     return weights;

@@ -14,6 +14,7 @@
 #include <osg/Notify>
 
 #include <algorithm>
+#include <map>
 
 namespace osgSkin {
 namespace {
@@ -29,17 +30,24 @@ VertexWeights paintedWeights(const CharacterSource& source) {
 /// Whether the mesh has weights for joints of the skeleton, which may be another file's.
 bool carriesWeights(const CharacterSource& source) {
     const std::vector<BoneWeights>& bones = source.body.weights;
+    const std::map<std::string, int> jointOf = source.rest.byName();
     return source.weightsFile.empty() && !bones.empty() &&
            std::all_of(bones.begin(), bones.end(),
-                       [&](const BoneWeights& bone) { return source.rest.find(bone.bone) >= 0; });
+                       [&](const BoneWeights& bone) { return jointOf.count(bone.bone) != 0; });
+}
+
+/// How many vertices nobody painted.
+std::size_t gapsOf(const VertexWeights& weights) {
+    return static_cast<std::size_t>(
+        std::count_if(weights.begin(), weights.end(), [](const auto& entries) {
+            return std::none_of(entries.begin(), entries.end(),
+                                [](const JointWeight& entry) { return entry.weight > 0.0; });
+        }));
 }
 
 /// Tells of vertices that nobody painted, where weights were asked for.
 void tellGaps(CharacterSource& source, const VertexWeights& weights) {
-    const auto gaps = std::count_if(weights.begin(), weights.end(), [](const auto& entries) {
-        return std::none_of(entries.begin(), entries.end(),
-                            [](const JointWeight& entry) { return entry.weight > 0.0; });
-    });
+    const std::size_t gaps = gapsOf(weights);
     const std::string& file = source.weightsFile.empty() ? source.meshFile : source.weightsFile;
     if (gaps > 0)
         takeNote(source.notes, file + ": " + std::to_string(gaps) + " of " +
@@ -75,6 +83,9 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
                          : bind(source.body.mesh, source.rest, options, &report);
     });
     if (source.painted == Painted::Yes) tellGaps(source, weights);
+    if (source.painted == Painted::WhereGood && gapsOf(weights) == weights.size())
+        takeNote(source.notes,
+                 source.meshFile + ": no weight is above 0, the body is bound by regions");
     if (!byWeights)
         if (const std::size_t kept = keepShells(source, weights, binding))
             report.notes.push_back(std::to_string(kept) +
