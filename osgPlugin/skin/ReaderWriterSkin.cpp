@@ -9,9 +9,9 @@
 
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinCharacter/OptionString>
+#include <osgSkinImport/FindNamedFile>
 
 #include <osgDB/FileNameUtils>
-#include <osgDB/FileUtils>
 #include <osgDB/ReaderWriter>
 #include <osgDB/Registry>
 
@@ -40,7 +40,7 @@ public:
             return ReadResult::FILE_NOT_HANDLED;
         const bool namesAModel =
             !osgDB::getFileExtension(osgDB::getNameLessExtension(file)).empty();
-        if (!namesAModel && osgDB::findDataFile(file, options).empty())
+        if (!namesAModel && osgSkin::findNamedFile(file, options).empty())
             return ReadResult::FILE_NOT_FOUND;
         try {
             return osgSkin::loadCharacter(file, osgSkin::toLoadOptions(options)).root.get();

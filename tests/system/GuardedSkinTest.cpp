@@ -167,3 +167,17 @@ TEST_F(GuardedSkin, WeightsThatAreAllZeroAreToldOf) {
             << notices.text();
     }
 }
+
+/// OSG's own search would take any file in the working folder that is called as a name's last part.
+TEST_F(GuardedSkin, NamesMeanNoFilesInOtherFolders) {
+    skin("\"up\": \"y\"");
+    const fs::path before = fs::current_path();
+    fs::current_path(folder);
+    EXPECT_EQ(test::whyRefused("a.skin"), "read");
+    expectSays(test::whyRefused("nowhere/a.skin"), "nowhere/a.skin: ");
+    EXPECT_EQ(test::whyRefused("a.skin", test::loadOptions("motion=move.bvh")), "read");
+    expectSays(test::whyRefused("a.skin", test::loadOptions("motion=nowhere/move.bvh")),
+               "motion \"nowhere/move.bvh\" is neither one of its motions nor a file");
+    EXPECT_FALSE(osgDB::readRefNodeFile("nowhere/a.skin").valid());
+    fs::current_path(before);
+}

@@ -11,10 +11,10 @@
 #include "source/ReadSkinFile.h"
 
 #include <osgSkinGpu/GpuSkin>
+#include <osgSkinImport/FindNamedFile>
 #include <osgSkinImport/ImportRig>
 
 #include <osgDB/FileNameUtils>
-#include <osgDB/FileUtils>
 
 #include <utility>
 
@@ -43,7 +43,7 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
 }
 
 Character loadFrom(const std::string& path, const LoadOptions& options) {
-    const std::string found = osgDB::findDataFile(path, options.readOptions.get());
+    const std::string found = findNamedFile(path, options.readOptions.get());
     const std::string& file = found.empty() ? path : found;
     const OpenFile open(file);
     LoadStages stages(options.progress);

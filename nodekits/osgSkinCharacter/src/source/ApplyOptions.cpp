@@ -4,9 +4,9 @@
 #include "source/CacheFolder.h"
 
 #include <osgSkin/Error>
+#include <osgSkinImport/FindNamedFile>
 
 #include <osgDB/FileNameUtils>
-#include <osgDB/FileUtils>
 
 #include <algorithm>
 
@@ -55,11 +55,11 @@ bool putFirst(List& list, const std::string& name, const NameOf& nameOf) {
 /// A motion file, or with "#" and a clip's name or number behind it, one of the file's motions.
 SkinFile::MotionEntry fileEntry(const std::string& wanted, const osgDB::Options* read) {
     SkinFile::MotionEntry entry;
-    entry.file = osgDB::findDataFile(wanted, read);
+    entry.file = findNamedFile(wanted, read);
     entry.name = osgDB::getStrippedName(entry.file);
     const std::size_t mark = wanted.rfind('#');
     if (!entry.file.empty() || mark == std::string::npos || mark + 1 == wanted.size()) return entry;
-    entry.file = osgDB::findDataFile(wanted.substr(0, mark), read);
+    entry.file = findNamedFile(wanted.substr(0, mark), read);
     entry.name = entry.clip = wanted.substr(mark + 1);
     return entry;
 }

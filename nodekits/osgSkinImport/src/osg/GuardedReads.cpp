@@ -7,6 +7,7 @@
 #include "text/SafeNames.h"
 
 #include <osgSkin/Error>
+#include <osgSkinImport/FindNamedFile>
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>

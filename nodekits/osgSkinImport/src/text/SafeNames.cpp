@@ -4,8 +4,6 @@
 #include "text/FileText.h"
 
 #include <osgDB/FileNameUtils>
-#include <osgDB/FileUtils>
-#include <osgDB/Registry>
 
 #include <algorithm>
 #include <filesystem>
@@ -65,18 +63,6 @@ void requireOnlyRead(const std::string& path) {
     if (isOnlyRead(path)) return;
     failFile(path, "an archive, a script or an address by its extension, expected a file that only "
                    "has to be read");
-}
-
-std::string findNamedFile(const std::string& name, const osgDB::Options* options) {
-    osgDB::Registry& registry = *osgDB::Registry::instance();
-    const bool asTheApplicationSays =
-        (options != nullptr && options->getFindFileCallback() != nullptr) ||
-        registry.getFindFileCallback() != nullptr;
-    if (asTheApplicationSays) return osgDB::findDataFile(name, options);
-    if (name.empty() || osgDB::fileExists(name)) return name;
-    std::string found;
-    if (options != nullptr) found = osgDB::findFileInPath(name, options->getDatabasePathList());
-    return found.empty() ? osgDB::findFileInPath(name, registry.getDataFilePathList()) : found;
 }
 
 } // namespace osgSkin

@@ -27,11 +27,6 @@ bool isOnlyRead(const std::string& path);
 /// Throws osgSkin::Error where isOnlyRead() is false, and as requireName().
 void requireOnlyRead(const std::string& path);
 
-/// The file that a name means: as it is, or in the folders that OSG looks in. osgDB::findDataFile()
-/// also takes any file there that is called as the name's last part.
-/// \return empty: none
-std::string findNamedFile(const std::string& name, const osgDB::Options* options);
-
 } // namespace osgSkin
 
 #endif
