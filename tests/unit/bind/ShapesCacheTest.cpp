@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iterator>
 
+#include <sys/stat.h>
+
 using namespace osgSkin;
 
 namespace {
@@ -111,6 +113,30 @@ TEST(ShapesCache, SaysSoOfAFileThatIsNoUse) {
     notes.clear();
     EXPECT_FALSE(cache.read(smaller, notes));
     EXPECT_EQ(notes.size(), 1u);
+}
+
+TEST(ShapesCache, OpensNothingButFilesAsLargeAsShapesAre) {
+    const ScratchFolder scratch;
+    std::vector<std::string> notes;
+    const ShapesCache cache(scratch.path().string(), kDigest);
+    cache.write(someShapes(), notes);
+    const std::filesystem::path file = scratch.files().at(0);
+    const auto expectNoUse = [&](const char* what) {
+        notes.clear();
+        EXPECT_FALSE(cache.read(someBinding(), notes)) << what;
+        EXPECT_EQ(notes.size(), 1u) << what;
+        std::filesystem::remove(file);
+    };
+    std::filesystem::resize_file(file, std::uintmax_t(1) << 40); // takes no place on the disk
+    expectNoUse("a file of a terabyte");
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    expectNoUse("a pipe");
+    std::filesystem::create_symlink("/dev/zero", file);
+    expectNoUse("a device");
+    std::filesystem::create_directory(file);
+    expectNoUse("a folder");
+    cache.write(someShapes(), notes);
+    EXPECT_TRUE(cache.read(someBinding(), notes));
 }
 
 TEST(ShapesCache, SaysWhereItCannotWrite) {

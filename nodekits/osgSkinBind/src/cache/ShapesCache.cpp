@@ -17,6 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uintmax_t kMostBytes =
+    8192; // of a vertex: eight joints correct it, by 400 bytes each
+constexpr std::size_t kFixedVertices = 1000; // for whatever there is once
+
 void add(const CorrectiveJoint& joint, ByteWriter& writer) {
     writer.add(joint.joint);
     writer.add(joint.basis);
@@ -71,6 +75,19 @@ bool fromBytes(const std::string& bytes, MadeShapes& shapes) {
     return reader.isComplete();
 }
 
+/// All of a file of shapes; nothing where it is a pipe, a device or a folder, or larger than shapes
+/// of so many vertices are.
+std::string bytesOf(const std::string& file, std::size_t vertices) {
+    std::error_code failure;
+    if (!fs::is_regular_file(file, failure)) return {};
+    const std::uintmax_t size = fs::file_size(file, failure);
+    if (failure || size / kMostBytes > vertices + kFixedVertices) return {};
+    std::string all(static_cast<std::size_t>(size), '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(all.data(), static_cast<std::streamsize>(size));
+    return static_cast<std::uintmax_t>(in.gcount()) == size ? all : std::string();
+}
+
 } // namespace
 
 /// The file: the digest of what shapes are made of, that of the rest, and the rest.
@@ -82,9 +99,9 @@ ShapesCache::ShapesCache(std::string folder, const std::string& digest)
 std::optional<MadeShapes> ShapesCache::read(const Binding& binding,
                                             std::vector<std::string>& notes) const {
     if (_file.empty()) return std::nullopt;
-    std::ifstream in(_file, std::ios::binary);
-    if (!in) return std::nullopt;
-    const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    std::error_code missing;
+    if (!fs::exists(_file, missing)) return std::nullopt;
+    const std::string all = bytesOf(_file, binding.vertexCount());
     const std::size_t digest = _digest.size();
     MadeShapes shapes;
     if (all.size() > 2 * digest && all.compare(0, digest, _digest) == 0) {
