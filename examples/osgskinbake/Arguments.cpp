@@ -5,8 +5,10 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace bake {
@@ -107,6 +109,18 @@ void settleRest(const CLI::Option& rest, Arguments& arguments) {
     if (!arguments.frames) arguments.out.clear();
 }
 
+/// What is written first would be written over.
+void requireDifferentFiles(const Arguments& arguments) {
+    std::set<std::filesystem::path> files;
+    for (const std::string& file :
+         {arguments.out, arguments.rest, arguments.binding, arguments.pose})
+        if (!file.empty() &&
+            !files.insert(std::filesystem::absolute(file).lexically_normal()).second)
+            throw UsageError{"expected a file of its own for each of --out, --rest, --binding and "
+                             "--pose, found \"" +
+                             file + "\" twice"};
+}
+
 } // namespace
 
 bool hasNumber(const std::string& pattern) {
@@ -173,6 +187,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
         throw UsageError{"expected a CHARACTER, a .skin file or a rigged model"};
     const bool other = rest->count() > 0 || !arguments.binding.empty() || !arguments.pose.empty();
     if (arguments.out.empty() && !other) arguments.out = kDefaultOut;
+    requireDifferentFiles(arguments);
     return arguments;
 }
 

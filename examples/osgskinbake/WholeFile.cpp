@@ -3,11 +3,13 @@
 
 #include <osgSkin/Error>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace bake {
@@ -30,6 +32,26 @@ void setUnfinished(const std::string& path) {
     hasUnfinished = 1;
 }
 
+std::vector<std::string> keptFiles;
+
+bool isKept(const std::string& file) {
+    return std::any_of(keptFiles.begin(), keptFiles.end(), [&](const std::string& kept) {
+        std::error_code missing;
+        return fs::equivalent(kept, file, missing);
+    });
+}
+
+/// A file of its own, whatever stands there: in a folder of all users' that may be a link of
+/// others.
+std::FILE* openNew(const std::string& file) {
+    ::unlink(file.c_str());
+    const int number = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (number < 0) return nullptr;
+    std::FILE* const stream = ::fdopen(number, "wb");
+    if (stream == nullptr) ::close(number);
+    return stream;
+}
+
 extern "C" void removeAndGo(int signal) {
     if (hasUnfinished != 0) ::unlink(unfinished);
     std::signal(signal, SIG_DFL);
@@ -37,6 +59,10 @@ extern "C" void removeAndGo(int signal) {
 }
 
 } // namespace
+
+void keepFiles(const std::vector<std::string>& files) {
+    keptFiles = files;
+}
 
 void removeUnfinishedOnSignals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -51,10 +77,12 @@ WholeFile::WholeFile(const std::string& file) : _file(file), _target(file) {
     if (failure) _target = file;
     if (!fs::exists(_target, failure) || fs::is_regular_file(_target, failure))
         _written = _target + ".part" + std::to_string(::getpid());
+    if (isKept(_target))
+        throw osgSkin::Error(_file + ": a part of the character, expected another file");
     // A file that may not be written is not replaced either.
     if (fs::exists(_target, failure) && ::access(_target.c_str(), W_OK) != 0) fail();
     setUnfinished(_written); // first: a signal may come while it is opened
-    _stream = std::fopen((_written.empty() ? _target : _written).c_str(), "wb");
+    _stream = _written.empty() ? std::fopen(_target.c_str(), "wb") : openNew(_written);
     if (_stream != nullptr) return;
     setUnfinished({});
     fail();

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace bake {
 
@@ -34,6 +35,10 @@ private:
     std::string _written; ///< where it is until it is finished; empty: there already
     std::FILE* _stream = nullptr;
 };
+
+/// Files that are never written over, however they are called: those that a character was read
+/// from.
+void keepFiles(const std::vector<std::string>& files);
 
 /// Lets a signal that ends the program remove what has not been finished.
 void removeUnfinishedOnSignals();

@@ -147,6 +147,7 @@ void tense(Character& character, const Arguments& arguments) {
 
 int run(const Arguments& arguments) {
     Character character = load(arguments);
+    bake::keepFiles(character.files);
     tense(character, arguments);
     if (!arguments.motion.empty()) chooseMotion(character, arguments); // before anything is written
     if (!arguments.binding.empty())
@@ -167,7 +168,8 @@ int main(int argc, char** argv) {
         bake::removeUnfinishedOnSignals();
         return arguments ? run(*arguments) : 0;
     } catch (const UsageError& error) {
-        std::cerr << "osgskinbake: " << error.message << "\nTry osgskinbake --help." << std::endl;
+        std::cerr << "osgskinbake: " << error.message
+                  << "\nTry osgskinbake --help." << std::endl;
         return 2;
     } catch (const std::exception& error) {
         std::cerr << "osgskinbake: " << error.what() << std::endl;

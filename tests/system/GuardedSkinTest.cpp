@@ -181,3 +181,48 @@ TEST_F(GuardedSkin, NamesMeanNoFilesInOtherFolders) {
     EXPECT_FALSE(osgDB::readRefNodeFile("nowhere/a.skin").valid());
     fs::current_path(before);
 }
+
+TEST_F(GuardedSkin, WhatACharacterIsMadeOfIsNotWrittenOver) {
+    save("w.json", contentOf(kCharacter + "weights.json"));
+    skin(R"("bind": "weights", "weights": "w.json", "motions": [{"file": "move.bvh"}])");
+    fs::create_symlink("body.obj", folder + "/link.obj");
+    for (const auto& [arguments, file] :
+         {std::pair("--frames 0 --out body.obj", "body.obj"),
+          std::pair("--rest link.obj", "body.obj"), std::pair("--binding a.skin", "a.skin"),
+          std::pair("--pose w.json", "w.json"), std::pair("--binding ./rig.bvh", "rig.bvh"),
+          std::pair("--pose move.bvh", "move.bvh")}) {
+        const std::string before = contentOf(folder + "/" + file);
+        const test::CommandResult bake =
+            test::runBake(std::string("a.skin --quiet ") + arguments, folder);
+        EXPECT_EQ(bake.status, 1) << arguments;
+        EXPECT_NE(bake.err.find(": a part of the character, expected another file"),
+                  std::string::npos)
+            << bake.err;
+        EXPECT_EQ(contentOf(folder + "/" + file), before) << arguments;
+    }
+}
+
+TEST_F(GuardedSkin, EachOutputHasAFileOfItsOwn) {
+    skin("\"motions\": [{\"file\": \"move.bvh\"}]");
+    for (const char* arguments :
+         {"--frames 0 --out x.obj --rest x.obj", "--binding x.json --pose ./x.json"}) {
+        const test::CommandResult bake =
+            test::runBake(std::string("a.skin --quiet ") + arguments, folder);
+        EXPECT_EQ(bake.status, 2) << arguments;
+        EXPECT_NE(bake.err.find("expected a file of its own for each"), std::string::npos)
+            << bake.err;
+    }
+}
+
+/// Others may know the name under which a file is written, in a folder that is everybody's.
+TEST_F(GuardedSkin, UnfinishedFilesFollowNoLinks) {
+    skin("\"up\": \"y\"");
+    save("victim", "kept");
+    // A shell's process becomes the program, and has its number.
+    const test::CommandResult done = test::runCommand(
+        "ln -s victim x.json.part$$; exec " OSGSKIN_BAKE " a.skin --quiet --binding x.json",
+        folder);
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(contentOf(folder + "/victim"), "kept");
+    EXPECT_GT(fs::file_size(folder + "/x.json"), 100u);
+}

@@ -106,6 +106,7 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
                                           : report.notes.front()));
     Character character;
     character.file = character.meshFile = file;
+    character.files = {file};
     character.notes = report.notes;
     for (const auto& skin : report.skins) character.skin.skins.push_back({skin, {}});
     character.root = asGroup(scene);

@@ -31,6 +31,7 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     stages.begin("scene", source.sceneSize());
     character.file = source.file;
     character.meshFile = source.meshFile;
+    character.files = std::move(source.files);
     character.body = std::move(source.body);
     character.rest = std::move(source.rest);
     character.bindOptions = source.bind;

@@ -34,6 +34,8 @@ struct CharacterSource {
     std::string file;     ///< that was asked for; named in messages
     std::string meshFile; ///< that the body comes from
 
+    std::vector<std::string> files; ///< that are read
+
     ImportedMesh body;
     RestSkeleton rest;
     FitReport fitReport;

@@ -22,6 +22,8 @@ CharacterSource readRig(const std::string& file, const LoadOptions& options, Loa
     source.skeleton = rig.skeleton;
     source.animations = rig.animations;
     applyOptions(source, options);
+    source.files = {file};
+    for (const SkinFile::MotionEntry& motion : source.motions) source.files.push_back(motion.file);
     stages.plan(LoadStages::kModel + source.laterSize());
     return source;
 }

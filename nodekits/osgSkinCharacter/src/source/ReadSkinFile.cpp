@@ -28,6 +28,16 @@ void fitRest(CharacterSource& source, FitOptions fit, const Progress& progress) 
         takeNote(source.notes, source.file + ": fitted skeleton: " + note);
 }
 
+std::vector<std::string> filesOf(const SkinFile& skin, const CharacterSource& source) {
+    std::vector<std::string> files{skin.file, skin.mesh};
+    for (const std::string& file : {skin.skeleton, source.weightsFile})
+        if (!file.empty()) files.push_back(file);
+    for (const SkinFile::MotionEntry& motion : source.motions) files.push_back(motion.file);
+    for (const SkinFile::Prop& prop : source.props)
+        files.insert(files.end(), {prop.mesh, prop.file});
+    return files;
+}
+
 } // namespace
 
 CharacterSource readSkinFile(const std::string& file, const LoadOptions& options,
@@ -47,6 +57,7 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
     source.props = skin.props;
     source.meshOptions = sharePictures(options.readOptions.get());
     applyOptions(source, options);
+    source.files = filesOf(skin, source);
 
     stages.plan(LoadStages::kMesh + (skin.fit ? LoadStages::kFit : LoadStages::kSkeleton) +
                 source.laterSize());
