@@ -116,7 +116,8 @@ nlohmann::json poseJson(std::size_t frame, const osgSkin::Binding& binding,
 }
 
 void writeJson(const std::string& file, const nlohmann::json& json) {
-    writeBytes(file, json.dump() + '\n');
+    // Joints' names may be in no UTF-8, which JSON is.
+    writeBytes(file, json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
 
 } // namespace bake

@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
         bake::removeUnfinishedOnSignals();
         return arguments ? run(*arguments) : 0;
     } catch (const UsageError& error) {
-        std::cerr << "osgskinbake: " << error.message
+        std::cerr << "osgskinbake: " << osgSkin::onOneLine(error.message)
                   << "\nTry osgskinbake --help." << std::endl;
         return 2;
     } catch (const std::exception& error) {

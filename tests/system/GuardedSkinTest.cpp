@@ -214,6 +214,24 @@ TEST_F(GuardedSkin, EachOutputHasAFileOfItsOwn) {
     }
 }
 
+TEST_F(GuardedSkin, NamesMayBeInNoUnicodeAndSendNoCommands) {
+    std::string bones = contentOf(folder + "/rig.bvh");
+    for (std::size_t at = 0; (at = bones.find("arm", at)) != std::string::npos;)
+        bones.replace(at, 3, "\xe4rm");
+    save("latin.bvh", bones);
+    skin(R"("motions": [{"file": "latin.bvh", "name": "m\n\u001b[31m"}])", "\"latin.bvh\"");
+    const test::CommandResult bake =
+        test::runBake("a.skin --quiet --frames 0 --binding b.json --pose p.json", folder);
+    EXPECT_EQ(bake.status, 0) << bake.err;
+    for (const char* file : {"b.json", "p.json"})
+        EXPECT_NE(contentOf(folder + "/" + file).find("\"\xef\xbf\xbdrm\""), std::string::npos)
+            << file;
+    const test::CommandResult usage = test::runBake("a.skin --quiet --motion other", folder);
+    EXPECT_EQ(usage.status, 2);
+    EXPECT_EQ(usage.err.find('\x1b'), std::string::npos) << usage.err;
+    EXPECT_EQ(std::count(usage.err.begin(), usage.err.end(), '\n'), 2) << usage.err;
+}
+
 /// Others may know the name under which a file is written, in a folder that is everybody's.
 TEST_F(GuardedSkin, UnfinishedFilesFollowNoLinks) {
     skin("\"up\": \"y\"");
