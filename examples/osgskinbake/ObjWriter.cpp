@@ -6,6 +6,7 @@
 
 #include <cinttypes>
 #include <cstdio>
+#include <map>
 #include <osgDB/FileNameUtils>
 
 namespace bake {
@@ -25,15 +26,24 @@ ObjWriter::ObjWriter(const osgSkin::Character& character, const std::string& nam
 void ObjWriter::addSurface(const Surface& surface, std::uint32_t material) {
     const std::size_t first = _texCoords.size();
     _texCoords.insert(_texCoords.end(), surface.texCoords.begin(), surface.texCoords.end());
+    std::multimap<std::uint32_t, std::size_t> corners; // of a face that have none yet, by vertex
+    std::uint32_t current = kNone;
     for (std::size_t t = 0; t < surface.sourceFace.size(); ++t) {
         const std::uint32_t face = surface.sourceFace[t];
         _materials[face] = material;
         if (surface.texCoords.empty()) continue;
+        if (face != current) {
+            corners.clear();
+            for (std::size_t c = 0; c < _mesh.faceSizes[face]; ++c)
+                corners.emplace(_mesh.faceVertices[_firstCorner[face] + c], _firstCorner[face] + c);
+            current = face;
+        }
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t v = surface.triangles[3 * t + k];
-            for (std::size_t c = 0; c < _mesh.faceSizes[face]; ++c)
-                if (_mesh.faceVertices[_firstCorner[face] + c] == surface.sourceVertex[v])
-                    _texCoordOf[_firstCorner[face] + c] = static_cast<std::uint32_t>(first + v);
+            const auto [begin, end] = corners.equal_range(surface.sourceVertex[v]);
+            for (auto corner = begin; corner != end; ++corner)
+                _texCoordOf[corner->second] = static_cast<std::uint32_t>(first + v);
+            corners.erase(begin, end);
         }
     }
 }

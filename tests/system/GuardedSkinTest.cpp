@@ -244,3 +244,23 @@ TEST_F(GuardedSkin, UnfinishedFilesFollowNoLinks) {
     EXPECT_EQ(contentOf(folder + "/victim"), "kept");
     EXPECT_GT(fs::file_size(folder + "/x.json"), 100u);
 }
+
+TEST_F(GuardedSkin, FacesOfManyCornersTakeNoMinutes) {
+    constexpr int corners = 60'000;
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(corners) +
+                       "\nproperty float x\nproperty float y\nproperty float z\nproperty float u\n"
+                       "property float v\nelement face 1\nproperty list int int vertex_indices\n"
+                       "end_header\n";
+    std::string face = std::to_string(corners);
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2.0 * std::acos(-1.0) * k / corners;
+        text +=
+            std::to_string(std::cos(angle)) + " 1 " + std::to_string(std::sin(angle)) + " 0 0\n";
+        face += " " + std::to_string(k);
+    }
+    save("wheel.ply", text + face + "\n");
+    save("wheel.skin", R"({"osgskin": 1, "mesh": "wheel.ply", "skeleton": "rig.bvh"})");
+    const test::CommandResult bake = test::runCommand(
+        "ulimit -t 8; exec " OSGSKIN_BAKE " wheel.skin --quiet --rest x.obj", folder);
+    EXPECT_EQ(bake.status, 0) << bake.err;
+}
