@@ -4,6 +4,7 @@
 #include "FrameBench.h"
 #include "FrameTime.h"
 #include "Ground.h"
+#include "OpenWindow.h"
 #include "Snapshots.h"
 
 #include <osgDB/Registry>
@@ -49,6 +50,7 @@ int show(osg::Group* scene, const example::View& view) {
     const osg::ref_ptr<osgGA::TrackballManipulator> camera = new osgGA::TrackballManipulator;
     camera->setHomePosition(view.eye, view.centre, view.up);
     viewer.setCameraManipulator(camera);
+    example::openWindow(viewer);
     return viewer.run();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Ground.h"
+#include "OpenWindow.h"
 #include "Snapshots.h"
 #include "ThrowScene.h"
 
@@ -37,6 +38,7 @@ int show(osg::Node* scene) {
     const osg::ref_ptr<osgGA::TrackballManipulator> camera = new osgGA::TrackballManipulator;
     camera->setHomePosition(kView.eye, kView.centre, kView.up);
     viewer.setCameraManipulator(camera);
+    example::openWindow(viewer);
     return viewer.run();
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "OpenWindow.h"
 #include "Report.h"
 #include "TwistKeys.h"
 #include "TwistScene.h"
@@ -60,6 +61,7 @@ int show(twist::TwistScene& scene) {
     const osg::ref_ptr<osgGA::TrackballManipulator> trackball = new osgGA::TrackballManipulator;
     trackball->setHomePosition(view.eye, view.centre, view.up);
     viewer.setCameraManipulator(trackball);
+    example::openWindow(viewer);
     return viewer.run();
 }
 

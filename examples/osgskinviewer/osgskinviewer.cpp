@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Keys.h"
+#include "OpenWindow.h"
 #include "Stage.h"
 
 #include <osgSkin/Error>
@@ -33,6 +34,7 @@ int show(viewer::Stage& stage, const Size& size) {
     const osg::ref_ptr<osgGA::TrackballManipulator> camera = new osgGA::TrackballManipulator;
     camera->setHomePosition(view.eye, view.centre, view.up);
     window.setCameraManipulator(camera);
+    example::openWindow(window);
     osg::ElapsedTime real;
     while (!window.done()) {
         stage.clock.advance(real.elapsedTime());

@@ -264,3 +264,15 @@ TEST_F(GuardedSkin, FacesOfManyCornersTakeNoMinutes) {
         "ulimit -t 8; exec " OSGSKIN_BAKE " wheel.skin --quiet --rest x.obj", folder);
     EXPECT_EQ(bake.status, 0) << bake.err;
 }
+
+TEST_F(GuardedSkin, ProgramsWithoutAWindowFail) {
+    skin("\"up\": \"y\"");
+    for (const char* program :
+         {OSGSKIN_VIEWER " a.skin", OSGSKIN_CROWD " a.skin --count 2", OSGSKIN_THROW}) {
+        const test::CommandResult shown =
+            test::runCommand(std::string("DISPLAY=:98765 timeout 60 ") + program, folder);
+        EXPECT_EQ(shown.status, 1) << program;
+        EXPECT_NE(shown.err.find("no window can be opened; is DISPLAY set?"), std::string::npos)
+            << shown.err;
+    }
+}
