@@ -312,6 +312,18 @@ TEST(Pictures, HaveWhatTheirReadersTakeForGranted) {
     expectRefused("text.png", "a text", "no PNG picture");
 }
 
+/// All rows of a picture may stand in the same place: four thousand million pixels in half a
+/// megabyte.
+TEST(Pictures, AreNotLookedThroughBeforeTheirSizeIs) {
+    constexpr std::uint32_t side = 65535;
+    std::string text = "\x01\xda\x01\x01"s + big(3, 2) + big(side, 2) + big(side, 2) + big(1, 2);
+    text.resize(512, '\0');
+    for (std::uint32_t y = 0; y < side; ++y) text += big(512 + 8 * side, 4);
+    for (std::uint32_t y = 0; y < side; ++y) text += big(2 * side + 1, 4);
+    for (std::uint32_t x = 0; x < side; ++x) text += "\x81z";
+    expectRefused("rows.sgi", text + std::string(1, '\0'), "of 65535 x 65535 pixels");
+}
+
 TEST(Pictures, TgaTablesAreAsLongAsTheirReaderTakesThem) {
     // Of 300 colours of 15 bits each the reader goes over 600 bytes.
     for (const std::uint32_t bits : {15u, 16u, 24u, 32u}) {

@@ -73,6 +73,7 @@ void PictureCheck::take(const std::string& name, const std::string& extension,
         picture.fail("a picture of " + sides + " pixels, expected at most 2 GB when unpacked");
     _shared->pixels += needed;
     _shared->bytes += bytes.size();
+    if (known->second == sgiSize) requireSgiRows(picture);
     if (format == "png") unpackPng(picture);
     if (format == "gif") unpackGif(picture);
 }

@@ -32,22 +32,24 @@ PictureSize sgiSize(const PictureBytes& bytes) {
                       channels <= 4,
                   "an SGI picture of an unknown kind");
     size.bytesPerPixel = channelBytes * channels;
+    return size;
+}
+
+void requireSgiRows(const PictureBytes& bytes) {
     constexpr std::uint64_t kSgiHeader = 512;
-    const std::uint64_t rows = size.height * channels, rowBytes = size.width * channelBytes;
-    if (packed == 0) {
-        bytes.requireSize(kSgiHeader + rows * rowBytes);
-        return size;
-    }
+    const std::uint32_t channelBytes = bytes.byte(3);
+    const std::uint64_t width = bytes.big(6, 2), rows = bytes.big(8, 2) * bytes.big(10, 2),
+                        rowBytes = width * channelBytes;
+    if (bytes.byte(2) == 0) return bytes.requireSize(kSgiHeader + rows * rowBytes);
     // Where each row stands, behind all of these how long each is.
     for (std::uint64_t row = 0; row < rows; ++row) {
         const std::uint64_t at = kSgiHeader + 4 * row;
         const std::uint64_t begin = bytes.big(at, 4), length = bytes.big(at + 4 * rows, 4);
         bytes.requireSize(begin + length);
-        requireSgiRow(bytes, begin, begin + length, size.width, channelBytes);
+        requireSgiRow(bytes, begin, begin + length, width, channelBytes);
         bytes.require(length <= 256 * rowBytes,
                       "an SGI picture with a row longer than rows can be");
     }
-    return size;
 }
 
 } // namespace osgSkin

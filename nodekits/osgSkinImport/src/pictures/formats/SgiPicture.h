@@ -12,6 +12,10 @@ namespace osgSkin {
 /// \throw osgSkin::Error where the file lacks what OpenSceneGraph's reader takes for granted
 PictureSize sgiSize(const PictureBytes& bytes);
 
+/// Looks at the rows of a picture whose size is allowed: all may stand in the same place, so that a
+/// small file has any number of them.
+void requireSgiRows(const PictureBytes& bytes);
+
 } // namespace osgSkin
 
 #endif
