@@ -2,13 +2,13 @@
 #include "saved/CheckSaved.h"
 
 #include "saved/CheckAnimation.h"
+#include "saved/CheckDeformed.h"
 #include "text/FileText.h"
 
 #include <osg/Callback>
 #include <osg/Geometry>
 #include <osg/Group>
 #include <osgAnimation/AnimationManagerBase>
-#include <osgAnimation/MorphGeometry>
 
 #include <algorithm>
 #include <limits>
@@ -72,12 +72,7 @@ std::string wrongIn(const osg::Geometry& geometry) {
             array->getNumElements() < vertices)
             return "an array of " + std::to_string(array->getNumElements()) +
                    " elements, expected one for each of " + std::to_string(vertices) + " vertices";
-    const auto* morphed = dynamic_cast<const osgAnimation::MorphGeometry*>(&geometry);
-    if (morphed == nullptr) return {};
-    for (const auto& target : morphed->getMorphTargetList())
-        if (target.getGeometry() == nullptr || vertexCountOf(*target.getGeometry()) < vertices)
-            return "a morph target without a place for each vertex";
-    return {};
+    return whyNotDeformed(geometry);
 }
 
 /// Whether OSG read a node, callback or animation and has not put it anywhere: it drops without a

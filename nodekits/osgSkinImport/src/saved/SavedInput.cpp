@@ -94,6 +94,8 @@ unsigned SavedInput::took(unsigned number) {
     dropClosed();
     if (stream().fields().empty()) return number;
     const std::string& className = stream().fields().back();
+    // OSG makes room for as many values as it says, of 64 bytes at most.
+    if (className == "osg::Uniform") claim(number);
     const Lists lists = listsOf(className);
     const bool isLength =
         lists == Lists::Some || (lists == Lists::Itself && !_open.empty() && !_open.back().sized);

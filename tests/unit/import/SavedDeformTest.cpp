@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Saved rigs, morphs and uniforms that osgAnimation or OSG would read, write or make room beyond.
+#include "ExpectError.h"
+
+#include <osgSkinImport/ReadScene>
+
+#include <osg/Geometry>
+#include <osg/Group>
+#include <osg/Uniform>
+#include <osgAnimation/Bone>
+#include <osgAnimation/MorphGeometry>
+#include <osgAnimation/RigGeometry>
+#include <osgAnimation/Skeleton>
+#include <osgDB/WriteFile>
+#include <osgUtil/UpdateVisitor>
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+
+namespace {
+
+using osgAnimation::MorphGeometry;
+using osgAnimation::RigGeometry;
+using osgAnimation::VertexInfluenceMap;
+
+const char* const kFormats[] = {"osgt", "osgb", "osgx"};
+
+/// A triangle with normals, or as many as fit into so many vertices.
+osg::ref_ptr<osg::Geometry> makeTriangles(unsigned vertices = 3) {
+    osg::ref_ptr<osg::Geometry> result = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> places = new osg::Vec3Array;
+    for (unsigned v = 0; v < vertices; ++v) places->push_back({float(v), float(v % 2), 0.0f});
+    result->setVertexArray(places);
+    result->setNormalArray(new osg::Vec3Array(vertices), osg::Array::BIND_PER_VERTEX);
+    result->addPrimitiveSet(
+        new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices / 3 * 3)));
+    return result;
+}
+
+/// Reads what is saved in each format, and moves it.
+void expectMoved(osg::Node& scene, const std::string& message) {
+    for (const char* format : kFormats) {
+        SCOPED_TRACE(format);
+        const std::string path = testing::TempDir() + "deformed." + format;
+        ASSERT_TRUE(osgDB::writeNodeFile(scene, path));
+        if (!message.empty()) {
+            expectError([&] { osgSkin::readScene(path, nullptr); }, message);
+            continue;
+        }
+        const osg::ref_ptr<osg::Node> read = osgSkin::readScene(path, nullptr);
+        ASSERT_TRUE(read.valid());
+        osgUtil::UpdateVisitor update;
+        const osg::ref_ptr<osg::FrameStamp> frame = new osg::FrameStamp;
+        update.setFrameStamp(frame);
+        read->accept(update);
+    }
+}
+
+void expectRig(const std::function<void(RigGeometry&)>& change, const std::string& message) {
+    const osg::ref_ptr<RigGeometry> rig = new RigGeometry;
+    rig->setSourceGeometry(makeTriangles());
+    const osg::ref_ptr<VertexInfluenceMap> influences = new VertexInfluenceMap;
+    osgAnimation::VertexInfluence& influence = (*influences)["bone"];
+    influence.setName("bone");
+    for (unsigned v = 0; v < 3; ++v) influence.push_back({v, 1.0f});
+    rig->setInfluenceMap(influences);
+    rig->setUpdateCallback(new osgAnimation::UpdateRigGeometry);
+    rig->setDataVariance(osg::Object::DYNAMIC);
+    change(*rig);
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    skeleton->setDefaultUpdateCallback();
+    const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("bone");
+    bone->setDefaultUpdateCallback();
+    skeleton->addChild(bone);
+    skeleton->addChild(rig);
+    expectMoved(*skeleton, message);
+}
+
+void expectMorph(const osg::ref_ptr<osg::Geometry>& base, const osg::ref_ptr<osg::Geometry>& target,
+                 const std::string& message) {
+    const osg::ref_ptr<MorphGeometry> morph = new MorphGeometry(*base);
+    morph->addMorphTarget(target, 0.5f);
+    morph->setUpdateCallback(new osgAnimation::UpdateMorphGeometry);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(morph);
+    expectMoved(*scene, message);
+}
+
+} // namespace
+
+TEST(SavedDeform, RigsFollowVerticesThatAreThere) {
+    expectRig([](RigGeometry&) {}, "");
+    for (const unsigned beyond : {3u, 70'000u, 999'999'999u})
+        expectRig(
+            [&](RigGeometry& rig) {
+                (*rig.getInfluenceMap())["bone"].push_back({beyond, 1.0f});
+            },
+            "bone \"bone\": weight of vertex " + std::to_string(beyond) +
+                ", expected a vertex below 3 and a finite number");
+    expectRig([](RigGeometry& rig) { rig.setSourceGeometry(nullptr); },
+              "no geometry that it is made of, expected one");
+    expectRig([](RigGeometry& rig) { rig.setSourceGeometry(new osg::Geometry); },
+              "weight of vertex 0, expected a vertex below 0");
+    expectRig([](RigGeometry& rig) { rig.setInfluenceMap(new VertexInfluenceMap); },
+              "no bones, expected some");
+}
+
+TEST(SavedDeform, MorphsHaveAPlaceForEachVertex) {
+    expectMorph(makeTriangles(), makeTriangles(), "");
+    expectMorph(makeTriangles(), makeTriangles(9), "9 vertices of a morph target, expected 3");
+    expectMorph(makeTriangles(9), makeTriangles(3), "3 vertices of a morph target, expected 9");
+    const auto withPlaces = [](osg::Array* places) {
+        osg::ref_ptr<osg::Geometry> result = makeTriangles();
+        result->setVertexArray(places);
+        return result;
+    };
+    const auto withNormals = [](osg::Array* normals, osg::Array::Binding binding) {
+        osg::ref_ptr<osg::Geometry> result = makeTriangles();
+        result->setNormalArray(normals, binding);
+        return result;
+    };
+    expectMorph(withPlaces(new osg::Vec3dArray(3)), makeTriangles(),
+                "vertices that are not of three floats each");
+    expectMorph(makeTriangles(), withPlaces(new osg::FloatArray(3)),
+                "vertices of a morph target that are not of three floats each");
+    expectMorph(withNormals(new osg::FloatArray(3), osg::Array::BIND_PER_VERTEX), makeTriangles(),
+                "normals that are not of three floats each");
+    const auto one = withNormals(new osg::Vec3Array(1), osg::Array::BIND_OVERALL);
+    expectMorph(one, makeTriangles(), "1 normals, expected 3");
+    expectMorph(makeTriangles(), one, "1 normals of a morph target, expected 3");
+}
+
+TEST(SavedDeform, UniformsHaveAsManyValuesAsTheFileHasRoomFor) {
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->getOrCreateStateSet()->addUniform(new osg::Uniform(osg::Uniform::FLOAT_MAT4, "u", 2));
+    expectMoved(*scene, "");
+    const std::string path = testing::TempDir() + "uniform.osgt";
+    ASSERT_TRUE(osgDB::writeNodeFile(*scene, path));
+    std::ifstream file(path);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string count = "NumElements 2";
+    ASSERT_NE(text.find(count), std::string::npos);
+    text.replace(text.find(count), count.size(), "NumElements 4000000000");
+    std::ofstream(path) << text;
+    expectError([&] { osgSkin::readScene(path, nullptr); },
+                "4000000000 elements, expected no more than the file has room for");
+}
