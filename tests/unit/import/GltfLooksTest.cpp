@@ -19,8 +19,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -266,4 +268,56 @@ TEST(GltfLooks, ColoursOfOneMeshAreDrawnBesideOthersWithout) {
             for (const osg::Vec4& colour : *drawn)
                 if ((colour - osg::Vec4(1, 0, 0, 1)).length() < 1e-5f) ++found;
     EXPECT_EQ(found, 24u);
+}
+
+TEST(GltfLooks, PicturesAreWhatTheyBeginAs) {
+    GltfColumn plain;
+    addTexture(plain);
+    std::ifstream file(testing::TempDir() + plain.json["images"][0]["uri"].get<std::string>(),
+                       std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    ASSERT_EQ(bytes.substr(0, 2), "BM");
+    std::string escaped;
+    for (const char byte : bytes) {
+        static const char* const digits = "0123456789abcdef";
+        const auto value = static_cast<unsigned char>(byte);
+        escaped += {'%', digits[value >> 4], digits[value & 15]};
+    }
+    // None, another one's, in capitals, and one that says nothing.
+    for (const char* mime : {"", "image/jpeg", "image/BMP", "application/octet-stream"})
+        for (const bool isInText : {false, true}) {
+            GltfColumn column;
+            std::vector<double> numbers;
+            for (const char byte : bytes)
+                numbers.push_back(double(static_cast<unsigned char>(byte)));
+            column.accessor("SCALAR", numbers, 5121);
+            json image = {{"bufferView", column.json["bufferViews"].size() - 1}};
+            if (*mime != '\0') image["mimeType"] = mime;
+            if (isInText) image = {{"uri", std::string("DATA:") + mime + "," + escaped}};
+            column.json["images"] = {image};
+            column.json["textures"] = {{{"source", 0}}};
+            paint(column, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+            const test::Notices notices;
+            const ImportedMesh mesh = osgSkin::importMesh(column.save("kinds.gltf"));
+            const auto* texture = mesh.parts.at(0).geometry->getStateSet()->getTextureAttribute(
+                0, osg::StateAttribute::TEXTURE);
+            EXPECT_NE(texture, nullptr) << mime << isInText << notices.text();
+        }
+}
+
+TEST(GltfLooks, NamesOfPicturesEndWhereTheyEnd) {
+    using namespace std::string_literals;
+    for (const std::string& behind : {"%00.bmp"s, "\0.bmp"s}) {
+        GltfColumn column;
+        addTexture(column);
+        json& name = column.json["images"][0]["uri"];
+        name = name.get<std::string>() + behind;
+        paint(column, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+        const test::Notices notices;
+        const ImportedMesh mesh = osgSkin::importMesh(column.save("zero.gltf"));
+        EXPECT_EQ(mesh.parts.at(0).geometry->getStateSet()->getTextureAttribute(
+                      0, osg::StateAttribute::TEXTURE),
+                  nullptr);
+        EXPECT_TRUE(notices.say("%00.bmp\" cannot be read; drawn without")) << notices.text();
+    }
 }

@@ -26,7 +26,7 @@ std::string decodedUri(std::string_view uri) {
 }
 
 bool isDataUri(std::string_view uri) {
-    return uri.substr(0, 5) == "data:";
+    return osgDB::convertToLowerCase(std::string(uri.substr(0, 5))) == "data:";
 }
 
 std::string dataOfUri(std::string_view uri) {

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <string_view>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -24,6 +26,19 @@ bool isWord(const std::string& text) {
            });
 }
 
+/// The kind of picture that bytes begin as, which exporters name wrongly or not at all; `otherwise`
+/// where it is none of these.
+std::string mimeOf(std::string_view bytes, const std::string& otherwise) {
+    static const std::pair<std::string_view, const char*> kinds[] = {{"\x89PNG", "image/png"},
+                                                                     {"\xff\xd8\xff", "image/jpeg"},
+                                                                     {"GIF8", "image/gif"},
+                                                                     {"DDS ", "image/dds"},
+                                                                     {"BM", "image/bmp"}};
+    for (const auto& [mark, mime] : kinds)
+        if (bytes.substr(0, mark.size()) == mark) return mime;
+    return isWord(otherwise) ? otherwise : "";
+}
+
 /// An image's data in base64. What is none is drawn without, as is any picture that is broken.
 std::string plainData(const std::string& uri) {
     const std::string kind = uri.substr(5, uri.find_first_of(";,") - 5);
@@ -33,7 +48,7 @@ std::string plainData(const std::string& uri) {
     } catch (const Error&) {
         bytes.clear();
     }
-    return "data:" + (isWord(kind) ? kind : "") + ";base64," + toBase64(bytes);
+    return "data:" + mimeOf(bytes, kind) + ";base64," + toBase64(bytes);
 }
 
 /// Where an image stands that a texture has by an extension, for those who read its format; null
@@ -113,8 +128,7 @@ std::vector<std::size_t> GltfLooks::addImages(json& result) const {
     _parts.forEach("images", [&](const json& from, const std::string& where) {
         json image = json::object();
         _parts.copyName(from, image);
-        const std::string mime = from.value("mimeType", "");
-        if (isWord(mime) && !mime.empty()) image["mimeType"] = mime;
+        std::string mime = from.value("mimeType", "");
         places.push_back(result["images"].size());
         if (from.contains("bufferView")) {
             const std::string wrong = _parts.beyondView(from.at("bufferView"), 0, 0, 0, true);
@@ -132,7 +146,9 @@ std::vector<std::size_t> GltfLooks::addImages(json& result) const {
             if (bytes > _parts.bytes())
                 _parts.fail(where, "images of at most " + std::to_string(_parts.bytes()) +
                                        " bytes together, as many as the file has");
+            mime = mimeOf(_parts.bytesOf(from.at("bufferView")), mime);
             image["bufferView"] = number;
+            image["mimeType"] = mime.empty() ? "image/unknown" : mime; // there must be one
         } else {
             const std::string uri = from.value("uri", "");
             image["uri"] = isDataUri(uri) ? plainData(uri) : uri;

@@ -149,6 +149,14 @@ std::string GltfParts::wrongWith(const json& accessor, const Accessor& known) co
     if (accessor.contains("bufferView")) {
         std::string wrong = beyondView(accessor.at("bufferView"), sizeOf(accessor, "byteOffset"),
                                        known.count, component * width, false);
+std::string_view GltfParts::bytesOf(const json& view) const {
+    const json& source = at("bufferViews")[view.get<std::size_t>()];
+    const auto buffer = source.at("buffer").get<std::size_t>();
+    if (!_file.buffers.isThere(buffer)) return {};
+    return std::string_view(_file.buffers[buffer])
+        .substr(sizeOf(source, "byteOffset"), sizeOf(source, "byteLength"));
+}
+
         if (!wrong.empty()) return wrong;
     } else if (known.count > 2 * limits().samplesOf(_bytes)) {
         return "no more zeros than the file has room for (option maxSamples)";

@@ -9,6 +9,7 @@
 #include <functional>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace osgSkin {
@@ -67,6 +68,9 @@ public:
                            std::size_t bytes, bool packed) const;
 
     /// The place of an accessor whose bytes are all there.
+    /// What stands in a buffer view of which beyondView() says nothing.
+    std::string_view bytesOf(const nlohmann::json& view) const;
+
     std::size_t accessor(const nlohmann::json& value, const std::string& where) const;
     std::size_t count(std::size_t accessor) const { return _accessors[accessor].count; }
     void requireType(std::size_t accessor, std::initializer_list<const char*> types,

@@ -132,11 +132,16 @@ private:
         return _accessors.add("VEC4", result);
     }
 
-    /// "my%20file.png" is called "my file.png".
+    /// "my%20file.png" is called "my file.png". A byte 0, which ends Assimp's names and is in no
+    /// file's, stays escaped.
     static void decodeUri(json& named) {
         if (!named.contains("uri")) return;
         const std::string uri = named.at("uri").get<std::string>();
-        if (!isDataUri(uri)) named["uri"] = decodedUri(uri);
+        if (isDataUri(uri)) return;
+        std::string name = decodedUri(uri);
+        for (std::size_t zero = 0; (zero = name.find('\0', zero)) != std::string::npos;)
+            name.replace(zero, 1, "%00");
+        named["uri"] = name;
     }
 
     GltfFile& _file;
