@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -72,12 +71,10 @@ const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& pa
     std::string name = path;
     bool facesBackwards = false;
     if (isGltfName(path)) {
-        std::optional<PlainGltf> plain = plainGltf(path, limits);
-        if (!plain) failFile(path, "no glTF 2 file, or broken as a whole");
-        // Assimp goes by the extension, and knows no .vrm; text and binary get mixed up, too.
-        name += plain->bytes.compare(0, 4, "glTF") == 0 ? ".glb" : ".gltf";
-        facesBackwards = plain->facesBackwards;
-        importer.SetIOHandler(new SceneFile(name, std::move(plain->bytes))); // takes it over
+        PlainGltf plain = plainGltf(path, limits);
+        name += ".glb"; // Assimp goes by the extension
+        facesBackwards = plain.facesBackwards;
+        importer.SetIOHandler(new SceneFile(name, std::move(plain.bytes))); // takes it over
     }
     const aiScene* scene = nullptr;
     std::string reason;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -97,12 +98,17 @@ void moveTexCoords(GltfFile& file, GltfAccessors& accessors) {
 void noteExtensions(const GltfFile& file) {
     const nlohmann::json none = nlohmann::json::array();
     const nlohmann::json required = file.json.value("extensionsRequired", none);
-    for (const nlohmann::json& entry : required) {
-        const std::string extension = entry.get<std::string>();
-        if (!isHarmless(extension))
-            tellOf(file.path, "requires the extension \"" + extension +
-                                  "\", which is not known; read without it");
-    }
+    std::set<std::string> unknown;
+    for (const nlohmann::json& entry : required)
+        if (!isHarmless(entry.get_ref<const std::string&>()))
+            unknown.insert(entry.get<std::string>());
+    if (unknown.size() == 1)
+        tellOf(file.path, "requires the extension " + inQuotes(*unknown.begin()) +
+                              ", which is not known; read without it");
+    if (unknown.size() > 1)
+        tellOf(file.path, "requires " + std::to_string(unknown.size()) + " extensions, " +
+                              inQuotes(*unknown.begin()) +
+                              " among them, which are not known; read without them");
     const nlohmann::json used = file.json.value("extensionsUsed", none);
     for (const char* missed : kMissed)
         if (std::find(used.begin(), used.end(), missed) != used.end() &&

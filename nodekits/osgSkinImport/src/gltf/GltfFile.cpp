@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfFile.h"
 
+#include "gltf/GltfJson.h"
 #include "text/FileText.h"
 
 #include <cstdint>
@@ -27,46 +28,66 @@ void addNumber(std::string& bytes, std::size_t number) {
     for (std::size_t k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(number >> 8 * k & 0xff));
 }
 
-/// Takes the chunks apart. False where they do not fit the file.
-bool readChunks(std::string_view all, GltfFile& file, std::string& text) {
+/// Takes the chunks apart; returns the text. What follows the length that the header tells may be
+/// anything.
+std::string readChunks(std::string_view all, GltfFile& file) {
+    const std::size_t told = numberAt(all, 8);
+    std::string text;
     for (std::size_t at = kHeader; at + kChunkHeader <= all.size();) {
         const std::size_t size = numberAt(all, at);
         const std::string_view type = all.substr(at + 4, 4);
+        if (size > all.size() - at - kChunkHeader) {
+            if (at >= told) break;
+            failFile(file.path,
+                     "malformed glTF: the chunk at byte " + std::to_string(at) + " has " +
+                         std::to_string(size) + " bytes, expected at most the " +
+                         std::to_string(all.size() - at - kChunkHeader) + " that the file has");
+        }
         at += kChunkHeader;
-        if (size > all.size() - at) return false;
         if (type == kJson && text.empty()) text = all.substr(at, size);
         if (type == kBinary && !file.binary) file.binary = all.substr(at, size);
         at += size;
     }
-    return !text.empty();
+    if (text.empty()) failFile(file.path, "malformed glTF: expected a chunk of JSON");
+    return text;
 }
 
-bool isSecond(const nlohmann::json& json) {
-    if (!json.is_object()) return false;
-    const auto asset = json.find("asset");
-    if (asset == json.end() || !asset->is_object()) return false;
-    const auto version = asset->find("version");
-    return version != asset->end() && version->is_string() &&
-           version->get<std::string>().rfind('2', 0) == 0;
+/// Refuses a file that says to be for readers of another version.
+void requireSecond(const GltfFile& file) {
+    const auto none = file.json.end();
+    const auto asset = file.json.is_object() ? file.json.find("asset") : none;
+    if (asset == none || !asset->is_object())
+        failFile(file.path, "no glTF 2 file: expected an object \"asset\"");
+    for (const char* key : {"version", "minVersion"}) {
+        const auto found = asset->find(key);
+        const bool isThere = found != asset->end();
+        if (!isThere && std::string_view(key) == "minVersion") continue;
+        const std::string told = isThere && found->is_string() ? found->get<std::string>() : "";
+        if (told.rfind('2', 0) != 0)
+            failFile(file.path, std::string("no glTF 2 file: asset.") + key + " is " +
+                                    inQuotes(told) + ", expected \"2.0\"");
+    }
 }
 
 } // namespace
 
-std::optional<GltfFile> GltfFile::read(const std::string& path, const ReadLimits& limits) {
+GltfFile GltfFile::read(const std::string& path, const ReadLimits& limits) {
     GltfFile file;
     file.path = path;
     file.limits = limits;
     std::string all = readText(path, limits);
     file.size = all.size();
-    const bool isBinary = all.size() > kHeader && all.compare(0, 4, "glTF") == 0;
-    if (isBinary) {
-        std::string text;
-        if (numberAt(all, 4) != 2 || !readChunks(all, file, text)) return std::nullopt;
-        all = std::move(text);
+    if (all.compare(0, 4, "glTF") == 0) {
+        if (all.size() < kHeader)
+            failFile(path, "malformed glTF: " + std::to_string(all.size()) +
+                               " bytes, expected a header of " + std::to_string(kHeader));
+        if (numberAt(all, 4) != 2)
+            failFile(path, "no glTF 2 file: a binary one of version " +
+                               std::to_string(numberAt(all, 4)) + ", expected 2");
+        all = readChunks(all, file);
     }
-    checkJsonDepth(path, all);
-    file.json = nlohmann::json::parse(all, nullptr, false);
-    if (!isSecond(file.json)) return std::nullopt;
+    file.json = parseGltf(path, std::move(all));
+    requireSecond(file);
     return file;
 }
 

@@ -24,9 +24,10 @@ struct GltfFile {
     std::size_t size = 0;   ///< in bytes
     std::size_t beside = 0; ///< bytes of other files that buffers hold
 
-    /// Reads a file. None where it is no glTF 2, or broken as a whole.
-    /// \throw osgSkin::Error where the file cannot be opened
-    static std::optional<GltfFile> read(const std::string& path, const ReadLimits& limits);
+    /// Reads a file.
+    /// \throw osgSkin::Error with the place where it cannot be opened, is no glTF 2 or broken as a
+    ///        whole
+    static GltfFile read(const std::string& path, const ReadLimits& limits);
 
     /// Adds a buffer; returns its index.
     std::size_t addBuffer(std::string bytes);

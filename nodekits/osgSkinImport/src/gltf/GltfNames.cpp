@@ -13,8 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLongestName = 500; ///< Assimp cuts at 1023
-
 /// Whose name goes before: joints, then what moves, then nodes without a mesh.
 std::vector<int> ranksOf(const json& gltf, std::size_t nodes) {
     const json none = json::array();
@@ -35,8 +33,7 @@ std::vector<int> ranksOf(const json& gltf, std::size_t nodes) {
 }
 
 std::string givenName(const json& node, std::size_t index) {
-    std::string name = node.value("name", std::string());
-    if (name.size() > kLongestName) name.resize(kLongestName);
+    const std::string name = node.value("name", std::string());
     return name.empty() ? "nodes[" + std::to_string(index) + "]" : name; // as Assimp has it
 }
 

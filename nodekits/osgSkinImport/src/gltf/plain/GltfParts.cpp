@@ -15,6 +15,7 @@ using nlohmann::json;
 
 constexpr std::size_t kEntriesOf = 20;     ///< samples that an entry counts for: a kilobyte or two
 constexpr std::size_t kFarthest = 1 << 30; ///< offsets and sizes beyond are none
+constexpr std::size_t kLongestName = 500;  ///< Assimp has room for 1023, and writes beyond it
 
 std::size_t componentSize(int component) {
     if (component == 5120 || component == 5121) return 1;
@@ -82,8 +83,16 @@ std::size_t GltfParts::indexOf(const json& value, const char* list,
 }
 
 void GltfParts::copyName(const json& from, json& to) {
-    const auto name = from.find("name");
-    if (name != from.end() && name->is_string()) to["name"] = *name;
+    const auto found = from.find("name");
+    if (found == from.end() || !found->is_string()) return;
+    std::string name = found->get<std::string>();
+    if (name.size() > kLongestName) {
+        std::size_t end = kLongestName;
+        while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end; // UTF-8
+        name.resize(end);
+    }
+    std::replace(name.begin(), name.end(), '\0', '_'); // which would end it
+    to["name"] = name;
 }
 
 void GltfParts::copyNumbers(const json& from, const char* key, std::size_t count,

@@ -42,6 +42,7 @@ public:
     /// The place of an entry of a list.
     std::size_t indexOf(const nlohmann::json& value, const char* list,
                         const std::string& where) const;
+    /// Copies a name where there is one, as Assimp can hold it.
     static void copyName(const nlohmann::json& from, nlohmann::json& to);
     /// Copies a list of so many finite numbers where there is one.
     void copyNumbers(const nlohmann::json& from, const char* key, std::size_t count,

@@ -158,17 +158,16 @@ bool isGltfName(const std::string& path) {
     return extension == "gltf" || extension == "glb" || extension == "vrm";
 }
 
-std::optional<PlainGltf> plainGltf(const std::string& path, const ReadLimits& limits) {
-    std::optional<GltfFile> file = GltfFile::read(path, limits);
-    if (!file) return std::nullopt;
+PlainGltf plainGltf(const std::string& path, const ReadLimits& limits) {
+    GltfFile file = GltfFile::read(path, limits);
     try {
-        const bool backwards = facesBackwards(*file);
-        noteExtensions(*file);
-        loadBuffers(*file);
-        unpackMeshopt(*file);
-        file->json = checkedGltf(*file);
-        Plainer(*file).run();
-        return PlainGltf{file->bytes(), backwards};
+        const bool backwards = facesBackwards(file);
+        noteExtensions(file);
+        loadBuffers(file);
+        unpackMeshopt(file);
+        file.json = checkedGltf(file);
+        Plainer(file).run();
+        return PlainGltf{file.bytes(), backwards};
     } catch (const json::exception& error) {
         failFile(path, "malformed glTF: " + reasonOf(error));
     }

@@ -4,7 +4,6 @@
 
 #include <osgSkinImport/ReadLimits>
 
-#include <optional>
 #include <string>
 
 namespace osgSkin {
@@ -19,11 +18,10 @@ struct PlainGltf {
 /// Whether files of this name are glTF: .gltf, .glb or .vrm.
 bool isGltfName(const std::string& path);
 
-/// Reads a file that isGltfName(). None where it is no glTF 2 or broken as a whole: for Assimp to
-/// say so.
-/// \throw osgSkin::Error with the file and the place in it where it breaks the specification, or
-///        is compressed in a way that is not read
-std::optional<PlainGltf> plainGltf(const std::string& path, const ReadLimits& limits);
+/// Reads a file that isGltfName().
+/// \throw osgSkin::Error with the file and the place in it where it is none, breaks the
+///        specification, or is compressed in a way that is not read
+PlainGltf plainGltf(const std::string& path, const ReadLimits& limits);
 
 } // namespace osgSkin
 
