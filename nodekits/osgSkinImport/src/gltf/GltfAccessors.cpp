@@ -69,6 +69,19 @@ double normalised(double value, int type) {
     }
 }
 
+template <typename Number>
+std::string bytesOf(const std::vector<double>& values) {
+    std::string bytes;
+    bytes.reserve(values.size() * sizeof(Number));
+    for (const double value : values) {
+        const auto stored = static_cast<Number>(value);
+        char raw[sizeof stored];
+        std::memcpy(raw, &stored, sizeof stored);
+        bytes.append(raw, sizeof stored);
+    }
+    return bytes;
+}
+
 std::size_t sizeAt(const nlohmann::json& object, const char* key) {
     return object.value(key, std::size_t(0));
 }
@@ -87,9 +100,22 @@ std::size_t GltfAccessors::width(std::size_t index) const {
     return widthOf(accessor(index).at("type").get<std::string>());
 }
 
+std::size_t GltfAccessors::componentBytes(std::size_t index) const {
+    return sizeOf(accessor(index).at("componentType").get<int>());
+}
+
+bool GltfAccessors::isWhole(std::size_t index) const {
+    const nlohmann::json& source = accessor(index);
+    if (!source.contains("bufferView")) return false;
+    const nlohmann::json& view =
+        _file.json.at("bufferViews").at(source.at("bufferView").get<std::size_t>());
+    const std::size_t stride = sizeAt(view, "byteStride");
+    return stride == 0 || count(index) <= sizeAt(view, "byteLength") / stride;
+}
+
 bool GltfAccessors::isPlain(std::size_t index) const {
     return accessor(index).at("componentType") == int(kFloat) &&
-           accessor(index).contains("bufferView") && !accessor(index).contains("sparse");
+           !accessor(index).contains("sparse") && isWhole(index);
 }
 
 bool GltfAccessors::hasValues(std::size_t index) const {
@@ -160,24 +186,25 @@ std::vector<double> GltfAccessors::values(std::size_t index) {
     return result;
 }
 
-std::size_t GltfAccessors::add(const std::string& type, const std::vector<double>& values) {
-    std::string bytes;
-    bytes.reserve(values.size() * sizeof(float));
-    for (const double value : values) {
-        const auto single = static_cast<float>(value);
-        char raw[sizeof single];
-        std::memcpy(raw, &single, sizeof single);
-        bytes.append(raw, sizeof single);
-    }
+std::size_t GltfAccessors::addBytes(const std::string& type, int component, std::size_t numbers,
+                                    std::string bytes) {
     nlohmann::json& views = _file.json["bufferViews"];
     nlohmann::json& accessors = _file.json["accessors"];
     const std::size_t length = bytes.size();
     views.push_back({{"buffer", _file.addBuffer(std::move(bytes))}, {"byteLength", length}});
     accessors.push_back({{"bufferView", views.size() - 1},
-                         {"componentType", int(kFloat)},
-                         {"count", values.size() / widthOf(type)},
+                         {"componentType", component},
+                         {"count", numbers / widthOf(type)},
                          {"type", type}});
     return accessors.size() - 1;
+}
+
+std::size_t GltfAccessors::add(const std::string& type, const std::vector<double>& values) {
+    return addBytes(type, kFloat, values.size(), bytesOf<float>(values));
+}
+
+std::size_t GltfAccessors::addShorts(const std::string& type, const std::vector<double>& values) {
+    return addBytes(type, kUShort, values.size(), bytesOf<std::uint16_t>(values));
 }
 
 } // namespace osgSkin

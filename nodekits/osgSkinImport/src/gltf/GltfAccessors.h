@@ -23,7 +23,14 @@ public:
     std::size_t count(std::size_t accessor) const;
     std::size_t width(std::size_t accessor) const;
 
-    /// Whether it has floats and nothing else: no integers, not sparse.
+    /// How many bytes a number has.
+    std::size_t componentBytes(std::size_t accessor) const;
+
+    /// Whether its view goes on for a stride behind where its last element begins: Assimp takes no
+    /// other.
+    bool isWhole(std::size_t accessor) const;
+
+    /// Whether it isWhole(), and has floats and nothing else: no integers, not sparse.
     bool isPlain(std::size_t accessor) const;
 
     /// Whether the file holds its values, not only in a compressed form of some extension.
@@ -40,9 +47,13 @@ public:
     /// \param type of its elements, as "VEC3"
     /// \return its index
     std::size_t add(const std::string& type, const std::vector<double>& values);
+    /// The same of whole numbers of two bytes.
+    std::size_t addShorts(const std::string& type, const std::vector<double>& values);
 
 private:
     const nlohmann::json& accessor(std::size_t index) const;
+    std::size_t addBytes(const std::string& type, int component, std::size_t numbers,
+                         std::string bytes);
     void read(std::size_t view, std::size_t offset, int type, std::size_t wide, std::size_t many,
               std::vector<double>& result);
 

@@ -3,9 +3,12 @@
 
 #include "text/FileText.h"
 
+#include <osgSkin/GlmTypes>
+
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +17,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kLatest = 1e35;     ///< Assimp counts in milliseconds, and in floats
 constexpr double kStep = 1.0 / 30.0; ///< seconds between samples of a spline, at most
 
 /// Keys of one track: `width` numbers a key.
@@ -33,7 +37,7 @@ Keys fromSteps(const Keys& track) {
     for (std::size_t k = 0; k < track.times.size(); ++k) {
         const double* value = &track.values[k * track.width];
         if (k > 0) {
-            const float before = std::nextafter(static_cast<float>(track.times[k]), -1.0f);
+            const float before = std::nextafter(static_cast<float>(track.times[k]), -HUGE_VALF);
             if (double(before) > track.times[k - 1])
                 result.add(double(before), value - track.width);
         }
@@ -81,10 +85,29 @@ Keys fromSplines(const Keys& track, bool isRotation) {
 /// Keys may share a time, as exporters of steps write them.
 void checkTimes(const std::vector<double>& times, std::size_t accessor, const std::string& where) {
     for (std::size_t k = 0; k < times.size(); ++k)
-        if (!std::isfinite(times[k]) || (k > 0 && times[k] < times[k - 1]))
+        if (!(std::abs(times[k]) <= kLatest) || (k > 0 && times[k] < times[k - 1]))
             failFile(where, "accessors[" + std::to_string(accessor) + "]: key " +
                                 std::to_string(k) + " is at " + std::to_string(times[k]) +
                                 " seconds, expected times in order");
+}
+
+/// Tangents of splines are no less finite than the keys.
+void checkKeys(const std::vector<double>& values, std::size_t width, std::size_t accessor,
+               const std::string& where, bool isRotation, bool isSpline) {
+    for (std::size_t k = 0; k * width < values.size(); ++k) {
+        const std::string which =
+            "accessors[" + std::to_string(accessor) + "]: element " + std::to_string(k);
+        bool isZero = true;
+        for (std::size_t i = k * width; i < (k + 1) * width; ++i) {
+            if (!(std::abs(values[i]) <= kLargestCoordinate)) // nor NaN
+                failFile(where,
+                         which + " has " + std::to_string(values[i]) + ", expected -1e18 to 1e18");
+            isZero = isZero && values[i] == 0.0;
+        }
+        const bool isTangent = isSpline && k % 3 != 1;
+        if (isRotation && isZero && !isTangent)
+            failFile(where, which + " is zero, expected a rotation");
+    }
 }
 
 /// Takes a spline's pieces from those that all clips together may have.
@@ -113,8 +136,9 @@ void makeLinear(json& sampler, const std::string& path, const std::string& where
                             std::to_string(width) + " numbers a key");
     const std::vector<double> times = accessors.values(input);
     checkTimes(times, input, where);
-    if (!isSpline && !isStepped && accessors.isPlain(input) && accessors.isPlain(output)) return;
     Keys track{width, times, accessors.values(output)};
+    checkKeys(track.values, width, output, where, width == 4, isSpline);
+    if (!isSpline && !isStepped && accessors.isPlain(input) && accessors.isPlain(output)) return;
     if (isStepped) track = fromSteps(track);
     if (isSpline) takePieces(track.times, where, left);
     if (isSpline) track = fromSplines(track, path == "rotation");
@@ -141,19 +165,22 @@ void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
     for (std::size_t a = 0; a < animations->size(); ++a) {
         json& animation = animations->at(a);
         json kept = json::array();
-        std::set<std::size_t> done; // samplers, which channels may share
+        std::map<std::size_t, bool>
+            done; // samplers, which channels may share: whether of rotations
         for (const json& channel : animation.at("channels")) {
             morphs = morphs || channel.at("target").at("path") == "weights";
             if (!movesANode(channel)) continue;
             kept.push_back(channel);
             const auto sampler = channel.at("sampler").get<std::size_t>();
-            if (!done.insert(sampler).second) continue;
             const std::string name = animation.value("name", std::to_string(a));
-            makeLinear(animation.at("samplers").at(sampler),
-                       channel.at("target").at("path").get<std::string>(),
-                       file.path + ": animation " + osgSkin::inQuotes(name) + ": sampler " +
-                           std::to_string(sampler),
-                       accessors, left);
+            const std::string where = file.path + ": animation " + osgSkin::inQuotes(name) +
+                                      ": sampler " + std::to_string(sampler);
+            const std::string path = channel.at("target").at("path").get<std::string>();
+            const auto [known, isNew] = done.emplace(sampler, path == "rotation");
+            if (known->second != (path == "rotation"))
+                failFile(where, "rotations and others, expected a sampler of one kind");
+            if (isNew)
+                makeLinear(animation.at("samplers").at(sampler), path, where, accessors, left);
         }
         animation["channels"] = kept;
     }

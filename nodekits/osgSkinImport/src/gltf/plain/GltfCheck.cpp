@@ -40,10 +40,11 @@ const AttributeKind* kindOfAttribute(const std::string& name) {
 
 class Checker {
 public:
-    explicit Checker(const GltfFile& file) : _parts(file) {}
+    explicit Checker(const GltfFile& file) : _path(file.path), _parts(file) {}
 
     json run() {
         json result = {{"asset", {{"version", "2.0"}}}};
+        _parts.checkEntries(); // before lists are gone through
         _parts.checkBuffers(result);
         _parts.checkAccessors(result);
         GltfLooks(_parts).check(result);
@@ -56,6 +57,9 @@ public:
         addScenes(result);
         addAnimations(result);
         _parts.checkEntries();
+        if (_unfinished > 0)
+            tellOf(_path, "corners that make no whole triangle are left out, of " +
+                              std::to_string(_unfinished) + " of the meshes' primitives");
         for (auto part = result.begin(); part != result.end();)
             part = part->empty() ? result.erase(part) : std::next(part);
         return result;
@@ -103,10 +107,25 @@ private:
             _isCompressed = true;
         else
             checkStored(primitive, where);
+        if (!primitive.contains("extensions"))
+            checkMode(primitive.contains("indices") ? corners : vertices, primitive);
         addTargets(from, vertices, where, primitive);
         _parts.take(vertices + corners, where);
         _elements.back() += vertices + corners;
         list.push_back(primitive);
+    }
+
+    /// Points, lines and what has too few corners for a triangle becomes points, which are not
+    /// drawn: Assimp reads beyond lists of corners that are empty, and asks for as many faces as
+    /// there are corners, less two.
+    void checkMode(std::size_t corners, json& primitive) {
+        constexpr std::size_t kTriangles = 4;
+        const auto mode = primitive.at("mode").get<std::size_t>();
+        const bool isSurface = mode >= kTriangles;
+        if (isSurface && (corners < 3 || (mode == kTriangles && corners % 3 != 0))) ++_unfinished;
+        if (isSurface && corners >= 3) return;
+        primitive["mode"] = 0;
+        primitive.erase("indices");
     }
 
     /// What names vertices and joints is there, where Draco does not hold it, and the rest is not
@@ -245,7 +264,6 @@ private:
                     node["children"].push_back(below);
                 }
             }
-            _parts.addEntries(1);
             result["nodes"].push_back(node);
         });
         checkDepths(nodes);
@@ -294,6 +312,17 @@ private:
         });
         if (_parts.has("scene"))
             result["scene"] = _parts.indexOf(_parts.at("scene"), "scenes", "scene");
+        else if (_parts.size("scenes") == 0)
+            addWhole(result);
+    }
+
+    /// A scene of all nodes, where a file has none, as a library of things or of clips.
+    void addWhole(json& result) const {
+        json roots = json::array();
+        for (std::size_t n = 0; n < _above.size(); ++n)
+            if (_above[n] < 0) roots.push_back(n);
+        result["scenes"] = {{{"nodes", roots}}};
+        result["scene"] = 0;
     }
 
     void addAnimations(json& result) {
@@ -308,10 +337,12 @@ private:
                     _parts.accessor(sampler.at("output"), where + ".samplers.output");
                 _parts.requireType(input, {"SCALAR"}, where + ".samplers.input");
                 keys.push_back(_parts.count(input) + _parts.count(output));
+                const std::string way = sampler.value("interpolation", "LINEAR");
+                if (way != "LINEAR" && way != "STEP" && way != "CUBICSPLINE")
+                    _parts.fail(where + ".samplers.interpolation",
+                                "LINEAR, STEP or CUBICSPLINE, found " + inQuotes(way));
                 animation["samplers"].push_back(
-                    {{"input", input},
-                     {"output", output},
-                     {"interpolation", sampler.value("interpolation", "LINEAR")}});
+                    {{"input", input}, {"output", output}, {"interpolation", way}});
             }
             for (const json& channel : from.at("channels")) {
                 const std::size_t sampler =
@@ -329,7 +360,9 @@ private:
         });
     }
 
+    const std::string& _path;
     GltfParts _parts;
+    std::size_t _unfinished = 0; ///< primitives whose last triangle lacks corners
     std::vector<std::size_t> _primitives, _elements; ///< of each mesh
     std::vector<std::size_t> _targets;               ///< of each mesh: the most of a primitive
     std::vector<std::size_t> _allTargets;            ///< of each mesh: those of all primitives

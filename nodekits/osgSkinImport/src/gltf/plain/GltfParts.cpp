@@ -149,6 +149,14 @@ std::string GltfParts::beyondView(const json& view, std::size_t offset, std::siz
     return {};
 }
 
+std::string_view GltfParts::bytesOf(const json& view) const {
+    const json& source = at("bufferViews")[view.get<std::size_t>()];
+    const auto buffer = source.at("buffer").get<std::size_t>();
+    if (!_file.buffers.isThere(buffer)) return {};
+    return std::string_view(_file.buffers[buffer])
+        .substr(sizeOf(source, "byteOffset"), sizeOf(source, "byteLength"));
+}
+
 std::string GltfParts::wrongWith(const json& accessor, const Accessor& known) const {
     const std::size_t component = componentSize(known.component), width = typeWidth(known.type);
     if (component == 0) return "a component type of 5120 to 5126";
@@ -158,14 +166,6 @@ std::string GltfParts::wrongWith(const json& accessor, const Accessor& known) co
     if (accessor.contains("bufferView")) {
         std::string wrong = beyondView(accessor.at("bufferView"), sizeOf(accessor, "byteOffset"),
                                        known.count, component * width, false);
-std::string_view GltfParts::bytesOf(const json& view) const {
-    const json& source = at("bufferViews")[view.get<std::size_t>()];
-    const auto buffer = source.at("buffer").get<std::size_t>();
-    if (!_file.buffers.isThere(buffer)) return {};
-    return std::string_view(_file.buffers[buffer])
-        .substr(sizeOf(source, "byteOffset"), sizeOf(source, "byteLength"));
-}
-
         if (!wrong.empty()) return wrong;
     } else if (known.count > 2 * limits().samplesOf(_bytes)) {
         return "no more zeros than the file has room for (option maxSamples)";
@@ -258,8 +258,9 @@ void GltfParts::takeZeros(std::size_t accessor, const std::string& where) {
 
 void GltfParts::checkEntries() const {
     const std::size_t most = limits().samplesOf(_bytes) / kEntriesOf;
-    const std::size_t all =
-        _entries + size("materials") + size("textures") + size("images") + size("samplers");
+    std::size_t all = _entries;
+    for (const char* list : {"nodes", "scenes", "materials", "textures", "images", "samplers"})
+        all += size(list);
     if (all > most)
         fail("nodes, bones, materials and channels", "at most " + std::to_string(most) +
                                                          ", found " + std::to_string(all) +

@@ -68,10 +68,10 @@ public:
     std::string beyondView(const nlohmann::json& view, std::size_t offset, std::size_t elements,
                            std::size_t bytes, bool packed) const;
 
-    /// The place of an accessor whose bytes are all there.
     /// What stands in a buffer view of which beyondView() says nothing.
     std::string_view bytesOf(const nlohmann::json& view) const;
 
+    /// The place of an accessor whose bytes are all there.
     std::size_t accessor(const nlohmann::json& value, const std::string& where) const;
     std::size_t count(std::size_t accessor) const { return _accessors[accessor].count; }
     void requireType(std::size_t accessor, std::initializer_list<const char*> types,
@@ -88,6 +88,7 @@ public:
     /// zeros.
     void takeZeros(std::size_t accessor, const std::string& where);
     void addEntries(std::size_t entries) { _entries += entries; }
+    /// Refuses more things than the file's size allows: those added, and what lists are long of.
     void checkEntries() const;
 
 private:

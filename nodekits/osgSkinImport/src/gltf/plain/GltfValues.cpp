@@ -3,6 +3,8 @@
 
 #include "text/FileText.h"
 
+#include <osgSkin/GlmTypes>
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -110,6 +112,15 @@ private:
 };
 
 } // namespace
+
+void requireCoordinates(const GltfFile& file, std::size_t accessor, const std::string& where,
+                        const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!(std::abs(values[i]) <= kLargestCoordinate)) // nor NaN
+            failFile(file.path, "malformed glTF: accessors[" + std::to_string(accessor) + "], " +
+                                    where + ": number " + std::to_string(i) + " is " +
+                                    std::to_string(values[i]) + ", expected -1e18 to 1e18");
+}
 
 void checkValues(const GltfFile& file, GltfAccessors& accessors) {
     ValueChecker(file, accessors).run();

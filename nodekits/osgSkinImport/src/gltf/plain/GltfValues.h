@@ -5,6 +5,10 @@
 #include "gltf/GltfAccessors.h"
 #include "gltf/GltfFile.h"
 
+#include <cstddef>
+#include <string>
+#include <vector>
+
 namespace osgSkin {
 
 /// Refuses what Assimp passes over without a word: corners of vertices that are not there, joints
@@ -14,6 +18,12 @@ namespace osgSkin {
 /// \param file checked, and each of its meshes shown with one skin
 /// \throw osgSkin::Error with the accessor and the place in it
 void checkValues(const GltfFile& file, GltfAccessors& accessors);
+
+/// Refuses numbers of an accessor that are none, or beyond all coordinates.
+/// \param where the accessor is named
+/// \throw osgSkin::Error with the accessor and the place in it
+void requireCoordinates(const GltfFile& file, std::size_t accessor, const std::string& where,
+                        const std::vector<double>& values);
 
 } // namespace osgSkin
 

@@ -17,6 +17,8 @@
 #include <osgDB/FileNameUtils>
 
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,9 +44,14 @@ public:
         applyMorphs(_file, _accessors);
         nameNodes(_file);
         moveTexCoords(_file, _accessors);
-        for (json& skin : list("skins")) addBindMatrices(skin);
+        std::size_t number = 0;
+        for (json& skin : list("skins"))
+            addBindMatrices(skin, "skins[" + std::to_string(number++) + "]");
         for (json& mesh : list("meshes"))
-            for (json& primitive : mesh.at("primitives")) makeFloats(primitive);
+            for (json& primitive : mesh.at("primitives")) {
+                makeFloats(primitive);
+                makeJoints(primitive);
+            }
         makeTracksLinear(_file, _accessors);
         for (json& image : list("images")) decodeUri(image);
     }
@@ -55,8 +62,8 @@ private:
         return _file.json.at(key);
     }
 
-    /// A mesh that nodes show with different skins, or weights of morph targets, becomes one for
-    /// each: Assimp keeps both by mesh.
+    /// A mesh that nodes show with a skin, or different weights of morph targets, becomes one for
+    /// each: Assimp keeps both by mesh, and loses the bones that it made before.
     void separateMeshes() {
         std::map<std::size_t, json> useOf;   // mesh -> what its first node shows it with
         std::map<std::size_t, json> weights; // mesh -> its own
@@ -69,7 +76,7 @@ private:
             node.erase("weights");
             const json use = json::array({node.value("skin", json()), shown});
             const bool isFirst = useOf.count(mesh) == 0;
-            if (!isFirst && useOf.at(mesh) == use) continue;
+            if (!isFirst && useOf.at(mesh) == use && !node.contains("skin")) continue;
             if (!isFirst) {
                 const json copy = meshes.at(mesh);
                 meshes.push_back(copy);
@@ -81,7 +88,7 @@ private:
     }
 
     /// Without inverse bind matrices, all of them are the identity (section 3.7.3.1).
-    void addBindMatrices(json& skin) {
+    void addBindMatrices(json& skin, const std::string& where) {
         const std::size_t joints = skin.at("joints").size();
         if (skin.contains("inverseBindMatrices")) {
             const auto index = skin.at("inverseBindMatrices").get<std::size_t>();
@@ -90,8 +97,10 @@ private:
                                          std::to_string(_accessors.count(index)) +
                                          " inverse bind matrices for " + std::to_string(joints) +
                                          " joints");
+            const std::vector<double> matrices = _accessors.values(index);
+            requireCoordinates(_file, index, where + ".inverseBindMatrices", matrices);
             if (!_accessors.isPlain(index))
-                skin["inverseBindMatrices"] = _accessors.add("MAT4", _accessors.values(index));
+                skin["inverseBindMatrices"] = _accessors.add("MAT4", matrices);
             return;
         }
         std::vector<double> matrices(16 * joints, 0.0);
@@ -112,6 +121,24 @@ private:
             const auto [entry, isNew] = _floats.emplace(std::make_pair(accessor, isOpaque), 0);
             if (isNew) entry->second = isOpaque ? addOpaque(accessor) : addFloats(accessor);
             index = entry->second;
+        }
+    }
+
+    /// Assimp takes all joints of a primitive for numbers of as many bytes as the first ones.
+    void makeJoints(json& primitive) {
+        std::map<std::string, std::size_t> joints;
+        std::set<std::size_t> bytes;
+        for (const auto& [name, index] : primitive.at("attributes").items()) {
+            const auto accessor = index.get<std::size_t>();
+            if (name.rfind("JOINTS_", 0) != 0 || !_accessors.hasValues(accessor)) continue;
+            joints.emplace(name, accessor);
+            bytes.insert(_accessors.componentBytes(accessor));
+        }
+        for (const auto& [name, accessor] : joints) {
+            if (bytes.size() == 1 && _accessors.isWhole(accessor)) continue;
+            const auto [entry, isNew] = _shorts.emplace(accessor, 0);
+            if (isNew) entry->second = _accessors.addShorts("VEC4", _accessors.values(accessor));
+            primitive["attributes"][name] = entry->second;
         }
     }
 
@@ -148,6 +175,7 @@ private:
     GltfAccessors _accessors;
     /// Accessors that have been converted, and whether to opaque colours.
     std::map<std::pair<std::size_t, bool>, std::size_t> _floats;
+    std::map<std::size_t, std::size_t> _shorts; ///< the same, to joints of two bytes
     json _none = json::array();
 };
 

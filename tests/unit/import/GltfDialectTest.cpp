@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// What glTF's specification allows and Assimp does not read, and numbers that it takes for others.
+#include "ExpectError.h"
+#include "GltfBuilder.h"
+#include "Notices.h"
+
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportRig>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+using nlohmann::json;
+using test::GltfColumn;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kVertices = 24;
+
+json& primitiveOf(GltfColumn& column) {
+    return column.json["meshes"][0]["primitives"][0];
+}
+
+/// The column's places with a number of floats behind each; the last ones are not there.
+std::size_t trimmedPlaces(GltfColumn& column, std::size_t unused) {
+    std::vector<double> numbers;
+    for (std::size_t v = 0; v < kVertices; ++v) {
+        numbers.insert(numbers.end(), column.places.begin() + std::ptrdiff_t(3 * v),
+                       column.places.begin() + std::ptrdiff_t(3 * v + 3));
+        if (v + 1 < kVertices) numbers.insert(numbers.end(), unused, 0.0);
+    }
+    const std::size_t accessor = column.accessor("SCALAR", numbers);
+    json& all = column.json["accessors"];
+    all[accessor]["type"] = "VEC3";
+    all[accessor]["count"] = kVertices;
+    column.json["bufferViews"][all[accessor]["bufferView"].get<std::size_t>()]["byteStride"] =
+        4 * (3 + unused);
+    return accessor;
+}
+
+/// The sum of a bone's weights, by its number.
+double weightOf(const osgSkin::ImportedRig& rig, const std::string& bone) {
+    double result = 0.0;
+    for (const osgSkin::BoneWeights& weights : rig.body.weights)
+        for (const osgSkin::BoneWeights::Entry& entry : weights.entries)
+            result += weights.bone == bone ? entry.weight : 0.0;
+    return result;
+}
+
+void expectRefused(GltfColumn& column, const std::string& message) {
+    const std::string path = column.save("untrue.gltf");
+    expectError([&] { osgSkin::importRig(path); }, path + ": " + message);
+    expectError([&] { osgSkin::importMotion(path); }, path + ": " + message);
+}
+
+/// A column whose middle is moved in a way.
+GltfColumn moved(const std::string& path, const std::vector<double>& values,
+                 const std::string& interpolation = "LINEAR") {
+    GltfColumn column;
+    column.animate("move", 1, path, {0.0, 0.5, 1.0}, values, interpolation);
+    return column;
+}
+
+} // namespace
+
+TEST(GltfDialect, ViewsMayEndBehindTheirLastElement) {
+    GltfColumn column;
+    column.attributes()["POSITION"] = trimmedPlaces(column, 2);
+    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(column.save("trimmed.gltf"));
+    ASSERT_EQ(mesh.mesh.positions.size(), kVertices);
+    for (std::size_t v = 0; v < kVertices; ++v)
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(mesh.mesh.positions[v][axis], column.places[3 * v + std::size_t(axis)],
+                        1e-6);
+}
+
+TEST(GltfDialect, JointsMayBeBytesAndShorts) {
+    GltfColumn column;
+    std::vector<double> first, second, half;
+    for (std::size_t v = 0; v < kVertices; ++v) {
+        first.insert(first.end(), {0, 0, 0, 0});
+        second.insert(second.end(), {2, 1, 0, 0});
+        half.insert(half.end(), {0.25, 0.25, 0, 0});
+    }
+    column.attributes()["JOINTS_0"] = column.accessor("VEC4", first, 5121);
+    column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", half);
+    column.attributes()["JOINTS_1"] = column.accessor("VEC4", second, 5123);
+    column.attributes()["WEIGHTS_1"] = column.attributes()["WEIGHTS_0"];
+    const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("joints.gltf"));
+    EXPECT_NEAR(weightOf(rig, "base"), 0.5 * kVertices, 1e-5);
+    EXPECT_NEAR(weightOf(rig, "middle"), 0.25 * kVertices, 1e-5);
+    EXPECT_NEAR(weightOf(rig, "top"), 0.25 * kVertices, 1e-5);
+}
+
+TEST(GltfDialect, ASkinnedMeshMayBeShownTwice) {
+    GltfColumn
+        column; // a sanitizer finds the bones that Assimp loses of a mesh that it shows twice
+    const std::size_t again = column.node({{"name", "again"}, {"mesh", 0}, {"skin", 0}});
+    column.json["scenes"][0]["nodes"].push_back(again);
+    const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("twice.gltf"));
+    EXPECT_EQ(rig.body.mesh.positions.size(), 2 * kVertices);
+    for (const char* bone : {"base", "middle", "top"})
+        EXPECT_NEAR(weightOf(rig, bone), 2.0 * 8, 1e-5) << bone;
+}
+
+TEST(GltfDialect, ALibraryHasNoScene) {
+    GltfColumn column;
+    column.bend();
+    column.json.erase("scene");
+    column.json.erase("scenes");
+    const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("library.gltf"));
+    EXPECT_EQ(rig.rest.joints.size(), 3u);
+    EXPECT_EQ(rig.body.mesh.positions.size(), kVertices);
+    EXPECT_EQ(rig.animations.size(), 1u);
+}
+
+TEST(GltfDialect, OnlyWholeTrianglesAreDrawn) {
+    // Points, a list, a ring and a strip of lines, triangles, a strip and a fan of them.
+    const std::size_t faces[7][5] = {{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {0, 0, 0, 0, 0},
+                                     {0, 0, 0, 0, 0}, {0, 0, 0, 1, 1}, {0, 0, 0, 1, 2},
+                                     {0, 0, 0, 1, 2}};
+    for (std::size_t mode = 0; mode < 7; ++mode)
+        for (std::size_t corners = 0; corners < 5; ++corners) {
+            SCOPED_TRACE("mode " + std::to_string(mode) + ", " + std::to_string(corners));
+            GltfColumn column;
+            json primitive = primitiveOf(column);
+            const std::size_t list = column.accessor("SCALAR", {0, 1, 2, 3}, 5121);
+            column.json["accessors"][list]["count"] = corners;
+            primitive["indices"] = list;
+            primitive["mode"] = mode;
+            column.json["meshes"][0]["primitives"].push_back(primitive);
+            const std::string path = column.save("modes.gltf");
+            const test::Notices notices;
+            const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
+            EXPECT_EQ(mesh.mesh.faceSizes.size(), 36 + faces[mode][corners]);
+            const bool isLeftOut = mode >= 4 && (corners < 3 || (mode == 4 && corners == 4));
+            EXPECT_EQ(notices.say("corners that make no whole triangle are left out, of 1"),
+                      isLeftOut)
+                << notices.text();
+        }
+}
+
+TEST(BadGltf, SamplersAreOfOneKind) {
+    GltfColumn column = moved("translation", {0, 1, 0, 0, 1, 0, 0, 1, 0});
+    json& channels = column.json["animations"][0]["channels"];
+    channels.push_back({{"sampler", 0}, {"target", {{"node", 2}, {"path", "rotation"}}}});
+    expectRefused(column,
+                  "animation \"move\": sampler 0: rotations and others, expected a sampler");
+    channels[1]["target"]["path"] = "scale";
+    EXPECT_EQ(osgSkin::importRig(column.save("shared.gltf")).animations.size(), 1u);
+}
+
+TEST(BadGltf, WaysBetweenKeysAreKnown) {
+    for (const char* way : {"STEPPED", "linear", ""}) {
+        GltfColumn column = moved("rotation", GltfColumn::turns({0, 60, 90}), way);
+        expectRefused(column, "malformed glTF: animations[0].samplers.interpolation: expected "
+                              "LINEAR, STEP or CUBICSPLINE, found \"" +
+                                  std::string(way) + '"');
+    }
+}
+
+TEST(BadGltf, KeysAreNumbersOfTheirKind) {
+    for (const double number : {kNaN, 1e30, std::numeric_limits<double>::infinity()}) {
+        const std::string where = "animation \"move\": sampler 0: accessors[6]: element 1 has ";
+        for (const char* path : {"translation", "scale"}) {
+            GltfColumn column = moved(path, {1, 1, 1, 1, number, 1, 1, 1, 1});
+            expectRefused(column, where);
+        }
+        std::vector<double> turns = GltfColumn::turns({0, 60, 90});
+        turns[6] = number;
+        GltfColumn column = moved("rotation", turns);
+        expectRefused(column, where);
+    }
+    GltfColumn column = moved("rotation", {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1});
+    expectRefused(column, "animation \"move\": sampler 0: accessors[6]: element 1 is zero, "
+                          "expected a rotation");
+}
+
+TEST(BadGltf, BindMatricesAreFinite) {
+    for (const double number : {kNaN, 1e30}) {
+        GltfColumn column;
+        column.bend();
+        std::vector<double> matrices(48, 0.0);
+        for (std::size_t i = 0; i < matrices.size(); ++i)
+            if (i % 16 % 5 == 0) matrices[i] = 1.0;
+        matrices[20] = number;
+        column.json["skins"][0]["inverseBindMatrices"] = column.accessor("MAT4", matrices);
+        expectRefused(column, "malformed glTF: accessors[9], skins[0].inverseBindMatrices: number "
+                              "20 is ");
+    }
+}
