@@ -8,6 +8,9 @@
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
 
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
 #include <limits>
 #include <string>
 #include <vector>
@@ -191,4 +194,42 @@ TEST(BadGltf, BindMatricesAreFinite) {
         expectRefused(column, "malformed glTF: accessors[9], skins[0].inverseBindMatrices: number "
                               "20 is ");
     }
+}
+
+/// Rotations from rest of joints below negative scales turn the other way, about mirrored axes.
+TEST(GltfDialect, MotionsMayBeMirrored) {
+    const glm::dvec3 scales[] = {{1, 1, 1},   {-1, 1, 1},  {1, -1, 1},  {1, 1, -1},
+                                 {-1, -1, 1}, {1, -1, -1}, {-2, -2, -2}};
+    for (const glm::dvec3& above : scales)
+        for (const glm::dvec3& own : scales) {
+            SCOPED_TRACE(testing::Message()
+                         << above.x << above.y << above.z << " and " << own.x << own.y << own.z);
+            GltfColumn column;
+            column.json.erase("skins");
+            column.json["nodes"][column.meshNode].erase("skin");
+            const std::size_t root = column.node({{"name", "root"}, {"children", {0}}});
+            column.json["nodes"][root]["scale"] = {above.x, above.y, above.z};
+            column.json["nodes"][1]["scale"] = {own.x, own.y, own.z};
+            column.json["scenes"][0]["nodes"] = {root, column.meshNode};
+            const std::vector<double> turn = {0.36, 0.48, 0.0, 0.8};
+            std::vector<double> keys = {0, 0, 0, 1};
+            keys.insert(keys.end(), turn.begin(), turn.end());
+            for (const std::size_t joint : column.joints)
+                column.animate("turn", joint, "rotation", {0.0, 1.0}, keys);
+            const osgSkin::Motion motion = osgSkin::importMotion(column.save("mirrored.gltf"));
+            ASSERT_EQ(motion.skeleton.joints.size(), 3u);
+            const glm::dquat local(turn[3], turn[0], turn[1], turn[2]);
+            glm::dmat3 moved = glm::dmat3(glm::scale(glm::dmat4(1.0), above)), rest = moved;
+            glm::dquat found(1.0, 0.0, 0.0, 0.0);
+            for (std::size_t j = 0; j < 3; ++j) {
+                moved = moved * glm::mat3_cast(local);
+                found = found * motion.rotations[3 * (motion.frames - 1) + j];
+                if (j == 1) moved = moved * glm::dmat3(glm::scale(glm::dmat4(1.0), own));
+                if (j == 1) rest = rest * glm::dmat3(glm::scale(glm::dmat4(1.0), own));
+                const glm::dmat3 expected = moved * glm::inverse(rest);
+                const glm::dmat3 actual = glm::mat3_cast(found);
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_LT(glm::length(expected[c] - actual[c]), 1e-5) << j;
+            }
+        }
 }

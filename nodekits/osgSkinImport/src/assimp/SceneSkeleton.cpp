@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include <cmath>
 #include <set>
 #include <unordered_set>
 #include <utility>
@@ -129,8 +130,8 @@ std::set<const aiNode*> jointNodes(const aiScene& scene, const SceneBind& bind) 
 glm::dquat rotationOf(const glm::dmat4& matrix) {
     glm::dmat3 axes(matrix);
     const double volume = glm::determinant(axes);
-    if (!(volume > 0.0)) return {1.0, 0.0, 0.0, 0.0}; // mirrored or flat: no rotation describes it
-    axes[0] = glm::normalize(axes[0]);
+    if (!(std::abs(volume) > 0.0)) return {1.0, 0.0, 0.0, 0.0}; // flat: no rotation describes it
+    axes[0] = glm::normalize(volume < 0.0 ? -axes[0] : axes[0]);
     axes[1] = glm::normalize(axes[1] - axes[0] * glm::dot(axes[0], axes[1]));
     axes[2] = glm::cross(axes[0], axes[1]);
     return glm::normalize(glm::quat_cast(axes));

@@ -3,11 +3,14 @@
 
 #include "assimp/AssimpScene.h"
 #include "motion/RootMotion.h"
+#include "rig/MirroredTurn.h"
+#include "rig/RigBones.h"
 #include "rig/SampleGrid.h"
 #include "text/FileText.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +86,7 @@ std::vector<bool> findMovedJoints(const std::vector<const aiNodeAnim*>& tracks,
 
 glm::dquat localRotation(const aiNodeAnim* track, const aiNode& node, const Moment& moment) {
     if (track == nullptr || track->mNumRotationKeys == 0)
-        return rotationOf(toGlm(node.mTransformation));
+        return decompose(toGlm(node.mTransformation)).rotation;
     return glm::normalize(valueAt(track->mRotationKeys, track->mNumRotationKeys, moment));
 }
 
@@ -93,11 +96,21 @@ glm::dvec3 localPosition(const aiNodeAnim* track, const aiNode& node, const Mome
     return valueAt(track->mPositionKeys, track->mNumPositionKeys, moment);
 }
 
+/// The scale that a node has beside localRotation(), with its signs.
+glm::dvec3 localScale(const aiNodeAnim* track, const aiNode& node) {
+    glm::dvec3 result = decompose(toGlm(node.mTransformation)).scale;
+    if (track == nullptr || track->mNumRotationKeys == 0 || track->mNumScalingKeys == 0)
+        return result;
+    const glm::dvec3 told = toGlm(track->mScalingKeys[0].mValue);
+    for (int axis = 0; axis < 3; ++axis) result[axis] = std::copysign(result[axis], told[axis]);
+    return result;
+}
+
 /// A node's matrix as its track has it, with the scale that the node has.
 glm::dmat4 localMatrix(const aiNodeAnim* track, const aiNode& node, const Moment& moment) {
-    const glm::dmat4 own = toGlm(node.mTransformation);
+    const glm::dvec3 scale = localScale(track, node);
     glm::dmat4 result = glm::mat4_cast(localRotation(track, node, moment));
-    for (int axis = 0; axis < 3; ++axis) result[axis] *= glm::length(glm::dvec3(own[axis]));
+    for (int axis = 0; axis < 3; ++axis) result[axis] *= scale[axis];
     result[3] = glm::dvec4(localPosition(track, node, moment), 1.0);
     return result;
 }
@@ -138,17 +151,19 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
     noticeUnusedMoves(skeleton.rest, moved, root, path);
 
     const std::size_t joints = tracks.size();
-    const glm::dquat aboveRotation = rotationOf(skeleton.aboveRoot);
-    std::vector<glm::dquat> world(joints);   // the nodes' own frames
+    const MirroredTurn aboveRoot{rotationOf(skeleton.aboveRoot),
+                                 glm::determinant(glm::dmat3(skeleton.aboveRoot)) < 0.0};
+    std::vector<MirroredTurn> world(joints); // the nodes' own frames
     std::vector<glm::dquat> aligned(joints); // the same, as rotations from rest
     for (std::size_t f = 0; f < motion.frames; ++f) {
         const Moment moment{grid.time(f) * rate, 0.5001 * grid.step() * rate};
         for (std::size_t j = 0; j < joints; ++j) {
             const int up = skeleton.rest.joints[j].parent;
             const auto p = static_cast<std::size_t>(std::max(up, 0));
-            world[j] = (up < 0 ? aboveRotation : world[p]) *
-                       localRotation(tracks[j], *skeleton.nodes[j], moment);
-            aligned[j] = world[j] * glm::conjugate(skeleton.worldRotations[j]);
+            world[j] = (up < 0 ? aboveRoot : world[p])
+                           .below(localRotation(tracks[j], *skeleton.nodes[j], moment),
+                                  localScale(tracks[j], *skeleton.nodes[j]));
+            aligned[j] = world[j].rotation * glm::conjugate(skeleton.worldRotations[j]);
             if (j >= root)
                 motion.rotations.push_back(glm::normalize(
                     j == root ? aligned[j] : glm::conjugate(aligned[p]) * aligned[j]));
