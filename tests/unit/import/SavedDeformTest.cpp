@@ -6,11 +6,16 @@
 
 #include <osg/Geometry>
 #include <osg/Group>
+#include <osg/MatrixTransform>
 #include <osg/Uniform>
+#include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Bone>
 #include <osgAnimation/MorphGeometry>
 #include <osgAnimation/RigGeometry>
 #include <osgAnimation/Skeleton>
+#include <osgAnimation/StackedQuaternionElement>
+#include <osgAnimation/StackedTranslateElement>
+#include <osgAnimation/UpdateMatrixTransform>
 #include <osgDB/WriteFile>
 #include <osgUtil/UpdateVisitor>
 
@@ -146,4 +151,51 @@ TEST(SavedDeform, UniformsHaveAsManyValuesAsTheFileHasRoomFor) {
     std::ofstream(path) << text;
     expectError([&] { osgSkin::readScene(path, nullptr); },
                 "4000000000 elements, expected no more than the file has room for");
+}
+
+TEST(SavedDeform, BoxesOfRigsAreOfRigs) {
+    const osg::ref_ptr<osg::Geometry> plain = makeTriangles();
+    plain->setComputeBoundingBoxCallback(new osgAnimation::RigComputeBoundingBoxCallback);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(plain);
+    for (const char* format : kFormats) {
+        const std::string path = testing::TempDir() + "box." + format;
+        ASSERT_TRUE(osgDB::writeNodeFile(*scene, path));
+        expectError([&] { osgSkin::readScene(path, nullptr); },
+                    "has the box of a rig, expected a rig");
+    }
+}
+
+TEST(SavedDeform, ChannelsAreOfTheKindThatTheyMove) {
+    for (const bool fits : {true, false}) {
+        const osg::ref_ptr<osgAnimation::UpdateMatrixTransform> update =
+            new osgAnimation::UpdateMatrixTransform("thing");
+        if (fits)
+            update->getStackedTransforms().push_back(
+                new osgAnimation::StackedQuaternionElement("turn", osg::Quat()));
+        else
+            update->getStackedTransforms().push_back(
+                new osgAnimation::StackedTranslateElement("turn", osg::Vec3()));
+        const osg::ref_ptr<osg::MatrixTransform> thing = new osg::MatrixTransform;
+        thing->setUpdateCallback(update);
+        const osg::ref_ptr<osgAnimation::QuatSphericalLinearChannel> channel =
+            new osgAnimation::QuatSphericalLinearChannel;
+        channel->setName("turn");
+        channel->setTargetName("thing");
+        auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
+        keys->push_back(osgAnimation::QuatKeyframe(0.0, osg::Quat()));
+        keys->push_back(osgAnimation::QuatKeyframe(1.0, osg::Quat(0, 0, 1, 0)));
+        const osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+        animation->setName("clip");
+        animation->addChannel(channel);
+        const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
+            new osgAnimation::BasicAnimationManager;
+        manager->registerAnimation(animation);
+        const osg::ref_ptr<osg::Group> scene = new osg::Group;
+        scene->setUpdateCallback(manager);
+        scene->addChild(thing);
+        expectMoved(*scene, fits ? ""
+                                 : "animation \"clip\": channel \"turn\" of \"thing\" is of "
+                                   "another kind than what it moves");
+    }
 }

@@ -72,4 +72,10 @@ std::string whyNotDeformed(const osg::Geometry& geometry) {
     return {};
 }
 
+bool hasBoxOfARig(const osg::Drawable& drawable) {
+    const auto* box = dynamic_cast<const osgAnimation::RigComputeBoundingBoxCallback*>(
+        drawable.getComputeBoundingBoxCallback());
+    return box != nullptr && dynamic_cast<const osgAnimation::RigGeometry*>(&drawable) == nullptr;
+}
+
 } // namespace osgSkin

@@ -116,6 +116,10 @@ void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::str
                 failFile(path, "geometry " + inQuotes(geometry->getName()) + " (object " +
                                    std::to_string(id) + ") has " + wrong);
         }
+        const auto* drawable = dynamic_cast<const osg::Drawable*>(object.get());
+        if (drawable != nullptr && hasBoxOfARig(*drawable))
+            failFile(path, "drawable " + inQuotes(drawable->getName()) + " (object " +
+                               std::to_string(id) + ") has the box of a rig, expected a rig");
         if (const auto* animation = dynamic_cast<const osgAnimation::Animation*>(object.get())) {
             const std::string wrong = whyNotPlayed(*animation);
             if (!wrong.empty())

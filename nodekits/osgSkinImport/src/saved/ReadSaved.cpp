@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "saved/ReadSaved.h"
 
+#include "saved/CheckLinks.h"
 #include "saved/CheckSaved.h"
 #include "saved/SavedAscii.h"
 #include "saved/SavedBinary.h"
@@ -83,6 +84,7 @@ osg::ref_ptr<osg::Node> readSaved(const std::string& path, const osgDB::Options*
     SavedStream stream(local.get());
     const osg::ref_ptr<osg::Node> scene = readScene(stream, *input, path);
     checkSavedObjects(stream.objects(), path);
+    checkLinks(stream.objects(), limits, path);
     checkSavedScene(*scene, bytes, limits, path);
     return scene;
 }

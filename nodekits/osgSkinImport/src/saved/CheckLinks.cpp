@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "saved/CheckLinks.h"
+
+#include "text/FileText.h"
+
+#include <osgAnimation/Animation>
+#include <osgAnimation/AnimationUpdateCallback>
+
+#include <map>
+#include <set>
+#include <vector>
+
+namespace osgSkin {
+namespace {
+
+using osgAnimation::AnimationUpdateCallbackBase;
+using osgAnimation::Channel;
+
+} // namespace
+
+void checkLinks(const SavedStream::IdentifierMap& objects, const ReadLimits& limits,
+                const std::string& path) {
+    std::map<std::string, std::vector<AnimationUpdateCallbackBase*>> moved;
+    for (const auto& [id, object] : objects)
+        if (auto* callback = dynamic_cast<AnimationUpdateCallbackBase*>(object.get()))
+            moved[callback->getName()].push_back(callback);
+    std::size_t links = 0;
+    for (const auto& [id, object] : objects) {
+        const auto* animation = dynamic_cast<const osgAnimation::Animation*>(object.get());
+        if (animation == nullptr) continue;
+        for (const osg::ref_ptr<Channel>& channel : animation->getChannels()) {
+            const auto found = moved.find(channel->getTargetName());
+            if (found == moved.end() || found->first.empty()) continue; // OSG links none of no name
+            for (AnimationUpdateCallbackBase* callback : found->second) {
+                if (++links > limits.samples)
+                    failFile(path, "channels move more things called alike than " +
+                                       std::to_string(limits.samples) + " (option maxSamples)");
+                const osg::ref_ptr<Channel> tried = channel->clone();
+                callback->link(tried.get());
+                if (tried->getTarget() == nullptr)
+                    failFile(path, "animation " + inQuotes(animation->getName()) + ": channel " +
+                                       inQuotes(channel->getName()) + " of " +
+                                       inQuotes(channel->getTargetName()) +
+                                       " is of another kind than what it moves");
+            }
+        }
+    }
+}
+
+} // namespace osgSkin
