@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfFile.h"
 
-#include "gltf/GltfJson.h"
+#include "gltf/text/GltfJson.h"
 #include "text/FileText.h"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "saved/CheckSaved.h"
 
-#include "saved/CheckAnimation.h"
-#include "saved/CheckDeformed.h"
+#include "saved/checks/CheckAnimation.h"
+#include "saved/checks/CheckDeformed.h"
 #include "text/FileText.h"
 
 #include <osg/Callback>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "saved/CheckAnimation.h"
+#include "saved/checks/CheckAnimation.h"
 
 #include "text/FileText.h"
 

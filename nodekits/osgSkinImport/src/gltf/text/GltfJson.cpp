@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/GltfJson.h"
+#include "gltf/text/GltfJson.h"
 
 #include "text/FileText.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "saved/CheckDeformed.h"
+#include "saved/checks/CheckDeformed.h"
 
 #include "text/FileText.h"
 
