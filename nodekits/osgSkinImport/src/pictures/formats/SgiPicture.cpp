@@ -38,7 +38,8 @@ PictureSize sgiSize(const PictureBytes& bytes) {
 void requireSgiRows(const PictureBytes& bytes) {
     constexpr std::uint64_t kSgiHeader = 512;
     const std::uint32_t channelBytes = bytes.byte(3);
-    const std::uint64_t width = bytes.big(6, 2), rows = bytes.big(8, 2) * bytes.big(10, 2),
+    const std::uint64_t width = bytes.big(6, 2),
+                        rows = std::uint64_t{bytes.big(8, 2)} * bytes.big(10, 2),
                         rowBytes = width * channelBytes;
     if (bytes.byte(2) == 0) return bytes.requireSize(kSgiHeader + rows * rowBytes);
     // Where each row stands, behind all of these how long each is.
