@@ -109,6 +109,7 @@ TEST(Polygons, TakeNoMinutes) {
     const std::clock_t begin = std::clock();
     std::vector<glm::dvec3> corners;
     const int turns = 20'000;
+    corners.reserve(2 * std::size_t(turns));
     for (int k = 0; k < turns; ++k) corners.push_back({k, k % 2 == 0 ? 0.0 : 1000.0, 0});
     for (int k = turns; k-- > 0;) corners.push_back({k, k % 2 == 0 ? 0.5 : 1000.5, 0});
     EXPECT_EQ(polygon(corners).triangles().size(), 3 * (corners.size() - 2));
