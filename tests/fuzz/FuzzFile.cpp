@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as a file of one format (OSGSKIN_FUZZ_EXTENSION), by every reader of it. Errors are
+// Any bytes as a file of one format (FuzzFormat.cpp), by every reader of it. Errors are
 // osgSkin::Error; anything else that is thrown ends the run.
 #include "InputFile.h"
 
@@ -10,6 +10,8 @@
 #include <osgSkinImport/ImportSkeleton>
 
 #include <osg/Notify>
+
+extern const char* const kFuzzExtension;
 
 namespace {
 
@@ -25,7 +27,7 @@ void attempt(const Read& read) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     osg::setNotifyLevel(osg::ALWAYS);
-    const std::string path = fuzz::save("input." OSGSKIN_FUZZ_EXTENSION, data, size);
+    const std::string path = fuzz::save(std::string("input.") + kFuzzExtension, data, size);
     attempt([&] { osgSkin::importMesh(path); });
     attempt([&] { osgSkin::importSkeleton(path); });
     attempt([&] { osgSkin::importMotion(path); });

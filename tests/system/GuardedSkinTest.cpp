@@ -4,6 +4,7 @@
 #include "Command.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
+#include "TextFile.h"
 #include "WhyRefused.h"
 
 #include <osgDB/ReadFile>
@@ -21,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kCharacter = OSGSKIN_TEST_DATA "/character/";
+const std::string kPlainCharacter = OSGSKIN_TEST_DATA "/character/";
 #if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
 constexpr double kMostSeconds = 40.0; ///< of this program's own
 #else
@@ -32,7 +33,7 @@ class GuardedSkin : public testing::Test {
 public:
     GuardedSkin() : folder(test::makeTestFolder()) {
         for (const char* part : {"body.obj", "rig.bvh", "move.bvh"})
-            fs::copy_file(kCharacter + part, folder + "/" + part);
+            fs::copy_file(kPlainCharacter + part, folder + "/" + part);
     }
     ~GuardedSkin() override {
         EXPECT_LT(double(std::clock() - _begin) / CLOCKS_PER_SEC, kMostSeconds);
@@ -67,7 +68,7 @@ private:
     const std::clock_t _begin = std::clock();
 };
 
-void expectSays(const std::string& refused, const std::string& part) {
+void expectOneLine(const std::string& refused, const std::string& part) {
     EXPECT_NE(refused.find(part), std::string::npos) << '"' << part << "\" in: " << refused;
     EXPECT_EQ(refused.find('\n'), std::string::npos) << refused;
 }
@@ -80,19 +81,14 @@ std::string list(std::size_t count, const Item& item) {
     return text;
 }
 
-std::string contentOf(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 } // namespace
 
 TEST_F(GuardedSkin, RigidJointsMayBeNamedAgainAndAgain) {
     const auto last = [](const std::string&) { return std::string("\"j9999\""); };
     const std::string skeleton = bones("many.bvh", 10'000);
     EXPECT_EQ(test::whyRefused(skin("\"rigid\": [" + list(10'000, last) + "]", skeleton)), "read");
-    expectSays(test::whyRefused(skin("\"rigid\": [" + list(10'001, last) + "]")),
-               "a.skin: rigid: 10001 names, expected at most 10000 (option maxJoints)");
+    expectOneLine(test::whyRefused(skin("\"rigid\": [" + list(10'001, last) + "]")),
+                  "a.skin: rigid: 10001 names, expected at most 10000 (option maxJoints)");
 }
 
 TEST_F(GuardedSkin, FamiliesOfNamesTakeNoMinutes) {
@@ -102,22 +98,22 @@ TEST_F(GuardedSkin, FamiliesOfNamesTakeNoMinutes) {
     };
     const std::string skeleton = bones("many.bvh", 5'000);
     EXPECT_EQ(test::whyRefused(skin("\"names\": {" + list(2'500, family) + "}", skeleton)), "read");
-    expectSays(test::whyRefused(skin("\"names\": {" + list(2'501, family) + "}")),
-               "a.skin: names.f999.Head: one of more than 10000 names (option maxJoints)");
+    expectOneLine(test::whyRefused(skin("\"names\": {" + list(2'501, family) + "}")),
+                  "a.skin: names.f999.Head: one of more than 10000 names (option maxJoints)");
 }
 
 TEST_F(GuardedSkin, MusclesAndLandmarksAreNoThousands) {
     const auto muscle = [](const std::string& number) {
         return "{\"name\": \"m" + number + "\", \"joint\": \"arm\"}";
     };
-    expectSays(test::whyRefused(skin("\"muscles\": [" + list(1'001, muscle) + "]")),
-               "a.skin: muscles: 1001 muscles, expected at most 1000");
+    expectOneLine(test::whyRefused(skin("\"muscles\": [" + list(1'001, muscle) + "]")),
+                  "a.skin: muscles: 1001 muscles, expected at most 1000");
     const auto landmark = [](const std::string& number) {
         return "\"Left Hand " + number + "\": [0, 1, 0]";
     };
-    expectSays(test::whyRefused(skin("\"up\": \"y\"", "{\"fit\": true, \"landmarks\": {" +
-                                                          list(101, landmark) + "}}")),
-               "one of more than 100 landmarks");
+    expectOneLine(test::whyRefused(skin("\"up\": \"y\"", "{\"fit\": true, \"landmarks\": {" +
+                                                             list(101, landmark) + "}}")),
+                  "one of more than 100 landmarks");
 }
 
 TEST_F(GuardedSkin, MotionsOfManyJointsTakeNoMinutes) {
@@ -143,12 +139,13 @@ TEST_F(GuardedSkin, WeightsAreAVertexAndANumberEach) {
         return test::whyRefused(skin(R"("bind": "weights", "weights": "w.json")"));
     };
     const auto zero = [](const std::string&) { return std::string("0"); };
-    expectSays(refused("\"arm\": [[" + list(1'000'000, zero) + "]]"),
-               "expected a vertex and its weight, found a list of 1000000");
-    expectSays(refused("\"arm\": [[3, 1], [4, 1], [3, 0.5]]"),
-               "w.json: weights.arm[2][0]: vertex 3 is there twice, expected one weight for each");
-    expectSays(refused("\"arm\": [[3, 1e308]], \"base\": [[3, 1e308]]"),
-               "weights of vertex 3: expected weights with a finite sum");
+    expectOneLine(refused("\"arm\": [[" + list(1'000'000, zero) + "]]"),
+                  "expected a vertex and its weight, found a list of 1000000");
+    expectOneLine(
+        refused("\"arm\": [[3, 1], [4, 1], [3, 0.5]]"),
+        "w.json: weights.arm[2][0]: vertex 3 is there twice, expected one weight for each");
+    expectOneLine(refused("\"arm\": [[3, 1e308]], \"base\": [[3, 1e308]]"),
+                  "weights of vertex 3: expected weights with a finite sum");
 }
 
 TEST_F(GuardedSkin, WeightsThatAreAllZeroAreToldOf) {
@@ -178,16 +175,16 @@ TEST_F(GuardedSkin, NamesMeanNoFilesInOtherFolders) {
     const fs::path before = fs::current_path();
     fs::current_path(folder);
     EXPECT_EQ(test::whyRefused("a.skin"), "read");
-    expectSays(test::whyRefused("nowhere/a.skin"), "nowhere/a.skin: ");
+    expectOneLine(test::whyRefused("nowhere/a.skin"), "nowhere/a.skin: ");
     EXPECT_EQ(test::whyRefused("a.skin", test::loadOptions("motion=move.bvh")), "read");
-    expectSays(test::whyRefused("a.skin", test::loadOptions("motion=nowhere/move.bvh")),
-               "motion \"nowhere/move.bvh\" is neither one of its motions nor a file");
+    expectOneLine(test::whyRefused("a.skin", test::loadOptions("motion=nowhere/move.bvh")),
+                  "motion \"nowhere/move.bvh\" is neither one of its motions nor a file");
     EXPECT_FALSE(osgDB::readRefNodeFile("nowhere/a.skin").valid());
     fs::current_path(before);
 }
 
 TEST_F(GuardedSkin, WhatACharacterIsMadeOfIsNotWrittenOver) {
-    save("w.json", contentOf(kCharacter + "weights.json"));
+    save("w.json", test::fileText(kPlainCharacter + "weights.json"));
     skin(R"("bind": "weights", "weights": "w.json", "motions": [{"file": "move.bvh"}])");
     fs::create_symlink("body.obj", folder + "/link.obj");
     for (const auto& [arguments, file] :
@@ -195,14 +192,14 @@ TEST_F(GuardedSkin, WhatACharacterIsMadeOfIsNotWrittenOver) {
           std::pair("--rest link.obj", "body.obj"), std::pair("--binding a.skin", "a.skin"),
           std::pair("--pose w.json", "w.json"), std::pair("--binding ./rig.bvh", "rig.bvh"),
           std::pair("--pose move.bvh", "move.bvh")}) {
-        const std::string before = contentOf(folder + "/" + file);
+        const std::string before = test::fileText(folder + "/" + file);
         const test::CommandResult bake =
             test::runBake(std::string("a.skin --quiet ") + arguments, folder);
         EXPECT_EQ(bake.status, 1) << arguments;
         EXPECT_NE(bake.err.find(": a part of the character, expected another file"),
                   std::string::npos)
             << bake.err;
-        EXPECT_EQ(contentOf(folder + "/" + file), before) << arguments;
+        EXPECT_EQ(test::fileText(folder + "/" + file), before) << arguments;
     }
 }
 
@@ -219,7 +216,7 @@ TEST_F(GuardedSkin, EachOutputHasAFileOfItsOwn) {
 }
 
 TEST_F(GuardedSkin, NamesMayBeInNoUnicodeAndSendNoCommands) {
-    std::string bones = contentOf(folder + "/rig.bvh");
+    std::string bones = test::fileText(folder + "/rig.bvh");
     for (std::size_t at = 0; (at = bones.find("arm", at)) != std::string::npos;)
         bones.replace(at, 3, "\xe4rm");
     save("latin.bvh", bones);
@@ -228,7 +225,7 @@ TEST_F(GuardedSkin, NamesMayBeInNoUnicodeAndSendNoCommands) {
         test::runBake("a.skin --quiet --frames 0 --binding b.json --pose p.json", folder);
     EXPECT_EQ(bake.status, 0) << bake.err;
     for (const char* file : {"b.json", "p.json"})
-        EXPECT_NE(contentOf(folder + "/" + file).find("\"\xef\xbf\xbdrm\""), std::string::npos)
+        EXPECT_NE(test::fileText(folder + "/" + file).find("\"\xef\xbf\xbdrm\""), std::string::npos)
             << file;
     const test::CommandResult usage = test::runBake("a.skin --quiet --motion other", folder);
     EXPECT_EQ(usage.status, 2);
@@ -245,7 +242,7 @@ TEST_F(GuardedSkin, UnfinishedFilesFollowNoLinks) {
         "ln -s victim x.json.part$$; exec " OSGSKIN_BAKE " a.skin --quiet --binding x.json",
         folder);
     EXPECT_EQ(done.status, 0) << done.err;
-    EXPECT_EQ(contentOf(folder + "/victim"), "kept");
+    EXPECT_EQ(test::fileText(folder + "/victim"), "kept");
     EXPECT_GT(fs::file_size(folder + "/x.json"), 100u);
 }
 

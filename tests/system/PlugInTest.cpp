@@ -4,6 +4,7 @@
 #include "Command.h"
 #include "KitCheck.h"
 #include "Notices.h"
+#include "TextFile.h"
 
 #include <gtest/gtest.h>
 
@@ -70,11 +71,6 @@ void writeArm(const std::string& folder) {
         << R"({ "osgskin": 1, "mesh": "arm.obj", "skeleton": "arm.bvh" })";
 }
 
-std::string contentOf(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 std::vector<std::filesystem::path> filesIn(const std::string& folder) {
     std::vector<std::filesystem::path> files;
     if (!std::filesystem::exists(folder)) return files;
@@ -112,10 +108,10 @@ TEST_F(PlugIn, KeepsElasticShapesInTheUsersCacheFolder) {
         const auto result = convert("arm.skin", to + " -O shapes=elastic", cache);
         EXPECT_EQ(result.status, 0);
         EXPECT_EQ(result.err, "");
-        return contentOf(folder + '/' + to);
+        return test::fileText(folder + '/' + to);
     };
     const std::string first = shaped("first.osgb");
-    EXPECT_GT(first.size(), contentOf(folder + "/plain.osgb").size());
+    EXPECT_GT(first.size(), test::fileText(folder + "/plain.osgb").size());
     ASSERT_EQ(filesIn(kept).size(), 1u);
     const auto written = std::filesystem::last_write_time(filesIn(kept)[0]);
     EXPECT_EQ(shaped("second.osgb"), first);

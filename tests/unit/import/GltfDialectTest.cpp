@@ -4,6 +4,7 @@
 #include "GltfBuilder.h"
 #include "Notices.h"
 
+#include <cmath>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
@@ -20,8 +21,7 @@ namespace {
 using nlohmann::json;
 using test::GltfColumn;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kVertices = 24;
+constexpr std::size_t kColumnVertices = 24;
 
 json& primitiveOf(GltfColumn& column) {
     return column.json["meshes"][0]["primitives"][0];
@@ -30,15 +30,15 @@ json& primitiveOf(GltfColumn& column) {
 /// The column's places with a number of floats behind each; the last ones are not there.
 std::size_t trimmedPlaces(GltfColumn& column, std::size_t unused) {
     std::vector<double> numbers;
-    for (std::size_t v = 0; v < kVertices; ++v) {
+    for (std::size_t v = 0; v < kColumnVertices; ++v) {
         numbers.insert(numbers.end(), column.places.begin() + std::ptrdiff_t(3 * v),
                        column.places.begin() + std::ptrdiff_t(3 * v + 3));
-        if (v + 1 < kVertices) numbers.insert(numbers.end(), unused, 0.0);
+        if (v + 1 < kColumnVertices) numbers.insert(numbers.end(), unused, 0.0);
     }
     const std::size_t accessor = column.accessor("SCALAR", numbers);
     json& all = column.json["accessors"];
     all[accessor]["type"] = "VEC3";
-    all[accessor]["count"] = kVertices;
+    all[accessor]["count"] = kColumnVertices;
     column.json["bufferViews"][all[accessor]["bufferView"].get<std::size_t>()]["byteStride"] =
         4 * (3 + unused);
     return accessor;
@@ -53,7 +53,7 @@ double weightOf(const osgSkin::ImportedRig& rig, const std::string& bone) {
     return result;
 }
 
-void expectRefused(GltfColumn& column, const std::string& message) {
+void expectRigRefused(GltfColumn& column, const std::string& message) {
     const std::string path = column.save("untrue.gltf");
     expectError([&] { osgSkin::importRig(path); }, path + ": " + message);
     expectError([&] { osgSkin::importMotion(path); }, path + ": " + message);
@@ -73,8 +73,8 @@ TEST(GltfDialect, ViewsMayEndBehindTheirLastElement) {
     GltfColumn column;
     column.attributes()["POSITION"] = trimmedPlaces(column, 2);
     const osgSkin::ImportedMesh mesh = osgSkin::importMesh(column.save("trimmed.gltf"));
-    ASSERT_EQ(mesh.mesh.positions.size(), kVertices);
-    for (std::size_t v = 0; v < kVertices; ++v)
+    ASSERT_EQ(mesh.mesh.positions.size(), kColumnVertices);
+    for (std::size_t v = 0; v < kColumnVertices; ++v)
         for (int axis = 0; axis < 3; ++axis)
             EXPECT_NEAR(mesh.mesh.positions[v][axis], column.places[3 * v + std::size_t(axis)],
                         1e-6);
@@ -83,7 +83,7 @@ TEST(GltfDialect, ViewsMayEndBehindTheirLastElement) {
 TEST(GltfDialect, JointsMayBeBytesAndShorts) {
     GltfColumn column;
     std::vector<double> first, second, half;
-    for (std::size_t v = 0; v < kVertices; ++v) {
+    for (std::size_t v = 0; v < kColumnVertices; ++v) {
         first.insert(first.end(), {0, 0, 0, 0});
         second.insert(second.end(), {2, 1, 0, 0});
         half.insert(half.end(), {0.25, 0.25, 0, 0});
@@ -93,9 +93,9 @@ TEST(GltfDialect, JointsMayBeBytesAndShorts) {
     column.attributes()["JOINTS_1"] = column.accessor("VEC4", second, 5123);
     column.attributes()["WEIGHTS_1"] = column.attributes()["WEIGHTS_0"];
     const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("joints.gltf"));
-    EXPECT_NEAR(weightOf(rig, "base"), 0.5 * kVertices, 1e-5);
-    EXPECT_NEAR(weightOf(rig, "middle"), 0.25 * kVertices, 1e-5);
-    EXPECT_NEAR(weightOf(rig, "top"), 0.25 * kVertices, 1e-5);
+    EXPECT_NEAR(weightOf(rig, "base"), 0.5 * kColumnVertices, 1e-5);
+    EXPECT_NEAR(weightOf(rig, "middle"), 0.25 * kColumnVertices, 1e-5);
+    EXPECT_NEAR(weightOf(rig, "top"), 0.25 * kColumnVertices, 1e-5);
 }
 
 TEST(GltfDialect, ASkinnedMeshMayBeShownTwice) {
@@ -104,7 +104,7 @@ TEST(GltfDialect, ASkinnedMeshMayBeShownTwice) {
     const std::size_t again = column.node({{"name", "again"}, {"mesh", 0}, {"skin", 0}});
     column.json["scenes"][0]["nodes"].push_back(again);
     const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("twice.gltf"));
-    EXPECT_EQ(rig.body.mesh.positions.size(), 2 * kVertices);
+    EXPECT_EQ(rig.body.mesh.positions.size(), 2 * kColumnVertices);
     for (const char* bone : {"base", "middle", "top"})
         EXPECT_NEAR(weightOf(rig, bone), 2.0 * 8, 1e-5) << bone;
 }
@@ -116,7 +116,7 @@ TEST(GltfDialect, ALibraryHasNoScene) {
     column.json.erase("scenes");
     const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("library.gltf"));
     EXPECT_EQ(rig.rest.joints.size(), 3u);
-    EXPECT_EQ(rig.body.mesh.positions.size(), kVertices);
+    EXPECT_EQ(rig.body.mesh.positions.size(), kColumnVertices);
     EXPECT_EQ(rig.animations.size(), 1u);
 }
 
@@ -150,8 +150,8 @@ TEST(BadGltf, SamplersAreOfOneKind) {
     GltfColumn column = moved("translation", {0, 1, 0, 0, 1, 0, 0, 1, 0});
     json& channels = column.json["animations"][0]["channels"];
     channels.push_back({{"sampler", 0}, {"target", {{"node", 2}, {"path", "rotation"}}}});
-    expectRefused(column,
-                  "animation \"move\": sampler 0: rotations and others, expected a sampler");
+    expectRigRefused(column,
+                     "animation \"move\": sampler 0: rotations and others, expected a sampler");
     channels[1]["target"]["path"] = "scale";
     EXPECT_EQ(osgSkin::importRig(column.save("shared.gltf")).animations.size(), 1u);
 }
@@ -159,31 +159,31 @@ TEST(BadGltf, SamplersAreOfOneKind) {
 TEST(BadGltf, WaysBetweenKeysAreKnown) {
     for (const char* way : {"STEPPED", "linear", ""}) {
         GltfColumn column = moved("rotation", GltfColumn::turns({0, 60, 90}), way);
-        expectRefused(column, "malformed glTF: animations[0].samplers.interpolation: expected "
-                              "LINEAR, STEP or CUBICSPLINE, found \"" +
-                                  std::string(way) + '"');
+        expectRigRefused(column, "malformed glTF: animations[0].samplers.interpolation: expected "
+                                 "LINEAR, STEP or CUBICSPLINE, found \"" +
+                                     std::string(way) + '"');
     }
 }
 
 TEST(BadGltf, KeysAreNumbersOfTheirKind) {
-    for (const double number : {kNaN, 1e30, std::numeric_limits<double>::infinity()}) {
+    for (const double number : {std::nan(""), 1e30, std::numeric_limits<double>::infinity()}) {
         const std::string where = "animation \"move\": sampler 0: accessors[6]: element 1 has ";
         for (const char* path : {"translation", "scale"}) {
             GltfColumn column = moved(path, {1, 1, 1, 1, number, 1, 1, 1, 1});
-            expectRefused(column, where);
+            expectRigRefused(column, where);
         }
         std::vector<double> turns = GltfColumn::turns({0, 60, 90});
         turns[6] = number;
         GltfColumn column = moved("rotation", turns);
-        expectRefused(column, where);
+        expectRigRefused(column, where);
     }
     GltfColumn column = moved("rotation", {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1});
-    expectRefused(column, "animation \"move\": sampler 0: accessors[6]: element 1 is zero, "
-                          "expected a rotation");
+    expectRigRefused(column, "animation \"move\": sampler 0: accessors[6]: element 1 is zero, "
+                             "expected a rotation");
 }
 
 TEST(BadGltf, BindMatricesAreFinite) {
-    for (const double number : {kNaN, 1e30}) {
+    for (const double number : {std::nan(""), 1e30}) {
         GltfColumn column;
         column.bend();
         std::vector<double> matrices(48, 0.0);
@@ -191,8 +191,9 @@ TEST(BadGltf, BindMatricesAreFinite) {
             if (i % 16 % 5 == 0) matrices[i] = 1.0;
         matrices[20] = number;
         column.json["skins"][0]["inverseBindMatrices"] = column.accessor("MAT4", matrices);
-        expectRefused(column, "malformed glTF: accessors[9], skins[0].inverseBindMatrices: number "
-                              "20 is ");
+        expectRigRefused(column,
+                         "malformed glTF: accessors[9], skins[0].inverseBindMatrices: number "
+                         "20 is ");
     }
 }
 

@@ -1,32 +1,29 @@
 // SPDX-License-Identifier: MIT
 // glTF files that are broken as a whole, or of another version: each says where.
 #include "ExpectError.h"
+#include "GlbNumber.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
+#include "TextFile.h"
 
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportRig>
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 
 namespace {
 
 using nlohmann::json;
+using test::glbNumber;
 using test::GltfColumn;
-
-std::string number(std::size_t value) {
-    std::string bytes;
-    for (int k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(value >> 8 * k & 0xff));
-    return bytes;
-}
+using test::saveText;
 
 /// A binary file of one chunk.
 /// \param told the length that its header tells; 0: the file's
 std::string glbOf(const std::string& text, std::size_t version = 2, std::size_t told = 0) {
-    const std::string chunk = number(text.size()) + "JSON" + text;
-    return "glTF" + number(version) + number(told > 0 ? told : 12 + chunk.size()) + chunk;
+    const std::string chunk = glbNumber(text.size()) + "JSON" + text;
+    return "glTF" + glbNumber(version) + glbNumber(told > 0 ? told : 12 + chunk.size()) + chunk;
 }
 
 std::string textOf(GltfColumn& column) {
@@ -34,19 +31,13 @@ std::string textOf(GltfColumn& column) {
     return column.json.dump();
 }
 
-std::string saved(const std::string& name, const std::string& content) {
-    std::string path = testing::TempDir() + name;
-    std::ofstream(path, std::ios::binary) << content;
-    return path;
-}
-
 void expectRefused(const std::string& content, const std::string& message) {
-    const std::string path = saved("broken.gltf", content);
+    const std::string path = saveText("broken.gltf", content);
     expectError([&] { osgSkin::importMesh(path); }, path + ": " + message);
 }
 
 void expectRead(const std::string& content) {
-    EXPECT_EQ(osgSkin::importMesh(saved("whole.gltf", content)).mesh.positions.size(), 24u);
+    EXPECT_EQ(osgSkin::importMesh(saveText("whole.gltf", content)).mesh.positions.size(), 24u);
 }
 
 } // namespace

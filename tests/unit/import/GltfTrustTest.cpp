@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // glTF files whose numbers name what is not there, and buffers in every place that they may have.
 #include "ExpectError.h"
+#include "GlbNumber.h"
 #include "GltfBuilder.h"
 #include "Paths.h"
 
+#include <cmath>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportRig>
 
@@ -22,9 +24,8 @@
 namespace {
 
 using nlohmann::json;
+using test::glbNumber;
 using test::GltfColumn;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Corners of faces of the column.
 std::vector<double> indices() {
@@ -35,7 +36,7 @@ std::vector<double> indices() {
     return result;
 }
 
-void expectRefused(GltfColumn& column, const std::string& message) {
+void expectMeshRefused(GltfColumn& column, const std::string& message) {
     const std::string path = column.save("untrue.gltf");
     expectError([&] { osgSkin::importMesh(path); }, path + ": " + message);
     expectError([&] { osgSkin::importRig(path); }, path + ": " + message);
@@ -58,7 +59,7 @@ void expectWeights(const std::vector<double>& joints, const std::vector<double>&
     }
     column.attributes()["JOINTS_0"] = column.accessor("VEC4", allJoints, 5121);
     column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", allWeights);
-    if (!message.empty()) return expectRefused(column, message);
+    if (!message.empty()) return expectMeshRefused(column, message);
     const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("true.gltf"));
     ASSERT_EQ(rig.body.weights.size(), 3u);
     double weight = 0.0;
@@ -67,21 +68,15 @@ void expectWeights(const std::vector<double>& joints, const std::vector<double>&
     EXPECT_NEAR(weight, 1.0, 1e-6);
 }
 
-std::string number(std::size_t value) {
-    std::string bytes;
-    for (int k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(value >> 8 * k & 0xff));
-    return bytes;
-}
-
 /// A binary file of a text and, where there are some, bytes.
 std::string saveGlb(const std::string& name, std::string text, std::string bytes) {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
-    std::string chunks = number(text.size()) + "JSON" + text;
-    if (!bytes.empty()) chunks += number(bytes.size()) + std::string("BIN\0", 4) + bytes;
+    std::string chunks = glbNumber(text.size()) + "JSON" + text;
+    if (!bytes.empty()) chunks += glbNumber(bytes.size()) + std::string("BIN\0", 4) + bytes;
     std::string path = testing::TempDir() + name;
     std::ofstream(path, std::ios::binary)
-        << "glTF" << number(2) << number(12 + chunks.size()) << chunks;
+        << "glTF" << glbNumber(2) << glbNumber(12 + chunks.size()) << chunks;
     return path;
 }
 
@@ -121,9 +116,9 @@ TEST(BadGltf, IndicesNameVerticesThatAreThere) {
         corners[5] = beyond;
         column.json["meshes"][0]["primitives"][0]["indices"] =
             column.accessor("SCALAR", corners, 5123);
-        expectRefused(column, "malformed glTF: accessors[5], meshes[0].primitives[0].indices: "
-                              "number 5 is " +
-                                  std::to_string(beyond) + ", expected a vertex below 24");
+        expectMeshRefused(column, "malformed glTF: accessors[5], meshes[0].primitives[0].indices: "
+                                  "number 5 is " +
+                                      std::to_string(beyond) + ", expected a vertex below 24");
     }
 }
 
@@ -133,7 +128,7 @@ TEST(BadGltf, JointsAndWeightsAreSome) {
         {0, 3, 0, 0}, {0.5, 0.5, 0, 0},
         "malformed glTF: accessors[5]" + primitive +
             "JOINTS_0: vertex 5 follows joint 3, expected one of the 3 that the skin has");
-    expectWeights({0, 0, 0, 0}, {kNaN, 0, 0, 0},
+    expectWeights({0, 0, 0, 0}, {std::nan(""), 0, 0, 0},
                   "malformed glTF: accessors[6]" + primitive +
                       "WEIGHTS_0: vertex 5 has the weight nan, expected a number of 0 or more");
     expectWeights({0, 1, 0, 0}, {1.5, -0.5, 0, 0},
@@ -152,7 +147,7 @@ TEST(BadGltf, TimesOfKeysDoNotGoBack) {
     };
     for (const char* interpolation : {"LINEAR", "STEP"}) {
         const std::string where = testing::TempDir() + "back.gltf: animation \"bend\": sampler 0: ";
-        for (const double back : {0.4, kNaN}) {
+        for (const double back : {0.4, std::nan("")}) {
             GltfColumn column = moved({0.0, 0.5, back}, interpolation);
             const std::string path = column.save("back.gltf");
             expectError([&] { osgSkin::importRig(path); }, where + "accessors[5]: key 2 is at ");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Files that readers behind us believed: each took memory, time or the program with it.
 #include "ExpectError.h"
+#include "GlbNumber.h"
 #include "Paths.h"
+#include "TextFile.h"
 
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
@@ -25,6 +27,9 @@
 
 namespace {
 
+using test::glbNumber;
+using test::saveText;
+
 struct Guarded {
     const char* name; ///< of a file
     std::string content;
@@ -33,12 +38,6 @@ struct Guarded {
 
 void PrintTo(const Guarded& file, std::ostream* out) {
     *out << file.name;
-}
-
-std::string save(const std::string& name, const std::string& content) {
-    std::string path = testing::TempDir() + name;
-    std::ofstream(path, std::ios::binary) << content;
-    return path;
 }
 
 const std::string kPlyVertices = "element vertex 3\nproperty float x\nproperty float y\n"
@@ -72,18 +71,12 @@ std::string nested(std::size_t lists) {
     return std::string(lists, '[') + std::string(lists, ']');
 }
 
-std::string number(std::size_t value) {
-    std::string bytes;
-    for (int k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(value >> 8 * k & 0xff));
-    return bytes;
-}
-
 /// A binary file of a text and, where there are some, bytes.
 std::string glb(std::string text, const std::string& bytes = "") {
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::string chunks = number(text.size()) + "JSON" + text;
-    if (!bytes.empty()) chunks += number(bytes.size()) + std::string("BIN\0", 4) + bytes;
-    return "glTF" + number(2) + number(12 + chunks.size()) + chunks;
+    std::string chunks = glbNumber(text.size()) + "JSON" + text;
+    if (!bytes.empty()) chunks += glbNumber(bytes.size()) + std::string("BIN\0", 4) + bytes;
+    return "glTF" + glbNumber(2) + glbNumber(12 + chunks.size()) + chunks;
 }
 
 /// Keys at 0 and 1e30 seconds; the values are zeros, which take no room.
@@ -137,14 +130,14 @@ class GuardedMesh : public testing::TestWithParam<Guarded> {};
 
 TEST_P(GuardedMesh, IsRefusedWithFileAndPlace) {
     const Guarded& file = GetParam();
-    const std::string path = save(std::string("guarded_") + file.name, file.content);
+    const std::string path = saveText(std::string("guarded_") + file.name, file.content);
     expectError([&] { osgSkin::importMesh(path); }, path + ": " + file.message);
 }
 
 TEST(GuardedPly, RemarksWithoutAKeywordAreNone) {
     const std::string path =
-        save("remark.ply", "ply\nformat ascii 1.0\nCreated by Blender3D 247\n\n" + kPlyVertices +
-                               kPlyFaces + kPlyTriangle);
+        saveText("remark.ply", "ply\nformat ascii 1.0\nCreated by Blender3D 247\n\n" +
+                                   kPlyVertices + kPlyFaces + kPlyTriangle);
     EXPECT_EQ(osgSkin::importMesh(path).mesh.positions.size(), 3u);
 }
 
@@ -296,7 +289,7 @@ TEST(Guard, NothingIsRunOrUnpacked) {
 }
 
 TEST(Guard, MotionsAreAsLargeAsTheirFiles) {
-    const std::string path = save("wide.bvh", bvh(3000, 3000, false));
+    const std::string path = saveText("wide.bvh", bvh(3000, 3000, false));
     expectError([&] { osgSkin::importMotion(path); }, "3000 frames of 3001 joints");
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("maxSamples=10000000");
     EXPECT_EQ(osgSkin::importMotion(path, 0, {}, options).frames, 3000u);
@@ -305,17 +298,17 @@ TEST(Guard, MotionsAreAsLargeAsTheirFiles) {
         const auto most = std::to_string(samples - fits.size() / 2);
         return osg::ref_ptr<osgDB::Options>(new osgDB::Options("maxSamples=" + most));
     };
-    const std::string just = save("just.bvh", fits);
+    const std::string just = saveText("just.bvh", fits);
     EXPECT_EQ(osgSkin::importMotion(just, 0, {}, limit(2000)).frames, 200u);
     expectError([&] { osgSkin::importMotion(just, 0, {}, limit(1999)); }, "at most 1999 rotations");
-    const std::string many = save("many.bvh", bvh(20'000, 1, false));
+    const std::string many = saveText("many.bvh", bvh(20'000, 1, false));
     expectError([&] { osgSkin::importSkeleton(many); },
                 "one of more than 10000 (option maxJoints)");
 }
 
 /// Texture coordinates of the faces' corners only, so that those of the strips' are none.
 TEST(Guard, StripsBesideFacesHaveNoTextureCoordinates) {
-    const std::string path = save(
+    const std::string path = saveText(
         "strips.ply", "ply\nformat ascii 1.0\n" + kPlyVertices + kPlyFaces +
                           "property list uchar float texcoord\nelement tristrips 1\nproperty list "
                           "int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
@@ -338,13 +331,13 @@ TEST(Guard, MorphTargetsAndBuffersAreAsLargeAsTheirFiles) {
     const std::string targets = repeated(80, [](std::size_t) { return R"({"POSITION":0})"; });
     const std::string ones = repeated(80, [](std::size_t) { return "1"; });
     const std::string morphs =
-        save("morphs.gltf",
-             sparse(1000, 5121, ",\"targets\":[" + targets + "]", ",\"weights\":[" + ones + "]"));
+        saveText("morphs.gltf", sparse(1000, 5121, ",\"targets\":[" + targets + "]",
+                                       ",\"weights\":[" + ones + "]"));
     expectError([&] { import(morphs, "maxSamples=2000"); },
                 "malformed glTF: expected morph targets of less vertices");
 
-    save("buffer.bin", std::string(600'000, 'x'));
-    const std::string buffers = save(
+    saveText("buffer.bin", std::string(600'000, 'x'));
+    const std::string buffers = saveText(
         "buffers.gltf",
         gltf(
             R"("buffers":[)" +
@@ -358,13 +351,13 @@ TEST(Guard, MorphTargetsAndBuffersAreAsLargeAsTheirFiles) {
 TEST(Guard, MaterialLibrariesAreReadOnce) {
     std::string library, text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 20'000; ++i) library += "newmtl a" + std::to_string(i) + "\nKd 0 0 1\n";
-    save("spelled.mtl", library + "newmtl a7\nKd 1 0 0\n");
+    saveText("spelled.mtl", library + "newmtl a7\nKd 1 0 0\n");
     for (int i = 0; i < 200; ++i) {
         text += "mtllib ";
         for (int k = 0; k < 8; ++k) text += (i >> k) % 2 == 0 ? "./" : ".//";
         text += "spelled.mtl\n";
     }
-    const std::string path = save("spelled.obj", text + "usemtl a7\nf 1 2 3\n");
+    const std::string path = saveText("spelled.obj", text + "usemtl a7\nf 1 2 3\n");
     const auto begin = std::chrono::steady_clock::now();
     const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
@@ -376,12 +369,12 @@ TEST(Guard, MaterialLibrariesAreReadOnce) {
 
     std::string uses;
     for (int i = 0; i < 100; ++i) uses += "usemtl " + std::to_string(i) + "\nf 1 2 3\n";
-    const std::string many = save("materials.obj", text + uses);
+    const std::string many = saveText("materials.obj", text + uses);
     const osg::ref_ptr<osgDB::Options> few = new osgDB::Options("maxSamples=1");
     const std::size_t most = (1 + (text.size() + uses.size()) / 2) / 20;
     EXPECT_GT(most, 100u);
     EXPECT_EQ(osgSkin::importMesh(many, few).mesh.positions.size(), 3u);
-    const std::string beyond = save("materials.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + uses);
+    const std::string beyond = saveText("materials.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + uses);
     expectError([&] { osgSkin::importMesh(beyond, few); }, "100 materials, expected at most ");
 }
 
@@ -390,7 +383,7 @@ TEST(Guard, LongNumbersOfObjFilesAreTheirValues) {
     const std::string rest = "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const std::string thirds(2000, '3');
     const auto first = [&](const std::string& number) {
-        return osgSkin::importMesh(save("long.obj", "v " + number + " 0 0" + rest))
+        return osgSkin::importMesh(saveText("long.obj", "v " + number + " 0 0" + rest))
             .mesh.positions.at(0)[0];
     };
     EXPECT_EQ(first("1." + thirds), 4.0 / 3.0);
@@ -420,6 +413,6 @@ TEST(Guard, LineEndsAndMarksDoNotMatter) {
         for (std::size_t at = 0; (at = other.find('\n', at)) != std::string::npos;
              at += std::string(end).size())
             other.replace(at, 1, end);
-        EXPECT_EQ(osgSkin::importMesh(save("ends.obj", other)).mesh.positions.size(), 3u);
+        EXPECT_EQ(osgSkin::importMesh(saveText("ends.obj", other)).mesh.positions.size(), 3u);
     }
 }

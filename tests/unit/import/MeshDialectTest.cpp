@@ -18,7 +18,7 @@ namespace {
 using namespace std::string_literals;
 using osgSkin::ImportedMesh;
 
-ImportedMesh read(const std::string& name, const std::string& content) {
+ImportedMesh readMesh(const std::string& name, const std::string& content) {
     const std::string path = testing::TempDir() + name;
     std::ofstream(path, std::ios::binary) << content;
     return osgSkin::importMesh(path);
@@ -37,19 +37,19 @@ osg::Vec4 diffuseOf(const ImportedMesh& mesh) {
 osg::Vec4 diffuseBy(const std::string& library) {
     std::ofstream(testing::TempDir() + "dialect.mtl") << "newmtl m\n" << library;
     return diffuseOf(
-        read("dialect.obj", "mtllib dialect.mtl\n" + kSquare + "usemtl m\nf 1 2 3 4\n"));
+        readMesh("dialect.obj", "mtllib dialect.mtl\n" + kSquare + "usemtl m\nf 1 2 3 4\n"));
 }
 
-const std::string kVertices = "element vertex 3\nproperty float x\nproperty float y\n"
-                              "property float z\n",
+const std::string kThreeVertices = "element vertex 3\nproperty float x\nproperty float y\n"
+                                   "property float z\n",
                   kFaces = "element face 1\nproperty list uchar int vertex_indices\n",
-                  kPlaces = "0 0 0\n1 0 0\n0 1 0\n";
+                  kThreePlaces = "0 0 0\n1 0 0\n0 1 0\n";
 
 std::string ply(const std::string& header, const std::string& body) {
     return "ply\nformat ascii 1.0\n" + header + "end_header\n" + body;
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string replacedOnce(std::string text, const std::string& from, const std::string& to) {
     return text.replace(text.find(from), from.size(), to);
 }
 
@@ -59,22 +59,23 @@ const std::string kCorners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 TEST(ObjDialects, LinesGoOnBehindBackslashes) {
     for (const std::string end : {"\n", "\r\n"}) {
-        const ImportedMesh mesh =
-            read("lines.obj", "# C:\\folder\\" + end + "v 0 0 \\" + end + "0\nv 1 0 0\nv 1 1 0\n" +
-                                  "v 0 1 0\nf 1 2\\" + end + "3 \\" + end + "4\n");
+        const ImportedMesh mesh = readMesh(
+            "lines.obj", "# C:\\folder\\" + end + "v 0 0 \\" + end + "0\nv 1 0 0\nv 1 1 0\n" +
+                             "v 0 1 0\nf 1 2\\" + end + "3 \\" + end + "4\n");
         EXPECT_EQ(mesh.mesh.positions.size(), 4u);
         EXPECT_EQ(mesh.mesh.faceSizes, std::vector<std::uint32_t>{4});
     }
-    expectError([] { read("end.obj", kSquare + "f 1 2 \\\n9 \\\n3\n"); },
+    expectError([] { readMesh("end.obj", kSquare + "f 1 2 \\\n9 \\\n3\n"); },
                 "end.obj: line 5: \"9\" in a face");
-    expectError([] { read("last.obj", kSquare + "f 1 2 \\\n3\nf 1 2 9\n"); }, "line 7: \"9\"");
+    expectError([] { readMesh("last.obj", kSquare + "f 1 2 \\\n3\nf 1 2 9\n"); }, "line 7: \"9\"");
 }
 
 TEST(ObjDialects, CornersMayEndWithSlashes) {
     for (const char* face : {"f 1// 2// 3//", "f 1/ 2/ 3/", "f 1/1/ 2/1/ 3/1/"})
-        EXPECT_EQ(read("slash.obj", kSquare + "vt 0 0\n" + face + "\n").mesh.faceSizes.size(), 1u);
+        EXPECT_EQ(readMesh("slash.obj", kSquare + "vt 0 0\n" + face + "\n").mesh.faceSizes.size(),
+                  1u);
     for (const char* face : {"f 1/// 2 3", "f / 2 3", "f // 2 3", "f /1 2 3", "f 1/1/1/1 2 3"})
-        expectError([&] { read("slash.obj", kSquare + "vt 0 0\nvn 0 0 1\n" + face + "\n"); },
+        expectError([&] { readMesh("slash.obj", kSquare + "vt 0 0\nvn 0 0 1\n" + face + "\n"); },
                     "line 7: ");
 }
 
@@ -82,7 +83,7 @@ TEST(ObjDialects, NormalsAndTextureCoordinatesMayBeNoNumbers) {
     for (const char* lines :
          {"vn -1.#IND00 1.#QNAN 0\nf 1//1 2//1 3//1\n", "vn nan(ind) inf 0\nf 1//1 2//1 3//1\n",
           "vt nan -1.#INF\nf 1/1 2/1 3/1\n"}) {
-        const ImportedMesh mesh = read("broken.obj", kSquare + lines);
+        const ImportedMesh mesh = readMesh("broken.obj", kSquare + lines);
         const osg::Geometry& drawn = *mesh.parts.at(0).geometry;
         for (const osg::Vec3& normal : dynamic_cast<const osg::Vec3Array&>(*drawn.getNormalArray()))
             EXPECT_EQ(normal, osg::Vec3(0, 0, 1));
@@ -90,13 +91,13 @@ TEST(ObjDialects, NormalsAndTextureCoordinatesMayBeNoNumbers) {
         for (const osg::Vec2& t : dynamic_cast<const osg::Vec2Array&>(*drawn.getTexCoordArray(0)))
             EXPECT_EQ(t, osg::Vec2());
     }
-    expectError([] { read("broken.obj", "v -1.#IND00 0 0\n"); },
+    expectError([] { readMesh("broken.obj", "v -1.#IND00 0 0\n"); },
                 "line 1: \"-1.#IND00\" in a \"v\"");
 }
 
 TEST(ObjDialects, SomeVerticesWithColoursAreToldOf) {
     const test::Notices notices;
-    read("coloured.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+    readMesh("coloured.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
     EXPECT_TRUE(notices.say("2 of 3 vertices have colours, which are left out")) << notices.text();
 }
 
@@ -109,15 +110,17 @@ TEST(ObjDialects, MaterialsMayHaveOneNumberOrNone) {
 }
 
 TEST(PlyDialects, WhatIsNoWholeNumberCountsNothing) {
-    const std::string floats = replaced(kFaces, "int", "float");
-    expectError([&] { read("half.ply", ply(kVertices + floats, kPlaces + "3 0 1.5 2\n")); },
-                "half.ply: face 0 names vertex 1.5");
-    EXPECT_EQ(
-        read("whole.ply", ply(kVertices + floats, kPlaces + "3 0 1 2\n")).mesh.faceSizes.size(),
-        1u);
+    const std::string floats = replacedOnce(kFaces, "int", "float");
+    expectError(
+        [&] { readMesh("half.ply", ply(kThreeVertices + floats, kThreePlaces + "3 0 1.5 2\n")); },
+        "half.ply: face 0 names vertex 1.5");
+    EXPECT_EQ(readMesh("whole.ply", ply(kThreeVertices + floats, kThreePlaces + "3 0 1 2\n"))
+                  .mesh.faceSizes.size(),
+              1u);
     expectError(
         [&] {
-            read("c.ply", ply(replaced(kVertices, "3", "3.7") + kFaces, kPlaces + "3 0 1 2\n"));
+            readMesh("c.ply", ply(replacedOnce(kThreeVertices, "3", "3.7") + kFaces,
+                                  kThreePlaces + "3 0 1 2\n"));
         },
         "c.ply: line 3: \"3.7\" elements, expected a whole number");
 }
@@ -125,17 +128,18 @@ TEST(PlyDialects, WhatIsNoWholeNumberCountsNothing) {
 TEST(PlyDialects, WordsBehindTheLastElementAreRefused) {
     // Rows of four numbers, of which the header tells three.
     const std::string longer = "0 0 0 3\n0 1 2 3\n1 0 0 3\n";
-    expectError([&] { read("rows.ply", ply(kVertices + kFaces, longer)); },
+    expectError([&] { readMesh("rows.ply", ply(kThreeVertices + kFaces, longer)); },
                 "rows.ply: words behind the last element");
     for (const char* end : {"", "\n \r\n", "\n\x1a", "\n\x1a\n"})
-        EXPECT_EQ(read("end.ply", ply(kVertices + kFaces, kPlaces + "3 0 1 2" + end))
+        EXPECT_EQ(readMesh("end.ply", ply(kThreeVertices + kFaces, kThreePlaces + "3 0 1 2" + end))
                       .mesh.faceSizes.size(),
                   1u);
     const test::Notices notices;
-    read("bytes.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\n"
-                      "property uchar y\nproperty uchar z\nelement face 1\n"
-                      "property list uchar uchar vertex_indices\nend_header\n" +
-                          "\0\0\0\1\0\0\0\1\0\3\0\1\2\n\n"s);
+    readMesh("bytes.ply",
+             "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\n"
+             "property uchar y\nproperty uchar z\nelement face 1\n"
+             "property list uchar uchar vertex_indices\nend_header\n" +
+                 "\0\0\0\1\0\0\0\1\0\3\0\1\2\n\n"s);
     EXPECT_TRUE(notices.say("bytes behind the last element, passed over")) << notices.text();
 }
 
@@ -147,16 +151,16 @@ TEST(PlyDialects, ALineFeedMayBeTheBodysFirstByte) {
               "property uchar y", "property uchar z", "element face 1",
               "property list uchar uchar vertex_indices", "end_header"})
             text += line + end;
-        const ImportedMesh mesh = read("feed.ply", text + "\n\0\0\1\0\0\0\1\0\3\0\1\2"s);
+        const ImportedMesh mesh = readMesh("feed.ply", text + "\n\0\0\1\0\0\0\1\0\3\0\1\2"s);
         EXPECT_EQ(mesh.mesh.positions.at(0), glm::dvec3(10, 0, 0));
     }
 }
 
 TEST(OffDialects, CommentsAndBlankLinesStandAnywhere) {
-    const ImportedMesh mesh =
-        read("comments.off", "# made by hand\nOFF # text\n\n4 1 0 # counts\n# places\n \t\n" +
-                                 replaced(kCorners, "1 1 0\n", "# one more\n1 1 0 # up\n\r\n") +
-                                 "\n4 0 1 2 3 255 0 0 # red\n");
+    const ImportedMesh mesh = readMesh(
+        "comments.off", "# made by hand\nOFF # text\n\n4 1 0 # counts\n# places\n \t\n" +
+                            replacedOnce(kCorners, "1 1 0\n", "# one more\n1 1 0 # up\n\r\n") +
+                            "\n4 0 1 2 3 255 0 0 # red\n");
     EXPECT_EQ(mesh.mesh.positions.size(), 4u);
     EXPECT_EQ(mesh.mesh.faceVertices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
     EXPECT_EQ(diffuseOf(mesh), osg::Vec4(.6f, .6f, .6f, 1));
@@ -170,11 +174,11 @@ TEST(OffDialects, FacesHaveAnyNumberOfCorners) {
         face += " " + std::to_string(k);
     }
     // Points and lines are none.
-    const ImportedMesh mesh = read("wheel.off", text + "1 0\n" + face + "\n2 0 1\n");
+    const ImportedMesh mesh = readMesh("wheel.off", text + "1 0\n" + face + "\n2 0 1\n");
     EXPECT_EQ(mesh.mesh.faceSizes, std::vector<std::uint32_t>{300});
     for (const char* broken :
          {"0", "4 0 1 2", "-3 0 1 2", "3 0 1 4", "3 0 1 1.5", "3.5 0 1 2", "x"})
-        expectError([&] { read("broken.off", "OFF\n4 1 0\n" + kCorners + broken + "\n"); },
+        expectError([&] { readMesh("broken.off", "OFF\n4 1 0\n" + kCorners + broken + "\n"); },
                     "broken.off: face 0: expected a line with a number of corners and so many");
 }
 
@@ -182,7 +186,8 @@ TEST(OffDialects, ColoursMayHaveNoAlpha) {
     const auto colourOf = [](const std::string& keyword, const std::string& more) {
         std::string text;
         for (const char* place : {"0 0 0 ", "1 0 0 ", "0 1 0 "}) text += place + more + "\n";
-        const ImportedMesh mesh = read("colours.off", keyword + "\n3 1 0\n" + text + "3 0 1 2\n");
+        const ImportedMesh mesh =
+            readMesh("colours.off", keyword + "\n3 1 0\n" + text + "3 0 1 2\n");
         return dynamic_cast<const osg::Vec4Array&>(*mesh.parts.at(0).geometry->getColorArray())
             .at(0);
     };
@@ -193,8 +198,8 @@ TEST(OffDialects, ColoursMayHaveNoAlpha) {
 }
 
 TEST(OffDialects, NormalsAndTheDivisorAreTheFiles) {
-    const ImportedMesh mesh = read("normals.off", "N4OFF\n3 1 0\n0 0 0 2 0 1 1\n2 0 0 2 0 1 1\n"
-                                                  "0 2 0 2 0 1 1\n3 0 1 2\n");
+    const ImportedMesh mesh = readMesh("normals.off", "N4OFF\n3 1 0\n0 0 0 2 0 1 1\n2 0 0 2 0 1 1\n"
+                                                      "0 2 0 2 0 1 1\n3 0 1 2\n");
     EXPECT_EQ(mesh.mesh.positions.at(1), glm::dvec3(1, 0, 0));
     const auto& normals =
         dynamic_cast<const osg::Vec3Array&>(*mesh.parts.at(0).geometry->getNormalArray());

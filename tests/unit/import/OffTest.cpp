@@ -2,23 +2,19 @@
 // OFF files as others write them, and byte order marks before texts of meshes.
 #include "ExpectError.h"
 #include "Paths.h"
+#include "TextFile.h"
 
 #include <osgSkinImport/ImportMesh>
 
 #include <osg/Geometry>
 
-#include <fstream>
 #include <string>
 
 namespace {
 
-constexpr char kMark[] = "\xef\xbb\xbf";
+using test::saveText;
 
-std::string save(const std::string& name, const std::string& content) {
-    std::string path = testing::TempDir() + name;
-    std::ofstream(path, std::ios::binary) << content;
-    return path;
-}
+constexpr char kMark[] = "\xef\xbb\xbf";
 
 /// A triangle; `more` follows each vertex.
 std::string off(const std::string& keyword, const std::string& more = "",
@@ -34,7 +30,7 @@ const std::string kPly = "element vertex 3\nproperty float x\nproperty float y\n
 
 TEST(Off, NumbersOfAnyLengthAreTheirValues) {
     const auto first = [](const std::string& x) {
-        return osgSkin::importMesh(save("long.off", off("OFF", "", x))).mesh.positions.at(0)[0];
+        return osgSkin::importMesh(saveText("long.off", off("OFF", "", x))).mesh.positions.at(0)[0];
     };
     EXPECT_EQ(first("123456789012345678"), double(123456789012345678.0f));
     EXPECT_EQ(first("-12345678901234567"), double(-12345678901234567.0f));
@@ -48,7 +44,7 @@ TEST(Off, NumbersOfAnyLengthAreTheirValues) {
 
 TEST(Off, ColoursAndTextureCoordinatesFollowNormals) {
     const auto arrays = [](const std::string& text) {
-        const osgSkin::ImportedMesh mesh = osgSkin::importMesh(save("kinds.off", text));
+        const osgSkin::ImportedMesh mesh = osgSkin::importMesh(saveText("kinds.off", text));
         return mesh.parts.at(0).geometry;
     };
     for (const auto& [keyword, more] :
@@ -66,13 +62,13 @@ TEST(Off, ColoursAndTextureCoordinatesFollowNormals) {
         ASSERT_NE(places, nullptr) << keyword;
         EXPECT_EQ(places->at(0), osg::Vec2(.25f, .5f)) << keyword;
     }
-    const std::string path = save("short.off", off("CNOFF", "0 0"));
+    const std::string path = saveText("short.off", off("CNOFF", "0 0"));
     expectError([&] { osgSkin::importMesh(path); }, path + ": vertex 0: expected a line of 6");
 }
 
 TEST(Marks, MayBeginMeshes) {
     const auto vertices = [](const std::string& name, const std::string& content) {
-        return osgSkin::importMesh(save(name, kMark + content)).mesh.positions.size();
+        return osgSkin::importMesh(saveText(name, kMark + content)).mesh.positions.size();
     };
     EXPECT_EQ(vertices("marked.off", off("OFF")), 3u);
     EXPECT_EQ(

@@ -77,15 +77,15 @@ test::GltfColumn columnWith(const std::string& bytes,
 }
 
 /// Shows each image of a file on a part of its own.
-void showImages(nlohmann::json& json) {
-    const nlohmann::json primitive = json["meshes"][0]["primitives"][0];
-    json["meshes"][0]["primitives"].clear();
-    for (std::size_t i = 0; i < json["images"].size(); ++i) {
-        json["textures"].push_back({{"source", i}});
-        json["materials"].push_back(
+void showImages(nlohmann::json& file) {
+    const nlohmann::json primitive = file["meshes"][0]["primitives"][0];
+    file["meshes"][0]["primitives"].clear();
+    for (std::size_t i = 0; i < file["images"].size(); ++i) {
+        file["textures"].push_back({{"source", i}});
+        file["materials"].push_back(
             {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
-        json["meshes"][0]["primitives"].push_back(primitive);
-        json["meshes"][0]["primitives"].back()["material"] = i;
+        file["meshes"][0]["primitives"].push_back(primitive);
+        file["meshes"][0]["primitives"].back()["material"] = i;
     }
 }
 

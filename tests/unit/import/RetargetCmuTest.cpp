@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Figure.h"
+#include "JointIndex.h"
 #include "Paths.h"
 
 #include <osgSkinImport/ImportMotion>
@@ -14,18 +15,12 @@ using osgSkin::Clip;
 using osgSkin::Motion;
 using osgSkin::RestSkeleton;
 
-std::size_t index(const RestSkeleton& skeleton, const std::string& name) {
-    const int j = skeleton.find(name);
-    EXPECT_GE(j, 0) << name;
-    return static_cast<std::size_t>(j);
-}
-
-struct Bone {
+struct Limb {
     const char* from;
     const char* to;
 };
 
-constexpr Bone limbs[] = {
+constexpr Limb kLimbs[] = {
     {"Arm", "ForeArm"}, {"ForeArm", "Hand"}, {"UpLeg", "Leg"}, {"Leg", "Foot"}};
 
 class CmuClip : public testing::TestWithParam<const char*> {
@@ -51,12 +46,13 @@ TEST_P(CmuClip, LimbsPointWhereTheMotionsLimbsPoint) {
         const Placed ours = place(clip, rig, f);
         const Placed theirs = place(motion, f);
         for (const char* side : {"Left", "Right"})
-            for (const Bone& bone : limbs) {
+            for (const Limb& bone : kLimbs) {
                 const std::string from = std::string(side) + bone.from;
                 const std::string to = std::string(side) + bone.to;
-                const glm::dvec3 a = ours.places[index(rig, to)] - ours.places[index(rig, from)];
-                const glm::dvec3 b = theirs.places[index(motion.skeleton, to)] -
-                                     theirs.places[index(motion.skeleton, from)];
+                const glm::dvec3 a =
+                    ours.places[jointIndex(rig, to)] - ours.places[jointIndex(rig, from)];
+                const glm::dvec3 b = theirs.places[jointIndex(motion.skeleton, to)] -
+                                     theirs.places[jointIndex(motion.skeleton, from)];
                 ASSERT_LT(angleBetween(a, b), 0.1) << from << ", frame " << f;
             }
     }
@@ -69,7 +65,7 @@ TEST_P(CmuClip, FeetTurnWithTheMotionButForTheirHeading) {
         for (std::size_t f = 0; f < clip.frames; f += 7) {
             const glm::dvec3 up(0, 1, 0); // the sole's normal at rest
             ASSERT_LT(angleBetween(place(clip, rig, f).turns[ours] * up,
-                                   place(motion, f).turns[index(motion.skeleton, name)] * up),
+                                   place(motion, f).turns[jointIndex(motion.skeleton, name)] * up),
                       1e-3)
                 << name << ", frame " << f;
         }
@@ -81,8 +77,8 @@ TEST_P(CmuClip, TrunkTurnsWithTheMotion) {
         const Placed ours = place(clip, rig, f);
         const Placed theirs = place(motion, f);
         for (const char* name : {"Hips", "Spine", "Spine1", "Neck", "Head", "LeftShoulder"})
-            ASSERT_LT(angleBetween(ours.turns[index(rig, name)],
-                                   theirs.turns[index(motion.skeleton, name)]),
+            ASSERT_LT(angleBetween(ours.turns[jointIndex(rig, name)],
+                                   theirs.turns[jointIndex(motion.skeleton, name)]),
                       1e-3)
                 << name << ", frame " << f;
     }
@@ -105,8 +101,8 @@ class CmuWalk : public CmuClip {};
 
 TEST_P(CmuWalk, FeetStandOnTheFloorOfTheRestPose) {
     constexpr double bodyHeight = 16.4; // decimeters
-    const std::size_t feet[] = {index(rig, "LeftFoot"), index(rig, "RightFoot"),
-                                index(rig, "LeftToeBase"), index(rig, "RightToeBase")};
+    const std::size_t feet[] = {jointIndex(rig, "LeftFoot"), jointIndex(rig, "RightFoot"),
+                                jointIndex(rig, "LeftToeBase"), jointIndex(rig, "RightToeBase")};
     for (std::size_t f = 0; f < clip.frames; ++f) {
         const Placed placed = place(clip, rig, f);
         double lowest = 1e9;
@@ -120,8 +116,8 @@ TEST_P(CmuWalk, HandsHangBelowTheShoulders) {
     for (std::size_t f = 0; f < clip.frames; ++f) {
         const Placed placed = place(clip, rig, f);
         for (const char* side : {"Left", "Right"})
-            ASSERT_LT(placed.places[index(rig, std::string(side) + "Hand")].y,
-                      placed.places[index(rig, std::string(side) + "Arm")].y - 2.0)
+            ASSERT_LT(placed.places[jointIndex(rig, std::string(side) + "Hand")].y,
+                      placed.places[jointIndex(rig, std::string(side) + "Arm")].y - 2.0)
                 << side << ", frame " << f;
     }
 }

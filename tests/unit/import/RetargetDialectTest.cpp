@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Motions of one family of names on bodies of another: arms and legs must be where the actor's are.
 #include "Figure.h"
+#include "JointIndex.h"
 #include "Paths.h"
 
 #include <osgSkinImport/ImportMotion>
@@ -67,12 +68,6 @@ std::string onSide(const std::string& name, const Limbs& limbs, bool right) {
     return result.replace(at, std::string(limbs.left).size(), limbs.right);
 }
 
-std::size_t index(const RestSkeleton& skeleton, const std::string& name) {
-    const int j = skeleton.find(name);
-    EXPECT_GE(j, 0) << name;
-    return static_cast<std::size_t>(std::max(j, 0));
-}
-
 /// Largest angle between a limb of the rig and the actor's, in degrees.
 double worstLimb(const Clip& clip, const RestSkeleton& rig, const Limbs& rigLimbs,
                  const Motion& motion, const Limbs& motionLimbs) {
@@ -87,9 +82,10 @@ double worstLimb(const Clip& clip, const RestSkeleton& rig, const Limbs& rigLimb
                     const auto way = [&](const Placed& placed, const RestSkeleton& skeleton,
                                          const Limbs& limbs) {
                         const char* const* names = leg ? limbs.leg : limbs.arm;
-                        return placed
-                                   .places[index(skeleton, onSide(names[bone + 1], limbs, right))] -
-                               placed.places[index(skeleton, onSide(names[bone], limbs, right))];
+                        return placed.places[jointIndex(skeleton,
+                                                        onSide(names[bone + 1], limbs, right))] -
+                               placed
+                                   .places[jointIndex(skeleton, onSide(names[bone], limbs, right))];
                     };
                     worst =
                         std::max(worst, angleBetween(way(ours, rig, rigLimbs),

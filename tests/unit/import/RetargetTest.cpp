@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ExpectError.h"
 #include "Figure.h"
+#include "JointIndex.h"
 
 #include <osgSkinRig/Retarget>
 
@@ -14,12 +15,6 @@ using osgSkin::Clip;
 using osgSkin::Motion;
 using osgSkin::RestSkeleton;
 using osgSkin::RetargetReport;
-
-std::size_t index(const RestSkeleton& skeleton, const char* name) {
-    const int j = skeleton.find(name);
-    EXPECT_GE(j, 0) << name;
-    return static_cast<std::size_t>(j);
-}
 
 /// Every joint turns, each by another angle; the root walks and hops.
 Motion wave(const RestSkeleton& figure, std::size_t frames) {
@@ -80,13 +75,13 @@ TEST(Retarget, AlignsLimbsAndNothingElse) {
          {Expected{"Hips", 0.0}, Expected{"Spine", 0.0}, Expected{"Head", 0.0},
           Expected{"LeftShoulder", 0.0}, Expected{"LeftArm", 48.0}, Expected{"LeftForeArm", 48.0},
           Expected{"LeftHand", 48.0}, Expected{"LHipJoint", 0.0}, Expected{"LeftUpLeg", 0.0}}) {
-        const std::size_t j = index(rig, expected.joint);
+        const std::size_t j = jointIndex(rig, expected.joint);
         EXPECT_NEAR(report.entries[j].alignmentDegrees, expected.degrees, 1e-9) << expected.joint;
         EXPECT_NEAR(angleBetween(placed.turns[j], {1, 0, 0, 0}), expected.degrees, 1e-9)
             << expected.joint;
     }
     const glm::dvec3 forearm =
-        placed.places[index(rig, "LeftHand")] - placed.places[index(rig, "LeftForeArm")];
+        placed.places[jointIndex(rig, "LeftHand")] - placed.places[jointIndex(rig, "LeftForeArm")];
     EXPECT_LT(angleBetween(forearm, {1, 0, 0}), 1e-9);
 }
 

@@ -30,7 +30,7 @@ using osgAnimation::MorphGeometry;
 using osgAnimation::RigGeometry;
 using osgAnimation::VertexInfluenceMap;
 
-const char* const kFormats[] = {"osgt", "osgb", "osgx"};
+const char* const kSavedFormats[] = {"osgt", "osgb", "osgx"};
 
 /// A triangle with normals, or as many as fit into so many vertices.
 osg::ref_ptr<osg::Geometry> makeTriangles(unsigned vertices = 3) {
@@ -46,7 +46,7 @@ osg::ref_ptr<osg::Geometry> makeTriangles(unsigned vertices = 3) {
 
 /// Reads what is saved in each format, and moves it.
 void expectMoved(osg::Node& scene, const std::string& message) {
-    for (const char* format : kFormats) {
+    for (const char* format : kSavedFormats) {
         SCOPED_TRACE(format);
         const std::string path = testing::TempDir() + "deformed." + format;
         ASSERT_TRUE(osgDB::writeNodeFile(scene, path));
@@ -158,7 +158,7 @@ TEST(SavedDeform, BoxesOfRigsAreOfRigs) {
     plain->setComputeBoundingBoxCallback(new osgAnimation::RigComputeBoundingBoxCallback);
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->addChild(plain);
-    for (const char* format : kFormats) {
+    for (const char* format : kSavedFormats) {
         const std::string path = testing::TempDir() + "box." + format;
         ASSERT_TRUE(osgDB::writeNodeFile(*scene, path));
         expectError([&] { osgSkin::readScene(path, nullptr); },

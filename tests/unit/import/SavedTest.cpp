@@ -101,7 +101,7 @@ std::string object(const std::string& name, int id, const std::string& fields) {
     return name + " {\nUniqueID " + std::to_string(id) + "\n" + fields + "}\n";
 }
 
-std::string nested(int deep) {
+std::string nestedGroups(int deep) {
     std::string text;
     for (int i = 1; i <= deep; ++i)
         text += "osg::Group {\nUniqueID " + std::to_string(i) + "\nChildren 1 {\n";
@@ -148,7 +148,7 @@ struct Hostile {
 const Hostile kHostile[] = {
     {"Empty", "", "it ends too early"},
     {"NoNode", object("osg::Material", 1, ""), "no node"},
-    {"Deep", nested(20000), "at most 1000 deep (option maxDepth)"},
+    {"Deep", nestedGroups(20000), "at most 1000 deep (option maxDepth)"},
     {"Itself", object("osg::Group", 1, "Children 1 {\n" + object("osg::Group", 1, "") + "}\n"),
      "object 1 is a part of itself"},
     {"ItselfWithCallback",
@@ -311,10 +311,10 @@ TEST(Saved, KindsAreScenesAndObjects) {
 }
 
 TEST(Saved, ScenesKeepToTheirOptions) {
-    const std::string path = scratch("group.osgt", kHead + nested(5));
+    const std::string path = scratch("group.osgt", kHead + nestedGroups(5));
     EXPECT_EQ(whyRefused(path), "read");
     EXPECT_EQ(whyRefused(path + ".2.scale"), "read");
-    const std::string deep = scratch("itself.osgt", kHead + nested(2000));
+    const std::string deep = scratch("itself.osgt", kHead + nestedGroups(2000));
     EXPECT_EQ(whyRefused(deep, "maxDepth=3000"), "read");
     EXPECT_NE(whyRefused(deep + ".2.scale").find("(option maxDepth)"), std::string::npos);
     EXPECT_NE(whyRefused(path, "maxDepth=3").find("at most 3 deep"), std::string::npos);

@@ -47,7 +47,7 @@ std::string exportedTube(const std::string& name) {
     return path;
 }
 
-std::map<std::string, double> weightOf(const osgSkin::ImportedRig& rig) {
+std::map<std::string, double> weightsOfBones(const osgSkin::ImportedRig& rig) {
     std::map<std::string, double> sums;
     for (const osgSkin::BoneWeights& bone : rig.body.weights)
         for (const auto& entry : bone.entries) sums[bone.bone] += entry.weight;
@@ -62,7 +62,7 @@ void expectSame(const osgSkin::ImportedRig& found, const osgSkin::ImportedRig& e
         EXPECT_LT(glm::distance(found.rest.joints[j].centre, expected.rest.joints[j].centre),
                   1e-4 * (1.0 + expected.body.mesh.size()));
     }
-    EXPECT_EQ(weightOf(found), weightOf(expected));
+    EXPECT_EQ(weightsOfBones(found), weightsOfBones(expected));
     ASSERT_EQ(found.animations.size(), expected.animations.size());
     for (std::size_t a = 0; a < expected.animations.size(); ++a) {
         const auto& theirs = expected.animations[a]->getChannels();

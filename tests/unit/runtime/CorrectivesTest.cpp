@@ -17,8 +17,8 @@
 namespace {
 
 /// A tube with correctives, its vertices where the deformation writes them straight or not.
-struct Skin : test::Tube {
-    Skin(int rings, int sides, bool inBestOrder) : test::Tube(rings, sides) {
+struct CorrectedTube : test::Tube {
+    CorrectedTube(int rings, int sides, bool inBestOrder) : test::Tube(rings, sides) {
         const std::size_t modes = sides % 2 == 0 ? 14 : 1; // several vectors of them, or less
         binding.correctives =
             test::someCorrectives(binding, 0.3, std::uint64_t(rings), false, modes);
@@ -32,7 +32,7 @@ struct Skin : test::Tube {
     }
 };
 
-osgSkin::Pose poseOf(const osgSkin::Binding& binding, std::mt19937_64& random) {
+osgSkin::Pose tubePose(const osgSkin::Binding& binding, std::mt19937_64& random) {
     std::vector<glm::dquat> turns;
     for (std::size_t j = 0; j < binding.joints.size(); ++j)
         turns.push_back(test::randomRotation(random));
@@ -69,14 +69,14 @@ TEST_P(CorrectedKernel, AgreesWithDoublePrecision) {
     for (const bool inBestOrder : {false, true})
         for (int sides = 1; sides <= 40; sides += 3) {
             SCOPED_TRACE(sides);
-            const Skin skin(21, sides, inBestOrder);
+            const CorrectedTube skin(21, sides, inBestOrder);
             const auto model = skin.model();
             ASSERT_TRUE(model->hasCorrectives());
             for (std::uint32_t i = 0; inBestOrder && i < model->order().size(); ++i)
                 ASSERT_EQ(model->order()[i], i);
             std::vector<glm::vec3> positions(model->vertexCount()), normals = positions;
             for (const bool withNormals : {false, true}) {
-                const osgSkin::Pose pose = poseOf(skin.binding, random);
+                const osgSkin::Pose pose = tubePose(skin.binding, random);
                 osgSkin::DeformJob job;
                 job.model = model.get();
                 job.pose = &pose;
@@ -98,9 +98,9 @@ TEST_P(CorrectedKernel, PartsInAnyOrderMakeTheWhole) {
     if (!GetParam().target) return; // the reference has no parts
     std::mt19937_64 random(6);
     for (const bool inBestOrder : {false, true}) {
-        const Skin skin(25, 777, inBestOrder);
+        const CorrectedTube skin(25, 777, inBestOrder);
         const auto model = skin.model();
-        const osgSkin::Pose pose = poseOf(skin.binding, random);
+        const osgSkin::Pose pose = tubePose(skin.binding, random);
         std::vector<glm::vec3> whole(model->vertexCount()), parts = whole;
         osgSkin::DeformJob job;
         job.model = model.get();
@@ -116,7 +116,7 @@ TEST_P(CorrectedKernel, PartsInAnyOrderMakeTheWhole) {
 }
 
 TEST_P(CorrectedKernel, RestPoseIsTheRestSkin) {
-    const Skin skin(21, 7, true);
+    const CorrectedTube skin(21, 7, true);
     const auto model = skin.model();
     osgSkin::Pose pose(skin.binding.joints);
     std::vector<glm::vec3> positions(model->vertexCount());
@@ -144,12 +144,12 @@ INSTANTIATE_TEST_SUITE_P(Targets, CorrectedKernel, testing::ValuesIn(test::ways(
 
 TEST(CorrectedBounds, ContainEveryVertex) {
     std::mt19937_64 random(7);
-    const Skin skin(41, 18, true);
+    const CorrectedTube skin(41, 18, true);
     const auto model = skin.model();
     std::vector<glm::vec3> positions(model->vertexCount());
     bool anyNearby = false;
     for (int i = 0; i < 300; ++i) {
-        const osgSkin::Pose pose = poseOf(skin.binding, random);
+        const osgSkin::Pose pose = tubePose(skin.binding, random);
         osgSkin::DeformJob job;
         job.model = model.get();
         job.pose = &pose;

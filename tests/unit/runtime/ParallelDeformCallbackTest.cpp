@@ -12,8 +12,8 @@ using osgSkin::ParallelDeformCallback;
 namespace {
 
 /// Some skins below a group; bones are not needed, poses are set by hand.
-struct Crowd {
-    explicit Crowd(unsigned int count) {
+struct SkinsBelow {
+    explicit SkinsBelow(unsigned int count) {
         for (unsigned int i = 0; i < count; ++i) {
             skins.push_back(test::makeSkin());
             const osg::ref_ptr<osg::Group> between = new osg::Group;
@@ -42,7 +42,7 @@ struct Crowd {
 } // namespace
 
 TEST(ParallelDeformCallback, DeformsInTheUpdateWhatWasSeen) {
-    Crowd crowd(5);
+    SkinsBelow crowd(5);
     crowd.bendAll(0.1);
     crowd.update();
     for (const auto& skin : crowd.skins) EXPECT_EQ(skin->getDeformCount(), 0u); // not seen yet
@@ -65,7 +65,7 @@ TEST(ParallelDeformCallback, DeformsInTheUpdateWhatWasSeen) {
 }
 
 TEST(ParallelDeformCallback, DeformsAllWhereToldTo) {
-    Crowd crowd(5);
+    SkinsBelow crowd(5);
     crowd.together->setOnlySeen(false);
     crowd.bendAll(0.1);
     crowd.update();
@@ -82,7 +82,7 @@ TEST(ParallelDeformCallback, DeformsAllWhereToldTo) {
 }
 
 TEST(ParallelDeformCallback, FindsWhatComesAndLetsGoWhatLeaves) {
-    Crowd crowd(2);
+    SkinsBelow crowd(2);
     crowd.together->setOnlySeen(false);
     crowd.update();
     const osg::ref_ptr<DeformableSkin> late = test::makeSkin(), deep = test::makeSkin();
@@ -102,7 +102,7 @@ TEST(ParallelDeformCallback, FindsWhatComesAndLetsGoWhatLeaves) {
 }
 
 TEST(ParallelDeformCallback, TakesASkinThatStandsTwice) {
-    Crowd crowd(1);
+    SkinsBelow crowd(1);
     crowd.together->setOnlySeen(false);
     crowd.group->addChild(crowd.skins[0]);
     crowd.update();

@@ -14,8 +14,6 @@
 
 namespace {
 
-const double kNan = std::numeric_limits<double>::quiet_NaN();
-
 /// The message of the Error that validate() throws; empty where it throws none.
 template <typename T>
 std::string complaint(const T& value) {
@@ -45,7 +43,7 @@ TEST(RestSkeleton, ValidateNamesTheJoint) {
         {"cycle", {{"a", -1, {}, {}}, {"b", 2, {}, {}}, {"c", 1, {}, {}}}, "\"b\""},
         {"own parent", {{"a", -1, {}, {}}, {"b", 1, {}, {}}}, "\"b\""},
         {"one name twice", {{"a", -1, {}, {}}, {"a", 0, {}, {}}}, "joint 1 \"a\""},
-        {"not finite", {{"a", -1, {}, {}}, {"b", 0, {0, kNan, 0}, {}}}, "\"b\""},
+        {"not finite", {{"a", -1, {}, {}}, {"b", 0, {0, std::nan(""), 0}, {}}}, "\"b\""},
     };
     for (const Case& c : cases)
         EXPECT_NE(complaint(osgSkin::RestSkeleton{c.joints}).find(c.names), std::string::npos)
@@ -82,14 +80,16 @@ TEST(Motion, WhatIsNotWholeIsRefused) {
         {"skeleton", [](osgSkin::Motion& m) { m.skeleton.joints[1].parent = 1; }, "\"b\""},
         {"no frame", [](osgSkin::Motion& m) { m.frames = 0; }, "no frame"},
         {"no time", [](osgSkin::Motion& m) { m.frameTime = 0.0; }, "frame time"},
-        {"time", [](osgSkin::Motion& m) { m.frameTime = kNan; }, "frame time"},
+        {"time", [](osgSkin::Motion& m) { m.frameTime = std::nan(""); }, "frame time"},
         {"endless", [](osgSkin::Motion& m) { m.frameTime = HUGE_VAL; }, "frame time"},
         {"more frames", [](osgSkin::Motion& m) { m.frames = 4; }, "do not fit 4"},
         {"fewer roots", [](osgSkin::Motion& m) { m.rootPositions.pop_back(); }, "do not fit"},
         {"fewer turns", [](osgSkin::Motion& m) { m.rotations.pop_back(); }, "do not fit"},
-        {"root", [](osgSkin::Motion& m) { m.rootPositions[2].x = kNan; }, "frame 2: the root"},
+        {"root", [](osgSkin::Motion& m) { m.rootPositions[2].x = std::nan(""); },
+         "frame 2: the root"},
         {"far", [](osgSkin::Motion& m) { m.rootPositions[1].y = 1e300; }, "frame 1: the root"},
-        {"turn", [](osgSkin::Motion& m) { m.rotations[3].w = kNan; }, "frame 1: joint \"b\""},
+        {"turn", [](osgSkin::Motion& m) { m.rotations[3].w = std::nan(""); },
+         "frame 1: joint \"b\""},
         {"longer", [](osgSkin::Motion& m) { m.rotations[4].w = 2.0; }, "frame 2: joint \"a\""},
     };
     for (const Case& c : cases) {
@@ -115,7 +115,7 @@ TEST(SkinMesh, ValidateNamesThePlace) {
     const Case cases[] = {
         {"empty", {}, "no vertex"},
         {"no face", {points, {}, {}}, "no face"},
-        {"not finite", {{{0, 0, 0}, {1, kNan, 0}, {0, 1, 0}}, {3}, {0, 1, 2}}, "vertex 1"},
+        {"not finite", {{{0, 0, 0}, {1, std::nan(""), 0}, {0, 1, 0}}, {3}, {0, 1, 2}}, "vertex 1"},
         {"two corners", {points, {2}, {0, 1}}, "face 0"},
         {"index beyond", {points, {3, 3}, {0, 1, 2, 0, 1, 3}}, "face 1"},
         {"corners missing", {points, {3, 3}, {0, 1, 2, 0}}, "face 1"},

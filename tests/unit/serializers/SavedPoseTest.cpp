@@ -42,7 +42,7 @@ protected:
     DeformableSkin& skin = *test::skinsOf(*scene)[0];
 };
 
-const osg::Vec3Array& vertices(const DeformableSkin& skin) {
+const osg::Vec3Array& skinVertices(const DeformableSkin& skin) {
     return static_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray());
 }
 
@@ -59,8 +59,8 @@ TEST_P(SavedPose, KeepsScale) {
     const DeformableSkin& is = *test::skinsOf(*after)[0];
     for (std::size_t j = 0; j < 3; ++j)
         EXPECT_NEAR(is.getPose().transform(j).scale, kScales[j], 1e-9) << j;
-    const osg::Vec3Array& a = vertices(skin);
-    const osg::Vec3Array& b = vertices(is);
+    const osg::Vec3Array& a = skinVertices(skin);
+    const osg::Vec3Array& b = skinVertices(is);
     ASSERT_EQ(b.size(), a.size());
     for (std::size_t v = 0; v < a.size(); ++v) ASSERT_LE((a[v] - b[v]).length(), 2e-5f) << v;
 }
@@ -112,7 +112,7 @@ std::string fileWith(const glm::dmat4& middle) {
     return file.replace(place, sizeof middle, bytesOf(middle));
 }
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotFinite = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 struct BadPose {
@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
     Matrices, HostilePose,
     testing::Values(BadPose{"ScaleOfNothing", scaling(0, 0, 0), "singular"},
                     BadPose{"Flat", scaling(1, 1, 0), "singular"},
-                    BadPose{"NotANumber", scaling(kNan, 1, 1), "not finite"},
+                    BadPose{"NotANumber", scaling(kNotFinite, 1, 1), "not finite"},
                     BadPose{"Infinite", scaling(1, kInfinite, 1), "not finite"},
                     BadPose{"Huge", scaling(1e30, 1e30, 1e30), "too large"},
                     BadPose{"Large", scaling(1e10, 1e10, 1e10), "scale of 1e+10"},

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <vector>
 
 namespace osgSkin {
@@ -16,7 +15,7 @@ namespace {
 
 using NodesOfName = std::map<std::string, std::vector<aiNode*>>;
 
-NodesOfName nodesOf(const aiScene& scene) {
+NodesOfName nodesByName(const aiScene& scene) {
     NodesOfName result;
     std::vector<aiNode*> open{scene.mRootNode};
     while (!open.empty()) {
@@ -25,14 +24,6 @@ NodesOfName nodesOf(const aiScene& scene) {
         result[nameOf(*node)].push_back(node);
         for (unsigned c = node->mNumChildren; c > 0; --c) open.push_back(node->mChildren[c - 1]);
     }
-    return result;
-}
-
-std::set<std::string> boneNames(const aiScene& scene) {
-    std::set<std::string> result;
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
-        for (unsigned b = 0; b < scene.mMeshes[m]->mNumBones; ++b)
-            result.insert(nameOf(*scene.mMeshes[m]->mBones[b]));
     return result;
 }
 
@@ -51,8 +42,16 @@ void exchangeWithTwin(const std::string& bone, NodesOfName& nodes) {
 
 } // namespace
 
+std::set<std::string> boneNames(const aiScene& scene) {
+    std::set<std::string> result;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        for (unsigned b = 0; b < scene.mMeshes[m]->mNumBones; ++b)
+            result.insert(nameOf(*scene.mMeshes[m]->mBones[b]));
+    return result;
+}
+
 void separateNames(aiScene& scene, const std::string& path) {
-    NodesOfName nodes = nodesOf(scene);
+    NodesOfName nodes = nodesByName(scene);
     if (osgDB::getLowerCaseFileExtension(path) == "fbx")
         for (const std::string& bone : boneNames(scene)) exchangeWithTwin(bone, nodes);
     UniqueNames taken;

@@ -4,6 +4,7 @@
 
 #include <assimp/scene.h>
 
+#include <set>
 #include <string>
 
 namespace osgSkin {
@@ -14,6 +15,9 @@ namespace osgSkin {
 /// FBX files name a mesh and its bone alike; Assimp then calls the second of them "Torso001" and
 /// lets the bone mean the first. Where that is the mesh, the two change names.
 void separateNames(aiScene& scene, const std::string& path);
+
+/// The names of all meshes' bones.
+std::set<std::string> boneNames(const aiScene& scene);
 
 } // namespace osgSkin
 

@@ -2,6 +2,7 @@
 #include "assimp/SceneSkeleton.h"
 
 #include "assimp/AssimpScene.h"
+#include "assimp/NodeNames.h"
 #include "assimp/SceneBind.h"
 #include "text/FileText.h"
 
@@ -17,14 +18,6 @@
 
 namespace osgSkin {
 namespace {
-
-std::set<std::string> boneNames(const aiScene& scene) {
-    std::set<std::string> names;
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
-        for (unsigned b = 0; b < scene.mMeshes[m]->mNumBones; ++b)
-            names.insert(nameOf(*scene.mMeshes[m]->mBones[b]));
-    return names;
-}
 
 std::set<std::string> animatedNames(const aiScene& scene) {
     std::set<std::string> names;

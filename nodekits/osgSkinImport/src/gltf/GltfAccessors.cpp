@@ -28,7 +28,7 @@ std::size_t widthOf(const std::string& type) {
 }
 
 template <typename Number>
-double numberAt(const char* at) {
+double numberFrom(const char* at) {
     Number value;
     std::memcpy(&value, at, sizeof value);
     return static_cast<double>(value);
@@ -37,19 +37,19 @@ double numberAt(const char* at) {
 double component(const char* at, int type) {
     switch (type) {
     case kByte:
-        return numberAt<std::int8_t>(at);
+        return numberFrom<std::int8_t>(at);
     case kUByte:
-        return numberAt<std::uint8_t>(at);
+        return numberFrom<std::uint8_t>(at);
     case kShort:
-        return numberAt<std::int16_t>(at);
+        return numberFrom<std::int16_t>(at);
     case kUShort:
-        return numberAt<std::uint16_t>(at);
+        return numberFrom<std::uint16_t>(at);
     case kInt:
-        return numberAt<std::int32_t>(at);
+        return numberFrom<std::int32_t>(at);
     case kUInt:
-        return numberAt<std::uint32_t>(at);
+        return numberFrom<std::uint32_t>(at);
     default:
-        return numberAt<float>(at);
+        return numberFrom<float>(at);
     }
 }
 

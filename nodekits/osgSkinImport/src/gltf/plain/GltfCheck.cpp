@@ -38,9 +38,9 @@ const AttributeKind* kindOfAttribute(const std::string& name) {
     return nullptr;
 }
 
-class Checker {
+class GltfChecker {
 public:
-    explicit Checker(const GltfFile& file) : _path(file.path), _parts(file) {}
+    explicit GltfChecker(const GltfFile& file) : _path(file.path), _parts(file) {}
 
     json run() {
         json result = {{"asset", {{"version", "2.0"}}}};
@@ -375,7 +375,7 @@ private:
 } // namespace
 
 json checkedGltf(const GltfFile& file) {
-    return Checker(file).run();
+    return GltfChecker(file).run();
 }
 
 } // namespace osgSkin

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 constexpr std::size_t kEntriesOf = 20;     ///< samples that an entry counts for: a kilobyte or two
 constexpr std::size_t kFarthest = 1 << 30; ///< offsets and sizes beyond are none
-constexpr std::size_t kLongestName = 500;  ///< Assimp has room for 1023, and writes beyond it
+constexpr std::size_t kLongestNodeName = 500; ///< Assimp has room for 1023, and writes beyond it
 
 std::size_t componentSize(int component) {
     if (component == 5120 || component == 5121) return 1;
@@ -86,8 +86,8 @@ void GltfParts::copyName(const json& from, json& to) {
     const auto found = from.find("name");
     if (found == from.end() || !found->is_string()) return;
     std::string name = found->get<std::string>();
-    if (name.size() > kLongestName) {
-        std::size_t end = kLongestName;
+    if (name.size() > kLongestNodeName) {
+        std::size_t end = kLongestNodeName;
         while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end; // UTF-8
         name.resize(end);
     }
