@@ -19,19 +19,20 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).parents[1].resolve()
-MOST_FILES = 40
-MOST_LINES = 6000
+MOST_FILES = 80
+MOST_LINES = 11000
+MOST_BLAMED = 4  # of a unit that does not compile; with more it is read target by target
 # Takes as long as all others together, in CGAL's templates; made of the sources that are named.
 OF_NAMED = "performance-unnecessary-value-param"
 # GCC's own warning options mean nothing to clang, and OSG's wrapper macros leave parameters unused.
 FLAGS = ["-Wno-unknown-warning-option", "-Wno-unused-parameter", "-Wdocumentation",
          "-Wreserved-identifier"]
-# Functions that each program has.
-ONE_A_PROGRAM = {"main", "LLVMFuzzerTestOneInput"}
+# Functions that each program has: called otherwise in each source of a unit.
+ONE_A_PROGRAM = ["main", "LLVMFuzzerTestOneInput"]
 # No part of this build: tests compile the first two by themselves, and sanitizers bring the third.
 APART = ["downstream", "unit/headers", "support/DriverLeaks.cpp"]
-# Made by macros, another in each file.
-TESTS = {"TEST", "TEST_F", "TEST_P", "INSTANTIATE_TEST_SUITE_P", "REGISTER_OBJECT_WRAPPER"}
+# Made by macros, another in each file, or for a type of each file.
+TESTS = {"PrintTo", "TEST", "TEST_F", "TEST_P", "INSTANTIATE_TEST_SUITE_P", "REGISTER_OBJECT_WRAPPER"}
 
 
 def one_by_one(entries):
@@ -60,17 +61,26 @@ def flags_of(entry):
 
 
 def own_names(files):
-    """For each file the names that it keeps to itself, macros among them."""
+    """For each file the names that it keeps to itself, macros among them, and as "using NAME" those of others."""
     command = ["ctags", "--kinds-C++=dfvscgtue", "--fields=+ZfK", "--output-format=json", "-f", "-"]
     tags = subprocess.run([*command, *files], check=True, capture_output=True, text=True).stdout
     names = collections.defaultdict(set)
     for tag in map(json.loads, tags.splitlines()):
         scope = tag.get("scope", "")
         local = "__anon" in scope or tag.get("file") or tag["kind"] == "macro"
-        local = local or tag["name"] in ONE_A_PROGRAM
         if local and tag.get("scopeKind") in (None, "namespace") and tag["name"] not in TESTS:
             names[tag["path"]].add(tag["name"])
+    for file in files:
+        used = re.findall(r"^using [\w:]+::(\w+);", pathlib.Path(file).read_text(), re.M)
+        names[file].update(f"using {name}" for name in used)
     return names
+
+
+def clash(some, others):
+    """Whether a name of its own of one side is one of the other side's, or stands for another's there."""
+    own = {name for name in some if " " not in name}, {name for name in others if " " not in name}
+    return bool(own[0] & own[1] or {f"using {name}" for name in own[0]} & others or
+                {f"using {name}" for name in own[1]} & some)
 
 
 def units(entries):
@@ -84,7 +94,7 @@ def units(entries):
         file = entry["file"]
         lines = len(pathlib.Path(file).read_text().splitlines())
         for unit in made[flags_of(entry)]:
-            if len(unit[0]) < MOST_FILES and unit[2] + lines <= MOST_LINES and not unit[1] & names[file]:
+            if len(unit[0]) < MOST_FILES and unit[2] + lines <= MOST_LINES and not clash(unit[1], names[file]):
                 unit[0].append(file)
                 unit[1].update(names[file])
                 unit[2] += lines
@@ -103,7 +113,7 @@ def units(entries):
 
 def join(unit, part):
     """Takes another target's sources into a unit; False where one of them would be read otherwise then."""
-    if len(unit[1]) + len(part[1]) > MOST_FILES or unit[3] + part[3] > MOST_LINES or unit[2] & part[2]:
+    if len(unit[1]) + len(part[1]) > MOST_FILES or unit[3] + part[3] > MOST_LINES or clash(unit[2], part[2]):
         return False
     # Names of two namespaces that are both opened may be alike.
     if len(opened(unit[1]) | opened(part[1])) > 1:
@@ -152,11 +162,25 @@ def headers(flag):
     return frozenset(str(path.relative_to(folder)) for path in folder.rglob("*") if path.suffix in ("", ".h"))
 
 
+def unit_of(files):
+    """A source that is made of these; first those that say by macros how headers are read."""
+    lines = []
+    for number, file in enumerate(sorted(files, key=lambda file: not defines(file))):
+        lines += [f"#define {name} {name}{number}" for name in ONE_A_PROGRAM]
+        lines += [f'#include "{file}"', *(f"#undef {name}" for name in ONE_A_PROGRAM)]
+    return "\n".join(lines) + "\n"
+
+
+@functools.lru_cache(maxsize=None)
+def defines(file):
+    return re.search("^#define", pathlib.Path(file).read_text(), re.M) is not None
+
+
 def run(folder, flags, files, checks):
     """clang-tidy on files as one unit, with these checks added to ours. (exit status, complaints)."""
     folder.mkdir(parents=True, exist_ok=True)
     unit = folder / "unit.cpp"
-    unit.write_text("".join(f'#include "{file}"\n' for file in files))
+    unit.write_text(unit_of(files))
     source = str(unit) if len(files) > 1 else files[0]
     command = {"directory": str(folder), "file": source, "arguments": ["c++", *flags, "-c", source]}
     (folder / "compile_commands.json").write_text(json.dumps([command]))
@@ -175,10 +199,10 @@ def tidy(folder, whole, *parts):
     # A name may also shadow that of another file.
     if len(files) == 1 or not re.search(r"\[clang-diagnostic-(error|shadow)\]", found):
         return found
-    if parts:
-        return "".join(tidy(folder / str(number), part) for number, part in enumerate(parts))
     blamed = [f for f in files if re.search(rf"^{re.escape(f)}:\d+:\d+: error: .*\[clang-diagnostic-(error|shadow)\]",
                                             found, re.M)] or files
+    if parts and len(blamed) > MOST_BLAMED:
+        return "".join(tidy(folder / str(number), part) for number, part in enumerate(parts))
     rest = [f for f in files if f not in blamed]
     print("by themselves: " + " ".join(pathlib.Path(f).name for f in blamed), flush=True)
     texts = [tidy(folder / pathlib.Path(file).stem, (flags, [file])) for file in blamed]
