@@ -234,3 +234,39 @@ TEST(GltfDialect, MotionsMayBeMirrored) {
             }
         }
 }
+
+TEST(GltfDialect, AMatrixIsTakenBeforeWhatStandsBesideIt) {
+    GltfColumn column;
+    column.json["nodes"][1]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 2, 0, 1};
+    const test::Notices notices;
+    const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("both.gltf"));
+    EXPECT_TRUE(notices.say("both.gltf: 1 nodes have a matrix and a translation"))
+        << notices.text();
+    EXPECT_EQ(rig.rest.joints.size(), 3u);
+}
+
+TEST(GltfDialect, ChannelsOfOtherPathsAreLeftOut) {
+    for (const bool alone : {true, false}) {
+        GltfColumn column = moved("rotation", {0, 0, 0, 1, 0, 0, 0.6, 0.8, 0, 0, 0, 1});
+        auto& channels = column.json["animations"][0]["channels"];
+        auto other = channels[0];
+        other["target"] = {{"path", "pointer"}};
+        channels.insert(channels.begin(), other);
+        if (alone) channels.erase(1);
+        const std::string path = column.save("pointer.gltf");
+        const test::Notices notices;
+        const osgSkin::ImportedRig rig = osgSkin::importRig(path);
+        EXPECT_TRUE(notices.say("the first \"pointer\"")) << notices.text();
+        EXPECT_EQ(rig.body.mesh.positions.size(), kColumnVertices);
+        if (alone) continue;
+        const osgSkin::Motion motion = osgSkin::importMotion(path);
+        EXPECT_GT(motion.frames, 1u);
+    }
+}
+
+TEST(BadGltf, JointsAreNamedOnce) {
+    GltfColumn column;
+    column.json["skins"][0]["joints"] = {0, 1, 1};
+    expectRigRefused(column,
+                     "malformed glTF: skins[0].joints: expected each node once, found 1 again");
+}

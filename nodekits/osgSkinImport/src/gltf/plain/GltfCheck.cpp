@@ -10,6 +10,8 @@
 #include <array>
 #include <cstdint>
 #include <set>
+#include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace osgSkin {
@@ -60,6 +62,15 @@ public:
         if (_unfinished > 0)
             tellOf(_path, "corners that make no whole triangle are left out, of " +
                               std::to_string(_unfinished) + " of the meshes' primitives");
+        if (_placedTwice > 0)
+            tellOf(_path,
+                   std::to_string(_placedTwice) +
+                       " nodes have a matrix and a translation, rotation or scale beside it, "
+                       "which are left out");
+        if (!_otherPath.empty())
+            tellOf(_path, "animation channels are left out whose path is none of translation, "
+                          "rotation, scale and weights, the first " +
+                              inQuotes(_otherPath));
         for (auto part = result.begin(); part != result.end();)
             part = part->empty() ? result.erase(part) : std::next(part);
         return result;
@@ -210,8 +221,14 @@ private:
             _parts.copyName(from, skin);
             const json& joints = from.at("joints");
             if (!joints.is_array() || joints.empty()) _parts.fail(where + ".joints", "a list");
-            for (const json& joint : joints)
-                skin["joints"].push_back(_parts.indexOf(joint, "nodes", where + ".joints"));
+            std::unordered_set<std::size_t> named;
+            for (const json& joint : joints) {
+                const std::size_t node = _parts.indexOf(joint, "nodes", where + ".joints");
+                if (!named.insert(node).second)
+                    _parts.fail(where + ".joints",
+                                "each node once, found " + std::to_string(node) + " again");
+                skin["joints"].push_back(node);
+            }
             if (from.contains("inverseBindMatrices")) {
                 const std::string place = where + ".inverseBindMatrices";
                 const std::size_t accessor = _parts.accessor(from.at("inverseBindMatrices"), place);
@@ -235,6 +252,7 @@ private:
             _parts.copyNumbers(from, "translation", 3, where, node);
             _parts.copyNumbers(from, "rotation", 4, where, node);
             _parts.copyNumbers(from, "scale", 3, where, node);
+            if (node.contains("matrix")) _placedTwice += dropTurns(node);
             _parts.copyWeights(from, where, node);
             if (from.contains("mesh"))
                 node["mesh"] = _parts.indexOf(from.at("mesh"), "meshes", where + ".mesh");
@@ -267,6 +285,13 @@ private:
             result["nodes"].push_back(node);
         });
         checkDepths(nodes);
+    }
+
+    /// A node is placed by its matrix, or by these.
+    static bool dropTurns(json& node) {
+        std::size_t dropped = 0;
+        for (const char* name : {"translation", "rotation", "scale"}) dropped += node.erase(name);
+        return dropped > 0;
     }
 
     /// Every node has one parent at most, so that going up ends, but in a ring.
@@ -348,7 +373,13 @@ private:
                 const std::size_t sampler =
                     _parts.index(channel.at("sampler"), keys.size(), where + ".channels.sampler");
                 const json& target = channel.at("target");
-                json kept = {{"path", target.at("path").get<std::string>()}};
+                const auto path = target.at("path").get<std::string>();
+                if (path != "translation" && path != "rotation" && path != "scale" &&
+                    path != "weights") {
+                    if (_otherPath.empty()) _otherPath = path.substr(0, 100);
+                    continue;
+                }
+                json kept = {{"path", path}};
                 if (target.contains("node"))
                     kept["node"] = _parts.indexOf(target.at("node"), "nodes", where + ".channels");
                 // Samplers may be shared: each channel's keys take memory.
@@ -362,7 +393,9 @@ private:
 
     const std::string& _path;
     GltfParts _parts;
-    std::size_t _unfinished = 0; ///< primitives whose last triangle lacks corners
+    std::size_t _unfinished = 0;  ///< primitives whose last triangle lacks corners
+    std::size_t _placedTwice = 0; ///< nodes of a matrix and more
+    std::string _otherPath;       ///< the first that a channel has and none knows
     std::vector<std::size_t> _primitives, _elements; ///< of each mesh
     std::vector<std::size_t> _targets;               ///< of each mesh: the most of a primitive
     std::vector<std::size_t> _allTargets;            ///< of each mesh: those of all primitives
