@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "Command.h"
+#include "TextFile.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <sys/wait.h>
 
 namespace test {
-namespace {
-
-std::string readFile(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-} // namespace
+namespace {} // namespace
 
 std::string makeTestFolder() {
     const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
@@ -41,8 +33,8 @@ CommandResult runCommand(const std::string& command, const std::string& folder) 
     const int status = std::system(whole.c_str()); // NOLINT(cert-env33-c): our own arguments
     CommandResult result;
     if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
-    result.out = readFile(folder + "/stdout.txt");
-    result.err = readFile(folder + "/stderr.txt");
+    result.out = test::fileText(folder + "/stdout.txt");
+    result.err = test::fileText(folder + "/stderr.txt");
     return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What may be around a character: another locale, odd names, files of other systems, a signal.
 #include "Command.h"
+#include "TextFile.h"
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
@@ -15,7 +16,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <locale>
 #include <stdexcept>
 #include <string>
@@ -31,11 +31,6 @@ using osgSkin::Character;
 using osgSkin::loadCharacter;
 
 const std::string kParts = OSGSKIN_TEST_DATA "/character/";
-
-std::string bytesOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void write(const fs::path& file, const std::string& content) {
     std::ofstream(file, std::ios::binary) << content;
@@ -97,7 +92,8 @@ std::string rewritten(const std::string& folder, const std::string& lineEnd,
                       const std::string& before) {
     for (const char* name : {"good.skin", "body.obj", "rig.bvh", "move.bvh"}) {
         std::string text = before;
-        for (const char c : bytesOf(kParts + name)) text += c == '\n' ? lineEnd : std::string(1, c);
+        for (const char c : test::fileText(kParts + name))
+            text += c == '\n' ? lineEnd : std::string(1, c);
         write(fs::path(folder) / name, text);
     }
     return folder + "/good.skin";
@@ -135,7 +131,7 @@ TEST(Faults, WhatCannotBeWrittenIsSaid) {
         EXPECT_NE(result.err.find("cannot be written"), std::string::npos)
             << out << ": " << result.err;
     }
-    EXPECT_EQ(bytesOf(folder + "/file"), "whole");
+    EXPECT_EQ(test::fileText(folder + "/file"), "whole");
     EXPECT_TRUE(fs::is_empty(folder + "/taken.glb"));
     EXPECT_FALSE(fs::exists(folder + "/nowhere"));
 }
@@ -147,7 +143,7 @@ TEST(Faults, LinesMayEndAsOtherSystemsEndThem) {
     expectSame(loadCharacter(rewritten(folder, "\n", "\xef\xbb\xbf")), plain);
     expectSame(loadCharacter(rewritten(folder, "\r\n", "\xef\xbb\xbf")), plain);
     // A mark must not take the first word with it.
-    std::string body = bytesOf(kParts + "body.obj");
+    std::string body = test::fileText(kParts + "body.obj");
     body.erase(0, body.find("v "));
     write(folder + "/body.obj", "\xef\xbb\xbf" + body);
     expectSame(loadCharacter(folder + "/good.skin"), plain);
@@ -181,7 +177,7 @@ TEST(Faults, SignalsLeaveWholeFiles) {
         const fs::path folder = test::makeTestFolder();
         const std::string skin = rewritten(folder.string(), "\n", "");
         std::ofstream motion(folder / "move.bvh", std::ios::binary);
-        const std::string whole = bytesOf(kParts + "move.bvh");
+        const std::string whole = test::fileText(kParts + "move.bvh");
         motion << whole.substr(0, whole.find("Frames:")) << "Frames: 9000\nFrame Time: 0.1\n";
         for (int f = 0; f < 9000; ++f) motion << f << " 0 0 0 0 0 30 0 0\n";
         motion.close();
@@ -200,14 +196,14 @@ TEST(Faults, SignalsLeaveWholeFiles) {
         int status = 0;
         ASSERT_EQ(::waitpid(child, &status, 0), child);
         EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
-        const std::string first = bytesOf(folder / "f0.obj");
+        const std::string first = test::fileText(folder / "f0.obj");
         const auto lines = std::count(first.begin(), first.end(), '\n');
         std::size_t files = 0;
         for (const auto& entry : fs::directory_iterator(folder)) {
             EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
             if (entry.path().filename().string()[0] != 'f' || entry.path().extension() != ".obj")
                 continue;
-            const std::string text = bytesOf(entry.path());
+            const std::string text = test::fileText(entry.path());
             EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), lines) << entry.path();
             ++files;
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ScratchFolder.h"
+#include "TextFile.h"
 
 #include <cache/Digest.h>
 #include <cache/ShapesCache.h>
@@ -7,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 
 #include <sys/stat.h>
 
@@ -40,11 +40,6 @@ MadeShapes someShapes() {
     shapes.correctives.entries = {{0, 0}};
     shapes.correctives.shares = {Correctives::kUnit, 0, -5};
     return shapes;
-}
-
-std::string contentOf(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 void replace(const std::filesystem::path& file, const std::string& content) {
@@ -95,7 +90,7 @@ TEST(ShapesCache, SaysSoOfAFileThatIsNoUse) {
     const ShapesCache cache(scratch.path().string(), kDigest);
     cache.write(someShapes(), notes);
     const std::filesystem::path file = scratch.files().at(0);
-    const std::string whole = contentOf(file);
+    const std::string whole = test::fileText(file);
     std::string changed = whole;
     changed[whole.size() - 3] = static_cast<char>(changed[whole.size() - 3] ^ 1);
     const std::vector<std::string> broken{

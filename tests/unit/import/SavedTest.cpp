@@ -2,6 +2,7 @@
 // Scenes that OSG saved: read as OSG reads them, and refused where OSG believes what it reads.
 #include "ExpectError.h"
 #include "Paths.h"
+#include "TextFile.h"
 
 #include <osgSkinImport/ReadScene>
 
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <sstream>
 #include <string>
@@ -32,11 +32,6 @@ std::string scratch(const std::string& name, const std::string& content) {
     return path;
 }
 
-std::string contentOf(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 osg::ref_ptr<osg::Node> read(const std::string& path, const std::string& options = {}) {
     const osg::ref_ptr<osgDB::Options> with = new osgDB::Options(options);
     return osgSkin::readScene(path, with.get());
@@ -47,7 +42,7 @@ std::string textOf(osg::Node& scene) {
     const std::string path = scratch("compared.osgt", {});
     const osg::ref_ptr<osgDB::Options> exact = new osgDB::Options("precision 17");
     osgDB::writeNodeFile(scene, path, exact.get());
-    return contentOf(path);
+    return test::fileText(path);
 }
 
 /// A triangle with a material, a picture of 2 x 2 pixels and buffer objects, shown twice.
@@ -83,7 +78,7 @@ std::string saved(const std::string& format) {
     const std::string path = scratch("whole." + format, {});
     const osg::ref_ptr<osgDB::Options> inlined = new osgDB::Options("WriteImageHint=IncludeData");
     EXPECT_TRUE(osgDB::writeNodeFile(*makeScene(), path, inlined.get()));
-    return contentOf(path);
+    return test::fileText(path);
 }
 
 std::string whyRefused(const std::string& path, const std::string& options = {}) {

@@ -2,6 +2,7 @@
 // tests/data/saved holds makeScene(Tube(9, 6)) as it was written when files called a model
 // osgSkin::SharedSkinModel. Such files are read as ever, and written with today's names.
 #include "SavedScene.h"
+#include "TextFile.h"
 #include "words/SkinModelBlock.h"
 
 #include <osgSkin/AutoPlayManager>
@@ -10,15 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 namespace {
-
-std::string contentOf(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 const osg::Vec3Array& vertices(const osg::Geometry& geometry) {
     return static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
@@ -28,7 +22,7 @@ class OlderFile : public testing::TestWithParam<const char*> {
 protected:
     void SetUp() override {
         const std::string file =
-            contentOf(std::string(OSGSKIN_TEST_DATA "/saved/tube.") + GetParam());
+            test::fileText(std::string(OSGSKIN_TEST_DATA "/saved/tube.") + GetParam());
         ASSERT_NE(file.find("SharedSkinModel"), std::string::npos);
         std::string reason;
         scene = test::load(file, GetParam(), &reason);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kBeyondElbow = 0.2;
 
 /// The boundaries of a twist region, along the pole bone.
-BoundarySpan spanOfTwist(const PlannedJoint& joint, double radius) {
+BoundarySpan twistBoundaries(const PlannedJoint& joint, double radius) {
     // A forearm rotates with its hand one radius behind the wrist, where the hand's own bend ends
     // too.
     const double upper = joint.poleIsParent ? -1.0 - kBeyondElbow : 0.0;
@@ -48,7 +48,7 @@ bool buildsUp(const PlannedJoint& joint, double radius) {
 std::vector<double> alongBone(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
                               std::size_t j, double radius, const JointFields& bend) {
     const PlannedJoint& joint = joints[j];
-    const BoundarySpan region = spanOfTwist(joint, radius);
+    const BoundarySpan region = twistBoundaries(joint, radius);
     const std::vector<double> own = bend.values(j);
     const std::vector<double> onBone =
         joint.poleIsParent ? bend.values(regionAbove(joints, j)) : own;
@@ -70,7 +70,7 @@ std::vector<double> alongBone(const WeldedMesh& mesh, const std::vector<PlannedJ
 
 std::optional<BoundarySpan> twistSpan(const PlannedJoint& joint, double radius) {
     if (!buildsUp(joint, radius)) return std::nullopt;
-    return spanOfTwist(joint, radius);
+    return twistBoundaries(joint, radius);
 }
 
 JointFields twistFields(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,

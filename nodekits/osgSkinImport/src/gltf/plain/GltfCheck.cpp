@@ -63,10 +63,8 @@ public:
             tellOf(_path, "corners that make no whole triangle are left out, of " +
                               std::to_string(_unfinished) + " of the meshes' primitives");
         if (_placedTwice > 0)
-            tellOf(_path,
-                   std::to_string(_placedTwice) +
-                       " nodes have a matrix and a translation, rotation or scale beside it, "
-                       "which are left out");
+            tellOf(_path, "translations, rotations and scales beside a matrix are left out, of " +
+                              std::to_string(_placedTwice) + " of the nodes");
         if (!_otherPath.empty())
             tellOf(_path, "animation channels are left out whose path is none of translation, "
                           "rotation, scale and weights, the first " +
@@ -252,7 +250,7 @@ private:
             _parts.copyNumbers(from, "translation", 3, where, node);
             _parts.copyNumbers(from, "rotation", 4, where, node);
             _parts.copyNumbers(from, "scale", 3, where, node);
-            if (node.contains("matrix")) _placedTwice += dropTurns(node);
+            if (node.contains("matrix")) _placedTwice += keepMatrix(node);
             _parts.copyWeights(from, where, node);
             if (from.contains("mesh"))
                 node["mesh"] = _parts.indexOf(from.at("mesh"), "meshes", where + ".mesh");
@@ -287,8 +285,8 @@ private:
         checkDepths(nodes);
     }
 
-    /// A node is placed by its matrix, or by these.
-    static bool dropTurns(json& node) {
+    /// A node is placed by its matrix alone. Whether it had more.
+    static bool keepMatrix(json& node) {
         std::size_t dropped = 0;
         for (const char* name : {"translation", "rotation", "scale"}) dropped += node.erase(name);
         return dropped > 0;
