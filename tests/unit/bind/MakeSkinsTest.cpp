@@ -147,6 +147,17 @@ TEST(PlaceSkins, HangsSkinsUnderTheSkeletonAndRigidPartsUnderTheirBones) {
     EXPECT_TRUE(scene.bones[2]->containsNode(placed.rigids[0].node));
 }
 
+/// As a rider's, with bones of the same names.
+TEST(PlaceSkins, LeavesASkeletonBelowAsItIs) {
+    const PartedBody body;
+    rigs::Scene scene, rider;
+    scene.bones[2]->addChild(rider.skeleton);
+    const AttachedSkin placed =
+        placeSkins(*scene.skeleton, makeSkins(body.mesh, body.parts, body.binding, body.split));
+    ASSERT_EQ(placed.rigids.size(), 1u);
+    EXPECT_EQ(placed.rigids[0].bone, scene.bones[2]);
+}
+
 TEST(PlaceSkins, WithoutTheRigidPartsBonePlacesNothing) {
     const PartedBody body;
     const SkinParts made = makeSkins(body.mesh, body.parts, body.binding, body.split);

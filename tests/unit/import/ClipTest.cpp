@@ -184,6 +184,23 @@ TEST(ApplyFrame, OutlivesAnUpdateTraversal) {
               1e-5);
 }
 
+/// As a rider's, below the first bone, with bones of the same names.
+TEST(ApplyFrame, LeavesASkeletonBelowAsItIs) {
+    const RestSkeleton rig = makeFigure(30.0);
+    const Clip clip = makeClip(rig, 5);
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(rig),
+                                               rider = osgSkin::makeSkeleton(rig);
+    const Bones bones(*skeleton), riders(*rider);
+    const osg::Matrixd before = riders.byName.at("LeftHand")->getMatrix();
+    bones.byName.at(rig.joints[0].name)->insertChild(0, rider);
+    osgSkin::applyFrame(clip, rig, 3, *skeleton);
+    EXPECT_EQ(riders.byName.at("LeftHand")->getMatrix(), before);
+    const osg::ref_ptr<osgAnimation::Skeleton> alone = osgSkin::makeSkeleton(rig);
+    osgSkin::applyFrame(clip, rig, 3, *alone);
+    EXPECT_EQ(bones.byName.at("LeftHand")->getMatrix(),
+              Bones(*alone).byName.at("LeftHand")->getMatrix());
+}
+
 TEST(ApplyFrame, PassesOverJointsThatTheSkeletonLacks) {
     const RestSkeleton rig = makeFigure(30.0);
     const Clip clip = makeClip(rig, 2);

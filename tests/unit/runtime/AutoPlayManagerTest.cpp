@@ -6,8 +6,10 @@
 #include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osgAnimation/Animation>
+#include <osgAnimation/Bone>
 #include <osgAnimation/Channel>
 #include <osgAnimation/LinkVisitor>
+#include <osgAnimation/Skeleton>
 #include <osgAnimation/StackedTranslateElement>
 #include <osgAnimation/UpdateBone>
 #include <osgAnimation/UpdateMaterial>
@@ -124,6 +126,33 @@ TEST(AutoPlayManager, PlaysTheFirstClipUnlessAnotherPlays) {
         manager->stopAll();
         manager->update(1.0); // begins by itself once
         EXPECT_FALSE(manager->isPlaying("first"));
+    }
+}
+
+/// A channel moves one target: a rider's bone would take it from the horse's of the same name.
+TEST(AutoPlayManager, LeavesACharacterBelowTheSkeletonToItsOwnManager) {
+    const auto boneOf = [] {
+        const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("a");
+        bone->setUpdateCallback(callbackOf<osgAnimation::UpdateBone>("a"));
+        return bone;
+    };
+    const auto targetOf = [](osgAnimation::Bone& bone) {
+        auto& update = dynamic_cast<osgAnimation::UpdateBone&>(*bone.getUpdateCallback());
+        return update.getStackedTransforms().front()->getOrCreateTarget();
+    };
+    const osg::ref_ptr<osgAnimation::Skeleton> horse = new osgAnimation::Skeleton;
+    const osg::ref_ptr<osgAnimation::Bone> back = boneOf(), hips = boneOf();
+    const osg::ref_ptr<osg::Group> rider = new osg::Group;
+    horse->addChild(back);
+    back->addChild(rider);
+    rider->addChild(hips);
+    for (const bool managed : {false, true}) {
+        if (managed) rider->setUpdateCallback(new osgSkin::AutoPlayManager);
+        const osgAnimation::AnimationList ours = clips();
+        const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
+        manager->registerAnimations(ours);
+        manager->link(horse);
+        EXPECT_EQ(ours[0]->getChannels()[0]->getTarget(), targetOf(managed ? *back : *hips));
     }
 }
 

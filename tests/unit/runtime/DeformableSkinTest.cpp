@@ -186,6 +186,65 @@ TEST(UpdateDeformableSkin, ARootWithoutABoneIsNoNews) {
     EXPECT_EQ(notices.text(), "");
 }
 
+namespace {
+
+osgAnimation::Bone& middleOf(osgAnimation::Skeleton& skeleton) {
+    return static_cast<osgAnimation::Bone&>(*skeleton.getChild(0)->asGroup()->getChild(0));
+}
+
+void turn(osgAnimation::Bone& middle, double angle) {
+    middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(angle, osg::Vec3(1, 0, 0)) *
+                                    osg::Matrix::translate(0, 2, 0));
+}
+
+double bendOf(const osgSkin::DeformableSkin& skin) {
+    return skin.getPose().transform(1).split.bendAngle;
+}
+
+} // namespace
+
+/// As of a rider, whose bones are called as the horse's.
+TEST(UpdateDeformableSkin, LeavesTheBonesOfASkeletonBelowToIt) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones(), rider = makeBones();
+    middleOf(*skeleton).addChild(rider);
+    turn(middleOf(*skeleton), 0.5);
+    turn(middleOf(*rider), 1.0);
+    const auto skin = makeSkin(), riders = makeSkin();
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    ASSERT_TRUE(update->pose(*skin, *skeleton));
+    EXPECT_NEAR(bendOf(*skin), 0.5, 1e-9);
+    ASSERT_TRUE(update->pose(*riders, *rider));
+    EXPECT_NEAR(bendOf(*riders), 1.0, 1e-9);
+}
+
+TEST(UpdateDeformableSkin, FollowsABoneThatTakesAnothersPlace) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
+    const auto skin = makeSkin();
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    ASSERT_TRUE(update->pose(*skin, *skeleton));
+    osg::Group& root = *skeleton->getChild(0)->asGroup();
+    root.setChild(0, osg::clone(root.getChild(0), osg::CopyOp::SHALLOW_COPY));
+    turn(middleOf(*skeleton), 0.5);
+    ASSERT_TRUE(update->pose(*skin, *skeleton));
+    EXPECT_NEAR(bendOf(*skin), 0.5, 1e-9);
+}
+
+TEST(UpdateDeformableSkin, LetsCallbacksThatAreAddedToItRun) {
+    struct Count : osg::DrawableUpdateCallback {
+        int times = 0;
+        void update(osg::NodeVisitor*, osg::Drawable*) override { ++times; }
+    };
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
+    const auto skin = makeSkin();
+    const osg::ref_ptr<Count> added = new Count;
+    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
+    skin->addUpdateCallback(added);
+    skeleton->addChild(skin);
+    osgUtil::UpdateVisitor update;
+    skeleton->accept(update);
+    EXPECT_EQ(added->times, 1);
+}
+
 TEST(DeformableSkin, FollowsAnActivation) {
     test::Tube tube;
     tube.binding.correctives = test::someCorrectives(tube.binding, 0.3, 5);

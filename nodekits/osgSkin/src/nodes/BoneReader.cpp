@@ -3,14 +3,30 @@
 
 #include <osgSkin/GlmOsg>
 
-#include <osgAnimation/BoneMapVisitor>
+#include <algorithm>
 
 namespace osgSkin {
+namespace {
+
+class OwnBones : public osgAnimation::BoneMapVisitor {
+public:
+    using osgAnimation::BoneMapVisitor::apply;
+    void apply(osg::Transform& node) override {
+        if (getNodePath().size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
+        osgAnimation::BoneMapVisitor::apply(node);
+    }
+};
+
+} // namespace
+
+osgAnimation::BoneMap bonesOf(osgAnimation::Skeleton& skeleton) {
+    OwnBones visitor;
+    skeleton.accept(visitor);
+    return visitor.getBoneMap();
+}
 
 BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skeleton& skeleton) {
-    osgAnimation::BoneMapVisitor visitor;
-    skeleton.accept(visitor);
-    const osgAnimation::BoneMap& bones = visitor.getBoneMap();
+    const osgAnimation::BoneMap bones = bonesOf(skeleton);
     _bones.reserve(joints.size());
     for (const BoundJoint& joint : joints) {
         const auto found = bones.find(joint.name);
@@ -22,6 +38,11 @@ BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skel
         _bones.push_back(joint.parent < 0 ? nullptr
                                           : _bones[static_cast<std::size_t>(joint.parent)]);
     }
+}
+
+bool BoneReader::isOutdated() const {
+    return std::any_of(_bones.begin(), _bones.end(),
+                       [](const auto& bone) { return bone && bone->getNumParents() == 0; });
 }
 
 const std::vector<glm::dmat4>& BoneReader::read() const {

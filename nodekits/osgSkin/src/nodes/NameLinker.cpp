@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "nodes/NameLinker.h"
 
+#include <osgAnimation/AnimationManagerBase>
+#include <osgAnimation/Skeleton>
 #include <osgAnimation/UpdateBone>
 
+#include <algorithm>
 #include <typeinfo>
 
 namespace osgSkin {
@@ -20,6 +23,17 @@ osgAnimation::UpdateMatrixTransform* linkedByName(osg::Callback& callback) {
                : nullptr;
 }
 
+/// Another character, as a rider, is moved by its own manager. A channel moves one target alone: it
+/// would leave this character's bone for the one of the same name below it.
+bool isAnotherCharacter(osg::Node& node, const osg::NodePath& path) {
+    osg::Callback* callback = node.getUpdateCallback();
+    while (callback && !dynamic_cast<osgAnimation::AnimationManagerBase*>(callback))
+        callback = callback->getNestedCallback();
+    return callback && std::any_of(path.begin(), path.end(), [&node](const osg::Node* above) {
+               return above != &node && dynamic_cast<const osgAnimation::Skeleton*>(above);
+           });
+}
+
 } // namespace
 
 NameLinker::NameLinker(const osgAnimation::AnimationList& animations) {
@@ -30,6 +44,7 @@ NameLinker::NameLinker(const osgAnimation::AnimationList& animations) {
 }
 
 void NameLinker::apply(osg::Node& node) {
+    if (isAnotherCharacter(node, getNodePath())) return;
     if (osg::StateSet* states = node.getStateSet()) handle_stateset(states);
     for (osg::Callback* callback = node.getUpdateCallback(); callback != nullptr;
          callback = callback->getNestedCallback()) {

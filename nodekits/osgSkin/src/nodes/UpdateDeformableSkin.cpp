@@ -37,15 +37,17 @@ void UpdateDeformableSkin::noticeSeek(const osg::NodeVisitor& nv) {
 void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable) {
     auto* skin = dynamic_cast<DeformableSkin*>(drawable);
     osgAnimation::Skeleton* skeleton = nv ? nearestSkeleton(nv->getNodePath()) : nullptr;
-    if (!skin || !skeleton) return;
-    noticeSeek(*nv);
-    pose(*skin, *skeleton);
+    if (skin && skeleton) {
+        noticeSeek(*nv);
+        pose(*skin, *skeleton);
+    }
+    traverse(drawable, nv); // callbacks that were added to this one
 }
 
 bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
     const SkinModel* model = skin.getModel();
     if (!model) return false;
-    if (_skeleton.get() != &skeleton || _model.get() != model) {
+    if (_skeleton.get() != &skeleton || _model.get() != model || _reader.isOutdated()) {
         _reader = BoneReader(model->joints(), skeleton);
         _skeleton = &skeleton;
         _model = model;

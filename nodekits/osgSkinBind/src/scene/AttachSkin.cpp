@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/AttachSkin>
 
+#include <osgSkin/BoneReader>
 #include <osgSkin/Error>
 #include <osgSkinBind/RigidJoints>
-
-#include <osgAnimation/BoneMapVisitor>
 
 namespace osgSkin {
 
 AttachedSkin placeSkins(osgAnimation::Skeleton& skeleton, const SkinParts& parts) {
-    osgAnimation::BoneMapVisitor visitor;
-    skeleton.accept(visitor);
+    const osgAnimation::BoneMap named = bonesOf(skeleton);
     std::vector<osg::ref_ptr<osgAnimation::Bone>> bones;
     for (const SkinParts::Rigid& rigid : parts.rigids) {
-        const auto bone = visitor.getBoneMap().find(rigid.joint);
-        if (bone == visitor.getBoneMap().end())
+        const auto bone = named.find(rigid.joint);
+        if (bone == named.end())
             throw Error("attach skin: the skeleton has no bone \"" + rigid.joint +
                         "\", which a rigid part needs");
         bones.push_back(bone->second);

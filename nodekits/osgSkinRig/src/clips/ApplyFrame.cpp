@@ -23,6 +23,8 @@ public:
     BoneCollector() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
 
     void apply(osg::Transform& node) override {
+        // Another skeleton, as a rider's, has bones of the same names.
+        if (getNodePath().size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
         if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node))
             bones.emplace(bone->getName(), bone);
         traverse(node);
