@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <thread>
 
 using osgSkin::DeformJob;
@@ -94,6 +95,31 @@ TEST(DeformPool, OfAnyNumberOfThreadsTakesRoomForAThousand) {
     std::atomic<std::size_t> calls{0};
     pool->forEach(100, [&](std::size_t) { ++calls; });
     EXPECT_EQ(calls, 100u);
+}
+
+/// As where one deforms a skin, whose lock it holds, that the pool's threads come to deform.
+TEST(DeformPool, ThreadsThatCallAtOnceDoNotWaitForEachOther) {
+    using Clock = std::chrono::steady_clock;
+    const osg::ref_ptr<DeformPool> pool = new DeformPool(2);
+    std::timed_mutex lock;
+    std::atomic<bool> held{false};
+    std::atomic<int> waiting{0}, let{0};
+    std::thread other([&] {
+        const std::lock_guard<std::timed_mutex> hold(lock);
+        held = true;
+        const auto end = Clock::now() + std::chrono::seconds(1);
+        while (waiting < 2 && Clock::now() < end) std::this_thread::yield();
+        pool->forEach(2, [](std::size_t) {});
+    });
+    while (!held) std::this_thread::yield();
+    pool->forEach(2, [&](std::size_t) {
+        ++waiting;
+        if (!lock.try_lock_for(std::chrono::seconds(10))) return;
+        ++let;
+        lock.unlock();
+    });
+    other.join();
+    EXPECT_EQ(let, 2);
 }
 
 TEST(DeformPool, CallsEachOnce) {

@@ -25,7 +25,29 @@ struct DeformPool::Arena {
     }
     unsigned int threads;
     tbb::task_arena arena;
+    std::atomic<bool> taken{false}; ///< by a caller from without
 };
+
+namespace {
+
+/// In which pool this thread is at work; for as long as this lives.
+class AtWork {
+public:
+    explicit AtWork(const void* arena) : _before(current()) { current() = arena; }
+    ~AtWork() { current() = _before; }
+    AtWork(const AtWork&) = delete;
+    AtWork& operator=(const AtWork&) = delete;
+
+    static const void*& current() {
+        static thread_local const void* arena = nullptr;
+        return arena;
+    }
+
+private:
+    const void* _before;
+};
+
+} // namespace
 
 bool DeformPool::hasThreads() noexcept {
     return true;
@@ -39,17 +61,24 @@ void DeformPool::setThreadCount(unsigned int threads) {
 }
 
 void DeformPool::callEach(std::size_t count, Call call, const void* function) const noexcept {
-    if (_arena->threads == 1 || count < 2) {
+    Arena* const own = _arena.get();
+    const bool within = AtWork::current() == own;
+    // Who waited for a thread might hold a skin's lock that those threads wait for: works alone.
+    if (own->threads == 1 || count < 2 || (!within && own->taken.exchange(true))) {
         for (std::size_t i = 0; i < count; ++i) call(function, i);
         return;
     }
     // Isolated: a thread that waits for the rest of a skin must not begin with another one, whose
     // lock somebody may hold who waits for a thread.
-    _arena->arena.execute([&] {
+    own->arena.execute([&] {
         tbb::this_task_arena::isolate([&] {
-            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { call(function, i); });
+            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+                const AtWork here(own);
+                call(function, i);
+            });
         });
     });
+    if (!within) own->taken = false;
 }
 
 #else
