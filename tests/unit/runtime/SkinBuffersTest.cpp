@@ -152,6 +152,35 @@ TEST(SkinBuffers, KeepEverythingElse) {
         EXPECT_EQ(posed.getPrimitiveSet(i), rest.getPrimitiveSet(i));
 }
 
+/// The model has the vertices, so an application may drop the geometry's.
+TEST(SkinBuffers, NeedNoArraysOfTheRestGeometry) {
+    const auto array = [](const osg::Array* of) {
+        return static_cast<const osg::Vec3Array&>(*of).asVector();
+    };
+    for (const bool cleared : {true, false}) {
+        const test::Tube tube;
+        const osg::ref_ptr<osg::Geometry> rest = test::makeGeometry(tube);
+        const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+        skin->setSkin(rest, tube.model());
+        if (cleared) {
+            static_cast<osg::Vec3Array&>(*rest->getVertexArray()).clear();
+            static_cast<osg::Vec3Array&>(*rest->getNormalArray()).clear();
+        } else {
+            rest->setVertexArray(nullptr);
+            rest->setNormalArray(nullptr);
+        }
+        const osg::ref_ptr<osgSkin::DeformableSkin> copy =
+            osg::clone(skin.get(), osg::CopyOp::SHALLOW_COPY);
+        test::bend(*skin, 0.7);
+        test::bend(*copy, 0.7);
+        const osg::Geometry& a = *skin->getDeformedGeometry();
+        const osg::Geometry& b = *copy->getDeformedGeometry();
+        EXPECT_EQ(array(a.getVertexArray()), array(b.getVertexArray()));
+        EXPECT_EQ(array(a.getNormalArray()), array(b.getNormalArray()));
+        EXPECT_EQ(a.getVertexArray()->getNumElements(), tube.positions.size());
+    }
+}
+
 TEST(SkinBuffers, TangentsTurnWithTheNormals) {
     const auto skin = makeRichSkin();
     std::vector<const osg::Array*> arrays;

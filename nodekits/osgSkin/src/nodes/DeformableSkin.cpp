@@ -95,13 +95,16 @@ void DeformableSkin::setTangentAttribute(int index) {
 
 namespace {
 
-/// Copies `source` into memory that a deformation may write, in the given buffer object.
+/// Copies `source` into memory that a deformation may write, in the given buffer object. It may be
+/// another one than setSkin() has seen, or null: the application may have dropped what is in it.
 template <typename Array>
-osg::ref_ptr<Array> stream(const osg::Array& source, osg::VertexBufferObject& vbo) {
-    osg::ref_ptr<Array> array = new Array(osg::Array::BIND_PER_VERTEX, source.getNumElements());
-    if (const auto* same = dynamic_cast<const Array*>(&source))
-        array->asVector() = same->asVector();
-    array->setNormalize(source.getNormalize());
+osg::ref_ptr<Array> stream(const osg::Array* source, std::size_t count,
+                           osg::VertexBufferObject& vbo) {
+    osg::ref_ptr<Array> array =
+        new Array(osg::Array::BIND_PER_VERTEX, static_cast<unsigned int>(count));
+    const auto* same = dynamic_cast<const Array*>(source);
+    if (same && same->size() == count) array->asVector() = same->asVector();
+    if (source) array->setNormalize(source->getNormalize());
     array->setVertexBufferObject(&vbo);
     return array;
 }
@@ -122,12 +125,13 @@ osg::ref_ptr<osg::Geometry> DeformableSkin::makeDrawnGeometry() const {
     // Each buffer streams from memory of its own: a draw thread may still read the other one.
     const osg::ref_ptr<osg::VertexBufferObject> vbo = new osg::VertexBufferObject;
     vbo->setUsage(GL_DYNAMIC_DRAW);
-    buffer->setVertexArray(stream<osg::Vec3Array>(*_rest->getVertexArray(), *vbo));
-    buffer->setNormalArray(stream<osg::Vec3Array>(*_rest->getNormalArray(), *vbo));
+    const std::size_t count = _model->vertexCount();
+    buffer->setVertexArray(stream<osg::Vec3Array>(_rest->getVertexArray(), count, *vbo));
+    buffer->setNormalArray(stream<osg::Vec3Array>(_rest->getNormalArray(), count, *vbo));
     if (_tangents) {
         const auto index = static_cast<unsigned int>(_tangentAttribute);
         buffer->setVertexAttribArray(
-            index, stream<osg::Vec4Array>(*_rest->getVertexAttribArray(index), *vbo));
+            index, stream<osg::Vec4Array>(_rest->getVertexAttribArray(index), count, *vbo));
     }
     // Bounds are the skin's, known from the pose before any vertex is deformed: set as initial
     // ones, to which the callback adds nothing.
