@@ -6,7 +6,9 @@
 #include <osgSkinBind/ConvertRigs>
 
 #include <osg/FrameStamp>
+#include <osg/LOD>
 #include <osg/MatrixTransform>
+#include <osg/Switch>
 #include <osgAnimation/Bone>
 #include <osgAnimation/MorphGeometry>
 #include <osgAnimation/RigGeometry>
@@ -149,6 +151,28 @@ TEST(ConvertRigs, RigUnderATransformComesToStandUnderItsSkeleton) {
     for (std::size_t v = 0; v < verticesOf(rest).size(); ++v)
         EXPECT_NEAR(double(verticesOf(rest)[v].z()), mesh.positions[sourceOf(rest, v)].z + 4.0,
                     1e-5);
+}
+
+/// Out of its transform it would be drawn at all distances, or though it is switched off.
+TEST(ConvertRigs, RigThatIsDrawnAtTimesStaysUnderItsTransform) {
+    for (const double aside : {0.0, 4.0})
+        for (const bool far : {false, true}) {
+            Scene scene;
+            const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
+            place->setMatrix(osg::Matrix::translate(0, 0, aside));
+            place->addChild(makeRig(rigid));
+            const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+            const osg::ref_ptr<osg::Switch> choice = new osg::Switch;
+            if (far)
+                levels->addChild(place, 10.0f, 1e9f);
+            else
+                choice->addChild(place, false);
+            scene.skeleton->addChild(far ? static_cast<osg::Group*>(levels) : choice.get());
+            const ConvertReport report = convertRigs(*scene.root);
+            EXPECT_EQ(report.skins.size(), aside == 0.0 ? 1u : 0u);
+            EXPECT_EQ(report.notes.size(), aside == 0.0 ? 0u : 1u);
+            EXPECT_EQ(place->getNumChildren(), 1u);
+        }
 }
 
 TEST(ConvertRigs, SeveralRigsOfOneSkeletonKeepTheirSeamsClosed) {

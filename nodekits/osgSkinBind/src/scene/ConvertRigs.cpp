@@ -11,7 +11,10 @@
 #include <osgSkinBind/ShowRegions>
 #include <osgSkinRig/ReadSkeleton>
 
+#include <osg/LOD>
 #include <osg/Notify>
+#include <osg/Sequence>
+#include <osg/Switch>
 #include <osg/Transform>
 
 #include <algorithm>
@@ -45,6 +48,25 @@ Binding bindBody(const RigBody& body, const RestSkeleton& skeleton, const Conver
     OSG_INFO << "osgSkin: bound by " << (painted ? "painted weights" : "regions") << "\n"
              << report.text();
     return binding;
+}
+
+/// Whether a node of the path says when what is below it is drawn.
+bool isChosen(const osg::NodePath& path) {
+    return std::any_of(path.begin(), path.end(), [](const osg::Node* node) {
+        return node->getNodeMask() != ~0u || node->getCullCallback() != nullptr ||
+               dynamic_cast<const osg::Switch*>(node) != nullptr ||
+               dynamic_cast<const osg::LOD*>(node) != nullptr ||
+               dynamic_cast<const osg::Sequence*>(node) != nullptr;
+    });
+}
+
+/// Throws osgSkin::Error where the skin would be drawn when the rig is not: it leaves transforms.
+void requireDrawnAsBefore(const Rig& rig) {
+    for (const osg::NodePath& path : rig.nodePaths)
+        if (isChosen(path) && !osg::computeLocalToWorld(path).isIdentity())
+            throw Error(
+                "it stands under a transform and a switch, a level of detail, a node mask or "
+                "a cull callback");
 }
 
 /// Puts the skin where the rig is.
@@ -87,6 +109,7 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
     std::vector<const Rig*> taken;
     for (const Rig* rig : rigs) {
         try {
+            requireDrawnAsBefore(*rig);
             body.add(*rig->geometry, osg::computeLocalToWorld(rig->nodePaths.front()), made.rest);
             taken.push_back(rig);
         } catch (const Error& error) {
