@@ -138,6 +138,10 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     const WeldedMesh skin(mesh);
     requireSurface(skin);
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
+    for (const PlannedJoint& joint : joints) {
+        found.jointsInside += joint.seeds ? 1 : 0;
+        found.jointsOutside += joint.outside ? 1 : 0;
+    }
     Regions regions = findRegions(
         skin, joints, subProgress(ratiosProgress, kRegionsBegin, kBendsBegin)); // section 1
 

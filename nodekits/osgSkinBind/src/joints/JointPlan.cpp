@@ -54,8 +54,10 @@ void giveRegions(const RestSkeleton& skeleton, double tolerance,
 void findSeeding(const RestSkeleton& skeleton, const WeldedMesh& mesh,
                  std::vector<PlannedJoint>& joints, std::vector<std::string>& notes) {
     bool anyInside = false;
-    for (PlannedJoint& joint : joints) {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        PlannedJoint& joint = joints[j];
         joint.seeds = joint.holdsRegion && isInsideSkin(mesh, joint.centre);
+        joint.outside = joint.holdsRegion && !joint.seeds && !joint.belowRigid(static_cast<int>(j));
         anyInside = anyInside || joint.seeds;
     }
     if (!anyInside) {

@@ -33,6 +33,7 @@ struct PlannedJoint {
     bool trunk = false;       ///< of the trunk: spine, hips, collar bones
     bool collarBone = false;  ///< between the spine and an upper arm
     bool seeds = false;       ///< its centre takes part in the Delaunay step
+    bool outside = false;     ///< the skin, and not a part of a hand or a head
     bool claims = false;      ///< outside the skin: takes the skin nearest to it
     bool holdsRegion = false; ///< has a region, so its field is its own; else its children's
 

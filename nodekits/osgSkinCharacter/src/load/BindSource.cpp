@@ -2,6 +2,7 @@
 #include "load/BindSource.h"
 
 #include "load/KeepShells.h"
+#include "load/TellMisfit.h"
 #include "report/NamingFile.h"
 #include "report/TakeNote.h"
 #include "source/MeshWeights.h"
@@ -86,10 +87,12 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
     if (source.painted == Painted::WhereGood && gapsOf(weights) == weights.size())
         takeNote(source.notes,
                  source.meshFile + ": no weight is above 0, the body is bound by regions");
-    if (!byWeights)
+    if (!byWeights) {
+        tellMisfit(source, report);
         if (const std::size_t kept = keepShells(source, weights, binding))
             report.notes.push_back(std::to_string(kept) +
                                    " shells follow one joint: heads, and what hands hold");
+    }
     OSG_INFO << source.file << ": bound by " << (byWeights ? "painted weights" : "regions") << "\n"
              << report.text();
     return binding;

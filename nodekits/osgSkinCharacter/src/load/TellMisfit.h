@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "source/CharacterSource.h"
+
+#include <osgSkinBind/BindReport>
+
+namespace osgSkin {
+
+/// Tells of a skeleton that is hardly this body's: in another unit, with another axis up, in
+/// another place. Such a body can be bound, but to the wrong joints.
+///
+/// \param source with body and rest skeleton; gets a note
+/// \param report of its binding by regions
+void tellMisfit(CharacterSource& source, const BindReport& report);
+
+} // namespace osgSkin

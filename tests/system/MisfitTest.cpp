@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Bodies whose skeleton is in another unit, has another axis up or stands elsewhere.
+#include "Command.h"
+#include "Notices.h"
+
+#include <osgSkinCharacter/LoadCharacter>
+
+#include <osg/Matrixd>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+const std::string kBodyThatFits = OSGSKIN_DATA "/thrower";
+
+/// What is told of the thrower where his body is moved, and his skeleton is not.
+std::string misfitsOf(const osg::Matrixd& move) {
+    const std::string folder = test::makeTestFolder();
+    std::ifstream from(kBodyThatFits + ".obj");
+    std::ofstream body(folder + "/body.obj");
+    for (std::string line; std::getline(from, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        osg::Vec3d p;
+        if (words >> kind && kind == "v" && words >> p.x() >> p.y() >> p.z()) {
+            p = p * move;
+            body << "v " << p.x() << " " << p.y() << " " << p.z() << "\n";
+        } else {
+            body << line << "\n";
+        }
+    }
+    body.close();
+    std::ofstream(folder + "/c.skin") << "{\"osgskin\": 1, \"mesh\": \"body.obj\", \"skeleton\": \""
+                                      << kBodyThatFits << ".bvh\"}";
+    const test::Notices notices;
+    const osgSkin::Character character = osgSkin::loadCharacter(folder + "/c.skin");
+    std::string result;
+    for (const std::string& note : character.notes) result += note + "\n";
+    EXPECT_TRUE(notices.say(result));
+    return result;
+}
+
+} // namespace
+
+TEST(Misfit, SkeletonsInAnotherUnitAreToldOf) {
+    for (const double scale : {0.01, 0.0254, 10.0, 39.37, 100.0})
+        EXPECT_NE(misfitsOf(osg::Matrixd::scale(scale, scale, scale))
+                      .find(" times as long as the skeleton, expected both in the same unit"),
+                  std::string::npos)
+            << scale;
+}
+
+TEST(Misfit, SkeletonsInAnotherPlaceAreToldOf) {
+    for (const osg::Matrixd& move :
+         {osg::Matrixd::translate(0, 0, 1e3), osg::Matrixd::translate(0, 1e3, 0),
+          osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0)),
+          osg::Matrixd::rotate(-osg::PI_2, osg::Vec3d(1, 0, 0))})
+        EXPECT_NE(misfitsOf(move).find(" joints lie outside the skin, expected"),
+                  std::string::npos);
+}
+
+TEST(Misfit, OthersAreNot) {
+    EXPECT_EQ(misfitsOf(osg::Matrixd()), "");
+}
