@@ -229,6 +229,29 @@ TEST(UpdateDeformableSkin, FollowsABoneThatTakesAnothersPlace) {
     EXPECT_NEAR(bendOf(*skin), 0.5, 1e-9);
 }
 
+/// It can show one pose; copies would show two.
+TEST(UpdateDeformableSkin, SeveralSkeletonsOfOneSkinAreToldOf) {
+    const osg::ref_ptr<osgAnimation::Skeleton> first = makeBones(), second = makeBones();
+    const auto skin = makeSkin();
+    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(first);
+    scene->addChild(second);
+    osgUtil::UpdateVisitor update;
+    const test::Notices notices;
+    first->addChild(skin);
+    scene->accept(update);
+    first->removeChild(skin); // moved: no news
+    second->addChild(skin);
+    scene->accept(update);
+    EXPECT_EQ(notices.text(), "");
+    first->addChild(skin);
+    scene->accept(update);
+    scene->accept(update);
+    EXPECT_TRUE(notices.say("stands under several skeletons")) << notices.text();
+    EXPECT_EQ(notices.lines(), 1u);
+}
+
 TEST(UpdateDeformableSkin, LetsCallbacksThatAreAddedToItRun) {
     struct Count : osg::DrawableUpdateCallback {
         int times = 0;

@@ -7,6 +7,7 @@
 #include <osg/NodeVisitor>
 #include <osg/Notify>
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgSkin {
@@ -16,6 +17,14 @@ osgAnimation::Skeleton* nearestSkeleton(const osg::NodePath& path) {
     for (auto node = path.rbegin(); node != path.rend(); ++node)
         if (auto* skeleton = dynamic_cast<osgAnimation::Skeleton*>(*node)) return skeleton;
     return nullptr;
+}
+
+bool standsUnderAnother(const osg::Drawable& skin, const osgAnimation::Skeleton& skeleton) {
+    const osg::NodePathList paths = skin.getParentalNodePaths();
+    return std::any_of(paths.begin(), paths.end(), [&](const osg::NodePath& path) {
+        const osgAnimation::Skeleton* nearest = nearestSkeleton(path);
+        return nearest && nearest != &skeleton;
+    });
 }
 
 } // namespace
@@ -38,6 +47,14 @@ void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable)
     auto* skin = dynamic_cast<DeformableSkin*>(drawable);
     osgAnimation::Skeleton* skeleton = nv ? nearestSkeleton(nv->getNodePath()) : nullptr;
     if (skin && skeleton) {
+        const bool another = _skeleton.valid() && _skeleton.get() != skeleton;
+        if (another && !_toldSeveral && standsUnderAnother(*skin, *skeleton)) {
+            OSG_WARN << onOneLine("osgSkin: skin \"" + skin->getName() +
+                                  "\" stands under several skeletons and follows one of them, "
+                                  "expected a copy of the skin under each")
+                     << std::endl;
+            _toldSeveral = true;
+        }
         noticeSeek(*nv);
         pose(*skin, *skeleton);
     }
