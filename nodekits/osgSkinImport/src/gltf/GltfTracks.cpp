@@ -31,17 +31,44 @@ struct Keys {
     }
 };
 
+/// A time as many floats earlier. Values change kChanges to kHolds before a key's own time, since
+/// samples that are meant to stand there are off by a float or two, and would be half old.
+constexpr int kHolds = 4, kChanges = 3;
+double earlier(double time, int floats) {
+    auto result = static_cast<float>(time);
+    for (; floats > 0; --floats) result = std::nextafter(result, -HUGE_VALF);
+    return double(result);
+}
+
 /// A value holds until the next key.
 Keys fromSteps(const Keys& track) {
     Keys result{track.width, {}, {}};
     for (std::size_t k = 0; k < track.times.size(); ++k) {
         const double* value = &track.values[k * track.width];
-        if (k > 0) {
-            const float before = std::nextafter(static_cast<float>(track.times[k]), -HUGE_VALF);
-            if (double(before) > track.times[k - 1])
-                result.add(double(before), value - track.width);
+        const double time = track.times[k];
+        const bool hasRoom = k > 0 && earlier(time, kHolds) > track.times[k - 1];
+        if (hasRoom) {
+            result.add(earlier(time, kHolds), value - track.width);
+            result.add(earlier(time, kChanges), value);
         }
-        result.add(track.times[k], value);
+        if (!hasRoom || k + 1 == track.times.size()) result.add(time, value);
+    }
+    return result;
+}
+
+/// Of keys that share a time, the first one is what comes before it, and the last one what follows.
+Keys apart(const Keys& track) {
+    Keys result{track.width, {}, {}};
+    const std::vector<double>& times = track.times;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        const bool isFirst = k == 0 || times[k - 1] < times[k];
+        const bool isLast = k + 1 == times.size() || times[k] < times[k + 1];
+        double time = times[k];
+        if (isFirst && !isLast) time = earlier(time, kHolds);
+        if (isLast && !isFirst && !result.times.empty()) time = earlier(time, kChanges);
+        const bool isNeeded = isFirst ? isLast || k > 0 : isLast;
+        if (isNeeded && (result.times.empty() || time > result.times.back()))
+            result.add(time, &track.values[k * track.width]);
     }
     return result;
 }
@@ -82,7 +109,11 @@ Keys fromSplines(const Keys& track, bool isRotation) {
     return result;
 }
 
-/// Keys may share a time, as exporters of steps write them.
+/// Whether keys share a time, as exporters of steps write them.
+bool hasTwins(const std::vector<double>& times) {
+    return std::adjacent_find(times.begin(), times.end()) != times.end();
+}
+
 void checkTimes(const std::vector<double>& times, std::size_t accessor, const std::string& where) {
     for (std::size_t k = 0; k < times.size(); ++k)
         if (!(std::abs(times[k]) <= kLatest) || (k > 0 && times[k] < times[k - 1]))
@@ -138,10 +169,12 @@ void makeLinear(json& sampler, const std::string& path, const std::string& where
     checkTimes(times, input, where);
     Keys track{width, times, accessors.values(output)};
     checkKeys(track.values, width, output, where, width == 4, isSpline);
-    if (!isSpline && !isStepped && accessors.isPlain(input) && accessors.isPlain(output)) return;
+    const bool isPlain = accessors.isPlain(input) && accessors.isPlain(output);
+    if (!isSpline && !isStepped && isPlain && !hasTwins(times)) return;
     if (isStepped) track = fromSteps(track);
     if (isSpline) takePieces(track.times, where, left);
     if (isSpline) track = fromSplines(track, path == "rotation");
+    if (hasTwins(track.times)) track = apart(track);
     sampler["input"] = accessors.add("SCALAR", track.times);
     sampler["output"] = accessors.add(width == 4 ? "VEC4" : "VEC3", track.values);
     sampler["interpolation"] = "LINEAR";
