@@ -44,6 +44,22 @@ std::size_t trimmedPlaces(GltfColumn& column, std::size_t unused) {
     return accessor;
 }
 
+/// Makes all numbers of an accessor changes to zeros that stand nowhere.
+void makeSparse(GltfColumn& column, std::size_t accessor) {
+    json& whole = column.json["accessors"][accessor];
+    const auto count = whole["count"].get<std::size_t>();
+    std::vector<double> places;
+    for (std::size_t i = 0; i < count; ++i) places.push_back(double(i));
+    const std::size_t indices = column.accessor("SCALAR", places, 5123);
+    json& sparse = column.json["accessors"][accessor];
+    sparse["sparse"] = {{"count", count},
+                        {"indices",
+                         {{"bufferView", column.json["accessors"][indices]["bufferView"]},
+                          {"componentType", 5123}}},
+                        {"values", {{"bufferView", sparse["bufferView"]}}}};
+    sparse.erase("bufferView");
+}
+
 /// The sum of a bone's weights, by its number.
 double weightOf(const osgSkin::ImportedRig& rig, const std::string& bone) {
     double result = 0.0;
@@ -96,6 +112,26 @@ TEST(GltfDialect, JointsMayBeBytesAndShorts) {
     EXPECT_NEAR(weightOf(rig, "base"), 0.5 * kColumnVertices, 1e-5);
     EXPECT_NEAR(weightOf(rig, "middle"), 0.25 * kColumnVertices, 1e-5);
     EXPECT_NEAR(weightOf(rig, "top"), 0.25 * kColumnVertices, 1e-5);
+}
+
+TEST(GltfDialect, JointsAndIndicesMayBeSparse) {
+    const osgSkin::ImportedRig whole = osgSkin::importRig(GltfColumn().save("whole.gltf"));
+    for (const bool hasMore : {false, true}) {
+        GltfColumn column;
+        if (hasMore) { // and a second set, which is not
+            column.attributes()["JOINTS_1"] =
+                column.accessor("VEC4", std::vector<double>(4 * kColumnVertices, 0.0), 5121);
+            column.attributes()["WEIGHTS_1"] =
+                column.accessor("VEC4", std::vector<double>(4 * kColumnVertices, 0.0));
+        }
+        makeSparse(column, column.jointIndices);
+        makeSparse(column, column.json["meshes"][0]["primitives"][0]["indices"].get<std::size_t>());
+        const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("sparse.gltf"));
+        EXPECT_EQ(rig.body.mesh.positions, whole.body.mesh.positions);
+        EXPECT_EQ(rig.body.mesh.faceVertices, whole.body.mesh.faceVertices);
+        for (const char* bone : {"base", "middle", "top"})
+            EXPECT_NEAR(weightOf(rig, bone), 8.0, 1e-5) << bone << hasMore;
+    }
 }
 
 TEST(GltfDialect, ASkinnedMeshMayBeShownTwice) {

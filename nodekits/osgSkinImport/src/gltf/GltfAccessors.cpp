@@ -106,7 +106,7 @@ std::size_t GltfAccessors::componentBytes(std::size_t index) const {
 
 bool GltfAccessors::isWhole(std::size_t index) const {
     const nlohmann::json& source = accessor(index);
-    if (!source.contains("bufferView")) return false;
+    if (!source.contains("bufferView") || source.contains("sparse")) return false;
     const nlohmann::json& view =
         _file.json.at("bufferViews").at(source.at("bufferView").get<std::size_t>());
     const std::size_t stride = sizeAt(view, "byteStride");
@@ -114,8 +114,7 @@ bool GltfAccessors::isWhole(std::size_t index) const {
 }
 
 bool GltfAccessors::isPlain(std::size_t index) const {
-    return accessor(index).at("componentType") == int(kFloat) &&
-           !accessor(index).contains("sparse") && isWhole(index);
+    return accessor(index).at("componentType") == int(kFloat) && isWhole(index);
 }
 
 bool GltfAccessors::hasValues(std::size_t index) const {
@@ -205,6 +204,10 @@ std::size_t GltfAccessors::add(const std::string& type, const std::vector<double
 
 std::size_t GltfAccessors::addShorts(const std::string& type, const std::vector<double>& values) {
     return addBytes(type, kUShort, values.size(), bytesOf<std::uint16_t>(values));
+}
+
+std::size_t GltfAccessors::addInts(const std::string& type, const std::vector<double>& values) {
+    return addBytes(type, kUInt, values.size(), bytesOf<std::uint32_t>(values));
 }
 
 } // namespace osgSkin

@@ -26,11 +26,11 @@ public:
     /// How many bytes a number has.
     std::size_t componentBytes(std::size_t accessor) const;
 
-    /// Whether its view goes on for a stride behind where its last element begins: Assimp takes no
-    /// other.
+    /// Whether it stands in a view, is not sparse, and the view goes on for a stride behind where
+    /// its last element begins: Assimp takes no others for whole numbers.
     bool isWhole(std::size_t accessor) const;
 
-    /// Whether it isWhole(), and has floats and nothing else: no integers, not sparse.
+    /// Whether it isWhole(), and has floats: no integers.
     bool isPlain(std::size_t accessor) const;
 
     /// Whether the file holds its values, not only in a compressed form of some extension.
@@ -49,6 +49,8 @@ public:
     std::size_t add(const std::string& type, const std::vector<double>& values);
     /// The same of whole numbers of two bytes.
     std::size_t addShorts(const std::string& type, const std::vector<double>& values);
+    /// The same of whole numbers of four bytes.
+    std::size_t addInts(const std::string& type, const std::vector<double>& values);
 
 private:
     const nlohmann::json& accessor(std::size_t index) const;

@@ -140,13 +140,15 @@ private:
     /// What names vertices and joints is there, where Draco does not hold it, and the rest is not
     /// zeros without end.
     void checkStored(const json& primitive, const std::string& where) {
-        if (primitive.contains("indices"))
+        if (primitive.contains("indices")) {
             _parts.requireValues(primitive.at("indices").get<std::size_t>(), where + ".indices");
-        for (const auto& [name, accessor] : primitive.at("attributes").items())
+            _parts.takeZeros(primitive.at("indices").get<std::size_t>(), where + ".indices");
+        }
+        for (const auto& [name, accessor] : primitive.at("attributes").items()) {
             if (name.rfind("JOINTS_", 0) == 0)
                 _parts.requireValues(accessor.get<std::size_t>(), where + "." + name);
-            else
-                _parts.takeZeros(accessor.get<std::size_t>(), where + "." + name);
+            _parts.takeZeros(accessor.get<std::size_t>(), where + "." + name);
+        }
     }
 
     void addTargets(const json& from, std::size_t vertices, const std::string& where,

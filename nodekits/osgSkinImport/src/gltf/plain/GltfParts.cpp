@@ -235,11 +235,11 @@ void GltfParts::requireIndices(std::size_t accessor, bool wide, const std::strin
     const Accessor& known = _accessors[accessor];
     const bool fits =
         known.component == 5121 || known.component == 5123 || (wide && known.component == 5125);
-    if (!fits || known.sparse) fail(where, "unsigned whole numbers, not sparse");
+    if (!fits) fail(where, "unsigned whole numbers");
 }
 
 void GltfParts::requireValues(std::size_t accessor, const std::string& where) const {
-    if (!_accessors[accessor].stored)
+    if (!_accessors[accessor].stored && !_accessors[accessor].sparse)
         fail("accessors[" + std::to_string(accessor) + "], " + where, "a buffer view");
 }
 

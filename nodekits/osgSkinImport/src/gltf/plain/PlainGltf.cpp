@@ -51,6 +51,7 @@ public:
             for (json& primitive : mesh.at("primitives")) {
                 makeFloats(primitive);
                 makeJoints(primitive);
+                makeIndices(primitive);
             }
         makeTracksLinear(_file, _accessors);
         for (json& image : list("images")) decodeUri(image);
@@ -128,18 +129,30 @@ private:
     void makeJoints(json& primitive) {
         std::map<std::string, std::size_t> joints;
         std::set<std::size_t> bytes;
+        bool areWhole = true;
         for (const auto& [name, index] : primitive.at("attributes").items()) {
             const auto accessor = index.get<std::size_t>();
             if (name.rfind("JOINTS_", 0) != 0 || !_accessors.hasValues(accessor)) continue;
             joints.emplace(name, accessor);
             bytes.insert(_accessors.componentBytes(accessor));
+            areWhole = areWhole && _accessors.isWhole(accessor);
         }
+        if (areWhole && bytes.size() <= 1) return;
         for (const auto& [name, accessor] : joints) {
-            if (bytes.size() == 1 && _accessors.isWhole(accessor)) continue;
             const auto [entry, isNew] = _shorts.emplace(accessor, 0);
             if (isNew) entry->second = _accessors.addShorts("VEC4", _accessors.values(accessor));
             primitive["attributes"][name] = entry->second;
         }
+    }
+
+    /// Assimp has no indices that are sparse.
+    void makeIndices(json& primitive) {
+        if (!primitive.contains("indices")) return;
+        const auto accessor = primitive.at("indices").get<std::size_t>();
+        if (!_accessors.hasValues(accessor) || _accessors.isWhole(accessor)) return;
+        const auto [entry, isNew] = _ints.emplace(accessor, 0);
+        if (isNew) entry->second = _accessors.addInts("SCALAR", _accessors.values(accessor));
+        primitive["indices"] = entry->second;
     }
 
     std::size_t addFloats(std::size_t accessor) {
@@ -176,6 +189,7 @@ private:
     /// Accessors that have been converted, and whether to opaque colours.
     std::map<std::pair<std::size_t, bool>, std::size_t> _floats;
     std::map<std::size_t, std::size_t> _shorts; ///< the same, to joints of two bytes
+    std::map<std::size_t, std::size_t> _ints;   ///< and to indices of four
     json _none = json::array();
 };
 
