@@ -3,6 +3,7 @@
 
 #include "assimp/AssimpMaterials.h"
 #include "assimp/AssimpScene.h"
+#include "assimp/BoundApart.h"
 #include "assimp/SceneBind.h"
 #include "assimp/SceneSkeleton.h"
 #include "assimp/Scenery.h"
@@ -18,22 +19,28 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace osgSkin {
 namespace {
 
-/// Adds one mesh of the scene, in the scene's space.
-void addMesh(const aiMesh& source, const glm::dmat4& toScene, const AssimpMaterials& materials,
-             const std::string& where, CornerMesh& result) {
+glm::dmat3 normalMatrixOf(const glm::dmat4& toScene) {
+    return glm::transpose(glm::inverse(glm::dmat3(toScene)));
+}
+
+/// Adds one mesh of the scene, in the scene's space: all of it by `toScene`, or where there are
+/// some, each vertex by its own of `apart`.
+void addMesh(const aiMesh& source, const glm::dmat4& toScene, const std::vector<glm::dmat4>& apart,
+             const AssimpMaterials& materials, const std::string& where, CornerMesh& result) {
     const std::size_t first = result.mesh.positions.size();
     if (first + source.mNumVertices > std::numeric_limits<std::uint32_t>::max())
         failFile(where, "more vertices than 32-bit indices reach");
     for (unsigned v = 0; v < source.mNumVertices; ++v)
-        result.mesh.positions.emplace_back(toScene * glm::dvec4(toGlm(source.mVertices[v]), 1.0));
+        result.mesh.positions.emplace_back((apart.empty() ? toScene : apart[v]) *
+                                           glm::dvec4(toGlm(source.mVertices[v]), 1.0));
 
-    const glm::dmat3 linear(toScene);
-    const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
-    const bool mirrored = glm::determinant(linear) < 0.0;
+    const glm::dmat3 normalMatrix = normalMatrixOf(toScene);
+    const bool mirrored = glm::determinant(glm::dmat3(toScene)) < 0.0;
     const unsigned set = materials.texCoordsOf(source);
     const bool hasTexCoords = source.HasTextureCoords(set);
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
@@ -47,7 +54,9 @@ void addMesh(const aiMesh& source, const glm::dmat4& toScene, const AssimpMateri
                 failFile(where, "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
                                     ", expected less than " + std::to_string(source.mNumVertices));
             glm::dvec3 normal(0.0);
-            if (source.HasNormals()) normal = normalMatrix * toGlm(source.mNormals[v]);
+            if (source.HasNormals())
+                normal = (apart.empty() ? normalMatrix : normalMatrixOf(apart[v])) *
+                         toGlm(source.mNormals[v]);
             glm::vec2 texCoord(0.0f);
             if (hasTexCoords)
                 texCoord = {source.mTextureCoords[set][v].x, source.mTextureCoords[set][v].y};
@@ -118,7 +127,8 @@ CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,
             }
             const std::string where = path + ": mesh \"" + mesh.mName.C_Str() + "\"";
             const std::size_t first = result.mesh.positions.size();
-            addMesh(mesh, bind.mesh(*node, node->mMeshes[m]), materials, where, result);
+            const glm::dmat4 toScene = bind.mesh(*node, node->mMeshes[m]);
+            addMesh(mesh, toScene, boundApart(mesh, toScene, bind), materials, where, result);
             addWeights(mesh, above, first, where, result);
         }
     if (!leftOut.empty())

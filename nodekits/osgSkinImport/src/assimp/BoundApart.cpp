@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "assimp/BoundApart.h"
+
+#include "assimp/AssimpScene.h"
+
+#include <assimp/scene.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+constexpr double kOff = 1e-3; ///< of the mesh's size: what files round their numbers by
+
+glm::dvec3 placed(const glm::dmat4& matrix, const aiVector3D& vertex) {
+    return glm::dvec3(matrix * glm::dvec4(toGlm(vertex), 1.0));
+}
+
+/// The length of the diagonal of a mesh's box in the scene.
+double sizeOf(const aiMesh& mesh, const glm::dmat4& toScene) {
+    if (mesh.mNumVertices == 0) return 0.0;
+    glm::dvec3 low = placed(toScene, mesh.mVertices[0]), high = low;
+    for (unsigned v = 1; v < mesh.mNumVertices; ++v) {
+        const glm::dvec3 at = placed(toScene, mesh.mVertices[v]);
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    return glm::distance(low, high);
+}
+
+bool counts(const aiMesh& mesh, const aiVertexWeight& entry) {
+    return entry.mVertexId < mesh.mNumVertices && std::isfinite(entry.mWeight) &&
+           entry.mWeight > 0.0f;
+}
+
+/// Calls `use` with each weight that counts, and where its bone takes the mesh.
+template <typename Use>
+void forEachWeight(const aiMesh& mesh, const glm::dmat4& toScene, const SceneBind& bind,
+                   const Use& use) {
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+        const aiBone& bone = *mesh.mBones[b];
+        const aiNode* const node = bind.find(nameOf(bone));
+        const glm::dmat4 own =
+            node == nullptr ? toScene : bind.node(*node) * toGlm(bone.mOffsetMatrix);
+        for (unsigned w = 0; w < bone.mNumWeights; ++w)
+            if (counts(mesh, bone.mWeights[w])) use(bone.mWeights[w], own);
+    }
+}
+
+} // namespace
+
+std::vector<glm::dmat4> boundApart(const aiMesh& mesh, const glm::dmat4& toScene,
+                                   const SceneBind& bind) {
+    const double most = kOff * sizeOf(mesh, toScene);
+    bool isApart = false;
+    forEachWeight(mesh, toScene, bind, [&](const aiVertexWeight& entry, const glm::dmat4& own) {
+        const aiVector3D& vertex = mesh.mVertices[entry.mVertexId];
+        isApart = isApart || glm::distance(placed(own, vertex), placed(toScene, vertex)) > most;
+    });
+    if (!isApart) return {};
+    std::vector<glm::dmat4> result(mesh.mNumVertices, glm::dmat4(0.0));
+    std::vector<double> sums(mesh.mNumVertices, 0.0);
+    forEachWeight(mesh, toScene, bind, [&](const aiVertexWeight& entry, const glm::dmat4& own) {
+        result[entry.mVertexId] += double(entry.mWeight) * own;
+        sums[entry.mVertexId] += double(entry.mWeight);
+    });
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+        result[v] = sums[v] > 0.0 ? result[v] / sums[v] : toScene;
+    return result;
+}
+
+} // namespace osgSkin
