@@ -21,13 +21,22 @@ osg::Vec3d axis(const osg::Matrixd& m, int row) {
     return {m(row, 0), m(row, 1), m(row, 2)};
 }
 
-bool isUniform(const osg::Matrixd& m) {
+/// Whether a matrix makes nothing but similar figures, mirrored ones among them.
+bool isSimilarity(const osg::Matrixd& m) {
     const double size = axis(m, 0).length2();
     for (int i = 0; i < 3; ++i) {
         if (std::abs(axis(m, i).length2() - size) > 2.0 * kUniform * size) return false;
         if (std::abs(axis(m, i) * axis(m, (i + 1) % 3)) > 2.0 * kUniform * size) return false;
     }
-    return (axis(m, 0) ^ axis(m, 1)) * axis(m, 2) > 0.0;
+    return true;
+}
+
+bool isMirrored(const osg::Matrixd& m) {
+    return !((axis(m, 0) ^ axis(m, 1)) * axis(m, 2) > 0.0);
+}
+
+bool isUniform(const osg::Matrixd& m) {
+    return isSimilarity(m) && !isMirrored(m);
 }
 
 /// The bones with their matrices in skeleton space, as their update callbacks will set them.
@@ -38,6 +47,8 @@ public:
     struct Entry {
         osgAnimation::Bone* bone;
         osg::Matrixd matrix;
+        osg::Matrixd local;
+        osg::Matrixd above;     ///< in skeleton space, what `local` is seen from
         osg::Matrixd bindAbove; ///< in skeleton space, of the bone above
     };
     std::vector<Entry> bones;
@@ -46,8 +57,9 @@ public:
         if (_depth > 0 && dynamic_cast<osgAnimation::Skeleton*>(&node) != nullptr) return;
         const osg::Matrixd matrix = _matrix, bind = _bind;
         if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) {
-            _matrix.preMult(localOf(*bone));
-            bones.push_back({bone, _matrix, _bind});
+            const osg::Matrixd local = localOf(*bone);
+            _matrix.preMult(local);
+            bones.push_back({bone, _matrix, local, matrix, _bind});
             _bind = osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace());
         } else if (_depth > 0) {
             node.computeLocalToWorldMatrix(_matrix, this);
@@ -99,6 +111,22 @@ bool scalesNonUniformly(osgAnimation::Channel& channel, const osg::Matrixd& bind
            any(dynamic_cast<osgAnimation::Vec3StepChannel*>(&channel));
 }
 
+/// Whether the keys of a channel turn a bone within the uneven scale of what is above it, which
+/// shears it.
+bool shears(osgAnimation::Channel& channel, const BoneMatrices::Entry& entry) {
+    auto* turns = dynamic_cast<osgAnimation::QuatSphericalLinearChannel*>(&channel);
+    if (turns == nullptr || isSimilarity(entry.above)) return false;
+    osg::Vec3d scale;
+    for (int i = 0; i < 3; ++i) scale[i] = axis(entry.local, i).length();
+    if (isMirrored(entry.local)) scale[0] = -scale[0];
+    const osg::Matrixd fromBind =
+        entry.bone->getInvBindMatrixInSkeletonSpace() * osg::Matrixd::scale(scale);
+    const auto* keys = turns->getOrCreateSampler()->getKeyframeContainerTyped();
+    return keys != nullptr && std::any_of(keys->begin(), keys->end(), [&](const auto& key) {
+               return !isUniform(fromBind * osg::Matrixd::rotate(key.getValue()) * entry.above);
+           });
+}
+
 } // namespace
 
 std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
@@ -117,7 +145,7 @@ std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
                 const osg::Matrixd bind =
                     osg::Matrixd::inverse(entry->bone->getInvBindMatrixInSkeletonSpace()) *
                     osg::Matrixd::inverse(entry->bindAbove);
-                if (scalesNonUniformly(*channel, bind))
+                if (scalesNonUniformly(*channel, bind) || shears(*channel, *entry))
                     guilty.emplace(entry->bone->getName(), clip->getName());
             }
         }
