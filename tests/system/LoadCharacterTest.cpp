@@ -110,6 +110,26 @@ TEST(LoadCharacter, PropsGoWithTheirMotions) {
     }
 }
 
+/// JSON does not tell 1 from 1.0.
+TEST(LoadCharacter, WholeNumbersMayBeWrittenWithAPoint) {
+    const std::string file = testing::TempDir() + "load_character_whole.skin";
+    const std::string data = OSGSKIN_TEST_DATA "/character/";
+    const auto framesOf = [&](const char* version, const char* skipped) {
+        std::ofstream(file) << "{\"osgskin\": " << version << ", \"mesh\": \"" << data
+                            << "body.obj\", \"skeleton\": \"" << data
+                            << "rig.bvh\", \"motions\": [{\"file\": \"" << kMove
+                            << "\", \"skipFrames\": " << skipped << "}]}";
+        return loadCharacter(file).motions.at(0).clip.frames;
+    };
+    const std::size_t all = framesOf("1", "0");
+    EXPECT_EQ(framesOf("1.0", "2.0"), all - 2);
+    EXPECT_EQ(framesOf("1e0", "20e-1"), all - 2);
+    EXPECT_EQ(framesOf("1", "-0.0"), all);
+    EXPECT_EQ(framesOf("1", "-0"), all);
+    for (const char* none : {"1.5", "-1.0", "1e300", "-1e-300"})
+        EXPECT_THROW(framesOf("1", none), osgSkin::Error) << none;
+}
+
 TEST(LoadCharacter, MakesARiggedModelWithAndWithoutSkinAfterItsName) {
     for (const std::string& file : {kTube, kTube + ".skin"}) {
         const Character character = loadCharacter(file);

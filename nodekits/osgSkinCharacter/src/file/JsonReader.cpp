@@ -107,6 +107,13 @@ bool JsonReader::boolean() const {
 }
 
 std::size_t JsonReader::count() const {
+    // JSON does not tell 1 from 1.0 and 1e0, and some programs write all numbers so.
+    if (_value.is_number()) {
+        constexpr double kMost = 1e15; // all whole numbers below are doubles
+        const double number = _value.get<double>();
+        if (number >= 0.0 && number <= kMost && std::floor(number) == number)
+            return static_cast<std::size_t>(number);
+    }
     if (!_value.is_number_unsigned()) failExpected("a whole number, 0 or more");
     return _value.get<std::size_t>();
 }
