@@ -4,6 +4,7 @@
 #include "assimp/AssimpMaterials.h"
 #include "assimp/AssimpScene.h"
 #include "assimp/BoundApart.h"
+#include "assimp/MovedApart.h"
 #include "assimp/SceneBind.h"
 #include "assimp/SceneSkeleton.h"
 #include "assimp/Scenery.h"
@@ -99,6 +100,13 @@ std::set<const aiNode*> jointsOfSkins(const aiScene& scene, const SceneBind& bin
     return {};
 }
 
+void tellOfSome(const std::string& path, const std::set<std::string>& names,
+                const std::string& what) {
+    if (!names.empty())
+        tellOf(path,
+               std::to_string(names.size()) + what + ", \"" + *names.begin() + "\" among them");
+}
+
 } // namespace
 
 CornerMesh readAssimpMesh(const std::string& path, const osgDB::Options* options) {
@@ -115,7 +123,8 @@ CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,
     const SceneBind bind(scene);
     const std::set<const aiNode*> joints = jointsOfSkins(scene, bind);
     const Scenery scenery(scene, bind);
-    std::set<std::string> leftOut;
+    const std::set<const aiNode*> moved = movedNodes(scene, bind);
+    std::set<std::string> leftOut, unmoved;
     for (const aiNode* node : bind.nodes())
         for (unsigned m = 0; m < node->mNumMeshes; ++m) {
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
@@ -125,15 +134,17 @@ CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,
                 leftOut.insert(nameOf(*node));
                 continue;
             }
+            const aiNode* mover = mesh.mNumBones == 0 && above == nullptr ? node : nullptr;
+            while (mover != nullptr && moved.count(mover) == 0) mover = bind.parent(*mover);
+            if (mover != nullptr && !joints.empty()) unmoved.insert(nameOf(*node));
             const std::string where = path + ": mesh \"" + mesh.mName.C_Str() + "\"";
             const std::size_t first = result.mesh.positions.size();
             const glm::dmat4 toScene = bind.mesh(*node, node->mMeshes[m]);
             addMesh(mesh, toScene, boundApart(mesh, toScene, bind), materials, where, result);
             addWeights(mesh, above, first, where, result);
         }
-    if (!leftOut.empty())
-        tellOf(path, std::to_string(leftOut.size()) + " things beside the figure are left out, \"" +
-                         *leftOut.begin() + "\" among them");
+    tellOfSome(path, leftOut, " things beside the figure are left out");
+    tellOfSome(path, unmoved, " things that clips move beside the skeleton stand still");
     return result;
 }
 
