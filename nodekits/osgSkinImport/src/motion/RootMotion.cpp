@@ -15,9 +15,10 @@ std::size_t rootMotionJoint(const RestSkeleton& skeleton, const std::vector<bool
     std::size_t result = 0;
     for (int j = 0;;) {
         const std::vector<int> children = skeleton.children(j);
+        if (moved[static_cast<std::size_t>(j)] && !children.empty())
+            result = static_cast<std::size_t>(j);
         if (children.size() != 1) return result;
         j = children[0];
-        if (moved[static_cast<std::size_t>(j)]) result = static_cast<std::size_t>(j);
     }
 }
 

@@ -16,7 +16,7 @@ namespace osgSkin {
 bool isMoved(const glm::dvec3& position, const glm::dvec3& atRest);
 
 /// The joint whose position carries the figure: the root, or the last that moves of those that
-/// follow it one by one (the hips below a root on the ground).
+/// follow it one by one (the hips below a root on the ground) and have joints below.
 /// \param moved whether the motion moves a joint from its rest position, [joint]
 /// \return index of the joint; those above it are its ancestors, in order
 std::size_t rootMotionJoint(const RestSkeleton& skeleton, const std::vector<bool>& moved);

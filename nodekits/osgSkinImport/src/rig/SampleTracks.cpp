@@ -69,19 +69,56 @@ std::vector<const aiNodeAnim*> tracksOf(const aiAnimation& animation,
     return result;
 }
 
-/// For each joint, whether its track moves it from the position that its node has.
+/// What makes a figure two units high or long, of a skeleton.
+double toFigure(const RestSkeleton& rest) {
+    glm::dvec3 low = rest.joints.front().centre, high = low;
+    for (const RestJoint& joint : rest.joints) {
+        low = glm::min(low, joint.centre);
+        high = glm::max(high, joint.centre);
+    }
+    const double size = glm::distance(low, high);
+    return size > 0.0 ? 2.0 / size : 1.0;
+}
+
+/// For each joint, whether its track moves it from the position that its node has: in the size that
+/// a figure has, since nodes may count in other units than the scene.
 std::vector<bool> findMovedJoints(const std::vector<const aiNodeAnim*>& tracks,
                                   const SceneSkeleton& skeleton) {
     std::vector<bool> result(tracks.size(), false);
+    const double figure = toFigure(skeleton.rest);
     for (std::size_t j = 0; j < tracks.size(); ++j) {
         if (tracks[j] == nullptr) continue;
-        const glm::dvec3 rest(toGlm(skeleton.nodes[j]->mTransformation)[3]);
+        const int up = skeleton.rest.joints[j].parent;
+        const glm::dmat4& above =
+            up < 0 ? skeleton.aboveRoot : skeleton.bind[static_cast<std::size_t>(up)];
+        const double unit = figure * std::cbrt(std::abs(glm::determinant(glm::dmat3(above))));
+        const glm::dvec3 rest = unit * glm::dvec3(toGlm(skeleton.nodes[j]->mTransformation)[3]);
         const aiVectorKey* const keys = tracks[j]->mPositionKeys;
         result[j] =
-            std::any_of(keys, keys + tracks[j]->mNumPositionKeys,
-                        [&](const aiVectorKey& key) { return isMoved(toGlm(key.mValue), rest); });
+            std::any_of(keys, keys + tracks[j]->mNumPositionKeys, [&](const aiVectorKey& key) {
+                return isMoved(unit * toGlm(key.mValue), rest);
+            });
     }
     return result;
+}
+
+/// Tells of a joint whose track scales it: motions have no scale.
+void noticeScales(const std::vector<const aiNodeAnim*>& tracks, const SceneSkeleton& skeleton,
+                  const std::string& path) {
+    constexpr double kSame = 0.01;
+    for (std::size_t j = 0; j < tracks.size(); ++j) {
+        if (tracks[j] == nullptr) continue;
+        const glm::dvec3 rest = decompose(toGlm(skeleton.nodes[j]->mTransformation)).scale;
+        const aiVectorKey* const keys = tracks[j]->mScalingKeys;
+        const auto isOther = [&](const aiVectorKey& key) {
+            const glm::dvec3 off = glm::abs(toGlm(key.mValue)) - glm::abs(rest);
+            return glm::length(off) > kSame * glm::length(rest);
+        };
+        if (!std::any_of(keys, keys + tracks[j]->mNumScalingKeys, isOther)) continue;
+        tellOf(path, "joint " + inQuotes(skeleton.rest.joints[j].name) +
+                         " is scaled, which motions are read without");
+        return;
+    }
 }
 
 glm::dquat localRotation(const aiNodeAnim* track, const aiNode& node, const Moment& moment) {
@@ -149,6 +186,7 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
     if (!std::isfinite(motion.frameTime) || !(motion.frameTime > 0.0))
         failFile(path, "the time between its samples is not positive");
     noticeUnusedMoves(skeleton.rest, moved, root, path);
+    noticeScales(tracks, skeleton, path);
 
     const std::size_t joints = tracks.size();
     const MirroredTurn aboveRoot{rotationOf(skeleton.aboveRoot),
