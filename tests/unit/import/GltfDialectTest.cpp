@@ -8,6 +8,7 @@
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
+#include <osgSkinImport/ImportSkeleton>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -286,6 +287,22 @@ TEST(GltfDialect, AMatrixIsTakenBeforeWhatStandsBesideIt) {
         << notices.text();
     ASSERT_EQ(mesh.mesh.positions.size(), plain.mesh.positions.size());
     EXPECT_NEAR(mesh.mesh.positions[0].y, plain.mesh.positions[0].y + 2.0, 1e-6);
+}
+
+TEST(GltfDialect, RotationsOfNodesAreMadeUnit) {
+    const auto topOf = [](double length) {
+        GltfColumn column;
+        std::vector<double> rotation = GltfColumn::turn(50);
+        for (double& number : rotation) number *= length;
+        column.json["nodes"][column.joints[1]]["rotation"] = rotation;
+        column.json.erase("skins"); // which would say where joints were
+        column.json["nodes"][column.meshNode] = {{"name", "none"}};
+        column.animate("move", column.joints[2], "translation", {0.0, 1.0}, {0, 1, 0, 0, 2, 0});
+        column.animate("move", column.joints[0], "rotation", {0.0, 1.0}, GltfColumn::turns({0, 0}));
+        return osgSkin::importSkeleton(column.save("unit.gltf")).joints.back().centre;
+    };
+    for (const double length : {0.99, 1.5, 1e-10, 1e10})
+        EXPECT_LT(glm::distance(topOf(length), topOf(1.0)), 1e-6) << length;
 }
 
 TEST(GltfDialect, ChannelsOfOtherPathsAreLeftOut) {

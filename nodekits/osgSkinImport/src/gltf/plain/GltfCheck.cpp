@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -252,6 +253,7 @@ private:
             _parts.copyNumbers(from, "translation", 3, where, node);
             _parts.copyNumbers(from, "rotation", 4, where, node);
             _parts.copyNumbers(from, "scale", 3, where, node);
+            makeUnit(node);
             if (node.contains("matrix")) _placedTwice += keepMatrix(node);
             _parts.copyWeights(from, where, node);
             if (from.contains("mesh"))
@@ -285,6 +287,16 @@ private:
             result["nodes"].push_back(node);
         });
         checkDepths(nodes);
+    }
+
+    /// Rotations that are rounded or no unit quaternions otherwise would scale unevenly.
+    static void makeUnit(json& node) {
+        if (!node.contains("rotation")) return;
+        double squares = 0.0;
+        for (const json& number : node["rotation"])
+            squares += number.get<double>() * number.get<double>();
+        if (!(squares > 0.0) || std::abs(squares - 1.0) < 1e-6) return;
+        for (json& number : node["rotation"]) number = number.get<double>() / std::sqrt(squares);
     }
 
     /// A node is placed by its matrix alone. Whether it had more.
