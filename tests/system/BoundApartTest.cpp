@@ -47,3 +47,15 @@ TEST(BoundApart, MeshesStandAsTheirOwnSkinsSay) {
         EXPECT_LT(error.whole, 1e-5) << degrees;
     }
 }
+
+TEST(BoundApart, MatricesThatAreNoneMoveNothing) {
+    GltfColumn column;
+    std::vector<double> matrices(48, 0.0);
+    for (std::size_t k = 0; k < 32; ++k) // of the first two
+        matrices[k] = k % 16 % 5 == 0 ? 1.0 : k == 29 ? -1.0 : 0.0;
+    column.json["skins"][0]["inverseBindMatrices"] = column.accessor("MAT4", matrices);
+    const osgSkin::Character character = osgSkin::loadCharacter(column.save("none.gltf"));
+    ASSERT_EQ(3 * character.body.mesh.positions.size(), column.places.size());
+    for (std::size_t i = 0; i < column.places.size(); ++i)
+        EXPECT_NEAR(character.body.mesh.positions[i / 3][int(i % 3)], column.places[i], 1e-6) << i;
+}

@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <cmath>
 
@@ -36,15 +37,22 @@ bool counts(const aiMesh& mesh, const aiVertexWeight& entry) {
            entry.mWeight > 0.0f;
 }
 
+/// Where a bone takes the mesh: nowhere else where its matrix is none that could be.
+glm::dmat4 placeBy(const aiBone& bone, const glm::dmat4& toScene, const SceneBind& bind) {
+    const glm::dmat4 offset = toGlm(bone.mOffsetMatrix);
+    const double volume = glm::determinant(glm::dmat3(offset));
+    const aiNode* const node = bind.find(nameOf(bone));
+    if (node == nullptr || !std::isfinite(volume) || volume == 0.0) return toScene;
+    return bind.node(*node) * offset;
+}
+
 /// Calls `use` with each weight that counts, and where its bone takes the mesh.
 template <typename Use>
 void forEachWeight(const aiMesh& mesh, const glm::dmat4& toScene, const SceneBind& bind,
                    const Use& use) {
     for (unsigned b = 0; b < mesh.mNumBones; ++b) {
         const aiBone& bone = *mesh.mBones[b];
-        const aiNode* const node = bind.find(nameOf(bone));
-        const glm::dmat4 own =
-            node == nullptr ? toScene : bind.node(*node) * toGlm(bone.mOffsetMatrix);
+        const glm::dmat4 own = placeBy(bone, toScene, bind);
         for (unsigned w = 0; w < bone.mNumWeights; ++w)
             if (counts(mesh, bone.mWeights[w])) use(bone.mWeights[w], own);
     }
