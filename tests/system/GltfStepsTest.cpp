@@ -83,3 +83,16 @@ TEST(GltfSteps, KeysThatShareATimeAreAJump) {
     for (const double time : {0.5, 0.6, 0.8, 0.999})
         EXPECT_NEAR(turnAt(character, time), 40.0, 0.01) << time;
 }
+
+/// As osgAnimation plays them.
+TEST(GltfSteps, ClipsAreAsLongAsTheyAreTold) {
+    GltfColumn column;
+    column.bend();
+    Character character = osgSkin::loadCharacter(column.save("slow.gltf"));
+    osgAnimation::Animation& clip = *character.motions.at(0).animation;
+    for (const double duration : {1.0, 4.0, 0.25}) {
+        clip.setDuration(duration);
+        EXPECT_NEAR(turnAt(character, 0.5 * duration), 60.0, 0.01) << duration;
+        EXPECT_NEAR(turnAt(character, duration), 90.0, 0.01) << duration;
+    }
+}
