@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ImportMesh>
 
-#include "assimp/AssimpMesh.h"
 #include "assimp/AssimpScene.h"
+#include "assimp/mesh/AssimpMesh.h"
 #include "mesh/FinishMesh.h"
 #include "mesh/ObjMesh.h"
 #include "mesh/PlyMesh.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ImportRig>
 
-#include "assimp/AssimpMesh.h"
 #include "assimp/AssimpScene.h"
 #include "assimp/SceneSkeleton.h"
+#include "assimp/mesh/AssimpMesh.h"
 #include "mesh/FinishMesh.h"
 #include "rig/RigBones.h"
 #include "rig/RigClips.h"

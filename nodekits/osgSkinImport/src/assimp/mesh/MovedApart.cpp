@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/MovedApart.h"
+#include "assimp/mesh/MovedApart.h"
 
 #include <assimp/scene.h>
 

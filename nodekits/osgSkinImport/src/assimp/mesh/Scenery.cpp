@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/Scenery.h"
+#include "assimp/mesh/Scenery.h"
 
 #include "assimp/AssimpScene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/AssimpMaterials.h"
+#include "assimp/mesh/AssimpMaterials.h"
 
 #include <osgDB/Registry>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/AssimpMesh.h"
+#include "assimp/mesh/AssimpMesh.h"
 
-#include "assimp/AssimpMaterials.h"
 #include "assimp/AssimpScene.h"
-#include "assimp/BoundApart.h"
-#include "assimp/MovedApart.h"
 #include "assimp/SceneBind.h"
 #include "assimp/SceneSkeleton.h"
-#include "assimp/Scenery.h"
+#include "assimp/mesh/AssimpMaterials.h"
+#include "assimp/mesh/BoundApart.h"
+#include "assimp/mesh/MovedApart.h"
+#include "assimp/mesh/Scenery.h"
 #include "text/FileText.h"
 
 #include <osgDB/FileNameUtils>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/BoundApart.h"
+#include "assimp/mesh/BoundApart.h"
 
 #include "assimp/AssimpScene.h"
 
