@@ -133,12 +133,15 @@ TEST(Regions, SeamsDoNotStopThem) {
 
 TEST(Regions, SeamsMayBeOffByRounding) {
     const SkinMesh mesh = shapes::hangingArms();
-    SkinMesh split = shapes::exploded(mesh);
-    for (std::size_t i = 0; i < split.positions.size(); ++i)
-        split.positions[i].x += 1e-9 * static_cast<double>(i % 3); // the body's size is 6
     BindReport report;
-    bind(split, shapes::hangingArmsSkeleton(), {}, &report);
-    EXPECT_EQ(report.weldedVertices, mesh.positions.size());
+    SkinMesh split = shapes::exploded(mesh);
+    for (const double off : {1e-9, 1e-6}) { // the body's size is 6: single precision's is 5e-7
+        for (std::size_t i = 0; i < split.positions.size(); ++i)
+            split.positions[i].x += off * static_cast<double>(i % 3);
+        bind(split, shapes::hangingArmsSkeleton(), {}, &report);
+        EXPECT_EQ(report.weldedVertices, mesh.positions.size());
+        EXPECT_EQ(report.shells, 1u);
+    }
     for (std::size_t i = 0; i < split.positions.size(); ++i)
         split.positions[i].x += 1e-3 * static_cast<double>(i % 3); // another place
     bind(split, shapes::hangingArmsSkeleton(), {}, &report);

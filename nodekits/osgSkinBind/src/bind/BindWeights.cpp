@@ -168,7 +168,7 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
                     std::to_string(mesh.positions.size()));
 
     BindReport found;
-    const WeldedMesh skin(mesh);
+    const WeldedMesh skin(mesh, WeldedMesh::kCopies);
     std::vector<std::string> aboutRegions; // which are not looked for here
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, aboutRegions);
     WeightRows rows = weldedWeights(skin, weights, joints.size());

@@ -14,9 +14,6 @@
 namespace osgSkin {
 namespace {
 
-/// Vertices closer than this fraction of the mesh's size are the same point.
-constexpr double kWeldTolerance = 1e-9;
-
 struct Cell {
     std::int64_t x, y, z;
     bool operator==(const Cell& o) const { return x == o.x && y == o.y && z == o.z; }
@@ -67,16 +64,15 @@ private:
 
 } // namespace
 
-WeldedMesh::WeldedMesh(const SkinMesh& mesh) : size(mesh.size()) {
-    weld(mesh);
+WeldedMesh::WeldedMesh(const SkinMesh& mesh, double same) : size(mesh.size()) {
+    weld(mesh, std::max(same * size, std::numeric_limits<double>::min()));
     addTriangles(mesh);
     connect();
     findShells();
     computeNormals();
 }
 
-void WeldedMesh::weld(const SkinMesh& mesh) {
-    const double tolerance = std::max(kWeldTolerance * size, std::numeric_limits<double>::min());
+void WeldedMesh::weld(const SkinMesh& mesh, double tolerance) {
     PointFinder finder(mesh.positions.front(), tolerance);
     weldedOf.reserve(mesh.positions.size());
     for (const glm::dvec3& p : mesh.positions) {

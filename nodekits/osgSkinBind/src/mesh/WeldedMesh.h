@@ -30,13 +30,18 @@ struct WeldedMesh {
     std::size_t openEdges = 0; ///< edges with one triangle
     double size = 0.0;         ///< largest extent along x, y or z
 
+    /// Vertices closer than these fractions of the mesh's size are the same point. Single precision
+    /// rounds by a tenth of the first one, and once more where a body's parts stand under
+    /// transforms of their own. Weights that somebody painted join no vertices but copies.
+    static constexpr double kRounded = 1e-6, kCopies = 1e-9;
+
     /// \pre mesh.validate() passes.
-    explicit WeldedMesh(const SkinMesh& mesh);
+    explicit WeldedMesh(const SkinMesh& mesh, double same = kRounded);
 
     std::size_t vertexCount() const { return positions.size(); }
 
 private:
-    void weld(const SkinMesh& mesh);
+    void weld(const SkinMesh& mesh, double tolerance);
     void addTriangles(const SkinMesh& mesh);
     void connect();
     void findShells();
