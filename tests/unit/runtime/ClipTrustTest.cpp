@@ -197,3 +197,21 @@ TEST(ClipTrust, EndlessClipsAreNotSampled) {
     EXPECT_THROW(SampledClip::create(*good, *skeleton, 1e300), osgSkin::Error);
     EXPECT_EQ(SampledClip::create(*good, *skeleton, 10.0)->sampleCount(), 2u);
 }
+
+/// osgAnimation stretches keys to the duration that an animation was given.
+TEST(ClipTrust, SamplesAreTakenAsFastAsTheAnimationPlays) {
+    osgSkin::Clip motion = bentMotion();
+    motion.rotations[4] = glm::angleAxis(1.4, glm::dvec3(1, 0, 0)); // the middle one turns by 1
+    const auto animation = osgSkin::makeAnimation(motion, namedRig(false));
+    const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
+    const auto own = SampledClip::create(*animation, *skeleton, 40.0);
+    animation->setDuration(2.0 * animation->getDuration());
+    const auto slow = SampledClip::create(*animation, *skeleton, 20.0);
+    ASSERT_EQ(slow->sampleCount(), own->sampleCount());
+    EXPECT_NEAR(slow->duration(), 2.0 * own->duration(), 1e-6);
+    for (std::size_t i = 0; i < own->sampleCount(); ++i)
+        EXPECT_NEAR(glm::angle(slow->sample(i)[1].rotation), glm::angle(own->sample(i)[1].rotation),
+                    1e-5);
+    EXPECT_GT(glm::angle(own->sample(own->sampleCount() / 2)[1].rotation),
+              glm::angle(own->sample(0)[1].rotation) + 0.3);
+}

@@ -4,15 +4,11 @@
 #include <osgSkin/Error>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinRig/ApplyFrame>
+#include <osgSkinRig/MakeAnimation>
 
 #include <osg/FrameStamp>
-#include <osgAnimation/Animation>
 #include <osgAnimation/Channel>
 #include <osgUtil/UpdateVisitor>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace osgSkin {
 namespace {
@@ -23,19 +19,6 @@ void poseSkins(Character& character) {
         if (auto* update =
                 dynamic_cast<UpdateDeformableSkin*>(attached.drawable->getUpdateCallback()))
             update->pose(*attached.drawable, *character.skeleton);
-}
-
-/// How fast an animation's keys go by: osgAnimation stretches them to the duration that it was
-/// given.
-double speedOf(const osgAnimation::Animation& animation) {
-    constexpr double kSame = 1e-5; // text has six digits
-    double first = std::numeric_limits<double>::infinity(), last = -first;
-    for (const auto& channel : animation.getChannels()) {
-        first = std::min(first, double(channel->getStartTime()));
-        last = std::max(last, double(channel->getEndTime()));
-    }
-    const double speed = (last - first) / animation.getDuration();
-    return std::isfinite(speed) && speed > 0.0 && std::abs(speed - 1.0) > kSame ? speed : 1.0;
 }
 
 } // namespace
@@ -51,7 +34,7 @@ void Character::pose(const CharacterMotion& motion, std::size_t frame) {
 
 void Character::poseAt(const CharacterMotion& motion, double seconds) {
     if (manager->needToLink()) manager->link(root);
-    const double speed = speedOf(*motion.animation);
+    const double speed = keySpeed(*motion.animation);
     for (const auto& channel : motion.animation->getChannels()) {
         channel->reset();
         channel->update(seconds * speed, 1.0f, 0);

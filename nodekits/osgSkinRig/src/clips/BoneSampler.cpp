@@ -4,6 +4,7 @@
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
+#include <osgSkinRig/MakeAnimation>
 
 #include <osg/NodeVisitor>
 #include <osgAnimation/UpdateBone>
@@ -36,7 +37,7 @@ osg::Matrixd matrixOf(osgAnimation::Bone& bone) {
 } // namespace
 
 BoneSampler::BoneSampler(const osgAnimation::Animation& animation, osgAnimation::Skeleton& skeleton)
-    : _animation(osg::clone(&animation, osg::CopyOp::DEEP_COPY_ALL)) {
+    : _animation(osg::clone(&animation, osg::CopyOp::DEEP_COPY_ALL)), _speed(keySpeed(animation)) {
     BonesInOrder found;
     skeleton.accept(found);
     _bones = found.bones;
@@ -71,7 +72,7 @@ void BoneSampler::append(double time, std::vector<JointSample>& samples) {
     for (const osg::ref_ptr<osgAnimation::Channel>& channel : _animation->getChannels())
         if (channel->getTarget()) channel->getTarget()->reset();
     for (const osg::ref_ptr<osgAnimation::Channel>& channel : _animation->getChannels())
-        channel->update(time, 1.0f, 0);
+        channel->update(time * _speed, 1.0f, 0);
     std::vector<osg::Matrixd> inSkeleton(_joints.size());
     std::vector<glm::dmat4> skinning = {glm::dmat4(1.0)};
     for (std::size_t j = 1; j < _joints.size(); ++j) {

@@ -12,13 +12,13 @@
 
 namespace osgSkin {
 
-/// Puts a skeleton's bones through an animation without an update traversal.
+/// Puts a skeleton's bones through an animation without an update traversal, as fast as it plays.
 class BoneSampler {
 public:
     /// \throw osgSkin::Error where the skeleton has no bone
     BoneSampler(const osgAnimation::Animation& animation, osgAnimation::Skeleton& skeleton);
 
-    double duration() const { return _animation->getDuration(); } ///< seconds
+    double duration() const { return _animation->getDuration() / _speed; } ///< seconds
     std::vector<SampledClip::Joint> joints() const;
 
     /// Adds what the joints do at a time, against their parents.
@@ -26,7 +26,8 @@ public:
     void append(double time, std::vector<JointSample>& samples);
 
 private:
-    osg::ref_ptr<osgAnimation::Animation> _animation;
+    osg::ref_ptr<osgAnimation::Animation> _animation;     ///< as long as its keys
+    double _speed;                                        ///< keySpeed()
     std::vector<osg::ref_ptr<osgAnimation::Bone>> _bones; ///< parents before children
     std::vector<BoundJoint> _joints;
     Pose _pose;

@@ -4,6 +4,12 @@
 #include "clips/ClipChannels.h"
 #include "clips/ClipCheck.h"
 
+#include <osgAnimation/Channel>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace osgSkin {
 
 osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const RestSkeleton& rig) {
@@ -23,6 +29,17 @@ osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const Rest
     }
     animation->computeDuration();
     return animation;
+}
+
+double keySpeed(const osgAnimation::Animation& animation) {
+    constexpr double kSame = 1e-5; // saved texts have six digits
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (const auto& channel : animation.getChannels()) {
+        first = std::min(first, double(channel->getStartTime()));
+        last = std::max(last, double(channel->getEndTime()));
+    }
+    const double speed = (last - first) / animation.getDuration();
+    return std::isfinite(speed) && speed > 0.0 && std::abs(speed - 1.0) > kSame ? speed : 1.0;
 }
 
 } // namespace osgSkin
