@@ -8,9 +8,12 @@
 #include "rig/SampleGrid.h"
 #include "text/FileText.h"
 
+#include <osgSkin/GlmOsg>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <osg/BoundingBox>
 
 #include <algorithm>
 #include <cmath>
@@ -71,13 +74,9 @@ std::vector<const aiNodeAnim*> tracksOf(const aiAnimation& animation,
 
 /// What makes a figure two units high or long, of a skeleton.
 double toFigure(const RestSkeleton& rest) {
-    glm::dvec3 low = rest.joints.front().centre, high = low;
-    for (const RestJoint& joint : rest.joints) {
-        low = glm::min(low, joint.centre);
-        high = glm::max(high, joint.centre);
-    }
-    const double size = glm::distance(low, high);
-    return size > 0.0 ? 2.0 / size : 1.0;
+    osg::BoundingBoxd box;
+    for (const RestJoint& joint : rest.joints) box.expandBy(toOsg(joint.centre));
+    return box.radius() > 0.0 ? 1.0 / box.radius() : 1.0;
 }
 
 /// For each joint, whether its track moves it from the position that its node has: in the size that

@@ -3,35 +3,19 @@
 
 #include "clips/ClipCheck.h"
 
+#include <osgSkin/BoneReader>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 
-#include <osg/NodeVisitor>
 #include <osgAnimation/Bone>
 #include <osgAnimation/StackedQuaternionElement>
 #include <osgAnimation/StackedTranslateElement>
 #include <osgAnimation/UpdateBone>
 
-#include <map>
 #include <vector>
 
 namespace osgSkin {
 namespace {
-
-class BoneCollector : public osg::NodeVisitor {
-public:
-    BoneCollector() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Transform& node) override {
-        // Another skeleton, as a rider's, has bones of the same names.
-        if (getNodePath().size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
-        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node))
-            bones.emplace(bone->getName(), bone);
-        traverse(node);
-    }
-
-    std::map<std::string, osgAnimation::Bone*> bones;
-};
 
 /// Keeps the pose in the bone's update callback too: an update traversal sets the bone from there.
 void storeInCallback(osgAnimation::Bone& bone, const glm::dvec3& offset,
@@ -55,8 +39,7 @@ void applyFrame(const Clip& clip, const RestSkeleton& rig, std::size_t frame,
     if (frame >= clip.frames)
         throw Error("clip \"" + clip.name + "\": no frame " + std::to_string(frame) +
                     ", expected less than " + std::to_string(clip.frames));
-    BoneCollector collector;
-    skeleton.accept(collector);
+    const osgAnimation::BoneMap bones = bonesOf(skeleton);
 
     std::vector<osg::Matrixd> inSkeleton(rig.joints.size());
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
@@ -69,8 +52,8 @@ void applyFrame(const Clip& clip, const RestSkeleton& rig, std::size_t frame,
             osg::Matrixd::rotate(toOsg(rotation)) * osg::Matrixd::translate(toOsg(offset));
         inSkeleton[j] = joint.parent < 0 ? local : local * inSkeleton[parent];
 
-        const auto bone = collector.bones.find(joint.name);
-        if (bone == collector.bones.end()) continue;
+        const auto bone = bones.find(joint.name);
+        if (bone == bones.end()) continue;
         bone->second->setMatrix(local);
         bone->second->setMatrixInSkeletonSpace(inSkeleton[j]);
         storeInCallback(*bone->second, offset, rotation);

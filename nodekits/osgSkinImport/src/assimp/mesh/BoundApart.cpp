@@ -3,11 +3,13 @@
 
 #include "assimp/AssimpScene.h"
 
+#include <osgSkin/GlmOsg>
+
 #include <assimp/scene.h>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <osg/BoundingBox>
 
 #include <cmath>
 
@@ -22,14 +24,10 @@ glm::dvec3 placed(const glm::dmat4& matrix, const aiVector3D& vertex) {
 
 /// The length of the diagonal of a mesh's box in the scene.
 double sizeOf(const aiMesh& mesh, const glm::dmat4& toScene) {
-    if (mesh.mNumVertices == 0) return 0.0;
-    glm::dvec3 low = placed(toScene, mesh.mVertices[0]), high = low;
-    for (unsigned v = 1; v < mesh.mNumVertices; ++v) {
-        const glm::dvec3 at = placed(toScene, mesh.mVertices[v]);
-        low = glm::min(low, at);
-        high = glm::max(high, at);
-    }
-    return glm::distance(low, high);
+    osg::BoundingBoxd box;
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+        box.expandBy(toOsg(placed(toScene, mesh.mVertices[v])));
+    return box.valid() ? 2.0 * box.radius() : 0.0;
 }
 
 bool counts(const aiMesh& mesh, const aiVertexWeight& entry) {
