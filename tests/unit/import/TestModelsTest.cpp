@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What becomes of the test models of Assimp's makers (Debian: assimp-testmodels), the broken ones
 // among them: read, or refused with a reason, and never a crash.
+#include "LeaksOfOthers.h"
 #include "Paths.h"
 #include "RiggedModels.h"
 
@@ -17,10 +18,6 @@
 #include <cctype>
 #include <map>
 
-#ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/lsan_interface.h>
-#endif
-
 namespace {
 
 using test::kModels;
@@ -35,31 +32,15 @@ std::vector<std::filesystem::path> allModels() {
     return result;
 }
 
-/// While it lives, the leak sanitizer does not count what readers lose of a file of the formats
-/// that are for trusted files only: Assimp's, where they give up.
-class LeaksOfOthers {
-public:
-    explicit LeaksOfOthers(const std::filesystem::path& file) {
-        const std::string ours[] = {".obj", ".ply", ".bvh", ".gltf", ".glb", ".vrm"};
-        std::string extension = file.extension().string();
-        std::transform(extension.begin(), extension.end(), extension.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        _of = std::find(std::begin(ours), std::end(ours), extension) == std::end(ours);
-        set(true);
-    }
-    ~LeaksOfOthers() { set(false); }
-    LeaksOfOthers(const LeaksOfOthers&) = delete;
-    LeaksOfOthers& operator=(const LeaksOfOthers&) = delete;
-
-private:
-    void set([[maybe_unused]] bool ignored) const {
-#ifdef __SANITIZE_ADDRESS__
-        if (_of) ignored ? __lsan_disable() : __lsan_enable();
-#endif
-    }
-
-    [[maybe_unused]] bool _of = false;
-};
+/// Whether a file is in a format that is for trusted files only: Assimp loses memory where it gives
+/// up.
+bool isForTrustedOnly(const std::filesystem::path& file) {
+    const std::string ours[] = {".obj", ".ply", ".bvh", ".gltf", ".glb", ".vrm"};
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(std::begin(ours), std::end(ours), extension) == std::end(ours);
+}
 
 } // namespace
 
@@ -123,7 +104,7 @@ TEST(TestModels, AllOthersAreRefusedWithAReason) {
     std::size_t read = 0;
     for (const std::filesystem::path& file : allModels()) {
         try {
-            const LeaksOfOthers leaks(file);
+            const test::LeaksOfOthers leaks(isForTrustedOnly(file));
             osgSkin::importRig(file.string());
             ++read;
             const std::string name = std::filesystem::relative(file, kModels).string();
@@ -149,7 +130,7 @@ TEST(TestModels, NoneDoesHarmAsAMeshASkeletonOrAMotion) {
     std::size_t read = 0, refused = 0;
     const auto attempt = [&](const std::string& file, const auto& import) {
         try {
-            const LeaksOfOthers leaks(file);
+            const test::LeaksOfOthers leaks(isForTrustedOnly(file));
             import(file);
             ++read;
         } catch (const osgSkin::Error& error) {
