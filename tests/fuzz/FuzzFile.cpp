@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a file of one format (FuzzFormat.cpp), by every reader of it. Errors are
 // osgSkin::Error; anything else that is thrown ends the run.
+#include "FuzzFormat.h"
 #include "InputFile.h"
 
 #include <osgSkin/Error>
@@ -10,8 +11,6 @@
 #include <osgSkinImport/ImportSkeleton>
 
 #include <osg/Notify>
-
-extern const char* const kFuzzExtension;
 
 namespace {
 
@@ -27,7 +26,7 @@ void attempt(const Read& read) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     osg::setNotifyLevel(osg::ALWAYS);
-    const std::string path = fuzz::save(std::string("input.") + kFuzzExtension, data, size);
+    const std::string path = fuzz::save(std::string("input.") + fuzzExtension(), data, size);
     attempt([&] { osgSkin::importMesh(path); });
     attempt([&] { osgSkin::importSkeleton(path); });
     attempt([&] { osgSkin::importMotion(path); });

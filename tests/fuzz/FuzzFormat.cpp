@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The format of one target of FuzzFile.cpp, which is compiled once for all.
-extern const char* const kFuzzExtension;
-const char* const kFuzzExtension = OSGSKIN_FUZZ_EXTENSION;
+#include "FuzzFormat.h"
+
+const char* fuzzExtension() {
+    return OSGSKIN_FUZZ_EXTENSION;
+}
