@@ -61,26 +61,48 @@ def flags_of(entry):
 
 
 def own_names(files):
-    """For each file the names that it keeps to itself, macros among them, and as "using NAME" those of others."""
-    command = ["ctags", "--kinds-C++=dfvscgtue", "--fields=+ZfK", "--output-format=json", "-f", "-"]
-    tags = subprocess.run([*command, *files], check=True, capture_output=True, text=True).stdout
+    """For each file the names that it keeps to itself, macros among them, and marked with what must not meet them.
+
+    "using NAME" is another's that it names so, "inner NAME" a function's own, "open NAME" a class of its folder's
+    headers that is in no namespace.
+    """
     names = collections.defaultdict(set)
-    for tag in map(json.loads, tags.splitlines()):
+    for tag in tags_of(files):
         scope = tag.get("scope", "")
         local = "__anon" in scope or tag.get("file") or tag["kind"] == "macro"
         if local and tag.get("scopeKind") in (None, "namespace") and tag["name"] not in TESTS:
             names[tag["path"]].add(tag["name"])
+    opened_in = collections.defaultdict(set)
+    headers_beside = [str(header) for folder in {pathlib.Path(file).parent for file in files}
+                      for header in folder.glob("*.h")]
+    for tag in tags_of(headers_beside):
+        if "scope" not in tag and tag["kind"] in ("class", "struct", "enum", "union"):
+            opened_in[pathlib.Path(tag["path"]).parent].add(f"open {tag['name']}")
     for file in files:
-        used = re.findall(r"^using [\w:]+::(\w+);", pathlib.Path(file).read_text(), re.M)
-        names[file].update(f"using {name}" for name in used)
+        text = pathlib.Path(file).read_text()
+        names[file].update(f"using {name}" for name in re.findall(r"^using [\w:]+::(\w+);", text, re.M))
+        names[file].update(f"inner {name}" for name in re.findall(r"^ +.*constexpr .*\b(k[A-Z]\w*)\b.* =", text, re.M))
+        names[file].update(f"inner {name}" for name in re.findall(r"^ +using (\w+) =", text, re.M))
+        names[file].update(opened_in[pathlib.Path(file).parent])
     return names
+
+
+def tags_of(files):
+    """What ctags finds in files."""
+    if not files:
+        return []
+    command = ["ctags", "--kinds-C++=dfvscgtue", "--language-force=C++", "--fields=+ZfK", "--output-format=json",
+               "-f", "-"]
+    found = subprocess.run([*command, *files], check=True, capture_output=True, text=True).stdout
+    return map(json.loads, found.splitlines())
 
 
 def clash(some, others):
     """Whether a name of its own of one side is one of the other side's, or stands for another's there."""
     own = {name for name in some if " " not in name}, {name for name in others if " " not in name}
-    return bool(own[0] & own[1] or {f"using {name}" for name in own[0]} & others or
-                {f"using {name}" for name in own[1]} & some)
+    marks = ("using", "inner", "open")
+    return bool(own[0] & own[1] or {f"{mark} {name}" for mark in marks for name in own[0]} & others or
+                {f"{mark} {name}" for mark in marks for name in own[1]} & some)
 
 
 def units(entries):
