@@ -215,3 +215,37 @@ TEST(ClipTrust, SamplesAreTakenAsFastAsTheAnimationPlays) {
     EXPECT_GT(glm::angle(own->sample(own->sampleCount() / 2)[1].rotation),
               glm::angle(own->sample(0)[1].rotation) + 0.3);
 }
+
+/// Clips that move other bones: none shows in the next one, nor in the scene.
+TEST(ClipTrust, SamplingLeavesTheSkeletonAsItIs) {
+    const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
+    const auto whole = osgSkin::makeAnimation(bentMotion(), namedRig(false));
+    const auto onlyOf = [&whole](const char* bone) {
+        const osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+        for (const auto& channel : whole->getChannels())
+            if (channel->getTargetName() == bone) animation->addChannel(channel->clone());
+        return animation;
+    };
+    const auto middle = SampledClip::create(*onlyOf("middle"), *skeleton, 10.0);
+    const auto end = SampledClip::create(*onlyOf("end"), *skeleton, 10.0);
+    const auto angleIn = [](const SampledClip& clip, const char* joint) {
+        return glm::angle(clip.sample(0)[clip.find(joint)].rotation);
+    };
+    EXPECT_NEAR(angleIn(*middle, "middle"), 0.4, 1e-6);
+    EXPECT_NEAR(angleIn(*middle, "end"), 0.0, 1e-6);
+    EXPECT_NEAR(angleIn(*end, "end"), 0.9, 1e-6);
+    EXPECT_NEAR(angleIn(*end, "middle"), 0.0, 1e-6);
+}
+
+/// A callback of the application's own may come before the one that moves the bone.
+TEST(ClipTrust, BonesMayHaveOtherCallbacksFirst) {
+    const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
+    osg::Node& root = *skeleton->getChild(0);
+    const osg::ref_ptr<osg::Callback> update = root.getUpdateCallback();
+    const osg::ref_ptr<osg::NodeCallback> own = new osg::NodeCallback;
+    own->setNestedCallback(update);
+    root.setUpdateCallback(own);
+    const auto animation = osgSkin::makeAnimation(bentMotion(), namedRig(false));
+    const auto clip = SampledClip::create(*animation, *skeleton, 10.0);
+    EXPECT_NEAR(glm::angle(clip->sample(0)[clip->find("root")].rotation), 0.1, 1e-6);
+}

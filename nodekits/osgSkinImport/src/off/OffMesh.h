@@ -4,6 +4,8 @@
 
 #include "mesh/CornerMesh.h"
 
+#include <osgDB/Options>
+
 #include <string>
 
 namespace osgSkin {

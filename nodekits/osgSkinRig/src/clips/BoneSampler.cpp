@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "clips/BoneSampler.h"
 
-#include <osgSkin/AutoPlayManager>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkinRig/MakeAnimation>
@@ -27,8 +26,24 @@ public:
     std::vector<osg::ref_ptr<osgAnimation::Bone>> bones;
 };
 
-osg::Matrixd matrixOf(osgAnimation::Bone& bone) {
-    auto* update = dynamic_cast<osgAnimation::UpdateBone*>(bone.getUpdateCallback());
+/// A copy of what moves a bone, linked with an animation's channels; null where nothing does. What
+/// the animation does not move stays as it is, and what it does is not seen in the scene.
+osg::ref_ptr<osgAnimation::UpdateBone> copyOfUpdate(osgAnimation::Bone& bone,
+                                                    osgAnimation::Animation& animation) {
+    for (osg::Callback* callback = bone.getUpdateCallback(); callback != nullptr;
+         callback = callback->getNestedCallback())
+        if (auto* update = dynamic_cast<osgAnimation::UpdateBone*>(callback)) {
+            const osg::ref_ptr<osgAnimation::UpdateBone> copy =
+                osg::clone(update, osg::CopyOp::SHALLOW_COPY);
+            osgAnimation::AnimationUpdateCallbackBase& linked =
+                *copy; // UpdateBone hides its link()
+            if (!copy->getName().empty()) linked.link(&animation);
+            return copy;
+        }
+    return nullptr;
+}
+
+osg::Matrixd matrixOf(const osgAnimation::Bone& bone, osgAnimation::UpdateBone* update) {
     if (!update) return bone.getMatrix();
     update->getStackedTransforms().update(0.0f);
     return update->getStackedTransforms().getMatrix();
@@ -43,9 +58,8 @@ BoneSampler::BoneSampler(const osgAnimation::Animation& animation, osgAnimation:
     _bones = found.bones;
     if (_bones.empty())
         throw Error("sampled clip: the skeleton \"" + skeleton.getName() + "\" has no bone");
-    const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
-    manager->registerAnimation(_animation);
-    manager->link(&skeleton);
+    for (const osg::ref_ptr<osgAnimation::Bone>& bone : _bones)
+        _updates.push_back(copyOfUpdate(*bone, *_animation));
     _animation->computeDuration();
     // One root above all bones that have no bone above them, at rest: a pose has one root.
     const glm::dvec3 up(0.0, 0.0, 1.0);
@@ -77,7 +91,8 @@ void BoneSampler::append(double time, std::vector<JointSample>& samples) {
     std::vector<glm::dmat4> skinning = {glm::dmat4(1.0)};
     for (std::size_t j = 1; j < _joints.size(); ++j) {
         osgAnimation::Bone& bone = *_bones[j - 1];
-        inSkeleton[j] = matrixOf(bone) * inSkeleton[static_cast<std::size_t>(_joints[j].parent)];
+        inSkeleton[j] = matrixOf(bone, _updates[j - 1].get()) *
+                        inSkeleton[static_cast<std::size_t>(_joints[j].parent)];
         skinning.push_back(toGlm(bone.getInvBindMatrixInSkeletonSpace() * inSkeleton[j]));
     }
     if (!_pose.set(skinning.data(), skinning.size()))

@@ -7,12 +7,14 @@
 #include <osgSkin/Pose>
 
 #include <osgAnimation/Bone>
+#include <osgAnimation/UpdateBone>
 
 #include <vector>
 
 namespace osgSkin {
 
-/// Puts a skeleton's bones through an animation without an update traversal, as fast as it plays.
+/// Puts copies of what moves a skeleton's bones through an animation, as fast as it plays. The
+/// skeleton stays as it is.
 class BoneSampler {
 public:
     /// \throw osgSkin::Error where the skeleton has no bone
@@ -26,9 +28,10 @@ public:
     void append(double time, std::vector<JointSample>& samples);
 
 private:
-    osg::ref_ptr<osgAnimation::Animation> _animation;     ///< as long as its keys
-    double _speed;                                        ///< keySpeed()
-    std::vector<osg::ref_ptr<osgAnimation::Bone>> _bones; ///< parents before children
+    osg::ref_ptr<osgAnimation::Animation> _animation;             ///< as long as its keys
+    double _speed;                                                ///< keySpeed()
+    std::vector<osg::ref_ptr<osgAnimation::Bone>> _bones;         ///< parents before children
+    std::vector<osg::ref_ptr<osgAnimation::UpdateBone>> _updates; ///< a bone each, or null
     std::vector<BoundJoint> _joints;
     Pose _pose;
 };
