@@ -9,7 +9,9 @@ it is read; the other rules:
   - a source of a kit has a header of its name, and every source includes that first;
   - a function that a header declares is defined in the source of that header's name (by ctags);
   - links and backquoted paths in Markdown lead somewhere, and where nodekits/README.md names a
-    function() in a line, a file named in that line has it; README.md shows the code that is compiled.
+    function() in a line, a file named in that line has it; README.md shows the code that is compiled;
+  - what a source names of OpenSceneGraph and the standard library it includes, itself or by what it
+    includes (reached.py).
 """
 import collections
 import json
@@ -17,6 +19,8 @@ import pathlib
 import re
 import subprocess
 import sys
+
+from reached import Reached
 
 MOST_SOURCES = 20
 MOST_LINES = 500
@@ -275,6 +279,14 @@ def check_example(house):
             house.breach(readme, f"shows {include}, which {house.name(downstream)} does not compile")
 
 
+def check_reached(house):
+    paths = [p for p in house.files("nodekits", "osgPlugin", "examples", "tests", "data") if is_code(p)]
+    reached = Reached(house.root, paths)
+    for path in paths:
+        for name in reached.missing(path):
+            house.breach(path, f"names {name}, which nothing that it includes declares")
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2])
     house = House(root.resolve())
@@ -282,6 +294,7 @@ def main():
     arrows = check_includes(house)
     check_own_headers(house)
     check_definitions(house)
+    check_reached(house)
     check_pages(house)
     check_example(house)
     for line in house.breaches:

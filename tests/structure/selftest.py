@@ -56,6 +56,11 @@ BROKEN = [
      "nodekits/low/src/first/Up.cpp: defines n::S::f, which Base declares"),
     ({"nodekits/low/src/first/Up.cpp": MIT + "#include <low/Up>\nint n::base() { return 3; }\n"},
      "nodekits/low/src/first/Up.cpp: defines n::base, which Base declares"),
+    ({"examples/Plain.cpp": MIT + "void f(const osgDB::Options*);\nint main() {}\n"},
+     "examples/Plain.cpp: names osgDB::Options, which nothing"),
+    ({"nodekits/low/src/ground/Base.h": MIT + "#include <utility>\nnamespace n { int base(std::map<int, int>);\n"
+                                        "struct S { int f(); }; }\n"},
+     "nodekits/low/src/ground/Base.h: names std::map, which nothing"),
     ({"examples/Plain.cpp": MIT + "\n" * 500}, "examples/Plain.cpp: has 501 lines"),
     ({"examples/run": "#!/bin/sh\n"}, "examples/run: no SPDX-License-Identifier"),
     ({"nodekits/high/src/only/Top.h": MIT}, "nodekits/high/src/only/Top.h: MIT, in a kit that is GPL"),
