@@ -10,8 +10,8 @@ it is read; the other rules:
   - a function that a header declares is defined in the source of that header's name (by ctags);
   - links and backquoted paths in Markdown lead somewhere, and where nodekits/README.md names a
     function() in a line, a file named in that line has it; README.md shows the code that is compiled;
-  - what a source names of OpenSceneGraph and the standard library it includes, itself or by what it
-    includes (reached.py).
+  - what a source names of ours, OpenSceneGraph and the standard library it includes, itself or by what
+    it includes (reached.py).
 """
 import collections
 import json

@@ -58,6 +58,9 @@ BROKEN = [
      "nodekits/low/src/first/Up.cpp: defines n::base, which Base declares"),
     ({"examples/Plain.cpp": MIT + "void f(const osgDB::Options*);\nint main() {}\n"},
      "examples/Plain.cpp: names osgDB::Options, which nothing"),
+    ({"nodekits/low/src/first/Late.h": MIT + "namespace n { int lateOne(); }\n",
+      "nodekits/low/src/first/Up.cpp": MIT + "#include <low/Up>\nnamespace n { void up() { lateOne(); } }\n"},
+     "nodekits/low/src/first/Up.cpp: names lateOne, which nothing"),
     ({"nodekits/low/src/ground/Base.h": MIT + "#include <utility>\nnamespace n { int base(std::map<int, int>);\n"
                                         "struct S { int f(); }; }\n"},
      "nodekits/low/src/ground/Base.h: names std::map, which nothing"),

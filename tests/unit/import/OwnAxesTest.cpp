@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Skeletons of others, whose bones have axes and update callbacks of their own, in a clip's frame.
+#include "ExpectError.h"
 #include "Figure.h"
 #include "FindNodes.h"
 #include "Notices.h"
 #include "UpdateAt.h"
 
+#include <osgSkin/AutoPlayManager>
+#include <osgSkin/BoneReader>
 #include <osgSkin/GlmOsg>
 #include <osgSkinRig/ApplyFrame>
 #include <osgSkinRig/Clip>
+#include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 #include <osgSkinRig/ReadSkeleton>
 
@@ -118,6 +122,47 @@ TEST_P(OwnAxes, MoveTheSkinAsTheClipDoes) {
     const bool held = GetParam() != Stack::Axes;
     EXPECT_EQ(notices.warnings().empty(), held) << notices.text();
     EXPECT_EQ(largestDifference(skinning(*own), expected) < 1e-4, held);
+}
+
+TEST_P(OwnAxes, PlayWhatAClipSays) {
+    const RestSkeleton rig = makeFigure(30.0);
+    const osg::ref_ptr<osgAnimation::Skeleton> plain = osgSkin::makeSkeleton(rig),
+                                               own = ownAxes(rig, GetParam());
+    const Clip clip = turnedClip(rig);
+    const RestSkeleton read = osgSkin::readSkeleton(*own);
+    if (GetParam() == Stack::Matrix || GetParam() == Stack::Axes) {
+        expectError([&] { osgSkin::makeAnimation(clip, read, *own); },
+                    "\"" + rig.joints[0].name + "\" cannot be moved by channels");
+        return;
+    }
+    const auto animation = osgSkin::makeAnimation(clip, read, *own);
+    const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
+    manager->registerAnimation(animation);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setUpdateCallback(manager);
+    scene->addChild(own);
+    for (std::size_t frame = 0; frame < clip.frames; ++frame) {
+        osgSkin::applyFrame(clip, rig, frame, *plain);
+        test::updateAt(*scene, 0.1 * static_cast<double>(frame));
+        EXPECT_LT(largestDifference(skinning(*own), skinning(*plain)), 2e-4) << frame;
+    }
+}
+
+/// Bones that the rig does not know stand between, or are missing.
+TEST(OwnAxesTrees, MayDiffer) {
+    const RestSkeleton rig = makeFigure(30.0);
+    const osg::ref_ptr<osgAnimation::Skeleton> plain = osgSkin::makeSkeleton(rig),
+                                               own = ownAxes(rig, Stack::TurnAndMove);
+    auto bones = osgSkin::bonesOf(*own);
+    const std::string other = rig.joints[5].name;
+    bones.at(other)->setName("another's");
+    const Clip clip = turnedClip(rig);
+    osgSkin::applyFrame(clip, rig, 1, *plain);
+    osgSkin::applyFrame(clip, rig, 1, *own);
+    test::updateAt(*own, 0.0);
+    auto expected = skinning(*plain);
+    expected.erase(other);
+    EXPECT_LT(largestDifference(expected, skinning(*own)), 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Stacks, OwnAxes,

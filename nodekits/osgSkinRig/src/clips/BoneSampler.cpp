@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "clips/BoneSampler.h"
 
+#include "bones/HoldInCallback.h"
+
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkinRig/MakeAnimation>
@@ -30,17 +32,13 @@ public:
 /// the animation does not move stays as it is, and what it does is not seen in the scene.
 osg::ref_ptr<osgAnimation::UpdateBone> copyOfUpdate(osgAnimation::Bone& bone,
                                                     osgAnimation::Animation& animation) {
-    for (osg::Callback* callback = bone.getUpdateCallback(); callback != nullptr;
-         callback = callback->getNestedCallback())
-        if (auto* update = dynamic_cast<osgAnimation::UpdateBone*>(callback)) {
-            const osg::ref_ptr<osgAnimation::UpdateBone> copy =
-                osg::clone(update, osg::CopyOp::SHALLOW_COPY);
-            osgAnimation::AnimationUpdateCallbackBase& linked =
-                *copy; // UpdateBone hides its link()
-            if (!copy->getName().empty()) linked.link(&animation);
-            return copy;
-        }
-    return nullptr;
+    osgAnimation::UpdateBone* update = updateOf(bone);
+    if (!update) return nullptr;
+    const osg::ref_ptr<osgAnimation::UpdateBone> copy =
+        osg::clone(update, osg::CopyOp::SHALLOW_COPY);
+    osgAnimation::AnimationUpdateCallbackBase& linked = *copy; // UpdateBone hides its link()
+    if (!copy->getName().empty()) linked.link(&animation);
+    return copy;
 }
 
 osg::Matrixd matrixOf(const osgAnimation::Bone& bone, osgAnimation::UpdateBone* update) {

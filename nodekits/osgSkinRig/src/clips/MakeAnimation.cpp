@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/MakeAnimation>
 
+#include "bones/BoneChannels.h"
 #include "clips/ClipChannels.h"
 #include "clips/ClipCheck.h"
+#include "clips/ClipOnBones.h"
 
 #include <osgAnimation/Channel>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace osgSkin {
 
@@ -27,6 +31,27 @@ osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const Rest
         channel->setTargetName(rig.joints[j].name);
         animation->getChannels().push_back(channel);
     }
+    animation->computeDuration();
+    return animation;
+}
+
+osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const RestSkeleton& rig,
+                                                    osgAnimation::Skeleton& skeleton) {
+    requireUsable(clip, rig);
+    const ClipOnBones bones(clip, rig, skeleton);
+    std::vector<std::pair<std::size_t, BoneChannels>> moved;
+    for (std::size_t j = 0; j < rig.joints.size(); ++j)
+        if (osgAnimation::Bone* bone = bones.bone(j)) moved.emplace_back(j, *bone);
+    for (std::size_t f = 0; f <= clip.frames; ++f) { // the last is held
+        const auto posed = bones.frame(std::min(f, clip.frames - 1));
+        for (auto& [joint, channels] : moved)
+            channels.add(static_cast<double>(f) * clip.frameTime, posed[joint].local);
+    }
+    osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+    animation->setName(clip.name);
+    animation->setPlayMode(osgAnimation::Animation::LOOP);
+    for (const auto& [joint, channels] : moved)
+        for (const auto& channel : channels.channels()) animation->getChannels().push_back(channel);
     animation->computeDuration();
     return animation;
 }
