@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/ApplyFrame>
 
+#include "bones/HoldInCallback.h"
 #include "clips/ClipCheck.h"
 #include "clips/ClipOnBones.h"
-#include "bones/HoldInCallback.h"
 
 #include <osgSkin/Error>
 
