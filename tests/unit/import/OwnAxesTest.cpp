@@ -148,6 +148,25 @@ TEST_P(OwnAxes, PlayWhatAClipSays) {
     }
 }
 
+/// A skeleton that no skin was bound to: bones keep the axes that they have as it is read.
+TEST(OwnAxesTrees, MayBeBoundToNothing) {
+    const RestSkeleton rig = makeFigure(30.0);
+    const osg::ref_ptr<osgAnimation::Skeleton> bound = ownAxes(rig, Stack::TurnAndMove),
+                                               own = ownAxes(rig, Stack::TurnAndMove);
+    for (const auto& [name, bone] : osgSkin::bonesOf(*own))
+        bone->setInvBindMatrixInSkeletonSpace(osg::Matrixd());
+    const RestSkeleton read = osgSkin::readSkeleton(*own);
+    const Clip clip = turnedClip(rig);
+    osgSkin::applyFrame(clip, rig, 1, *bound);
+    osgSkin::applyFrame(clip, read, 1, *own);
+    for (const auto& [name, bone] : osgSkin::bonesOf(*own))
+        for (int i = 0; i < 16; ++i)
+            EXPECT_NEAR(bone->getMatrixInSkeletonSpace().ptr()[i],
+                        osgSkin::bonesOf(*bound).at(name)->getMatrixInSkeletonSpace().ptr()[i],
+                        1e-6)
+                << name;
+}
+
 /// Bones that the rig does not know stand between, or are missing.
 TEST(OwnAxesTrees, MayDiffer) {
     const RestSkeleton rig = makeFigure(30.0);

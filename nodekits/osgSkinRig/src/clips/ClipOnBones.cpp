@@ -5,6 +5,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 
+#include <algorithm>
 #include <map>
 
 namespace osgSkin {
@@ -26,10 +27,16 @@ ClipOnBones::ClipOnBones(const Clip& clip, const RestSkeleton& rig,
     : _clip(clip), _rig(rig) {
     const osgAnimation::BoneMap bones = bonesOf(skeleton);
     std::map<const osgAnimation::Bone*, int> jointOf;
+    // Without any inverse bind matrix the rig says how the bones stood (readSkeleton()).
+    const bool bound = std::any_of(bones.begin(), bones.end(), [](const auto& named) {
+        return !named.second->getInvBindMatrixInSkeletonSpace().isIdentity();
+    });
     for (const RestJoint& joint : rig.joints) {
         const auto found = bones.find(joint.name);
         _bones.push_back(found == bones.end() ? nullptr : found->second);
-        _axes.push_back(_bones.back() ? bindAxes(*_bones.back()) : osg::Matrixd());
+        _axes.push_back(!_bones.back() ? osg::Matrixd()
+                        : bound        ? bindAxes(*_bones.back())
+                                       : osg::Matrixd::rotate(toOsg(joint.frame)));
         if (_bones.back()) jointOf[_bones.back()] = static_cast<int>(_bones.size()) - 1;
     }
     for (const osg::ref_ptr<osgAnimation::Bone>& bone : _bones) {
