@@ -117,6 +117,20 @@ TEST_P(UprightFrames, PropsTurnToo) {
     EXPECT_LT(glm::length(inSpace(report) - turn() * inSpace(straightReport)), 1e-6);
 }
 
+/// As the actor is carried over: scaled, turned, and moved.
+TEST(Props, ArePutWhereTheActorIs) {
+    osgSkin::RetargetReport report;
+    report.scale = 2.0;
+    report.rotation = turnDegrees(90.0, {0, 0, 1});
+    report.offset = {10, 20, 30};
+    Motion way = standStill(RestSkeleton{{{"ball", -1, {0, 0, 0}, {}}}}, 1);
+    way.rootPositions[0] = {0.3, 1.2, 0.4};
+    const osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+    const auto node = osgSkin::makeProp("prop", {}, way, report, *animation);
+    const glm::dvec3 place = osgSkin::toGlm(osg::Vec3d(node->getMatrix().getTrans()));
+    EXPECT_LT(glm::length(place - glm::dvec3(10 - 2.4, 20 + 0.6, 30 + 0.8)), 1e-6);
+}
+
 INSTANTIATE_TEST_SUITE_P(Turns, UprightFrames, testing::ValuesIn(kTurns),
                          [](const auto& tested) { return std::string(tested.param.name); });
 

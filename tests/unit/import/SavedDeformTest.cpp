@@ -114,6 +114,15 @@ TEST(SavedDeform, RigsFollowVerticesThatAreThere) {
 
 TEST(SavedDeform, MorphsHaveAPlaceForEachVertex) {
     expectMorph(makeTriangles(), makeTriangles(), "");
+    // Nothing at rest yet, as before the first update.
+    const osg::ref_ptr<MorphGeometry> fresh = new MorphGeometry(*makeTriangles());
+    fresh->addMorphTarget(makeTriangles(), 0.5f);
+    fresh->setVertexSource(new osg::Vec3Array);
+    fresh->setNormalSource(new osg::Vec3Array);
+    fresh->setUpdateCallback(new osgAnimation::UpdateMorphGeometry);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(fresh);
+    expectMoved(*scene, "");
     expectMorph(makeTriangles(), makeTriangles(9), "9 vertices of a morph target, expected 3");
     expectMorph(makeTriangles(9), makeTriangles(3), "3 vertices of a morph target, expected 9");
     const auto withPlaces = [](osg::Array* places) {
