@@ -4,6 +4,7 @@
 #include <osgSkin/BoneReader>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
+#include <osgSkinRig/ForwardKinematics>
 
 #include <algorithm>
 #include <map>
@@ -55,31 +56,19 @@ ClipOnBones::ClipOnBones(const Clip& clip, const RestSkeleton& rig,
 }
 
 std::vector<ClipOnBones::Matrices> ClipOnBones::frame(std::size_t frame) const {
+    std::vector<glm::dquat> rotations;
+    std::vector<glm::dvec3> positions;
+    worldRotations(_rig, &_clip.rotations[frame * _clip.joints], rotations);
+    worldPositions(_rig, rotations, _clip.rootPositions[frame], positions);
     std::vector<Matrices> result(_rig.joints.size());
-    std::vector<osg::Matrixd> inRest(
-        _rig.joints.size()); // in skeleton space, with rest space's axes
-    for (std::size_t j = 0; j < _rig.joints.size(); ++j) {
-        const RestJoint& joint = _rig.joints[j];
-        const auto parent = static_cast<std::size_t>(joint.parent);
-        const glm::dvec3 offset = joint.parent < 0 ? _clip.rootPositions[frame]
-                                                   : joint.centre - _rig.joints[parent].centre;
-        const glm::dquat& rotation = _clip.rotations[frame * _clip.joints + j];
-        const osg::Matrixd local =
-            osg::Matrixd::rotate(toOsg(rotation)) * osg::Matrixd::translate(toOsg(offset));
-        inRest[j] = joint.parent < 0 ? local : local * inRest[parent];
-        result[j] = {_axes[j] * inRest[j], local};
-    }
+    for (std::size_t j = 0; j < result.size(); ++j)
+        result[j].inSkeleton = _axes[j] * osg::Matrixd::rotate(toOsg(rotations[j])) *
+                               osg::Matrixd::translate(toOsg(positions[j]));
     // Children may come before the bone above them, where the skeleton's tree is not the rig's.
     for (std::size_t j = 0; j < result.size(); ++j) {
-        const int above = _above[j];
-        const bool asInRig = above == _rig.joints[j].parent && _axes[j].isIdentity() &&
-                             _between[j].isIdentity() &&
-                             (above < 0 || _axes[static_cast<std::size_t>(above)].isIdentity());
-        if (asInRig) continue;
-        const osg::Matrixd outer =
-            above < 0 ? _between[j]
-                      : _between[j] * result[static_cast<std::size_t>(above)].inSkeleton;
-        result[j].local = result[j].inSkeleton * osg::Matrixd::inverse(outer);
+        osg::Matrixd above = _between[j];
+        if (_above[j] >= 0) above.postMult(result[static_cast<std::size_t>(_above[j])].inSkeleton);
+        result[j].local = result[j].inSkeleton * osg::Matrixd::inverse(above);
     }
     return result;
 }
