@@ -71,8 +71,9 @@ struct KernelCall {
     const CorrectedBlocks* corrections; ///< what is added to rest positions before all else
     std::size_t correctionCount;
     const CorrectiveWeights::Weights* const* weights; ///< by CorrectedBlocks::joint; null: nothing
-    std::size_t firstBlock;           ///< of the group's, with which the call begins
-    const KernelMap* correctionFrame; ///< turns it into the blocks' frame; null: rest space
+    std::size_t firstBlock;      ///< of the group's, with which the call begins
+    const KernelMap* shareFrame; ///< turns sums of shares into the blocks' frame; null: they are
+    const KernelMap* normalShareFrame; ///< the same for shares of normals
     /// GradientBlocks' rows, for normals and tangents of the deformed surface; null: they turn as
     /// their vertices do.
     const std::int16_t* gradients;

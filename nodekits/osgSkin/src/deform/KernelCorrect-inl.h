@@ -54,7 +54,8 @@ HWY_INLINE bool corrections(const KernelCall& call, std::size_t first, V& dx, V&
         addModes(kOfNormals ? weights->normals.data() : weights->positions.data(), of.modes,
                  shares + at * of.blockShares + first % kBlock, dx, dy, dz);
     }
-    if (any && call.correctionFrame) turn(*call.correctionFrame, dx, dy, dz);
+    const KernelMap* const frame = kOfNormals ? call.normalShareFrame : call.shareFrame;
+    if (any && frame) turn(*frame, dx, dy, dz);
     return any;
 }
 

@@ -23,7 +23,7 @@ HWY_INLINE void startRun(const KernelRun& run, KernelCall& call) {
     call.weights = run.weights;
     call.correctionCount = 0;
     call.corrections = nullptr;
-    call.correctionFrame = nullptr;
+    call.shareFrame = call.normalShareFrame = nullptr;
     call.firstBlock = run.skippedBlocks;
     call.gradients = nullptr;
     call.bendSlopes = run.bendSlopes;
@@ -41,7 +41,8 @@ HWY_INLINE void startCorrections(const KernelRun& run, std::size_t number,
     call.correctionCount = 0;
     for (std::size_t i = 0; i < count; ++i)
         if (run.weights[call.corrections[i].joint]) call.correctionCount = count;
-    call.correctionFrame =
+    call.shareFrame = of.shareFrames[number];
+    call.normalShareFrame =
         group.frame == SkinBlocks::kRestFrame ? nullptr : of.frames.data() + group.frame;
 }
 

@@ -44,8 +44,9 @@ struct CorrectiveTable {
 /// The correctives of one joint on a range of a group's blocks, as the kernel reads them.
 struct CorrectedBlocks {
     const std::int16_t* shares; ///< of the range's first block: x, y, z of the block's vertices for
-                                ///< each mode
-    const std::int16_t* normalShares; ///< the same of normals; null where they have none
+                                ///< each mode; in the space that CorrectiveBlocks::shareFrames says
+    const std::int16_t* normalShares; ///< the same of normals, in rest space; null where they have
+                                      ///< none
     const float* tilts; ///< of the range's first block: along u and v for each mode; null where the
                         ///< model has not both normal correctives and gradients
     std::size_t blockShares; ///< from a block's shares to the next one's
@@ -62,9 +63,16 @@ struct CorrectedBlocks {
 /// block has three rows (x, y, z; rest space) for each mode. Normal correctives have the same
 /// apart, so that who deforms positions alone has no gaps to read over.
 ///
+/// Where a group's blocks are in a joint's frame, and its correctives have few modes, the kernel
+/// reads shares that are turned into that frame already: with one mode it would take as long to
+/// turn what it has read as to read it. The others' are turned once they are summed up.
+///
 /// Where the model has gradients, too, the kernel needs of a normal corrective only what it has
 /// along the two directions that those are held by: less to read, and nothing to turn.
 struct CorrectiveBlocks {
+    /// Modes of a joint whose shares are kept turned, too.
+    static constexpr std::size_t kMostTurnedModes = 3;
+
     struct Range {
         std::uint32_t joint;      ///< in `joints`
         std::uint32_t firstBlock; ///< of the group's
@@ -89,7 +97,11 @@ struct CorrectiveBlocks {
     std::vector<Range> ranges;
     std::vector<CorrectedBlocks> corrected; ///< of `ranges`
     std::vector<std::uint32_t> firstRange;  ///< groups + 1, into `ranges`
+    /// Of each group: what turns sums of `corrected` shares into the frame of its blocks; null
+    /// where they are in it.
+    std::vector<const KernelMap*> shareFrames;
     std::vector<CorrectiveRow> rows;
+    std::vector<CorrectiveRow> turnedRows; ///< as `rows`, of groups whose shares are kept turned
     std::vector<CorrectiveRow> normalRows; ///< as `rows`; empty without normal correctives
 
     /// Two rows a block for each mode: its normal correctives along skinDirections()' u and v, in
@@ -109,7 +121,9 @@ struct CorrectiveBlocks {
     }
 
 private:
-    void addCorrected();
+    void addCorrected(const SkinModel& model);
+    bool keepsTurned(const SkinModel& model, std::size_t group) const;
+    void addTurned(const glm::dmat3& frame, const Range& range);
     void addTilts(const SkinModel& model, std::size_t group, const Range& range);
 
     const CorrectiveRow* rowOf(const std::vector<CorrectiveRow>& of, const Range& range,
