@@ -14,6 +14,7 @@
 
 #include <osg/Geometry>
 #include <osg/Material>
+#include <osgDB/FileNameUtils>
 #include <osgDB/WriteFile>
 
 #include <algorithm>
@@ -286,6 +287,24 @@ TEST(Guard, NothingIsRunOrUnpacked) {
     EXPECT_EQ(osgSkin::importMesh(mesh).mesh.positions.size(), 3u);
     EXPECT_FALSE(std::filesystem::exists(ran));
     std::filesystem::remove_all(folder);
+}
+
+// Assimp looks for itself what a file is whose name it does not know: readers of formats that are
+// checked here by their names, and readers that read beyond what is there.
+TEST(Guard, MotionsAreReadByTheirNamesAlone) {
+    for (const char* name :
+         {"walk.osgt", "walk.osgb", "walk.osgx", "walk.skin", "walk.dat", "walk"})
+        for (const char* content : {"c?\?metric?\?????G::Group${\n",
+                                    R"({"asset": {"version": "2.0"}})", "MD5Version 10\n"}) {
+            const std::string path = saveText(name, content);
+            const std::string expected = std::string(name) == "walk"
+                                             ? "walk: its name has no extension"
+                                             : std::string(name) + ": files named \"." +
+                                                   osgDB::getFileExtension(name) +
+                                                   "\" are not read for this, expected .bvh";
+            expectError([&] { osgSkin::importMotion(path); }, expected);
+            expectError([&] { osgSkin::importRig(path); }, expected);
+        }
 }
 
 TEST(Guard, MotionsAreAsLargeAsTheirFiles) {

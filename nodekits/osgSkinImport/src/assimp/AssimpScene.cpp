@@ -20,13 +20,21 @@ namespace osgSkin {
 
 namespace {
 
-/// Refuses what Assimp would hang on.
+/// Refuses what Assimp would hang on, and what it would look into for itself: of a file whose name
+/// says nothing to it, or that another reader here has, it asks each of its readers whether they
+/// know the first bytes, and some read beyond those.
 void checkBefore(const std::string& path, const ReadLimits& limits) {
     requireReadable(path, limits);
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     // Read by readBvh(): Assimp believes any number of frames.
     if (extension == "bvh")
         failFile(path, "no face in a BVH file: it holds a skeleton and no mesh with bones");
+    if (!assimpReads(path))
+        failFile(path, extension.empty()
+                           ? std::string("its name has no extension, expected that of its format")
+                           : "files named " + inQuotes("." + extension) +
+                                 " are not read for this, expected .bvh, .fbx, .glb or another "
+                                 "that Assimp reads");
 }
 
 /// Makes a scene safe to walk: some readers of Assimp's leave null among a node's children.

@@ -57,7 +57,6 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
     const std::size_t bytes = requireReadable(path, limits);
-    if (!assimpReads(path)) failFile(path, "Assimp reads no files of this kind");
     const std::string none = "no mesh with bones, expected a rigged character";
     if (holdsMeshesOnly(path)) failFile(path, none);
     Assimp::Importer importer;
