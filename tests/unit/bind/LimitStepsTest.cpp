@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes that move no vertex much faster than the joint turns.
-#include "shapes/LimitSteps.h"
+#include "shapes/steps/LimitSteps.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -47,9 +47,13 @@ double fastest(const ShapedJoint& joint, const FittedShapes& shapes, std::size_t
     const ShapedJoint::Vertex& of = joint.vertices[vertex];
     const auto at = [&](double degrees) {
         const glm::dvec2 xy(std::sin(glm::radians(0.5 * degrees)), 0.0);
-        double weight = 0.0;
-        shapes.functions.weights(xy, &weight);
-        return joint.turnOf(of, joint.bendAt(xy)) * (of.from + weight * shapes.vectors[vertex]);
+        double weights[CorrectiveJoint::kMostModes];
+        shapes.functions.weights(xy, weights);
+        const std::size_t modes = shapes.functions.modes;
+        glm::dvec3 moved = of.from;
+        for (std::size_t k = 0; k < modes; ++k)
+            moved += weights[k] * shapes.vectors[vertex * modes + k];
+        return joint.turnOf(of, joint.bendAt(xy)) * moved;
     };
     double most = 0.0;
     for (double degrees = -179.0; degrees < 179.0; degrees += 1.0)
@@ -74,8 +78,36 @@ TEST(LimitSteps, TakeNeighboursAlongAndLeaveOthersAlone) {
     FittedShapes shapes = lifted(joint, 0.25);
     limitSteps(joint, shapes);
     EXPECT_GT(shapes.vectors[0].z, 0.0);
-    EXPECT_NEAR(shapes.vectors[1].z, shapes.vectors[0].z + 0.4 / 0.7, 1e-9);
+    const double left = 1.0 - glm::distance(shapes.vectors[0], glm::dvec3(0, 0, 1));
+    EXPECT_NEAR(shapes.vectors[1].z, left + 0.4 / 0.7, 1e-9);
     EXPECT_EQ(shapes.vectors[2], glm::dvec3(0, 0, 1));
+}
+
+// A shape that comes in a part of the bend only is made to come in slower, not to stay away.
+TEST(LimitSteps, SlowDownWhatComesFast) {
+    const ShapedJoint joint = jointWith({1.0});
+    FittedShapes shapes = lifted(joint, 0.0);
+    const std::size_t functions = shapes.functions.functionCount();
+    shapes.functions.modes = 3; // x^2, x^3 and x
+    shapes.functions.coefficients.assign(3 * functions, 0.0);
+    shapes.functions.coefficients[2] = 1.0;
+    shapes.functions.coefficients[functions + 5] = 1.0;
+    shapes.functions.coefficients[2 * functions] = 1.0;
+    const double most = 0.7;
+    // From 0 to `most` and back to its end's slope of 0 along the limb: most of it half way.
+    shapes.vectors = {{0.0, 3.0 * most / 0.49, 0.0}, {0.0, -2.0 * most / 0.343, 0.0}, {0, 0, 0}};
+    const auto offsetAt = [&](double x) {
+        double weights[3];
+        shapes.functions.weights({x, 0.0}, weights);
+        glm::dvec3 sum(0.0);
+        for (int k = 0; k < 3; ++k) sum += weights[k] * shapes.vectors[k];
+        return sum;
+    };
+    const glm::dvec3 before = offsetAt(0.6);
+    ASSERT_GT(fastest(joint, shapes, 0), 1.6);
+    limitSteps(joint, shapes);
+    EXPECT_LT(fastest(joint, shapes, 0), 1.53);
+    EXPECT_GT(offsetAt(0.6).y, 0.9 * before.y);
 }
 
 TEST(LimitSteps, LeaveSlowShapesAsTheyAre) {

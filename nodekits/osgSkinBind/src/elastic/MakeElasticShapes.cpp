@@ -5,7 +5,7 @@
 #include "elastic/PlanElastic.h"
 #include "elastic/SolveElastic.h"
 #include "shapes/FastShapes.h"
-#include "shapes/LimitSteps.h"
+#include "shapes/steps/LimitSteps.h"
 #include "shapes/PackShapes.h"
 
 #include <glm/geometric.hpp>

@@ -7,9 +7,10 @@
 
 namespace osgSkin {
 
-/// Takes so much off a joint's shapes that no vertex moves faster than 1.5 times as fast as the
-/// joint would take it about its axis as a rigid body. Flesh near the axis hardly turns, and may be
-/// squeezed away from there much faster: a single vertex would be seen to slip.
+/// Changes a joint's shapes so that no vertex moves faster than 1.5 times as fast as the joint
+/// would take it about its axis as a rigid body. Flesh near the axis hardly turns, and may be
+/// squeezed away from there much faster: a single vertex would be seen to slip. Such shapes come in
+/// earlier and slower; where that is not enough, they are less.
 ///
 /// Its neighbours keep less of their shapes, too, the farther from it the more, so that no crease
 /// comes of it.
