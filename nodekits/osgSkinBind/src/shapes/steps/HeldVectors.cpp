@@ -37,6 +37,24 @@ Eigen::Vector3d toEigen(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
+double mostOf(const ShapedJoint& joint, const ShapedJoint::Vertex& vertex,
+              const BendSteps::Step& step) {
+    const double radius =
+        std::max(glm::length(glm::cross(step.axis, vertex.from)), kAtAxis * joint.radius);
+    return kFastest * BendSteps::rigid() * radius;
+}
+
+/// Whether a step is too long: what most vertices are asked, without all that follows where one is.
+bool isTooLong(const ShapedJoint& joint, const ShapedJoint::Vertex& vertex,
+               const BendSteps::Step& step, const glm::dvec3* vectors, std::size_t modes) {
+    const auto at = [&](const BendSteps::Bend& bend) {
+        glm::dvec3 sum = vertex.from;
+        for (std::size_t k = 0; k < modes; ++k) sum += bend.weights[k] * vectors[k];
+        return joint.turnOf(vertex, bend.bend) * sum;
+    };
+    return glm::distance(at(step.from), at(step.to)) > mostOf(joint, vertex, step);
+}
+
 /// A step of one vertex: plain + sum over the modes of shares[k] U_k, and how long it may be.
 struct VertexStep {
     Eigen::Vector3d plain;
@@ -51,14 +69,12 @@ VertexStep stepOf(const ShapedJoint& joint, const ShapedJoint::Vertex& vertex,
                   const BendSteps::Step& step, std::size_t modes) {
     const Eigen::Matrix3d from = toEigen(joint.turnOf(vertex, step.from.bend)),
                           to = toEigen(joint.turnOf(vertex, step.to.bend));
-    const double radius =
-        std::max(glm::length(glm::cross(step.axis, vertex.from)), kAtAxis * joint.radius);
     VertexStep result{(to - from) * toEigen(vertex.from), {}, 0.0};
     result.shares.resize(3, Eigen::Index(3 * modes));
     for (std::size_t k = 0; k < modes; ++k)
         result.shares.middleCols<3>(Eigen::Index(3 * k)) =
             step.to.weights[k] * to - step.from.weights[k] * from;
-    result.most = std::max(kFastest * BendSteps::rigid() * radius, result.plain.norm());
+    result.most = std::max(mostOf(joint, vertex, step), result.plain.norm());
     return result;
 }
 
@@ -71,6 +87,19 @@ double shareWithin(const VertexStep& step, const Eigen::VectorXd& vectors) {
     const double room = step.most * step.most - step.plain.squaredNorm();
     return std::clamp((std::sqrt(std::max(0.0, along * along + square * room)) - along) / square,
                       0.0, 1.0);
+}
+
+/// The least change of vectors that changes a step by so much.
+/// \param inverse of the Gram matrix by which it is the least
+Eigen::VectorXd changeBy(const VertexStep& step, const Eigen::MatrixXd& inverse,
+                         const Eigen::Vector3d& by) {
+    const Eigen::Index modes = inverse.rows();
+    Eigen::MatrixXd along = Eigen::MatrixXd::Zero(3 * modes, 3);
+    for (Eigen::Index k = 0; k < modes; ++k)
+        for (Eigen::Index l = 0; l < modes; ++l)
+            along.middleRows<3>(3 * k) +=
+                inverse(k, l) * step.shares.middleCols<3>(3 * l).transpose();
+    return along * Eigen::Matrix3d(step.shares * along).fullPivLu().solve(by);
 }
 
 } // namespace
@@ -93,6 +122,12 @@ double HeldVectors::sizeOf(const Eigen::MatrixXd& vectors) const {
 }
 
 double HeldVectors::hold(const ShapedJoint::Vertex& vertex, glm::dvec3* vectors) const {
+    const std::vector<BendSteps::Step>& steps = _steps.all();
+    if (std::none_of(steps.begin(), steps.end(), [&](const BendSteps::Step& step) {
+            return isTooLong(_joint, vertex, step, vectors, _modes);
+        }))
+        return 1.0;
+
     const auto modes = Eigen::Index(_modes);
     Eigen::VectorXd held(3 * modes);
     for (std::size_t k = 0; k < _modes; ++k)
@@ -100,29 +135,17 @@ double HeldVectors::hold(const ShapedJoint::Vertex& vertex, glm::dvec3* vectors)
     const Eigen::VectorXd before = held;
 
     std::vector<VertexStep> all;
-    bool isHeld = true;
-    for (const BendSteps::Step& step : _steps.all()) {
-        all.push_back(stepOf(_joint, vertex, step, _modes));
-        isHeld = isHeld && all.back().with(held).norm() <= all.back().most;
-    }
-    if (isHeld) return 1.0;
+    for (const BendSteps::Step& step : steps) all.push_back(stepOf(_joint, vertex, step, _modes));
 
-    // One step after the other is cut to its length by the least change of the shapes.
+    // Projections onto one step after the other.
+    bool isHeld = false;
     for (int round = 0; round < kMostRounds && !isHeld; ++round) {
         isHeld = true;
         for (const VertexStep& step : all) {
             const Eigen::Vector3d now = step.with(held);
-            const double length = now.norm();
-            if (length <= step.most * (1.0 + kSlack)) continue;
+            if (now.norm() <= step.most * (1.0 + kSlack)) continue;
             isHeld = false;
-            Eigen::MatrixXd change(3 * modes, 3); // the inverse Gram matrix times the transposed
-            change.setZero();
-            for (Eigen::Index k = 0; k < modes; ++k)
-                for (Eigen::Index l = 0; l < modes; ++l)
-                    change.middleRows<3>(3 * k) +=
-                        _inverse(k, l) * step.shares.middleCols<3>(3 * l).transpose();
-            const Eigen::Matrix3d by = step.shares * change;
-            held += change * by.fullPivLu().solve(now * (step.most / length - 1.0));
+            held += changeBy(step, _inverse, (step.most / now.norm() - 1.0) * now);
         }
     }
     double share = 1.0;
