@@ -5,8 +5,8 @@
 #include "elastic/PlanElastic.h"
 #include "elastic/SolveElastic.h"
 #include "shapes/FastShapes.h"
-#include "shapes/steps/LimitSteps.h"
 #include "shapes/PackShapes.h"
+#include "shapes/steps/LimitSteps.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
