@@ -100,7 +100,7 @@ TEST(LimitSteps, SlowDownWhatComesFast) {
         double weights[3];
         shapes.functions.weights({x, 0.0}, weights);
         glm::dvec3 sum(0.0);
-        for (int k = 0; k < 3; ++k) sum += weights[k] * shapes.vectors[k];
+        for (std::size_t k = 0; k < 3; ++k) sum += weights[k] * shapes.vectors[k];
         return sum;
     };
     const glm::dvec3 before = offsetAt(0.6);

@@ -135,6 +135,7 @@ double HeldVectors::hold(const ShapedJoint::Vertex& vertex, glm::dvec3* vectors)
     const Eigen::VectorXd before = held;
 
     std::vector<VertexStep> all;
+    all.reserve(steps.size());
     for (const BendSteps::Step& step : steps) all.push_back(stepOf(_joint, vertex, step, _modes));
 
     // Projections onto one step after the other.
