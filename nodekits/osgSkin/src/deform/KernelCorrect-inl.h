@@ -23,10 +23,15 @@ HWY_INLINE V sharesAt(const std::int16_t* HWY_RESTRICT from) {
     return hn::ConvertTo(D(), hn::PromoteTo(d32, hn::Load(d16, from)));
 }
 
+HWY_INLINE V sharesAt(const float* HWY_RESTRICT from) {
+    return hn::Load(D(), from);
+}
+
 /// Adds weight k times the k-th mode's shares for all modes; a block's rows lie side by side, also
 /// those of other vertices: the processor sees by itself what comes next.
+template <typename Share>
 HWY_INLINE void addModes(const float* HWY_RESTRICT weights, std::size_t modes,
-                         const std::int16_t* HWY_RESTRICT shares, V& x, V& y, V& z) {
+                         const Share* HWY_RESTRICT shares, V& x, V& y, V& z) {
     for (std::size_t k = 0; k < modes; ++k, shares += 3 * kBlock) {
         const V weight = hn::Set(D(), weights[k]);
         x = hn::MulAdd(weight, sharesAt(shares), x);
@@ -51,8 +56,12 @@ HWY_INLINE bool corrections(const KernelCall& call, std::size_t first, V& dx, V&
         const std::int16_t* shares = kOfNormals ? of.normalShares : of.shares;
         if (kOfNormals && !shares) continue;
         any = true;
-        addModes(kOfNormals ? weights->normals.data() : weights->positions.data(), of.modes,
-                 shares + at * of.blockShares + first % kBlock, dx, dy, dz);
+        const std::size_t from = at * of.blockShares + first % kBlock;
+        const float* scales = kOfNormals ? weights->normals.data() : weights->positions.data();
+        if (!kOfNormals && of.turned)
+            addModes(scales, of.modes, of.turned + from, dx, dy, dz);
+        else
+            addModes(scales, of.modes, shares + from, dx, dy, dz);
     }
     const KernelMap* const frame = kOfNormals ? call.normalShareFrame : call.shareFrame;
     if (any && frame) turn(*frame, dx, dy, dz);

@@ -28,10 +28,6 @@ void writeLane(const std::int16_t* shares, std::size_t count, std::size_t lane, 
     for (std::size_t i = 0; i < count; ++i) rows[end - count + i].lane[lane] = shares[i];
 }
 
-std::int16_t roundedToShare(double value) {
-    return static_cast<std::int16_t>(std::lround(glm::clamp(value, -32767.0, 32767.0)));
-}
-
 /// Whether nothing is in one lane of `count` rows; null: there are none.
 bool isEmpty(const CorrectiveRow* rows, std::size_t count, std::size_t lane) {
     return !rows || std::all_of(rows, rows + count,
@@ -128,11 +124,11 @@ void CorrectiveBlocks::addTurned(const glm::dmat3& frame, const Range& range) {
     for (std::size_t row = 0; row < range.blockCount * rowsPerBlock(range.joint); row += 3) {
         const CorrectiveRow* const from = &rows[range.firstRow + row];
         turnedRows.resize(turnedRows.size() + 3);
-        CorrectiveRow* const to = &*(turnedRows.end() - 3);
+        BlockRow* const to = &*(turnedRows.end() - 3);
         for (std::size_t lane = 0; lane < kBlock; ++lane) {
             const glm::dvec3 share(from[0].lane[lane], from[1].lane[lane], from[2].lane[lane]);
             for (int axis = 0; axis < 3; ++axis)
-                to[axis].lane[lane] = roundedToShare(glm::dot(frame[axis], share));
+                to[axis].lane[lane] = roundedToFloat(glm::dot(frame[axis], share));
         }
     }
 }
@@ -147,21 +143,21 @@ void CorrectiveBlocks::addCorrected(const SkinModel& model) {
         for (std::size_t i = firstRange[g]; i < firstRange[g + 1]; ++i) addTurned(frame, ranges[i]);
     }
     // What points into rows can do so now that there are all of them.
-    const CorrectiveRow* nextTurned = turnedRows.data();
+    const BlockRow* nextTurned = turnedRows.data();
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const std::uint32_t frame = SkinModelAccess::blocks(model).groups[g].frame;
-        shareFrames.push_back(turned[g] || frame == SkinBlocks::kRestFrame ? nullptr
-                                                                           : &frames[frame]);
+        const bool isInFrame = turned[g] || frame == SkinBlocks::kRestFrame;
+        shareFrames.push_back(isInFrame ? nullptr : &frames[frame]);
         for (std::size_t i = firstRange[g]; i < firstRange[g + 1]; ++i) {
             const Range& range = ranges[i];
             const std::size_t blockRows = rowsPerBlock(range.joint);
-            const CorrectiveRow* const first = turned[g] ? nextTurned : &rows[range.firstRow];
+            corrected.push_back({rows[range.firstRow].lane, turned[g] ? nextTurned->lane : nullptr,
+                                 hasNormals ? normalRows[range.firstRow].lane : nullptr,
+                                 tilts.empty() ? nullptr : tilts[range.firstTilt].lane,
+                                 blockRows * kBlock, range.firstBlock, range.blockCount,
+                                 range.joint,
+                                 static_cast<std::uint32_t>(joints[range.joint].modes)});
             if (turned[g]) nextTurned += range.blockCount * blockRows;
-            corrected.push_back(
-                {first->lane, hasNormals ? normalRows[range.firstRow].lane : nullptr,
-                 tilts.empty() ? nullptr : tilts[range.firstTilt].lane, blockRows * kBlock,
-                 range.firstBlock, range.blockCount, range.joint,
-                 static_cast<std::uint32_t>(joints[range.joint].modes)});
         }
     }
 }

@@ -44,9 +44,9 @@ struct CorrectiveTable {
 /// The correctives of one joint on a range of a group's blocks, as the kernel reads them.
 struct CorrectedBlocks {
     const std::int16_t* shares; ///< of the range's first block: x, y, z of the block's vertices for
-                                ///< each mode; in the space that CorrectiveBlocks::shareFrames says
-    const std::int16_t* normalShares; ///< the same of normals, in rest space; null where they have
-                                      ///< none
+                                ///< each mode; rest space
+    const float* turned; ///< the same in the blocks' frame; null where CorrectiveBlocks keeps none
+    const std::int16_t* normalShares; ///< as `shares`, of normals; null where they have none
     const float* tilts; ///< of the range's first block: along u and v for each mode; null where the
                         ///< model has not both normal correctives and gradients
     std::size_t blockShares; ///< from a block's shares to the next one's
@@ -64,8 +64,9 @@ struct CorrectedBlocks {
 /// apart, so that who deforms positions alone has no gaps to read over.
 ///
 /// Where a group's blocks are in a joint's frame, and its correctives have few modes, the kernel
-/// reads shares that are turned into that frame already: with one mode it would take as long to
-/// turn what it has read as to read it. The others' are turned once they are summed up.
+/// reads shares that are turned into that frame already, not rounded once more: with one mode it
+/// would take as long to turn what it has read as to read it. The others' are turned once they are
+/// summed up.
 ///
 /// Where the model has gradients, too, the kernel needs of a normal corrective only what it has
 /// along the two directions that those are held by: less to read, and nothing to turn.
@@ -97,11 +98,11 @@ struct CorrectiveBlocks {
     std::vector<Range> ranges;
     std::vector<CorrectedBlocks> corrected; ///< of `ranges`
     std::vector<std::uint32_t> firstRange;  ///< groups + 1, into `ranges`
-    /// Of each group: what turns sums of `corrected` shares into the frame of its blocks; null
-    /// where they are in it.
+    /// Of each group: what turns sums of its shares into the frame of its blocks; null where they
+    /// are in it, or CorrectedBlocks::turned are.
     std::vector<const KernelMap*> shareFrames;
     std::vector<CorrectiveRow> rows;
-    std::vector<CorrectiveRow> turnedRows; ///< as `rows`, of groups whose shares are kept turned
+    std::vector<BlockRow> turnedRows;      ///< as `rows`, of groups whose shares are kept turned
     std::vector<CorrectiveRow> normalRows; ///< as `rows`; empty without normal correctives
 
     /// Two rows a block for each mode: its normal correctives along skinDirections()' u and v, in
