@@ -34,6 +34,28 @@ Motion turned(Motion motion, const glm::dquat& turn) {
     return motion;
 }
 
+/// The same body on a chair: thighs level, shins upright.
+RestSkeleton seated(RestSkeleton skeleton, double degrees) {
+    const RestSkeleton standing = skeleton;
+    std::vector<glm::dquat> turns;
+    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+        const osgSkin::RestJoint& from = standing.joints[j];
+        osgSkin::RestJoint& to = skeleton.joints[j];
+        const auto p = static_cast<std::size_t>(std::max(from.parent, 0));
+        glm::dquat turn = from.parent < 0 ? glm::dquat(1, 0, 0, 0) : turns[p];
+        if (from.parent >= 0)
+            to.centre =
+                skeleton.joints[p].centre + turn * (from.centre - standing.joints[p].centre);
+        if (from.name.find("UpLeg") != std::string::npos)
+            turn = turn * turnDegrees(-degrees, {1, 0, 0});
+        if (from.name == "LeftLeg" || from.name == "RightLeg")
+            turn = turn * turnDegrees(degrees, {1, 0, 0});
+        if (to.tip) to.tip = to.centre + turn * (*from.tip - from.centre);
+        turns.push_back(turn);
+    }
+    return skeleton;
+}
+
 struct Turn {
     const char* name;
     glm::dquat turn;
@@ -101,6 +123,24 @@ TEST_P(UprightFrames, ATurnedActorIsTurnedBack) {
     const Clip clip = osgSkin::retarget(turned(motion, turn()), rig, {}, &report);
     expectTurned(clip, rig, {1, 0, 0, 0});
     EXPECT_LT(angleBetween(report.rotation, glm::conjugate(turn())), 1e-5);
+}
+
+/// A driver's body gets up and throws: its bones are where the standing one's are.
+TEST_P(UprightFrames, ABodyThatSitsAtRestDoesTheSame) {
+    for (const double degrees : {50.0, 85.0, 100.0}) {
+        SCOPED_TRACE(degrees);
+        const RestSkeleton body = turned(seated(rig, degrees), turn());
+        const Clip clip = osgSkin::retarget(motion, body, {}, &report);
+        EXPECT_NEAR(report.scale, straightReport.scale, 0.03); // its steps are as long
+        for (std::size_t f = 0; f < clip.frames; f += 30) {
+            const Placed ours = place(clip, body, f), theirs = place(straight, rig, f);
+            for (std::size_t j = 0; j < rig.joints.size(); ++j)
+                ASSERT_LT(glm::length(ours.places[j] - ours.places[0] -
+                                      turn() * (theirs.places[j] - theirs.places[0])),
+                          0.05)
+                    << rig.joints[j].name << ", frame " << f;
+        }
+    }
 }
 
 /// A ball stays where the hand is.

@@ -3,6 +3,7 @@
 
 #include "reference/CountedFrom.h"
 #include "reference/Stance.h"
+#include "skeleton/NearAxis.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
@@ -23,14 +24,7 @@ constexpr std::size_t kMostSamples = 4000;
 /// A body that no sample shows standing may come near: what a pose is off by, untidiness() of it.
 constexpr double kNearlyStands = 5.0;
 
-constexpr int kPlusY = 2; ///< as axisOf() has it
-
-/// Which coordinate axis `up` is within 37 degrees of: 1 to 3, negative for the other way; 0: none.
-int axisOf(const glm::dvec3& up) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (std::abs(up[axis]) > 0.8) return up[axis] > 0.0 ? axis + 1 : -axis - 1;
-    return 0;
-}
+constexpr int kPlusY = 2; ///< as nearAxis() has it
 
 std::vector<glm::dvec3> centresOf(const RestSkeleton& skeleton) {
     std::vector<glm::dvec3> result;
@@ -64,7 +58,7 @@ public:
             ++result.all;
             if (!stance) continue;
             stances.emplace_back(f, *stance);
-            const int axis = axisOf(stance->up);
+            const int axis = nearAxis(stance->up);
             if (!stance->stands() || axis == 0) continue;
             ++result.standing[axis];
             const double height = glm::dot(stance->hips, stance->up) / stance->leg;
@@ -79,7 +73,7 @@ public:
             }
         double tidiest = 0.0;
         for (const auto& [f, stance] : stances) {
-            const bool stands = stance.stands() && axisOf(stance.up) == result.axis;
+            const bool stands = stance.stands() && nearAxis(stance.up) == result.axis;
             if (result.axis != 0 && !stands) continue;
             if (result.bestStance && stance.untidiness() >= tidiest) continue;
             tidiest = stance.untidiness();
@@ -98,7 +92,7 @@ public:
 
 private:
     static glm::dvec3 up(const Stance& stance) {
-        const int axis = axisOf(stance.up);
+        const int axis = nearAxis(stance.up);
         if (axis == 0) return stance.up;
         glm::dvec3 result(0.0);
         result[std::abs(axis) - 1] = axis > 0 ? 1.0 : -1.0;
@@ -154,8 +148,8 @@ void countFromRig(const Motion& motion, const RestSkeleton& rig, const SameSkele
     if (alike) return; // it stands as the rig does
     // Both files' spaces may have different axes up.
     glm::dquat turn(1.0, 0.0, 0.0, 0.0);
-    const int axis = zero && zero->stands() ? axisOf(zero->up) : samplesAxis;
-    const int rigAxis = axisOf(rest->up);
+    const int axis = zero && zero->stands() ? nearAxis(zero->up) : samplesAxis;
+    const int rigAxis = nearAxis(rest->up);
     if (axis != 0 && rigAxis != 0 && axis != rigAxis) {
         glm::dvec3 from(0.0), to(0.0);
         from[std::abs(rigAxis) - 1] = rigAxis > 0 ? 1.0 : -1.0;
@@ -199,7 +193,7 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
     }
 
     if (zeroStands) {
-        const int own = axisOf(zero->up);
+        const int own = nearAxis(zero->up);
         if (samples.axis == 0 || own == 0 || samples.axis == own) return result;
         const auto countOf = [](const std::map<int, std::size_t>& counts, int axis) {
             const auto found = counts.find(axis);

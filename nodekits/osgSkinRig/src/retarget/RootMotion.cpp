@@ -11,9 +11,22 @@
 namespace osgSkin {
 namespace {
 
-/// Height of the hips above the lowest point of the legs.
+/// Who rests with the hips lower than this share of what the legs are long sits.
+constexpr double kSits = 0.9;
+
+/// Height of the hips above the lowest point of the legs; of a body that sits, once it stands.
 double hipHeight(const SkeletonTree& tree, const BodyParts& parts, int hips) {
-    return tree.centre(hips).y - parts.lowest;
+    const double atRest = tree.centre(hips).y - parts.lowest;
+    double standing = 0.0;
+    for (int j : parts.ankles) {
+        double leg = tree.centre(j).y - parts.lowest; // below the ankle
+        for (int above = tree.joint(j).parent;
+             above >= 0 && parts.isLimb[static_cast<std::size_t>(above)];
+             j = above, above = tree.joint(j).parent)
+            leg += glm::distance(tree.centre(j), tree.centre(above));
+        standing = std::max(standing, leg + tree.centre(hips).y - tree.centre(j).y);
+    }
+    return atRest < kSits * standing ? standing : atRest;
 }
 
 /// How far above its lowest position, in hip heights, a foot still counts as standing: walking feet

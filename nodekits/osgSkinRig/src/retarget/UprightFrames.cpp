@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "retarget/UprightFrames.h"
 
+#include "skeleton/NearAxis.h"
+
 #include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
@@ -43,17 +45,28 @@ private:
     const std::vector<std::string>& _roles;
 };
 
+/// Up, as nearAxis() has it: along the thighs, or where trunk and shins stand along one axis along
+/// that, since who sits holds the thighs before him.
+int upOf(const Body& body) {
+    glm::dvec3 thighs(0.0), shins(0.0), trunk(0.0);
+    for (const std::string side : {"Left", "Right"}) {
+        thighs += body.bone(side + "LowerLeg", side + "UpperLeg");
+        shins += body.bone(side + "Foot", side + "LowerLeg");
+        glm::dvec3 top = body.bone(side + "UpperLeg", "Neck");
+        if (top == glm::dvec3(0.0)) top = body.bone(side + "UpperLeg", "Head");
+        if (top == glm::dvec3(0.0)) top = body.bone(side + "UpperLeg", side + "UpperArm");
+        trunk += top;
+    }
+    const int byTrunk = nearAxis(trunk);
+    return byTrunk == nearAxis(shins) && byTrunk != 0 ? byTrunk : nearAxis(thighs);
+}
+
 glm::dquat uprightRotation(const Body& body) {
-    glm::dvec3 up(0.0);
-    for (const std::string side : {"Left", "Right"})
-        up += body.bone(side + "LowerLeg", side + "UpperLeg");
-    const glm::dvec3 size = glm::abs(up);
-    const int axis = size.x > size.y && size.x > size.z ? 0 : size.z > size.y ? 2 : 1;
+    const int up = upOf(body);
     // Legs that are drawn up, or none: nothing tells.
-    if (!(size[axis] > 0.8 * glm::length(up)) || (axis == 1 && up.y > 0.0))
-        return {1.0, 0.0, 0.0, 0.0};
+    if (up == 0 || up == 2) return {1.0, 0.0, 0.0, 0.0};
     glm::dvec3 along(0.0);
-    along[axis] = up[axis] > 0.0 ? 1.0 : -1.0;
+    along[std::abs(up) - 1] = up > 0 ? 1.0 : -1.0;
     return shortestRotation(along, {0.0, 1.0, 0.0});
 }
 

@@ -10,9 +10,10 @@ namespace osgSkin {
 
 /// How a motion's space lies to a rig's, told by both skeletons' rest poses.
 ///
-/// Up is the coordinate axis along which the legs stand, from the feet to the hips; left is from
-/// the right hip to the left one, or else between the shoulders. Both need the roles of joints: a
-/// skeleton without them is taken to have +y up, and one without pairs to face as the other does.
+/// Up is the coordinate axis along which the thighs stand, or trunk and shins, where they agree and
+/// the body sits; left is from the right hip to the left one, or else between the shoulders. Both
+/// need the roles of joints: a skeleton without them is taken to have +y up, and one without pairs
+/// to face as the other does.
 struct UprightFrames {
     glm::dquat rigUpright{1.0, 0.0, 0.0, 0.0}; ///< takes the rig's space to one with +y up
 
