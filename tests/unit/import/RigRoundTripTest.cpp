@@ -257,5 +257,6 @@ TEST(ImportRig, RefusesWhatIsNotRigged) {
     expectError([] { osgSkin::importSkeleton(testData("mesh/quads.obj")); }, "no skeleton");
     expectError([] { osgSkin::importMotion(testData("mesh/quads.obj")); }, "no animation");
     expectError([] { osgSkin::importRig(testData("rig/nowhere.glb")); }, "nowhere.glb");
-    expectError([] { osgSkin::importRig(testData("mesh/unknown.format")); }, "are not read for this");
+    expectError([] { osgSkin::importRig(testData("mesh/unknown.format")); },
+                "are not read for this");
 }
