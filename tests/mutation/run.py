@@ -61,7 +61,8 @@ def prepare(kits, tests):
     """The copy's libraries, and its test programs where those of no other build are used."""
     BROKEN.mkdir(parents=True, exist_ok=True)
     if not TREE.exists():
-        shell(f"git worktree add --detach '{TREE}'", ROOT)
+        # By force: a copy that was deleted by hand is still on git's list.
+        shell(f"git worktree add --force --detach '{TREE}'", ROOT)
     shell(f"git checkout --force --detach $(git -C '{ROOT}' rev-parse HEAD)", TREE)
     programs = sorted({test for kit in kits for test in KITS[kit]})
     wanted = kits if tests else [*kits, "osgdb_skin", "osgdb_serializers_osgskin", "osgskinbake",
