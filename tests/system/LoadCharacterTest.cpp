@@ -218,12 +218,17 @@ TEST(LoadCharacter, TellsBeforehandWhereItGets) {
     const osg::BoundingSphere told = character.root->getInitialBound();
     ASSERT_TRUE(told.valid());
     const osgSkin::CharacterMotion& motion = character.motions.at(0);
+    osg::BoundingBoxd box;
     for (std::size_t frame = 0; frame < motion.clip.frames; ++frame) {
         character.pose(motion, frame);
         test::forEachCopy(character, [&](std::uint32_t, const osg::Vec3d& p) {
             ASSERT_LE((p * character.toWorld - told.center()).length(), told.radius()) << frame;
+            box.expandBy(p * character.toWorld);
         });
     }
+    // About its middle, and not much farther.
+    EXPECT_LT((box.center() - told.center()).length(), 0.1 * told.radius());
+    EXPECT_LT(told.radius(), 1.5 * box.radius());
 }
 
 TEST(LoadCharacter, AMotionFileGoesFirst) {

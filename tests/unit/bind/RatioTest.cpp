@@ -101,6 +101,22 @@ TEST(Ratios, AuthorsBoundariesAreKept) {
     EXPECT_EQ(ringBend(mesh, binding, 1, 6.0), 1.0f);
 }
 
+TEST(Ratios, OneBoundaryOfTheAuthorsPlacesTheOther) {
+    // The one that he left out is as far behind his as it would be behind the joint, or where it
+    // would be.
+    const SkinMesh mesh = shapes::cylinder();
+    for (const double upper : {-0.5, 0.2}) {
+        BindOptions options;
+        options.joints["joint1"].bendUpper = upper; // the bone is 3 long
+        const Binding binding = bind(mesh, shapes::chainAlongY({1.1, 4.1}, 7.1), options);
+        expectSound(binding);
+        const double begins = 4.1 + 3.0 * upper;
+        EXPECT_LT(ringBend(mesh, binding, 1, std::floor(4.0 * begins - 1.0) / 4.0), 0.05f) << upper;
+        EXPECT_EQ(ringBend(mesh, binding, 1, 6.5), 1.0f) << upper;
+        EXPECT_LT(ringBend(mesh, binding, 1, 4.25), 0.9f) << upper;
+    }
+}
+
 TEST(Ratios, SkippedJointTurnsWhatItsChildTurns) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({1.1, 3.1, 5.1}, 7.0);

@@ -52,7 +52,7 @@ glm::dvec3 fittedAt(const FittedShapes& fit, std::size_t vertex, const glm::dvec
 } // namespace
 
 TEST(ShapeFit, MeetsItsSamplesAndWhatLiesBetween) {
-    const FittedShapes fit = fitShapes(shapesOfHinge(), 6, kTolerance);
+    const FittedShapes fit = fitShapes(shapesOfHinge(), {6, kTolerance});
     EXPECT_LE(fit.functions.modes, 6u);
     EXPECT_LE(fit.residual, 0.004);
     for (std::size_t v = 0; v < 10; ++v) {
@@ -75,26 +75,44 @@ TEST(ShapeFit, MeetsWhatCountsMoreBetter) {
             most = std::max(most, glm::distance(fittedAt(fit, 3, {x, 0.0}), offsetAt(3, {x, 0.0})));
         return most;
     };
-    const double alike = worst(fitShapes(shapes, 6, kTolerance));
+    const double alike = worst(fitShapes(shapes, {6, kTolerance}));
     for (const glm::dvec2& sample : shapes.samples)
         shapes.weights.emplace_back(10, sample.x > 0.62 ? 1e-3 : 1.0);
     EXPECT_GT(alike, 0.1);
-    EXPECT_LT(worst(fitShapes(shapes, 6, kTolerance)), 0.3 * alike);
+    EXPECT_LT(worst(fitShapes(shapes, {6, kTolerance})), 0.3 * alike);
 }
 
 TEST(ShapeFit, FewerModesAreWorseAndNoneAreNeededForNothing) {
     JointShapes shapes = shapesOfHinge();
-    EXPECT_GT(fitShapes(shapes, 1, kTolerance).residual,
-              2.0 * fitShapes(shapes, 6, kTolerance).residual);
+    EXPECT_GT(fitShapes(shapes, {1, kTolerance}).residual,
+              2.0 * fitShapes(shapes, {6, kTolerance}).residual);
     for (auto& sample : shapes.offsets)
         for (glm::dvec3& offset : sample) offset = glm::dvec3(0.0);
-    EXPECT_EQ(fitShapes(shapes, 6, kTolerance).functions.modes, 0u);
+    EXPECT_EQ(fitShapes(shapes, {6, kTolerance}).functions.modes, 0u);
+}
+
+TEST(ShapeFit, HasNoMoreModesThanAreEnough) {
+    JointShapes shapes = shapesOfHinge();
+    const FittedShapes all = fitShapes(shapes, {6, kTolerance});
+    std::vector<double> left; // by one mode, by two...
+    for (std::size_t modes = 1; modes <= all.functions.modes; ++modes)
+        left.push_back(fitShapes(shapes, {modes, kTolerance}).residual);
+    ASSERT_GE(left.size(), 3u);
+    ModeLimits limits{6, kTolerance};
+    limits.enough = 1.05 * left[1];
+    const FittedShapes some = fitShapes(shapes, limits);
+    EXPECT_EQ(some.functions.modes, 2u);
+    EXPECT_DOUBLE_EQ(some.residual, left[1]);
+    limits.enough = 0.0;
+    limits.enoughOfResidual = 1.05 * left[1] / all.residual;
+    EXPECT_LE(fitShapes(shapes, limits).functions.modes, 2u);
+    EXPECT_GE(fitShapes(shapes, limits).functions.modes, 1u);
 }
 
 TEST(ShapeFit, IsPackedForEveryCopyAndLeavesOutWhatHardlyMoves) {
     JointShapes shapes = shapesOfHinge();
     for (auto& sample : shapes.offsets) sample[4] = glm::dvec3(1e-6);
-    const FittedShapes fit = fitShapes(shapes, 6, kTolerance);
+    const FittedShapes fit = fitShapes(shapes, {6, kTolerance});
     const std::vector<std::uint32_t> weldedOf = {0, 4, 7, 7, 12}; // 12 is not the joint's
     const Correctives packed = packShapes({fit}, weldedOf);
     const std::vector<std::uint32_t> firstEntry = {0, 1, 1, 2, 3, 3};
@@ -109,7 +127,7 @@ TEST(ShapeFit, IsPackedForEveryCopyAndLeavesOutWhatHardlyMoves) {
 
 TEST(ShapeFit, IsPackedWithoutTheLastModesThatMakeNoDifference) {
     const JointShapes shapes = shapesOfHinge();
-    FittedShapes fit = fitShapes(shapes, 6, kTolerance);
+    FittedShapes fit = fitShapes(shapes, {6, kTolerance});
     fit.tolerance = 0.1; // more than what bends to the side do
     std::vector<std::uint32_t> weldedOf;
     for (std::uint32_t v = 0; v < shapes.vertices.size(); ++v) weldedOf.push_back(v);

@@ -23,6 +23,11 @@ namespace {
 constexpr std::size_t kHingeModes = 8;
 constexpr std::size_t kBallModes = 6;
 
+/// RMS error that fewer modes may add: at hinges in radii of the limb, as their functions meet
+/// straight bends well; at balls of what their few functions leave, which more modes do not mend.
+constexpr double kHingeEnough = 6.5e-3;
+constexpr double kBallEnough = 0.45;
+
 /// What makes no difference, in radii of the limb: of a mode to all vertices, and of all modes to a
 /// vertex.
 constexpr double kTolerance = 2e-3;
@@ -39,6 +44,14 @@ constexpr double kSideways = 0.02; ///< sine of half the angle from the main axi
 
 /// Of a joint with fewer good samples than this share no shapes are made.
 constexpr double kEnoughSamples = 0.5;
+
+ModeLimits limitsOf(bool hinge, double radius) {
+    ModeLimits limits;
+    limits.most = hinge ? kHingeModes : kBallModes;
+    limits.tolerance = kTolerance * radius;
+    (hinge ? limits.enough : limits.enoughOfResidual) = hinge ? kHingeEnough * radius : kBallEnough;
+    return limits;
+}
 
 /// Whose shape a sample takes: its own where that is good, or penetrates less than the plain skin.
 /// Else of the good sample that comes nearest to it and bends less; nothing where the rest pose
@@ -175,9 +188,8 @@ Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<Pl
             continue;
         }
         noteBadSamples(plans[i], solved[i], notes);
-        fitted[joint] =
-            fitShapes(ElasticOffsets(plans[i], solved[i]).shapes(),
-                      plans[i].joint.hinge ? kHingeModes : kBallModes, kTolerance * shaped.radius);
+        fitted[joint] = fitShapes(ElasticOffsets(plans[i], solved[i]).shapes(),
+                                  limitsOf(plans[i].joint.hinge, shaped.radius));
         fitted[joint].tolerance = kVertexTolerance * shaped.radius;
         limitSteps(shaped, fitted[joint]);
         if (layers) followBelow(*layers, mesh.vertexCount(), fitted[joint]);

@@ -57,7 +57,8 @@ JointShapes shapesOf(const ShapedJoint& joint) {
 
 FittedShapes fastShapesOf(const ShapedJoint& joint) {
     const CorrectiveJoint::Basis basis = joint.functions.basis;
-    FittedShapes shapes = fitShapes(shapesOf(joint), modesOf(basis), kFitTolerance * joint.radius);
+    FittedShapes shapes =
+        fitShapes(shapesOf(joint), {modesOf(basis), kFitTolerance * joint.radius});
     if (basis != CorrectiveJoint::Basis::Round) shapes.tolerance = kVertexTolerance * joint.radius;
     return shapes;
 }

@@ -63,6 +63,11 @@ Eigen::MatrixXd solve(const JointShapes& shapes, const Eigen::MatrixXd& phi,
     return fit;
 }
 
+/// Over samples and vertices.
+double rootMeanSquare(const Eigen::MatrixXd& offsets) {
+    return offsets.size() > 0 ? offsets.norm() / std::sqrt(double(offsets.size()) / 3.0) : 0.0;
+}
+
 double longestIn(const Eigen::VectorXd& mode) {
     double longest = 0.0;
     for (Eigen::Index v = 0; v + 2 < mode.size(); v += 3)
@@ -72,11 +77,11 @@ double longestIn(const Eigen::VectorXd& mode) {
 
 } // namespace
 
-FittedShapes fitShapes(const JointShapes& shapes, std::size_t modes, double tolerance) {
+FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
     FittedShapes result;
     result.functions = shapes.functions;
     result.vertices = shapes.vertices;
-    result.tolerance = tolerance;
+    result.tolerance = limits.tolerance;
     const Eigen::MatrixXd phi = functionsAt(shapes);
     const Eigen::MatrixXd offsets = offsetsOf(shapes);
     const Eigen::MatrixXd fit = solve(shapes, phi, offsets);
@@ -93,16 +98,19 @@ FittedShapes fitShapes(const JointShapes& shapes, std::size_t modes, double tole
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(scaled * scaled.transpose());
     Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(fitted.rows(), fitted.cols());
     std::vector<Eigen::VectorXd> vectors;
-    modes = std::min({modes, CorrectiveJoint::kMostModes, static_cast<std::size_t>(fitted.rows())});
+    const std::size_t modes = std::min(
+        {limits.most, CorrectiveJoint::kMostModes, static_cast<std::size_t>(fitted.rows())});
+    const double enough =
+        std::max(limits.enough, limits.enoughOfResidual * rootMeanSquare(offsets - fitted));
     for (std::size_t k = 0; k < modes; ++k) {
         const Eigen::Index column = fitted.rows() - 1 - Eigen::Index(k); // largest last
         const double singular = std::sqrt(std::max(0.0, left.eigenvalues()[column]));
-        if (!(singular > 0.0)) break;
+        if (!(singular > 0.0) || rootMeanSquare(fitted - kept) < enough) break;
         const Eigen::VectorXd mode =
             scaled.transpose() * left.eigenvectors().col(column) / singular;
         const Eigen::VectorXd share = fitted * mode; // of each sample
         const double longest = longestIn(mode);
-        if (share.cwiseAbs().maxCoeff() * longest <= tolerance) break;
+        if (share.cwiseAbs().maxCoeff() * longest <= limits.tolerance) break;
         kept += share * mode.transpose();
         const Eigen::VectorXd coefficients = fit * mode * longest;
         result.functions.coefficients.insert(result.functions.coefficients.end(),
@@ -117,8 +125,7 @@ FittedShapes fitShapes(const JointShapes& shapes, std::size_t modes, double tole
             for (int axis = 0; axis < 3; ++axis)
                 result.vectors[v * vectors.size() + k][axis] =
                     vectors[k][Eigen::Index(3 * v) + axis];
-    if (offsets.size() > 0)
-        result.residual = (offsets - kept).norm() / std::sqrt(double(offsets.size()) / 3.0);
+    result.residual = rootMeanSquare(offsets - kept);
     return result;
 }
 

@@ -34,10 +34,18 @@ struct FittedShapes {
     double residual = 0.0; ///< RMS over samples and vertices of what is not met; rest units
 };
 
-/// Fits by least squares with a little damping, and keeps the `modes` that matter most (singular
-/// value decomposition; EigenSkin, Kry et al. 2002), at most as many as make a difference.
-/// \param tolerance modes that move no vertex by more are left out; above 0
-FittedShapes fitShapes(const JointShapes& shapes, std::size_t modes, double tolerance);
+/// How many modes are kept: no more than are worth their bytes.
+struct ModeLimits {
+    std::size_t most = 0;
+    double tolerance = 0.0; ///< modes that move no vertex by more are left out; above 0
+    /// Where the modes that are there leave no more of the fit, RMS over samples and vertices, no
+    /// more follow: so much in rest units, and so much of what the fit itself leaves of the shapes.
+    double enough = 0.0, enoughOfResidual = 0.0;
+};
+
+/// Fits by least squares with a little damping, and keeps the modes that matter most (singular
+/// value decomposition; EigenSkin, Kry et al. 2002).
+FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits);
 
 } // namespace osgSkin
 
