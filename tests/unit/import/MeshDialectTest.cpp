@@ -95,6 +95,15 @@ TEST(ObjDialects, NormalsAndTextureCoordinatesMayBeNoNumbers) {
                 "line 1: \"-1.#IND00\" in a \"v\"");
 }
 
+TEST(ObjDialects, FourthNumbersOfVerticesAreToldOf) {
+    const test::Notices notices;
+    readMesh("weighted.obj", "v 0 0 0 1\nv 1 0 0 1.0\nv 0 1 0 0.5\nvt 0 0 0.5\nvn 0 0 1\nf 1 2 3\n");
+    EXPECT_TRUE(notices.say("1 of 3 vertices have a fourth number that is not 1")) << notices.text();
+    const test::Notices none;
+    readMesh("unit.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nvn 0 0 1\nf 1 2 3\n");
+    EXPECT_FALSE(none.say("fourth number")) << none.text();
+}
+
 TEST(ObjDialects, SomeVerticesWithColoursAreToldOf) {
     const test::Notices notices;
     readMesh("coloured.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n");

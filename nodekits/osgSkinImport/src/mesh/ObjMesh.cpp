@@ -176,6 +176,11 @@ CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options) {
         tellOf(path, std::to_string(checked.colouredVertices) + " of " +
                          std::to_string(result.mesh.positions.size()) +
                          " vertices have colours, which are left out");
+    // To some a weight that the place is to be divided by, to others a grey, or a scan's quality.
+    if (checked.weightedVertices > 0)
+        tellOf(path, std::to_string(checked.weightedVertices) + " of " +
+                         std::to_string(result.mesh.positions.size()) +
+                         " vertices have a fourth number that is not 1; it is left out");
     MaterialTable table(materials, path, options, coloured, result);
     for (const tinyobj::shape_t& shape : shapes) addShape(shape.mesh, attributes, table, result);
     return result;

@@ -24,6 +24,7 @@ constexpr std::size_t kMostDigits = 32; // that are taken over as they stand
 constexpr std::size_t kLongestOption = 400;
 constexpr std::size_t kMostNumbers = 7; // a place and a colour, or with a weight
 constexpr std::size_t kPlaceAndColour = 6;
+constexpr std::size_t kPlaceAndWeight = 4;
 constexpr std::size_t mostCorners = 255; // tinyobjloader counts them in a byte
 
 /// Takes the next word off `line`; empty at its end.
@@ -163,7 +164,7 @@ public:
         }
     }
 
-    CheckedObj take() { return {std::move(_checked), std::move(_materials), _coloured}; }
+    CheckedObj take() { return {std::move(_checked), std::move(_materials), _coloured, _weighted}; }
 
 private:
     void keep(std::string_view keyword, std::string_view rest) {
@@ -174,13 +175,14 @@ private:
         const std::size_t expected = keyword == "vt" ? 1 : 3;
         _checked.append(keyword);
         std::size_t k = 0;
+        double last = 1.0;
         for (; k < kMostNumbers; ++k) {
             const std::string_view word = takeWord(rest);
             double value = 0.0;
             const bool isNumber = parseNumber(word, value), broken = isBroken(word, value);
             // A body is drawn well enough without a broken normal: all are computed then.
             const bool isFine = broken ? keyword != "v" : isNumber;
-            if (isFine) addNumber(word, broken ? 0.0 : value, _checked);
+            if (isFine) addNumber(word, last = broken ? 0.0 : value, _checked);
             if (!isFine && k >= expected) break;
             if (isFine) continue;
             failLine(_path, _line,
@@ -189,6 +191,7 @@ private:
                          " finite numbers");
         }
         if (keyword == "v" && k >= kPlaceAndColour) ++_coloured;
+        if (keyword == "v" && k == kPlaceAndWeight && last != 1.0) ++_weighted;
         _checked += '\n';
     }
 
@@ -244,7 +247,7 @@ private:
     std::set<std::string_view> _libraries; ///< of materials: each is read once
     std::set<std::string> _materials;
     std::string _checked;
-    std::size_t _line = 0, _coloured = 0;
+    std::size_t _line = 0, _coloured = 0, _weighted = 0;
 };
 
 /// Whether an option among the words is a number that tinyobjloader would overflow at.
