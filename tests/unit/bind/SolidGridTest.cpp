@@ -45,9 +45,8 @@ std::size_t filled(int hole) {
 } // namespace
 
 TEST(SolidGrid, FillsWhatIsEnclosedButForGaps) {
-    constexpr std::size_t kBox = 8 * kHalf * kHalf * kHalf;
-    constexpr int kInner = kHalf - kWall;
-    constexpr std::size_t kCavity = 8 * kInner * kInner * kInner;
+    constexpr auto cube = [](std::size_t half) { return 8 * half * half * half; };
+    constexpr std::size_t kBox = cube(kHalf), kCavity = cube(kHalf - kWall);
     for (const int hole : {0, 1, 2, 4, 6}) { // all but corners, which are near to nothing
         EXPECT_GE(filled(hole), kBox - kCavity / 5) << hole;
         EXPECT_LE(filled(hole), kBox) << hole;

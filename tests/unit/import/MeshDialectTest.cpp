@@ -97,8 +97,10 @@ TEST(ObjDialects, NormalsAndTextureCoordinatesMayBeNoNumbers) {
 
 TEST(ObjDialects, FourthNumbersOfVerticesAreToldOf) {
     const test::Notices notices;
-    readMesh("weighted.obj", "v 0 0 0 1\nv 1 0 0 1.0\nv 0 1 0 0.5\nvt 0 0 0.5\nvn 0 0 1\nf 1 2 3\n");
-    EXPECT_TRUE(notices.say("1 of 3 vertices have a fourth number that is not 1")) << notices.text();
+    readMesh("weighted.obj",
+             "v 0 0 0 1\nv 1 0 0 1.0\nv 0 1 0 0.5\nvt 0 0 0.5\nvn 0 0 1\nf 1 2 3\n");
+    EXPECT_TRUE(notices.say("1 of 3 vertices have a fourth number that is not 1"))
+        << notices.text();
     const test::Notices none;
     readMesh("unit.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nvn 0 0 1\nf 1 2 3\n");
     EXPECT_FALSE(none.say("fourth number")) << none.text();

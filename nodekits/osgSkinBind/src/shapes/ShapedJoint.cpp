@@ -18,7 +18,7 @@ namespace {
 /// A limb's bones are at least this many radii long.
 constexpr double kLimbLength = 2.2;
 
-/// Where skin begins to be shaped less, of the reach.
+/// Where skin begins to be shaped less, of the reach of joints between limbs.
 constexpr double kFadeFrom = 0.75;
 
 /// Of a joint at the trunk, skin that follows it by less is taken for the trunk's.
@@ -75,6 +75,7 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
     const double reach = shaped.isAtTrunk() ? scope.reachAtTrunk : scope.reach;
+    const double fadeFrom = shaped.isAtTrunk() ? scope.fadeAtTrunk : kFadeFrom;
     const auto limbOf = [&](std::uint32_t v, const Influence& own) {
         if (shaped.isAtTrunk())
             return scope.trunkToo ? 1.0
@@ -87,7 +88,7 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
         const Influence own = ratios.of(v, shaped.functions.joint);
         const double limb = limbOf(v, own);
         // Where skin meets a rigid part, nothing may move them apart.
-        const double fade = (1.0 - hermiteRatio((r / reach - kFadeFrom) / (1.0 - kFadeFrom))) *
+        const double fade = (1.0 - hermiteRatio((r / reach - fadeFrom) / (1.0 - fadeFrom))) *
                             (1.0 - ratios.rigid(v, joints));
         if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
         placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());

@@ -73,6 +73,7 @@ struct ShapeScope {
     double mostFlexion = 155.0; ///< degrees from the straight limb
     double knotStep = 30.0;     ///< degrees between a hinge's knots, at most
     double mostSwing = 130.0;   ///< of ball joints, degrees from the rest pose
+    double fadeAtTrunk = 0.75;  ///< where skin begins to be shaped less, of `reachAtTrunk`
 };
 
 /// Finds the joints to shape: by the shape of their limbs, and where the way they bend is not
