@@ -25,7 +25,7 @@ constexpr std::size_t kBallModes = 6;
 
 /// RMS error that fewer modes may add: at hinges in radii of the limb, as their functions meet
 /// straight bends well; at balls of what their few functions leave, which more modes do not mend.
-constexpr double kHingeEnough = 6.5e-3;
+constexpr double kHingeEnough = 5.5e-3;
 constexpr double kBallEnough = 0.45;
 
 /// What makes no difference, in radii of the limb: of a mode to all vertices, and of all modes to a

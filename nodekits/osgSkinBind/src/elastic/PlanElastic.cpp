@@ -20,10 +20,9 @@ constexpr double kMostFlexion = 139.0;
 /// Of a ball joint, degrees from the rest pose: beyond it limbs meet what is not their fold's.
 constexpr double kMostSwing = 90.0;
 
-/// Of a ball joint, in its reach: beyond a little more than two radii other limbs are near, hands
-/// above all, which the flesh that is solved does not know of. A hinge's fold needs its whole
-/// reach.
-constexpr double kFadeAtTrunk = 0.55;
+/// Of a ball joint's reach: beyond two radii other limbs are near, hands above all, which the flesh
+/// that is solved does not know of. A hinge's fold needs its whole reach.
+constexpr double kFadeAtTrunk = 0.5;
 
 /// Of a hinge's functions, degrees: farther apart, they blur where flesh meets flesh; nearer than
 /// the samples, nothing would hold them.
