@@ -49,7 +49,10 @@ ModeLimits limitsOf(bool hinge, double radius) {
     ModeLimits limits;
     limits.most = hinge ? kHingeModes : kBallModes;
     limits.tolerance = kTolerance * radius;
-    (hinge ? limits.enough : limits.enoughOfResidual) = hinge ? kHingeEnough * radius : kBallEnough;
+    if (hinge)
+        limits.enough = kHingeEnough * radius;
+    else
+        limits.enoughOfResidual = kBallEnough;
     return limits;
 }
 

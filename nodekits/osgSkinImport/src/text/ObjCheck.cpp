@@ -182,7 +182,10 @@ private:
             const bool isNumber = parseNumber(word, value), broken = isBroken(word, value);
             // A body is drawn well enough without a broken normal: all are computed then.
             const bool isFine = broken ? keyword != "v" : isNumber;
-            if (isFine) addNumber(word, last = broken ? 0.0 : value, _checked);
+            if (isFine) {
+                last = broken ? 0.0 : value;
+                addNumber(word, last, _checked);
+            }
             if (!isFine && k >= expected) break;
             if (isFine) continue;
             failLine(_path, _line,
