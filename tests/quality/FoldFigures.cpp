@@ -153,7 +153,9 @@ ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>&
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const auto before = static_cast<double>(figures.clips.plain.poses[i].intersections);
         const auto now = static_cast<double>(figures.clips.shaped.poses[i].intersections);
-        if (now > 1.02 * before + 2.0) ++figures.clips.worsePoses;
+        if (now > 1.02 * before + 2.0)
+            figures.clips.worsePoses.push_back(
+                format("%s %.0f of %.0f", poses[i].name.c_str(), now, before));
     }
     return figures;
 }
@@ -194,7 +196,8 @@ void printTable(const ShapeFigures& figures, std::ostream& out) {
                   figures.steps.joint.c_str());
     out << format("  poses with over 2 %% + 2 pairs more: %zu; %.1f bytes a vertex, %.3f s more to "
                   "bind\n",
-                  figures.clips.worsePoses, figures.bytesPerVertex, figures.seconds);
+                  figures.clips.worsePoses.size(), figures.bytesPerVertex, figures.seconds);
+    for (const std::string& pose : figures.clips.worsePoses) out << "    " << pose << '\n';
 }
 
 } // namespace quality
