@@ -68,6 +68,30 @@ TEST(ClipChoice, InASkinFile) {
               std::string::npos);
 }
 
+/// A clip that moves faces alone keeps its number, and is not the first one.
+TEST(ClipChoice, NumbersAreTheFiles) {
+    GltfColumn column;
+    for (const char* name : {"blink", "walk", "run"})
+        column.animate(name, column.joints[1], "rotation", {0.0, 1.0},
+                       GltfColumn::turns({name[0] == 'r' ? 60.0 : 30.0, 60.0}));
+    column.json["animations"][0]["channels"][0]["target"]["path"] = "weights";
+    column.save("blinks.gltf");
+    const auto skin = [](const std::string& clip) {
+        std::string path = testing::TempDir() + "blinks.skin";
+        std::ofstream(path) << R"({"osgskin": 1, "mesh": "blinks.gltf", "rigid": [], "motions": [)"
+                            << R"({"file": "blinks.gltf")" << clip << "}]}";
+        return path;
+    };
+    for (const auto& [clip, angle] :
+         {std::pair("", 30), std::pair(R"(, "clip": 1)", 30), std::pair(R"(, "clip": 2)", 60)}) {
+        const Character character = osgSkin::loadCharacter(skin(clip));
+        ASSERT_EQ(character.motions.size(), 1u);
+        EXPECT_NEAR(angleOf(character.motions[0], character), angle, 0.01) << clip;
+    }
+    EXPECT_NE(test::whyRefused(skin(R"(, "clip": 0)")).find("clip \"blink\" moves no joint"),
+              std::string::npos);
+}
+
 TEST(ClipChoice, InOptions) {
     const std::string moves = movesFile();
     const std::string skin = skinFile("");

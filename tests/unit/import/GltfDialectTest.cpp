@@ -10,6 +10,8 @@
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSkeleton>
 
+#include <osgAnimation/Channel>
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -323,6 +325,28 @@ TEST(GltfDialect, ChannelsOfOtherPathsAreLeftOut) {
         else
             EXPECT_GT(osgSkin::importMotion(path).frames, 1u);
     }
+}
+
+/// As things are hidden: their joint's matrix has an inverse, or nothing would move.
+TEST(GltfDialect, ScalesOf0AreAlmost0) {
+    GltfColumn column;
+    column.animate("hide", column.joints[1], "scale", {0.0, 1.0, 2.0},
+                   {1, 1, 1, 0, -0.0, 0, 1, 0.5, 1});
+    const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("hidden.gltf"));
+    ASSERT_EQ(rig.animations.size(), 1u);
+    std::size_t keys = 0;
+    for (const auto& channel : rig.animations[0]->getChannels()) {
+        const auto* scale = dynamic_cast<const osgAnimation::Vec3LinearChannel*>(channel.get());
+        if (!scale || channel->getName() != "scale" || channel->getTargetName() != "middle")
+            continue;
+        for (const osgAnimation::Vec3Keyframe& key :
+             *scale->getSamplerTyped()->getKeyframeContainerTyped())
+            for (int axis = 0; axis < 3; ++axis, ++keys) {
+                const float size = std::abs(key.getValue()[axis]);
+                EXPECT_TRUE(size >= 0.5f || size == 1e-5f) << key.getTime() << ' ' << size;
+            }
+    }
+    EXPECT_EQ(keys, 9u);
 }
 
 TEST(BadGltf, JointsAreNamedOnce) {

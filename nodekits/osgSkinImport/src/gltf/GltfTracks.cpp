@@ -218,13 +218,10 @@ void makeTracksLinear(GltfFile& file, GltfAccessors& accessors) {
         animation["channels"] = kept;
     }
     if (morphs) tellOf(file.path, "morph targets are animated, which is not played");
-    json kept = json::array();
-    for (json& animation : *animations)
-        if (!animation.at("channels").empty()) kept.push_back(std::move(animation));
-    if (kept.empty())
+    // The others stay, without a channel: clips are asked for by their numbers in the file, too.
+    const auto movesNothing = [](const json& each) { return each.at("channels").empty(); };
+    if (std::all_of(animations->begin(), animations->end(), movesNothing))
         file.json.erase("animations");
-    else
-        *animations = std::move(kept);
 }
 
 } // namespace osgSkin

@@ -40,6 +40,20 @@ Motion readBvhMotion(const std::string& path, const std::string& clip, const Rea
     return makeMotion(file, path);
 }
 
+/// The first animation that moves joints, and tells of the others that do.
+std::size_t firstClip(const aiScene& scene, const std::vector<std::string>& names,
+                      const std::string& path) {
+    std::size_t first = 0, count = 0;
+    for (std::size_t a = 0; a < names.size(); ++a) {
+        if (scene.mAnimations[a]->mNumChannels == 0) continue;
+        if (count++ == 0) first = a;
+    }
+    if (count > 1)
+        tellOf(path, std::to_string(count) + " animations, of which the first, \"" + names[first] +
+                         "\", is read");
+    return first;
+}
+
 Motion readAssimpMotion(const std::string& path, const std::string& clip,
                         const ReadLimits& limits) {
     const std::size_t bytes = requireReadable(path, limits);
@@ -49,10 +63,11 @@ Motion readAssimpMotion(const std::string& path, const std::string& clip,
     const aiScene& scene = readAssimpScene(importer, path, limits);
     if (scene.mNumAnimations == 0) failFile(path, "no animation, expected at least one");
     const std::vector<std::string> names = clipNames(scene);
-    if (clip.empty() && names.size() > 1)
-        tellOf(path, std::to_string(names.size()) + " animations, of which the first, \"" +
-                         names[0] + "\", is read");
-    const std::size_t chosen = clip.empty() ? 0 : findClip(names, clip, path);
+    const std::size_t chosen =
+        clip.empty() ? firstClip(scene, names, path) : findClip(names, clip, path);
+    if (scene.mAnimations[chosen]->mNumChannels == 0)
+        failFile(path,
+                 "clip " + inQuotes(names[chosen]) + " moves no joint, expected one that does");
     auto& owned = const_cast<aiScene&>(scene); // the importer's, which nobody else sees
     takeTrackOffsets(*scene.mAnimations[chosen], *owned.mRootNode);
     Motion motion = sampleTracks(*scene.mAnimations[chosen], readSceneSkeleton(scene, path, limits),

@@ -90,6 +90,14 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
     animation.getChannels().push_back(channel); // addChannel() would look at all others again
 }
 
+/// What is hidden by a scale of 0 shrinks almost to a point: a joint's matrix has an inverse then.
+osg::Vec3 keptApart(osg::Vec3 scale) {
+    constexpr float kLeast = 1e-5f;
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(scale[axis]) < kLeast) scale[axis] = std::copysign(kLeast, scale[axis]);
+    return scale;
+}
+
 void addJoint(osgAnimation::Animation& animation, const std::string& joint, const aiNode& node,
               const aiNodeAnim* track, const Clock& clock, const std::string& path) {
     using namespace osgAnimation;
@@ -104,6 +112,10 @@ void addJoint(osgAnimation::Animation& animation, const std::string& joint, cons
         rest.rotation, clock, path);
     addChannel<Vec3LinearChannel, Vec3Keyframe>(animation, joint, "scale", track->mScalingKeys,
                                                 track->mNumScalingKeys, rest.scale, clock, path);
+    auto* const scales = static_cast<Vec3LinearChannel&>(*animation.getChannels().back())
+                             .getSamplerTyped()
+                             ->getKeyframeContainerTyped();
+    for (Vec3Keyframe& key : *scales) key.setValue(keptApart(key.getValue()));
 }
 
 osg::ref_ptr<osgAnimation::Animation> makeClip(const aiAnimation& source, const std::string& name,
