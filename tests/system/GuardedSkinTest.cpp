@@ -169,6 +169,30 @@ TEST_F(GuardedSkin, WeightsThatAreAllZeroAreToldOf) {
     }
 }
 
+/// A few vertices without weights, of glasses say, and the others' are not taken.
+TEST_F(GuardedSkin, WeightsThatAreLeftOutAreToldOf) {
+    for (const double last : {1.0, 0.0}) {
+        test::GltfBuilder gltf;
+        const std::size_t joint = gltf.node({{"name", "joint"}});
+        const std::size_t other =
+            gltf.node({{"name", "other"}, {"translation", {0.5, 0, 0}}, {"children", {joint}}});
+        const nlohmann::json attributes = {
+            {"POSITION", gltf.accessor("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0})},
+            {"JOINTS_0", gltf.accessor("VEC4", {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, 5121)},
+            {"WEIGHTS_0", gltf.accessor("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, last, 0, 0, 0})}};
+        gltf.json["meshes"] = {{{"primitives", {{{"attributes", attributes}}}}}};
+        gltf.json["skins"] = {{{"joints", {joint, other}}}};
+        gltf.json["scenes"][0]["nodes"] = {other, gltf.node({{"mesh", 0}, {"skin", 0}})};
+        const std::string file = gltf.save("gaps.gltf");
+        const test::Notices notices;
+        EXPECT_EQ(test::whyRefused(file), "read");
+        EXPECT_EQ(notices.say("gaps.gltf: 1 of 3 vertices have no weights, the body is bound by "
+                              "regions"),
+                  last == 0.0)
+            << notices.text();
+    }
+}
+
 /// OSG's own search would take any file in the working folder that is called as a name's last part.
 TEST_F(GuardedSkin, NamesMeanNoFilesInOtherFolders) {
     skin("\"up\": \"y\"");

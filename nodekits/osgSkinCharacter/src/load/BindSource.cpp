@@ -57,6 +57,19 @@ void tellGaps(CharacterSource& source, const VertexWeights& weights) {
                                    "that has");
 }
 
+/// Tells where a mesh' own weights are not what its body is bound by.
+void tellUnused(CharacterSource& source, const VertexWeights& weights) {
+    const std::size_t gaps = gapsOf(weights);
+    if (gaps == 0) return; // all are one joint's: there is nothing to keep
+    const bool isBare = gaps == weights.size();
+    takeNote(source.notes,
+             source.meshFile + ": " +
+                 (isBare ? "no weight is above 0, the body is bound by regions"
+                         : std::to_string(gaps) + " of " + std::to_string(weights.size()) +
+                               " vertices have no weights, the body is bound by regions "
+                               "(a .skin file's \"bind\": \"weights\" keeps to them)"));
+}
+
 /// Throws osgSkin::Error where binding would take a minute.
 void checkSize(const CharacterSource& source) {
     const std::size_t joints = source.rest.joints.size();
@@ -84,9 +97,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
                          : bind(source.body.mesh, source.rest, options, &report);
     });
     if (source.painted == Painted::Yes) tellGaps(source, weights);
-    if (source.painted == Painted::WhereGood && gapsOf(weights) == weights.size())
-        takeNote(source.notes,
-                 source.meshFile + ": no weight is above 0, the body is bound by regions");
+    if (source.painted == Painted::WhereGood && !byWeights) tellUnused(source, weights);
     if (!byWeights) {
         tellMisfit(source, report);
         if (const std::size_t kept = keepShells(source, weights, binding))
