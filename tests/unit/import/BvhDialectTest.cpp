@@ -194,6 +194,18 @@ TEST(BvhDialect, SmallNumbersHaveExponents) {
     EXPECT_EQ(osgSkin::importMotion(file.path).rootPositions[1], glm::dvec3(1e-5, -2.5e-3, 0.0));
 }
 
+TEST(BvhDialect, FramesThatTakeSecondsAreToldOf) {
+    for (const auto& [time, isTold] : {std::pair("33.3333", true), std::pair("0.5", false)}) {
+        std::string text = plainText();
+        const std::size_t at = text.find("Frame Time:") + 11;
+        text.replace(at, text.find('\n', at) - at, std::string(" ") + time);
+        const TemporaryBvh file(text);
+        const test::Notices notices;
+        osgSkin::importMotion(file.path);
+        EXPECT_EQ(notices.say("a frame takes 33.333300 seconds"), isTold) << notices.text();
+    }
+}
+
 TEST(BvhDialect, PositionsMayComeInAnyOrder) {
     const TemporaryBvh file(
         replaced(plainText(), "Xposition Yposition Zposition", "Zposition Xposition Yposition"));

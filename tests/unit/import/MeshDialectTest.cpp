@@ -118,6 +118,35 @@ TEST(ObjDialects, MaterialsMayHaveOneNumberOrNone) {
     const osg::Vec4 plain = diffuseBy("Ns 1\n");
     EXPECT_EQ(diffuseBy("Kd spectral file.rfl 1\n"), plain);
     EXPECT_EQ(diffuseBy("Kd nan 0 0\n"), plain);
+    EXPECT_EQ(diffuseBy("Kd 0,5 0,5 0,5\n"), plain);
+    EXPECT_EQ(diffuseBy(""), plain);
+    EXPECT_EQ(diffuseBy("newmtl n\nKd 1 0 0\n"), plain); // another one's
+    EXPECT_EQ(plain, osg::Vec4(.8f, .74f, .68f, 1)) << "as without a library, and not black";
+    EXPECT_EQ(diffuseBy("kd 0.25\nD 0.5\n"), osg::Vec4(.25f, .25f, .25f, .5f));
+}
+
+TEST(ObjDialects, CommentsMayFollowFaces) {
+    EXPECT_EQ(readMesh("commented.obj", kSquare + "f 1 2 3 4 # a square\nf 1 2 3 #4\n")
+                  .mesh.faceVertices.size(),
+              7u);
+}
+
+TEST(ObjDialects, WhatIsQuotedEndsWithAWholeLetter) {
+    const std::string letters(39, 'a');
+    expectError([&] { readMesh("word.obj", kSquare + "f 1 2 " + letters + "\xc3\xa4\xc3\xa4\n"); },
+                "\"" + letters + "...\" in a face");
+}
+
+TEST(ObjDialects, LibrariesAreNoThousands) {
+    std::string text;
+    for (int k = 0; k < 1001; ++k) text += "mtllib nowhere" + std::to_string(k) + ".mtl\n";
+    expectError([&] { readMesh("libraries.obj", text + kSquare + "f 1 2 3\n"); },
+                "line 1001: one more material library, expected at most 1000");
+}
+
+TEST(ObjDialects, VerticesAtOnePlaceAreNoBody) {
+    expectError([] { readMesh("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n"); },
+                "all vertices are at one place, expected a surface");
 }
 
 TEST(PlyDialects, WhatIsNoWholeNumberCountsNothing) {
@@ -191,6 +220,20 @@ TEST(OffDialects, FacesHaveAnyNumberOfCorners) {
          {"0", "4 0 1 2", "-3 0 1 2", "3 0 1 4", "3 0 1 1.5", "3.5 0 1 2", "x"})
         expectError([&] { readMesh("broken.off", "OFF\n4 1 0\n" + kCorners + broken + "\n"); },
                     "broken.off: face 0: expected a line with a number of corners and so many");
+}
+
+TEST(OffDialects, PartsOfTheKeywordStandInAnyOrder) {
+    for (const char* keyword : {"STCNOFF", "NCSTOFF", "CSTNOFF"}) {
+        std::string text = std::string(keyword) + "\n3 1 0\n";
+        for (const char* at : {"0 0 0", "1 0 0", "0 1 0"})
+            text += at + std::string(" 0 0 1 255 0 0 255 .25 .5\n");
+        const ImportedMesh mesh = readMesh("ordered.off", text + "3 0 1 2\n");
+        const auto* places =
+            dynamic_cast<const osg::Vec2Array*>(mesh.parts.at(0).geometry->getTexCoordArray(0));
+        ASSERT_NE(places, nullptr) << keyword;
+        EXPECT_EQ(places->at(0), osg::Vec2(.25f, .5f)) << keyword;
+    }
+    expectError([] { readMesh("twice.off", "CCOFF\n3 1 0\n"); }, "\"CCOFF\", expected OFF");
 }
 
 TEST(OffDialects, ColoursMayHaveNoAlpha) {

@@ -71,6 +71,30 @@ TEST(MeshLooks, ColoursCountTo1OrTo255) {
     EXPECT_EQ(colourOf(floats, 1), osg::Vec4(0.0f, 51.0f / 255.0f, 0.0f, 51.0f / 255.0f));
 }
 
+/// Colours of whole types count as far as their numbers do; what is as bright as no light counts to
+/// 255, too.
+TEST(MeshLooks, PlyColoursCountAsTheirNumbersDo) {
+    const auto second = [](const std::string& type, const char* first, const char* next) {
+        std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                             "property float y\nproperty float z\n";
+        for (const char* part : {"red", "green", "blue"})
+            header += "property " + type + ' ' + part + '\n';
+        return colourOf(saveLooks(type + ".ply", header +
+                                                     "element face 1\nproperty list uchar int "
+                                                     "vertex_indices\nend_header\n0 0 0 " +
+                                                     first + "\n1 0 0 " + next +
+                                                     "\n0 1 0 0 0 0\n3 0 1 2\n"),
+                        1);
+    };
+    const osg::Vec4 expected(0, 51.0f / 255.0f, 1, 1);
+    for (const char* type : {"uchar", "short", "ushort", "int", "uint"})
+        EXPECT_EQ(second(type, "255 0 0", "0 51 255"), expected) << type;
+    EXPECT_EQ(second("ushort", "65535 0 0", "0 13107 65535"), expected);
+    EXPECT_EQ(second("uint", "4294967295 0 0", "0 858993459 4294967295"), expected);
+    EXPECT_EQ(second("float", "127.5 0 0", "0 51 255"), expected);
+    EXPECT_EQ(second("double", "0.5 0 0", "0 0.2 1"), osg::Vec4(0, .2f, 1, 1));
+}
+
 TEST(MeshLooks, PlyFacesHaveTheTexturesThatTheyName) {
     saveImage("osgskin_looks_dark.png", 40);
     saveImage("osgskin_looks_light.png", 200);

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t mostFrames = 16'777'216; // more than a day at 120 a second
 constexpr double shortestFrame = 1e-6;         // seconds: a million frames a second
+constexpr double kSlowFrame = 1.0;             // seconds: what is longer may be milliseconds
 
 /// A line that holds values.
 struct Row {
@@ -83,6 +84,9 @@ void readBvhFrames(BvhTokens& words, const std::string& path, BvhFile& file) {
     words.expect("Time");
     words.expect(":");
     file.frameTime = readFrameTime(words);
+    if (file.frameTime > kSlowFrame && file.frames > 1)
+        tellOf(path, "a frame takes " + std::to_string(file.frameTime) +
+                         " seconds; \"Frame Time\" is one in seconds");
     checkRows(readRows(words, file), words, path, file);
     file.values.resize(file.frames * file.channels);
 }

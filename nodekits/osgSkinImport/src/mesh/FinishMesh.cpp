@@ -32,15 +32,20 @@ bool normalise(std::vector<glm::vec3>& normals) {
     return true;
 }
 
-/// Some write whole numbers up to 255 where numbers up to 1 are expected: colours, or alpha.
+/// No light is as bright: such numbers count to 255.
+constexpr float kTooBright = 16.0f;
+
+/// Some write numbers up to 255, whole ones as a rule, where numbers up to 1 are expected: colours,
+/// or alpha.
 bool countsTo255(const std::vector<glm::vec4>& colours, int first, int end) {
     float most = 0.0f;
+    bool areWhole = true;
     for (const glm::vec4& colour : colours)
         for (int k = first; k < end; ++k) {
-            if (colour[k] != std::floor(colour[k])) return false; // or not a number
+            areWhole = areWhole && colour[k] == std::floor(colour[k]); // or not a number
             most = std::max(most, colour[k]);
         }
-    return most > 1.0f && most <= 255.0f;
+    return most > (areWhole ? 1.0f : kTooBright) && most <= 255.0f;
 }
 
 void finishColours(std::vector<glm::vec4>& colours) {
@@ -72,6 +77,8 @@ ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
     } catch (const Error& error) {
         failFile(path, error.what());
     }
+    if (read.mesh.size() == 0.0)
+        failFile(path, "all vertices are at one place, expected a surface");
     if (normalise(read.normals))
         mendNormals(read, path);
     else

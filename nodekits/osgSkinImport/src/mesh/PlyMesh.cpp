@@ -20,6 +20,20 @@ using Place = std::optional<std::size_t>;
 
 constexpr double kNoTexture = -1.0; ///< whatever number stands for a texture that is not there
 
+/// What stands for a colour of 1. Types say less of that than the numbers do: many programs write
+/// 0 to 255 as whatever whole type.
+struct FullColour {
+    bool isWhole = false; ///< whether of a type without fractions; others are left as they are
+    double most = 0.0;    ///< the largest number
+
+    void take(double number) { most = std::max(most, number); }
+
+    float number() const {
+        if (!isWhole) return 1.0f;
+        return most <= 255.0 ? 255.0f : most <= 65535.0 ? 65535.0f : 4294967295.0f;
+    }
+};
+
 /// Collects vertices and faces from the entries of a file, in any order of the elements.
 class PlyCollector {
 public:
@@ -53,6 +67,10 @@ public:
     /// \param addMaterial makes one with a texture, by its number, and returns its own number
     CornerMesh finish(const std::function<std::uint32_t(double)>& addMaterial) {
         CornerMesh result;
+        for (glm::vec4& colour : _colours)
+            for (int k = 0; k < 4; ++k)
+                colour[k] =
+                    colour[k] < 0.0f ? 1.0f : colour[k] / _full[std::size_t(k / 3)].number();
         std::map<double, std::uint32_t> materials; // by their textures' numbers
         result.mesh.positions = std::move(_positions);
         const std::size_t vertices = result.mesh.positions.size();
@@ -86,7 +104,10 @@ public:
 private:
     void placeVertex(const PlyHeader::Element& element) {
         _x = {element.find({"x"}), element.find({"y"}), element.find({"z"})};
-        if (!_x[0] || !_x[1] || !_x[2]) failFile(_path, "its vertices have no x, y and z");
+        if (!_x[0] || !_x[1] || !_x[2])
+            failFile(
+                _path,
+                "the header's element vertex has no x, y and z, expected properties so called");
         _n = {element.find({"nx"}), element.find({"ny"}), element.find({"nz"})};
         _t = {element.find({"u", "s", "texture_u"}), element.find({"v", "t", "texture_v"})};
         _c = {element.find({"red", "diffuse_red", "r"}),
@@ -96,8 +117,7 @@ private:
         for (std::size_t k = 0; k < 4; ++k) {
             if (!_c[k]) continue;
             const PlyHeader::Type& type = element.properties[*_c[k]].type;
-            if (type.kind != PlyHeader::Kind::Floating)
-                _full[k] = type.bytes == 1 ? 255.0 : type.bytes == 2 ? 65535.0 : 4294967295.0;
+            _full[k / 3].isWhole |= type.kind != PlyHeader::Kind::Floating;
         }
     }
 
@@ -112,9 +132,12 @@ private:
             _normals.emplace_back(at(values, _n[0]), at(values, _n[1]), at(values, _n[2]));
         if (_t[0] && _t[1]) _texCoords.emplace_back(at(values, _t[0]), at(values, _t[1]));
         if (!_c[0] || !_c[1] || !_c[2]) return;
-        glm::vec4 colour(1.0f);
-        for (std::size_t k = 0; k < 4; ++k)
-            if (_c[k]) colour[int(k)] = static_cast<float>(at(values, _c[k]) / _full[k]);
+        glm::vec4 colour(-1.0f); // none: opaque
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (!_c[k]) continue;
+            colour[int(k)] = static_cast<float>(std::max(0.0, at(values, _c[k])));
+            _full[k / 3].take(double(colour[int(k)]));
+        }
         _colours.push_back(colour);
     }
 
@@ -162,7 +185,7 @@ private:
     std::array<Place, 3> _x, _n;
     std::array<Place, 2> _t;
     std::array<Place, 4> _c;
-    std::array<double, 4> _full{1.0, 1.0, 1.0, 1.0}; ///< what stands for a colour of 1
+    std::array<FullColour, 2> _full; ///< of red, green and blue; of alpha
     Place _indices, _cornerTexCoords, _texture, _strips;
     std::vector<glm::dvec3> _positions;
     std::vector<glm::vec3> _normals;

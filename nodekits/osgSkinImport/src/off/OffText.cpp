@@ -16,16 +16,16 @@ constexpr std::string_view kWordEnds = " \t\v\n\r#";
 } // namespace
 
 bool OffKind::read(std::string_view word) {
-    const auto take = [&](std::string_view part) {
-        const bool has = word.substr(0, part.size()) == part;
-        if (has) word.remove_prefix(part.size());
-        return has;
+    // Programs write these parts in more orders than one; a vertex' numbers stand in one.
+    const auto take = [&](std::string_view part, bool& has) {
+        if (has || word.substr(0, part.size()) != part) return false;
+        word.remove_prefix(part.size());
+        return has = true;
     };
-    texCoords = take("ST");
-    colours = take("C");
-    normals = take("N");
-    divided = take("4");
-    dimensions = take("n");
+    texCoords = colours = normals = divided = dimensions = false;
+    while (take("ST", texCoords) || take("C", colours) || take("N", normals) ||
+           take("4", divided) || take("n", dimensions)) {
+    }
     return word == "OFF";
 }
 

@@ -98,7 +98,9 @@ bool parseNumber(std::string_view token, double& value) {
 }
 
 std::string inQuotes(std::string_view token) {
-    constexpr std::size_t longest = 40;
+    std::size_t longest = 40;
+    // A letter of several bytes stays whole.
+    while (longest > 36 && longest < token.size() && (token[longest] & 0xc0) == 0x80) --longest;
     std::string text(token.substr(0, longest));
     if (token.size() > longest) text += "...";
     return '"' + onOneLine(text) + '"';

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -25,7 +26,8 @@ constexpr std::size_t kLongestOption = 400;
 constexpr std::size_t kMostNumbers = 7; // a place and a colour, or with a weight
 constexpr std::size_t kPlaceAndColour = 6;
 constexpr std::size_t kPlaceAndWeight = 4;
-constexpr std::size_t mostCorners = 255; // tinyobjloader counts them in a byte
+constexpr std::size_t kMostLibraries = 1000; // which are looked for one by one
+constexpr std::size_t mostCorners = 255;     // tinyobjloader counts them in a byte
 
 /// Takes the next word off `line`; empty at its end.
 std::string_view takeWord(std::string_view& line) {
@@ -160,6 +162,10 @@ public:
             keep(keyword, ' ' + name);
             _materials.insert(name);
         } else if (keyword == "mtllib" && !rest.empty() && _libraries.emplace(rest).second) {
+            if (_libraries.size() > kMostLibraries)
+                failLine(_path, _line,
+                         "one more material library, expected at most " +
+                             std::to_string(kMostLibraries));
             keep(keyword, ' ' + libraryNames(rest, osgDB::getFilePath(_path)));
         }
     }
@@ -203,6 +209,7 @@ private:
         std::size_t corners = 0;
         std::string checked;
         for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
+            if (word.front() == '#') break; // a comment
             const std::string_view whole = word.substr(0, word.find_last_not_of('/') + 1);
             const bool isShort = word.size() - whole.size() <= 2 && !whole.empty();
             corner(isShort ? whole : word);
@@ -271,17 +278,35 @@ struct MtlKeyword {
 constexpr MtlKeyword kMtlKeywords[] = {{"newmtl", 0}, {"Kd", 3}, {"Ks", 3}, {"Ke", 3},
                                        {"Ns", 1},     {"d", 1},  {"Tr", 1}, {"map_Kd", 0}};
 
+/// What a material is drawn with that says none, as one that no library has.
+constexpr const char* kUnknownColour = "Kd 0.8 0.74 0.68\n";
+
+/// Some write them in small letters.
+bool isAs(std::string_view keyword, std::string_view word) {
+    return std::equal(
+        keyword.begin(), keyword.end(), word.begin(), word.end(),
+        [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+}
+
 } // namespace
 
 std::string checkMtl(std::string_view text, std::set<std::string>& wanted) {
     std::string checked;
-    bool isWanted = false;
+    bool isWanted = false, hasColour = true;
+    const auto finish = [&] { // tinyobjloader's own default is black
+        if (!hasColour) checked += kUnknownColour;
+        hasColour = true;
+    };
     forEachLine(text, [&](std::string_view keyword, std::string_view rest, std::size_t) {
-        if (keyword == "newmtl") isWanted = wanted.erase(materialName(rest)) > 0;
+        if (isAs("newmtl", keyword)) {
+            finish();
+            isWanted = wanted.erase(materialName(rest)) > 0;
+            hasColour = !isWanted;
+        }
         if (!isWanted) return;
         for (const MtlKeyword& known : kMtlKeywords) {
-            if (keyword != known.name) continue;
-            std::string line(keyword);
+            if (!isAs(known.name, keyword)) continue;
+            std::string line(known.name);
             bool hasNumbers = true;
             std::string_view first;
             for (std::size_t k = 0; k < known.numbers; ++k) {
@@ -295,13 +320,16 @@ std::string checkMtl(std::string_view text, std::set<std::string>& wanted) {
             // "Kd spectral x.rfl", "d -halo 0.5": better as if it were not there than black, or
             // gone.
             if (!hasNumbers) continue;
-            if (keyword == "newmtl")
+            const std::string_view name = known.name;
+            hasColour = hasColour || name == "Kd" || name == "map_Kd";
+            if (name == "newmtl")
                 line += ' ' + materialName(rest);
             else if (known.numbers == 0)
                 line += rest.substr(0, kLongestName);
             if (known.numbers > 0 || !hasOverflow(rest)) checked += line + '\n';
         }
     });
+    finish();
     return checked;
 }
 
