@@ -63,6 +63,14 @@ TEST(Misfit, SkeletonsInAnotherPlaceAreToldOf) {
                   std::string::npos);
 }
 
+TEST(Misfit, BodiesThatSinglePrecisionRoundsAreToldOf) {
+    const std::string note = misfitsOf(osg::Matrixd::translate(0, 4e6, 0));
+    EXPECT_NE(note.find("body.obj: the body is 4e+06 from the origin and "), std::string::npos)
+        << note;
+    EXPECT_NE(note.find("single precision rounds its vertices by 0.238;"), std::string::npos);
+}
+
 TEST(Misfit, OthersAreNot) {
     EXPECT_EQ(misfitsOf(osg::Matrixd()), "");
+    EXPECT_EQ(misfitsOf(osg::Matrixd::translate(0, 1e3, 0)).find("rounds"), std::string::npos);
 }

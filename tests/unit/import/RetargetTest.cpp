@@ -258,6 +258,24 @@ TEST(RetargetNotes, TellOfLimbsThatStayAtRest) {
     osgSkin::retarget(standStill(stranger, 1), other, {}, &report);
     ASSERT_EQ(report.notes.size(), 1u);
     EXPECT_EQ(report.notes[0].find("only 1 of the rig's 11 joints match"), 0u) << report.notes[0];
+
+    stranger = other;
+    osgSkin::retarget(standStill(stranger, 1), other, {}, &report);
+    EXPECT_TRUE(report.notes.empty());
+    stranger.joints[5].name = "'part5'";
+    osgSkin::retarget(standStill(stranger, 1), other, {}, &report);
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_EQ(report.notes[0].find("the motion has nothing for \"part5\" of the rig, and the rig "
+                                   "nothing for \"'part5'\" of the motion; expected"),
+              0u)
+        << report.notes[0];
+
+    other = figure;
+    other.joints[2].name = "Top";
+    osgSkin::retarget(standStill(other, 1), figure, {}, &report);
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_EQ(report.notes[0].find("the motion has nothing for \"Head\" of the rig"), 0u)
+        << report.notes[0];
 }
 
 TEST(RetargetErrors, NameWhatDoesNotMatch) {

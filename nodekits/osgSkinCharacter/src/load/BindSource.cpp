@@ -84,6 +84,7 @@ void checkSize(const CharacterSource& source) {
 
 Binding bindSource(CharacterSource& source, const Progress& progress, BindReport& report) {
     checkSize(source);
+    tellRounding(source);
     BindOptions options = source.bind;
     options.progress = progress;
     if (options.maxInfluences == 0)

@@ -14,4 +14,9 @@ namespace osgSkin {
 /// \param report of its binding by regions
 void tellMisfit(CharacterSource& source, const BindReport& report);
 
+/// Tells of a body so far from the origin that skins, which have floats, cannot hold its shape.
+///
+/// \param source with a body; gets a note
+void tellRounding(CharacterSource& source);
+
 } // namespace osgSkin

@@ -6,9 +6,9 @@
 namespace osgSkin {
 namespace {
 
-const char* const kEssential[] = {"Hips",          "LeftUpperArm",  "LeftLowerArm",
-                                  "RightUpperArm", "RightLowerArm", "LeftUpperLeg",
-                                  "LeftLowerLeg",  "RightUpperLeg", "RightLowerLeg"};
+const char* const kEssential[] = {"Hips",          "Head",          "LeftUpperArm", "LeftLowerArm",
+                                  "RightUpperArm", "RightLowerArm", "LeftUpperLeg", "LeftLowerLeg",
+                                  "RightUpperLeg", "RightLowerLeg"};
 
 /// The joints of essential roles for all of whose joints `isIdle` holds: the first of each role.
 template <typename Idle>
@@ -47,6 +47,25 @@ void noteShape(const JointRoles& roles, const RestSkeleton& skeleton, const std:
                     "'s joint names say nothing, its parts are told by its shape: " + told);
 }
 
+/// Where names alone tell, joints that are left over on both sides may be the same ones, spelled in
+/// two ways.
+void noteLeftOver(const JointPairs& map, const RestSkeleton& rig, const RestSkeleton& motion,
+                  const RetargetOptions& options, const std::string& expected,
+                  std::vector<std::string>& notes) {
+    const std::vector<int>& drivers = map.motionJoint;
+    std::vector<std::string> still, unused;
+    for (std::size_t j = 0; j < rig.joints.size(); ++j)
+        if (drivers[j] < 0 && options.joints.count(rig.joints[j].name) == 0)
+            still.push_back(rig.joints[j].name);
+    for (std::size_t m = 0; m < motion.joints.size(); ++m)
+        if (std::find(drivers.begin(), drivers.end(), int(m)) == drivers.end())
+            unused.push_back(motion.joints[m].name);
+    if (!still.empty() && !unused.empty())
+        notes.push_back("the motion has nothing for " + listed(still) +
+                        " of the rig, and the rig nothing for " + listed(unused) +
+                        " of the motion" + expected);
+}
+
 } // namespace
 
 std::vector<std::string> notesOf(const JointPairs& map, const RestSkeleton& rig,
@@ -82,6 +101,8 @@ std::vector<std::string> notesOf(const JointPairs& map, const RestSkeleton& rig,
         notes.push_back("only " + std::to_string(driven) + " of the rig's " +
                         std::to_string(rig.joints.size()) + " joints match one of the motion's " +
                         std::to_string(motion.joints.size()) + expected);
+    else
+        noteLeftOver(map, rig, motion, options, expected, notes);
     return notes;
 }
 
