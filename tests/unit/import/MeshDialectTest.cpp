@@ -165,6 +165,14 @@ TEST(PlyDialects, WhatIsNoWholeNumberCountsNothing) {
         "c.ply: line 3: \"3.7\" elements, expected a whole number");
 }
 
+TEST(PlyDialects, BlanksMayEndTheFirstLine) {
+    const std::string text = ply(kThreeVertices + kFaces, kThreePlaces + "3 0 1 2\n");
+    EXPECT_EQ(readMesh("blank.ply", replacedOnce(text, "ply\n", "ply \t\n")).mesh.faceSizes.size(),
+              1u);
+    expectError([&] { readMesh("type.ply", replacedOnce(text, "float x", "Float x")); },
+                "line 4: \"Float\" is no type of a property, expected one of ");
+}
+
 TEST(PlyDialects, WordsBehindTheLastElementAreRefused) {
     // Rows of four numbers, of which the header tells three.
     const std::string longer = "0 0 0 3\n0 1 2 3\n1 0 0 3\n";

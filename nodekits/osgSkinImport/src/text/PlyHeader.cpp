@@ -40,7 +40,9 @@ public:
     PlyHeaderReader(const std::string& path, const std::string& text) : _path(path), _text(text) {}
 
     PlyHeader run() {
-        if (nextLine() != "ply") failLine(_path, 1, "expected \"ply\"");
+        std::string first = nextLine();
+        first.erase(first.find_last_not_of(" \t") + 1); // as in other lines
+        if (first != "ply") failLine(_path, 1, "expected \"ply\"");
         for (;;) {
             if (_at >= _text.size())
                 failFile(_path, "the header has no end, expected a line \"end_header\"");
@@ -124,7 +126,11 @@ private:
     PlyHeader::Type type(const std::string& name) {
         for (const NamedType& known : kTypes)
             if (name == known.name) return known.type;
-        failLine(_path, _line, inQuotes(name) + " is no type of a property");
+        std::string names;
+        for (const NamedType& known : kTypes)
+            names += (names.empty() ? "" : ", ") + std::string(known.name);
+        failLine(_path, _line,
+                 inQuotes(name) + " is no type of a property, expected one of " + names);
     }
 
     void readProperty(std::istream& words) {
