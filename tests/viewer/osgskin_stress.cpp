@@ -26,6 +26,9 @@ using osgViewer::ViewerBase;
 
 /// Frames whose stats are kept: those of all would look like a leak.
 constexpr unsigned int kStats = 500;
+/// Frames from one line on a long run's way to the next.
+constexpr unsigned int kTold = 20000;
+
 /// Frames from one look at the memory to the next.
 constexpr unsigned int kCycle = 50;
 
@@ -146,6 +149,9 @@ int main(int argc, char** argv) {
         if (frame % 200 == 199) time -= 1.0;
         viewer.frame(time);
         if (frame % kCycle == kCycle - 1) memory.sample();
+        if (frame % kTold == kTold - 1)
+            std::cerr << "frame " << frame + 1 << " of " << frames << ": " << memory.last() / 1024.0
+                      << " MB" << std::endl;
     }
     viewer.stopThreading();
 
