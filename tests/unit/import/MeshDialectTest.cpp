@@ -125,6 +125,16 @@ TEST(ObjDialects, MaterialsMayHaveOneNumberOrNone) {
     EXPECT_EQ(diffuseBy("kd 0.25\nD 0.5\n"), osg::Vec4(.25f, .25f, .25f, .5f));
 }
 
+TEST(ObjDialects, TexturesThatAreMovedAreToldOf) {
+    const test::Notices notices;
+    diffuseBy("map_Kd -o 0.5 0 0 -s 1 1 1 nowhere.png\n");
+    EXPECT_TRUE(notices.say("dialect.mtl: 1 textures are moved or scaled (-o, -s)"))
+        << notices.text();
+    const test::Notices none;
+    diffuseBy("map_Kd -o 0 0 0 -s 1 1 1 -clamp on nowhere.png\n");
+    EXPECT_FALSE(none.say("moved or scaled")) << none.text();
+}
+
 TEST(ObjDialects, CommentsMayFollowFaces) {
     EXPECT_EQ(readMesh("commented.obj", kSquare + "f 1 2 3 4 # a square\nf 1 2 3 #4\n")
                   .mesh.faceVertices.size(),

@@ -91,7 +91,11 @@ public:
         const std::filesystem::path whole = std::filesystem::canonical(path, missing);
         if (!missing && !_known.insert(whole.string()).second) return true;
         try {
-            std::istringstream lines(checkMtl(readText(path, _limits), _wanted));
+            const CheckedMtl checked = checkMtl(readText(path, _limits), _wanted);
+            if (checked.placedTextures > 0)
+                tellOf(path, std::to_string(checked.placedTextures) +
+                                 " textures are moved or scaled (-o, -s), which is left out");
+            std::istringstream lines(checked.text);
             tinyobj::LoadMtl(numbers, materials, &lines, warning, error);
             return true;
         } catch (const Error& failure) {

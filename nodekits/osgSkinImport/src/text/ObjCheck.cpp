@@ -270,6 +270,19 @@ bool hasOverflow(std::string_view words) {
     return false;
 }
 
+/// Whether a texture's options move it, or scale it.
+bool isPlaced(std::string_view words) {
+    std::string_view option;
+    for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words)) {
+        double value = 0.0;
+        if (!parseNumber(word, value))
+            option = word;
+        else if ((option == "-o" && value != 0.0) || (option == "-s" && value != 1.0))
+            return true;
+    }
+    return false;
+}
+
 /// Keywords of material libraries that are used, and how many numbers follow; 0: a file's name.
 struct MtlKeyword {
     const char* name;
@@ -290,8 +303,9 @@ bool isAs(std::string_view keyword, std::string_view word) {
 
 } // namespace
 
-std::string checkMtl(std::string_view text, std::set<std::string>& wanted) {
-    std::string checked;
+CheckedMtl checkMtl(std::string_view text, std::set<std::string>& wanted) {
+    CheckedMtl result;
+    std::string& checked = result.text;
     bool isWanted = false, hasColour = true;
     const auto finish = [&] { // tinyobjloader's own default is black
         if (!hasColour) checked += kUnknownColour;
@@ -326,11 +340,12 @@ std::string checkMtl(std::string_view text, std::set<std::string>& wanted) {
                 line += ' ' + materialName(rest);
             else if (known.numbers == 0)
                 line += rest.substr(0, kLongestName);
+            if (name == "map_Kd" && isPlaced(rest)) ++result.placedTextures;
             if (known.numbers > 0 || !hasOverflow(rest)) checked += line + '\n';
         }
     });
     finish();
-    return checked;
+    return result;
 }
 
 CheckedObj checkObj(const std::string& path, std::string_view text) {
