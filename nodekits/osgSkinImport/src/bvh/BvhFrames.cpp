@@ -86,7 +86,7 @@ void readBvhFrames(BvhTokens& words, const std::string& path, BvhFile& file) {
     file.frameTime = readFrameTime(words);
     if (file.frameTime > kSlowFrame && file.frames > 1)
         tellOf(path, "a frame takes " + std::to_string(file.frameTime) +
-                         " seconds; \"Frame Time\" is one in seconds");
+                         " seconds; is its \"Frame Time\" in milliseconds?");
     checkRows(readRows(words, file), words, path, file);
     file.values.resize(file.frames * file.channels);
 }

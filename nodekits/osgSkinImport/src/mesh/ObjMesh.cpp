@@ -93,8 +93,9 @@ public:
         try {
             const CheckedMtl checked = checkMtl(readText(path, _limits), _wanted);
             if (checked.placedTextures > 0)
-                tellOf(path, std::to_string(checked.placedTextures) +
-                                 " textures are moved or scaled (-o, -s), which is left out");
+                tellOf(path, "moved or scaled textures (-o, -s): " +
+                                 std::to_string(checked.placedTextures) +
+                                 ", drawn as if they were not");
             std::istringstream lines(checked.text);
             tinyobj::LoadMtl(numbers, materials, &lines, warning, error);
             return true;

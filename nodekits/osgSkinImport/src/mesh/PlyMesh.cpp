@@ -135,7 +135,8 @@ private:
         glm::vec4 colour(-1.0f); // none: opaque
         for (std::size_t k = 0; k < 4; ++k) {
             if (!_c[k]) continue;
-            colour[int(k)] = static_cast<float>(std::max(0.0, at(values, _c[k])));
+            const double number = at(values, _c[k]);
+            colour[int(k)] = static_cast<float>(number < 0.0 ? 0.0 : number);
             _full[k / 3].take(double(colour[int(k)]));
         }
         _colours.push_back(colour);
