@@ -120,7 +120,8 @@ TEST(ObjDialects, MaterialsMayHaveOneNumberOrNone) {
     EXPECT_EQ(diffuseBy("Kd nan 0 0\n"), plain);
     EXPECT_EQ(diffuseBy("Kd 0,5 0,5 0,5\n"), plain);
     EXPECT_EQ(diffuseBy(""), plain);
-    EXPECT_EQ(diffuseBy("newmtl n\nKd 1 0 0\n"), plain); // another one's
+    EXPECT_EQ(diffuseBy("map_Kd -o 1e999 0 0 nowhere.png\n"), plain); // which is left out
+    EXPECT_EQ(diffuseBy("newmtl n\nKd 1 0 0\n"), plain);              // another one's
     EXPECT_EQ(plain, osg::Vec4(.8f, .74f, .68f, 1)) << "as without a library, and not black";
     EXPECT_EQ(diffuseBy("kd 0.25\nD 0.5\n"), osg::Vec4(.25f, .25f, .25f, .5f));
 }

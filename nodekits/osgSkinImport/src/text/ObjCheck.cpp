@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +20,8 @@ namespace {
 
 constexpr std::string_view kLineEnds("\n\r\0", 3);
 constexpr std::size_t kLongestName = 4000;
-constexpr std::size_t kMostDigits = 32; // that are taken over as they stand
+constexpr std::size_t kMostDigits = 32;     // that are taken over as they stand
+constexpr std::size_t kLongestKeyword = 16; // longer ones are none of MTL's
 constexpr std::size_t kLongestOption = 400;
 constexpr std::size_t kMostNumbers = 7; // a place and a colour, or with a weight
 constexpr std::size_t kPlaceAndColour = 6;
@@ -294,13 +294,6 @@ constexpr MtlKeyword kMtlKeywords[] = {{"newmtl", 0}, {"Kd", 3}, {"Ks", 3}, {"Ke
 /// What a material is drawn with that says none, as one that no library has.
 constexpr const char* kUnknownColour = "Kd 0.8 0.74 0.68\n";
 
-/// Some write them in small letters.
-bool isAs(std::string_view keyword, std::string_view word) {
-    return std::equal(
-        keyword.begin(), keyword.end(), word.begin(), word.end(),
-        [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
-}
-
 } // namespace
 
 CheckedMtl checkMtl(std::string_view text, std::set<std::string>& wanted) {
@@ -311,15 +304,16 @@ CheckedMtl checkMtl(std::string_view text, std::set<std::string>& wanted) {
         if (!hasColour) checked += kUnknownColour;
         hasColour = true;
     };
-    forEachLine(text, [&](std::string_view keyword, std::string_view rest, std::size_t) {
-        if (isAs("newmtl", keyword)) {
+    forEachLine(text, [&](std::string_view given, std::string_view rest, std::size_t) {
+        const std::string keyword(given.substr(0, kLongestKeyword)); // some write small letters
+        if (osgDB::equalCaseInsensitive(keyword, "newmtl")) {
             finish();
             isWanted = wanted.erase(materialName(rest)) > 0;
             hasColour = !isWanted;
         }
         if (!isWanted) return;
         for (const MtlKeyword& known : kMtlKeywords) {
-            if (!isAs(known.name, keyword)) continue;
+            if (!osgDB::equalCaseInsensitive(keyword, known.name)) continue;
             std::string line(known.name);
             bool hasNumbers = true;
             std::string_view first;
@@ -333,7 +327,7 @@ CheckedMtl checkMtl(std::string_view text, std::set<std::string>& wanted) {
             }
             // "Kd spectral x.rfl", "d -halo 0.5": better as if it were not there than black, or
             // gone.
-            if (!hasNumbers) continue;
+            if (!hasNumbers || (known.numbers == 0 && hasOverflow(rest))) continue;
             const std::string_view name = known.name;
             hasColour = hasColour || name == "Kd" || name == "map_Kd";
             if (name == "newmtl")
@@ -341,7 +335,7 @@ CheckedMtl checkMtl(std::string_view text, std::set<std::string>& wanted) {
             else if (known.numbers == 0)
                 line += rest.substr(0, kLongestName);
             if (name == "map_Kd" && isPlaced(rest)) ++result.placedTextures;
-            if (known.numbers > 0 || !hasOverflow(rest)) checked += line + '\n';
+            checked += line + '\n';
         }
     });
     finish();
