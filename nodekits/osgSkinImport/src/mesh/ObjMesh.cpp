@@ -3,7 +3,8 @@
 
 #include "mesh/Material.h"
 #include "text/FileText.h"
-#include "text/ObjCheck.h"
+#include "text/wavefront/MtlCheck.h"
+#include "text/wavefront/ObjCheck.h"
 
 #include <osgSkin/Error>
 

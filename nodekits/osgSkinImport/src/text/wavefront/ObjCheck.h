@@ -16,11 +16,6 @@ struct CheckedObj {
     std::size_t weightedVertices = 0; ///< with a fourth number, alone, that is not 1
 };
 
-struct CheckedMtl {
-    std::string text;
-    std::size_t placedTextures = 0; ///< that are moved or scaled (-o, -s), which nothing here does
-};
-
 /// Checks the vertices, faces and materials of an OBJ file before tinyobjloader parses it.
 ///
 /// tinyobjloader reads what is no number as 0, reads "12abc" as 12, drops faces with too few
@@ -28,11 +23,6 @@ struct CheckedMtl {
 /// gets past here. A line ends with LF, CR or both.
 /// \throw osgSkin::Error "PATH: line N: what was expected".
 CheckedObj checkObj(const std::string& path, std::string_view text);
-
-/// The same of a library of materials, where nothing is refused: lines with a keyword that is used,
-/// and numbers that are some.
-/// \param wanted names of materials: others are left out, and each is taken off when it is found
-CheckedMtl checkMtl(std::string_view text, std::set<std::string>& wanted);
 
 } // namespace osgSkin
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "text/wavefront/ObjLines.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+constexpr std::string_view kLineEnds("\n\r\0", 3); // 0: what C takes for the end of a text
+constexpr std::size_t kMostDigits = 32;            // that are taken over as they stand
+
+} // namespace
+
+std::string_view takeLine(std::string_view& text) {
+    const std::string_view line = text.substr(0, text.find_first_of(kLineEnds));
+    text.remove_prefix(line.size());
+    text.remove_prefix(text.substr(0, 2) == "\r\n" ? 2 : std::min<std::size_t>(1, text.size()));
+    return line;
+}
+
+std::string_view takeWord(std::string_view& line) {
+    const std::size_t start = line.find_first_not_of(" \t");
+    if (start == std::string_view::npos) return line = {};
+    line.remove_prefix(start);
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = std::min(text.size(), text.find_first_not_of(" \t"));
+    return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
+std::string materialName(std::string_view rest) {
+    std::string name;
+    for (const char c : trimmed(rest).substr(0, kLongestName))
+        if (c == ' ' || c == '\t')
+            name += "\xc2\xa0"; // a blank that no word ends at
+        else
+            name += c;
+    return name;
+}
+
+bool isInRange(double value) {
+    return std::abs(value) > 1e-300 && std::abs(value) < 1e300;
+}
+
+void addNumber(std::string_view word, double value, std::string& out) {
+    out += ' ';
+    if (!isInRange(value)) {
+        out += '0';
+    } else if (word.size() <= kMostDigits) {
+        out += word;
+    } else {
+        std::array<char, 32> digits;
+        const char* const end =
+            std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+        out.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
+    }
+}
+
+} // namespace osgSkin
