@@ -20,9 +20,13 @@ constexpr double kMostFlexion = 139.0;
 /// Of a ball joint, degrees from the rest pose: beyond it limbs meet what is not their fold's.
 constexpr double kMostSwing = 90.0;
 
-/// Of a ball joint's reach: beyond two radii other limbs are near, hands above all, which the flesh
-/// that is solved does not know of. A hinge's fold needs its whole reach.
-constexpr double kFadeAtTrunk = 0.5;
+/// How far shapes reach, in radii. A hinge's fold needs as much as is solved. At the trunk other
+/// limbs are near, which the flesh that is solved does not know of: hands beside thighs above all,
+/// and in armpits the trunk itself.
+constexpr ShapeReach kBetweenLimbs{0.75 * ElasticJoint::kHingeReach, ElasticJoint::kHingeReach};
+constexpr ShapeReach kAtTrunk{2.0, ElasticJoint::kBallReach};
+constexpr ShapeReach kBesideLimb{2.0, 3.0};
+constexpr ShapeReach kInPit{1.5, 2.25};
 
 /// Of a hinge's functions, degrees: farther apart, they blur where flesh meets flesh; nearer than
 /// the samples, nothing would hold them.
@@ -70,13 +74,15 @@ glm::dvec2 ElasticPlan::coordinatesOf(const glm::dquat& rotation) const {
 std::vector<ElasticPlan> planElastic(const RestSkeleton& skeleton,
                                      const std::vector<PlannedJoint>& joints,
                                      const WeldedMesh& mesh, const Binding& binding) {
-    const ShapeScope scope{ElasticJoint::kHingeReach,
-                           ElasticJoint::kBallReach,
-                           true,
-                           kMostFlexion,
-                           kKnotStep,
-                           kMostSwing,
-                           kFadeAtTrunk};
+    ShapeScope scope;
+    scope.betweenLimbs = kBetweenLimbs;
+    scope.atTrunk = kAtTrunk;
+    scope.besideLimb = kBesideLimb;
+    scope.inPit = kInPit;
+    scope.trunkToo = true;
+    scope.mostFlexion = kMostFlexion;
+    scope.knotStep = kKnotStep;
+    scope.mostSwing = kMostSwing;
     const JointRatios ratios(mesh, binding);
     std::vector<ElasticPlan> plans;
     for (ShapedJoint& shaped : findShapedJoints(skeleton, joints, mesh, binding, scope)) {

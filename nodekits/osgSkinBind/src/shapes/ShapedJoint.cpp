@@ -18,8 +18,11 @@ namespace {
 /// A limb's bones are at least this many radii long.
 constexpr double kLimbLength = 2.2;
 
-/// Where skin begins to be shaped less, of the reach of joints between limbs.
-constexpr double kFadeFrom = 0.75;
+/// A limb begins beside another one where their joints are no farther apart, in radii.
+constexpr double kBeside = 3.0;
+
+/// Sine of the angle up to which two directions count as one.
+constexpr double kLeastAcross = 0.1;
 
 /// Of a joint at the trunk, skin that follows it by less is taken for the trunk's.
 constexpr double kTrunkFollows = 0.25;
@@ -64,22 +67,38 @@ glm::dvec3 acrossOf(const std::vector<PlannedJoint>& joints, std::size_t joint) 
     const PlannedJoint& planned = joints[joint];
     const glm::dvec3 fromRoot = planned.centre - joints[0].centre;
     const bool isAlong =
-        glm::length(glm::cross(fromRoot, planned.twistAxis)) < 0.1 * glm::length(fromRoot);
+        glm::length(glm::cross(fromRoot, planned.twistAxis)) < kLeastAcross * glm::length(fromRoot);
     return isAlong ? planned.comingFrom : fromRoot;
 }
 
-/// Adds the vertices and triangles within reach; `above` is the joint that moves the limb above.
+/// Whether another limb begins at the trunk beside a joint's.
+bool isBesideLimb(const std::vector<ShapedJoint>& all, const ShapedJoint& shaped) {
+    return std::any_of(all.begin(), all.end(), [&](const ShapedJoint& other) {
+        return &other != &shaped && other.isAtTrunk() &&
+               glm::distance(other.centre, shaped.centre) < kBeside * shaped.radius;
+    });
+}
+
+/// The side of a limb that the root lies on, where it lies on one.
+ShapePit pitOf(const glm::dvec3& root, const ShapedJoint& shaped, const ShapeReach& reach) {
+    ShapePit pit{reach};
+    const glm::dvec3 fromRoot = shaped.centre - root;
+    const glm::dvec3 across = fromRoot - shaped.bone * glm::dot(fromRoot, shaped.bone);
+    const double length = glm::length(across);
+    if (length > kLeastAcross * glm::length(fromRoot)) pit.away = across / length;
+    return pit;
+}
+
+/// Adds the vertices and triangles within reach, and in a pit within the pit's.
 void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
-             const JointRatios& ratios, std::uint32_t above, const ShapeScope& scope,
-             bool insideOut, ShapedJoint& shaped) {
+             const JointRatios& ratios, bool trunkToo, bool insideOut, const ShapeReach& reach,
+             const ShapePit& pit, ShapedJoint& shaped) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
-    const double reach = shaped.isAtTrunk() ? scope.reachAtTrunk : scope.reach;
-    const double fadeFrom = shaped.isAtTrunk() ? scope.fadeAtTrunk : kFadeFrom;
+    const auto above = static_cast<std::uint32_t>(regionAbove(joints, shaped.functions.joint));
     const auto limbOf = [&](std::uint32_t v, const Influence& own) {
         if (shaped.isAtTrunk())
-            return scope.trunkToo ? 1.0
-                                  : hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows);
+            return trunkToo ? 1.0 : hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows);
         return above == 0 ? 1.0 : ratios.bend(v, above);
     };
     const auto add = [&](std::uint32_t v, bool withinReach) {
@@ -88,8 +107,8 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
         const Influence own = ratios.of(v, shaped.functions.joint);
         const double limb = limbOf(v, own);
         // Where skin meets a rigid part, nothing may move them apart.
-        const double fade = (1.0 - hermiteRatio((r / reach - fadeFrom) / (1.0 - fadeFrom))) *
-                            (1.0 - ratios.rigid(v, joints));
+        const double fade =
+            reachTowards(from, reach, pit).shareAt(r) * (1.0 - ratios.rigid(v, joints));
         if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
         placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
         shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
@@ -142,9 +161,22 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         else
             setBendRange(findMainAxis(skeleton, joints, j), acrossOf(joints, j), shaped,
                          scope.mostFlexion, scope.knotStep);
-        addSkin(mesh, joints, ratios, above, scope, insideOut, shaped);
-        if (shaped.vertices.size() >= kLeastVertices) result.push_back(std::move(shaped));
+        result.push_back(std::move(shaped));
     }
+    for (ShapedJoint& shaped : result) {
+        const bool beside = shaped.isAtTrunk() && isBesideLimb(result, shaped);
+        const ShapeReach& reach = !shaped.isAtTrunk() ? scope.betweenLimbs
+                                  : beside            ? scope.besideLimb
+                                                      : scope.atTrunk;
+        ShapePit pit{reach};
+        if (shaped.isAtTrunk() && !beside) pit = pitOf(joints[0].centre, shaped, scope.inPit);
+        addSkin(mesh, joints, ratios, scope.trunkToo, insideOut, reach, pit, shaped);
+    }
+    result.erase(std::remove_if(result.begin(), result.end(),
+                                [](const ShapedJoint& shaped) {
+                                    return shaped.vertices.size() < kLeastVertices;
+                                }),
+                 result.end());
     return result;
 }
 

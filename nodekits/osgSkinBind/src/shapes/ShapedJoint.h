@@ -4,6 +4,7 @@
 
 #include "joints/JointPlan.h"
 #include "mesh/WeldedMesh.h"
+#include "shapes/ShapeReach.h"
 
 #include <osgSkin/BendTwist>
 #include <osgSkin/Binding>
@@ -67,13 +68,14 @@ struct ShapedJoint {
 
 /// How far joints are shaped.
 struct ShapeScope {
-    double reach = 6.0; ///< of joints between limbs, in radii from the joint
-    double reachAtTrunk = 6.0;
-    bool trunkToo = false;      ///< at the trunk its own skin is shaped like the limb's
-    double mostFlexion = 155.0; ///< degrees from the straight limb
-    double knotStep = 30.0;     ///< degrees between a hinge's knots, at most
-    double mostSwing = 130.0;   ///< of ball joints, degrees from the rest pose
-    double fadeAtTrunk = 0.75;  ///< where skin begins to be shaped less, of `reachAtTrunk`
+    ShapeReach betweenLimbs{4.5, 6.0};
+    ShapeReach atTrunk{4.5, 6.0};
+    ShapeReach besideLimb{4.5, 6.0}; ///< at the trunk, where the next limb begins beside it: hips
+    ShapeReach inPit{4.5, 6.0};      ///< at the trunk elsewhere, on the trunk's side: armpits
+    bool trunkToo = false;           ///< at the trunk its own skin is shaped like the limb's
+    double mostFlexion = 155.0;      ///< degrees from the straight limb
+    double knotStep = 30.0;          ///< degrees between a hinge's knots, at most
+    double mostSwing = 130.0;        ///< of ball joints, degrees from the rest pose
 };
 
 /// Finds the joints to shape: by the shape of their limbs, and where the way they bend is not
