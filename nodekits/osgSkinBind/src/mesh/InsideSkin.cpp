@@ -6,19 +6,31 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <vector>
 
 namespace osgSkin {
+namespace {
+
+/// A vertex from the point that is looked at.
+struct Seen {
+    glm::dvec3 from;
+    double away;
+};
+
+} // namespace
+
 bool isInsideSkin(const WeldedMesh& mesh, const glm::dvec3& point) {
+    std::vector<Seen> seen;
+    seen.reserve(mesh.positions.size());
+    for (const glm::dvec3& p : mesh.positions) seen.push_back({p - point, glm::length(p - point)});
     AngleSum halves;
     for (const auto& t : mesh.triangles) {
         // The triangle's solid angle by van Oosterom and Strackee (1983).
-        const glm::dvec3 a = mesh.positions[t[0]] - point;
-        const glm::dvec3 b = mesh.positions[t[1]] - point;
-        const glm::dvec3 c = mesh.positions[t[2]] - point;
-        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        const double numerator = glm::dot(a, glm::cross(b, c));
-        const double denominator =
-            la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+        const Seen &a = seen[t[0]], &b = seen[t[1]], &c = seen[t[2]];
+        const double numerator = glm::dot(a.from, glm::cross(b.from, c.from));
+        const double denominator = a.away * b.away * c.away + glm::dot(a.from, b.from) * c.away +
+                                   glm::dot(b.from, c.from) * a.away +
+                                   glm::dot(c.from, a.from) * b.away;
         halves.add(numerator, denominator);
     }
     // Half of a half sphere's solid angle.
