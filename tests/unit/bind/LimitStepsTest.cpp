@@ -24,7 +24,7 @@ ShapedJoint jointWith(const std::vector<double>& radii) {
     joint.twistAxis = joint.bone = {0, 1, 0};
     joint.radius = 1.0;
     for (std::uint32_t v = 0; v < radii.size(); ++v)
-        joint.vertices.push_back({v, {0.0, 0.0, radii[v]}, 1.0, 1.0, 1.0, 1.0});
+        joint.vertices.push_back({v, {0.0, 0.0, radii[v]}, 1.0, 1.0, 1.0, 1.0, 1.0});
     return joint;
 }
 

@@ -19,8 +19,8 @@ namespace {
 
 const ShapePit pit{{1.5, 2.25}, {0.0, 1.0, 0.0}}; // the trunk is below
 
-/// The farthest vertices that a joint's shapes move, in radii: where they lean to the trunk by
-/// over 30 degrees from the plane across the limb, and on the other side.
+/// The farthest vertices that a joint's shapes move while its pit is closed, in radii: where they
+/// lean to the trunk by over 30 degrees from the plane across the limb, and on the other side.
 struct Farthest {
     double pit = 0.0, away = 0.0;
 };
@@ -30,7 +30,8 @@ Farthest farthestOf(const ShapedJoint& shaped, const glm::dvec3& root) {
     away = glm::normalize(away - shaped.bone * glm::dot(away, shaped.bone));
     Farthest result;
     for (const ShapedJoint::Vertex& vertex : shaped.vertices) {
-        if (vertex.fade * vertex.limb <= 0.0) continue;
+        EXPECT_GE(vertex.fade, vertex.fadeClosed);
+        if (vertex.fadeClosed * vertex.limb <= 0.0) continue;
         const double length = glm::length(vertex.from);
         const double lean = -glm::dot(vertex.from, away) / length;
         double& most = lean > 0.5 ? result.pit : result.away;
@@ -71,6 +72,23 @@ TEST(ShapeReach, IsTheSameAllAroundWithoutAPit) {
     const ShapePit none{{1.5, 2.25}};
     EXPECT_EQ(reachTowards({0.0, -1.0, 0.0}, reach, none).end, 4.0);
     EXPECT_EQ(reachTowards({0.0, 0.0, 0.0}, reach, pit).end, 4.0); // the joint itself
+}
+
+TEST(ShapeReach, APitIsOpenWhereTheLimbIsRaised) {
+    ShapedJoint joint;
+    joint.functions.axis = {0.0, 0.0, 1.0};
+    joint.twistAxis = joint.bone = {1.0, 0.0, 0.0}; // sideways
+    joint.away = {0.0, 1.0, 0.0};
+    const auto closedAt = [&](double degrees) { // raised by so many
+        return joint.pitClosedAt(
+            joint.bendAt({std::sin(0.5 * degrees / 180.0 * std::acos(-1.0)), 0.0}));
+    };
+    EXPECT_EQ(closedAt(60.0), 0.0);
+    EXPECT_EQ(closedAt(90.0), 0.0);
+    EXPECT_GT(closedAt(0.0), 0.5);
+    EXPECT_GT(closedAt(0.0), closedAt(20.0));
+    EXPECT_EQ(closedAt(-20.0), 1.0);
+    EXPECT_EQ(closedAt(-80.0), 1.0);
 }
 
 TEST(ShapeReach, EndsEarlierInArmpitsAndAtHips) {

@@ -8,6 +8,7 @@
 #include "shapes/PackShapes.h"
 #include "shapes/steps/LimitSteps.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -123,6 +124,7 @@ private:
 
     std::vector<glm::dvec3> offsetsAt(const glm::dvec2& xy, std::size_t sample) const {
         const BendTwist bend = _plan.shaped.bendAt(xy);
+        const double closed = _plan.shaped.pitClosedAt(bend);
         std::vector<glm::dvec3> offsets;
         offsets.reserve(_moved.size());
         for (const Moved& moved : _moved) {
@@ -131,7 +133,8 @@ private:
                 _solved.samples[sample].positions[moved.solved] - _plan.shaped.centre;
             const glm::dvec3 unbent =
                 glm::conjugate(_plan.shaped.turnOf(vertex, bend)) * target - vertex.from;
-            offsets.push_back(vertex.limb * vertex.fade * unbent);
+            const double fade = glm::mix(vertex.fade, vertex.fadeClosed, closed);
+            offsets.push_back(vertex.limb * fade * unbent);
         }
         return offsets;
     }

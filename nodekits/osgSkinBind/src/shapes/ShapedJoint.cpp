@@ -21,6 +21,10 @@ constexpr double kLimbLength = 2.2;
 /// A limb begins beside another one where their joints are no farther apart, in radii.
 constexpr double kBeside = 3.0;
 
+/// Sines of a limb's angle over where it rests, away from the trunk, with which its pit is open,
+/// and closed.
+constexpr double kOpen = 0.75, kClosed = -0.25;
+
 /// Sine of the angle up to which two directions count as one.
 constexpr double kLeastAcross = 0.1;
 
@@ -96,6 +100,7 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
     const auto above = static_cast<std::uint32_t>(regionAbove(joints, shaped.functions.joint));
+    shaped.away = pit.away;
     const auto limbOf = [&](std::uint32_t v, const Influence& own) {
         if (shaped.isAtTrunk())
             return trunkToo ? 1.0 : hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows);
@@ -107,12 +112,14 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
         const Influence own = ratios.of(v, shaped.functions.joint);
         const double limb = limbOf(v, own);
         // Where skin meets a rigid part, nothing may move them apart.
-        const double fade =
-            reachTowards(from, reach, pit).shareAt(r) * (1.0 - ratios.rigid(v, joints));
+        const double loose = 1.0 - ratios.rigid(v, joints);
+        const double fade = reach.shareAt(r) * loose;
+        const double fadeClosed = reachTowards(from, reach, pit).shareAt(r) * loose;
         if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
         placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
         shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
-                                   static_cast<double>(own.twist), limb, withinReach ? fade : 0.0});
+                                   static_cast<double>(own.twist), limb, withinReach ? fade : 0.0,
+                                   withinReach ? fadeClosed : 0.0});
     };
     for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) add(v, true);
     const auto within = static_cast<std::uint32_t>(shaped.vertices.size());
@@ -129,6 +136,11 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
 }
 
 } // namespace
+
+double ShapedJoint::pitClosedAt(const BendTwist& bend) const {
+    const double raised = glm::dot(partialRotation(bend, twistAxis, 1.0, 1.0) * bone, away);
+    return hermiteRatio((kOpen - raised) / (kOpen - kClosed));
+}
 
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,

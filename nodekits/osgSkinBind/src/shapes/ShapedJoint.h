@@ -30,6 +30,7 @@ struct ShapedJoint {
                                ///< `bone`
     glm::dvec3 bone{0.0};      ///< unit; from the centre to the child
     double radius = 0.0;       ///< of the limb at the joint
+    glm::dvec3 away{0.0};      ///< unit; ShapePit::away
 
     /// A vertex within the joint's reach.
     struct Vertex {
@@ -40,6 +41,7 @@ struct ShapedJoint {
         double limb; ///< how much the skin is of the limb above: bend ratio of the joint above; 1
                      ///< where that is the root. At the trunk, how much it is of the limb itself
         double fade; ///< what of its target it takes: 1, and 0 towards the reach's end
+        double fadeClosed; ///< the same where the pit is closed, see pitClosedAt()
     };
     std::vector<Vertex> vertices;
 
@@ -60,6 +62,10 @@ struct ShapedJoint {
         return bend;
     }
 
+    /// How far a bend closes the pit between limb and trunk, 0 to 1: an arm's that hangs at the
+    /// side, or lies in front of the chest, by far, that of a raised one not.
+    double pitClosedAt(const BendTwist& bend) const;
+
     /// What a bend does to a vertex at its own ratios, from the joint's centre to there.
     glm::dquat turnOf(const Vertex& vertex, const BendTwist& bend) const {
         return partialRotation(bend, twistAxis, vertex.bend, vertex.twist);
@@ -71,7 +77,7 @@ struct ShapeScope {
     ShapeReach betweenLimbs{4.5, 6.0};
     ShapeReach atTrunk{4.5, 6.0};
     ShapeReach besideLimb{4.5, 6.0}; ///< at the trunk, where the next limb begins beside it: hips
-    ShapeReach inPit{4.5, 6.0};      ///< at the trunk elsewhere, on the trunk's side: armpits
+    ShapeReach inPit{4.5, 6.0};      ///< at the trunk elsewhere, in a closed pit: armpits
     bool trunkToo = false;           ///< at the trunk its own skin is shaped like the limb's
     double mostFlexion = 155.0;      ///< degrees from the straight limb
     double knotStep = 30.0;          ///< degrees between a hinge's knots, at most
