@@ -30,7 +30,7 @@ struct ShapedJoint {
                                ///< `bone`
     glm::dvec3 bone{0.0};      ///< unit; from the centre to the child
     double radius = 0.0;       ///< of the limb at the joint
-    glm::dvec3 away{0.0};      ///< unit; ShapePit::away
+    glm::dvec3 away{0.0};      ///< unit, or 0 without a pit; see ShapePit
 
     /// A vertex within the joint's reach.
     struct Vertex {
