@@ -22,7 +22,7 @@ constexpr double kMostSwing = 90.0;
 
 /// How far shapes reach, in radii. A hinge's fold needs as much as is solved. At the trunk other
 /// limbs are near, which the flesh that is solved does not know of: hands beside thighs above all,
-/// and in armpits the trunk itself.
+/// and in armpits, while the arm is not raised, the trunk itself.
 constexpr ShapeReach kBetweenLimbs{0.75 * ElasticJoint::kHingeReach, ElasticJoint::kHingeReach};
 constexpr ShapeReach kAtTrunk{2.0, ElasticJoint::kBallReach};
 constexpr ShapeReach kBesideLimb{2.0, 3.0};

@@ -20,8 +20,8 @@ constexpr bool isBlank(char c) {
     return c == ' ' || c == '\t';
 }
 
-/// The length of the text's beginning without what `ends`: by far the most of a file's time is
-/// spent here.
+/// The length of the text's beginning without what `ends`. In a file's every line: searching for
+/// one of several letters by std::string_view's own means takes twice as long.
 template <typename Ends>
 std::size_t lengthUpTo(std::string_view text, const Ends& ends) {
     return static_cast<std::size_t>(std::find_if(text.begin(), text.end(), ends) - text.begin());
@@ -51,7 +51,7 @@ std::string_view trimmed(std::string_view text) {
 std::string materialName(std::string_view rest) {
     std::string name;
     for (const char c : trimmed(rest).substr(0, kLongestName))
-        if (c == ' ' || c == '\t')
+        if (isBlank(c))
             name += "\xc2\xa0"; // a blank that no word ends at
         else
             name += c;
