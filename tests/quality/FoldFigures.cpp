@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 namespace quality {
 namespace {
@@ -122,6 +124,30 @@ std::vector<FoldFigure> measureFolds(const Subject& plain, const Subject& shaped
     return figures;
 }
 
+/// The joints whose skin cuts itself with shapes and does not without, with how many pairs.
+std::string newPairs(const Subject& plain, const Subject& shaped, const NamedPose& pose) {
+    SelfIntersections intersections(plain);
+    const auto pairsOf = [&](const Subject& subject) {
+        return intersections.pairs(deform(subject, Method::Ours, pose.skinning));
+    };
+    const auto before = pairsOf(plain), now = pairsOf(shaped);
+    std::vector<std::pair<std::size_t, std::size_t>> added;
+    std::set_difference(now.begin(), now.end(), before.begin(), before.end(),
+                        std::back_inserter(added));
+    std::map<std::string, std::size_t> counts;
+    for (const auto& pair : added) {
+        const auto jointOf = [&](std::size_t triangle) {
+            return plain.rig.joints[plain.dominantJoint(plain.triangles[3 * triangle])].name;
+        };
+        std::string a = jointOf(pair.first), b = jointOf(pair.second);
+        if (b < a) a.swap(b);
+        ++counts[a == b ? a : a + "/" + b];
+    }
+    std::string result;
+    for (const auto& [joints, count] : counts) result += format(", %s +%zu", joints.c_str(), count);
+    return result;
+}
+
 } // namespace
 
 ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses,
@@ -155,7 +181,8 @@ ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>&
         const auto now = static_cast<double>(figures.clips.shaped.poses[i].intersections);
         if (now > 1.02 * before + 2.0)
             figures.clips.worsePoses.push_back(
-                format("%s %.0f of %.0f", poses[i].name.c_str(), now, before));
+                format("%s %.0f of %.0f", poses[i].name.c_str(), now, before) +
+                newPairs(plain, shaped, poses[i]));
     }
     return figures;
 }

@@ -5,6 +5,9 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace quality {
 namespace {
 
@@ -24,22 +27,26 @@ SelfIntersections::SelfIntersections(const Subject& subject) : _mesh(std::make_u
         _mesh->surface.add_face(Surface::Vertex_index(corners[t]),
                                 Surface::Vertex_index(corners[t + 1]),
                                 Surface::Vertex_index(corners[t + 2]));
-    _atRest = count(subject.rest);
+    _atRest = pairs(subject.rest).size();
 }
 
 SelfIntersections::~SelfIntersections() = default;
 
 std::size_t SelfIntersections::beyondRest(const compare::Points& posed) {
-    const std::size_t pairs = count(posed);
-    return pairs > _atRest ? pairs - _atRest : 0;
+    const std::size_t count = pairs(posed).size();
+    return count > _atRest ? count - _atRest : 0;
 }
 
-std::size_t SelfIntersections::count(const compare::Points& points) {
-    for (std::uint32_t v = 0; v < points.size(); ++v)
-        _mesh->surface.point(Surface::Vertex_index(v)) = {points[v].x, points[v].y, points[v].z};
-    std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
-    CGAL::Polygon_mesh_processing::self_intersections(_mesh->surface, std::back_inserter(pairs));
-    return pairs.size();
+std::vector<std::pair<std::size_t, std::size_t>>
+SelfIntersections::pairs(const compare::Points& posed) {
+    for (std::uint32_t v = 0; v < posed.size(); ++v)
+        _mesh->surface.point(Surface::Vertex_index(v)) = {posed[v].x, posed[v].y, posed[v].z};
+    std::vector<std::pair<Surface::Face_index, Surface::Face_index>> found;
+    CGAL::Polygon_mesh_processing::self_intersections(_mesh->surface, std::back_inserter(found));
+    std::vector<std::pair<std::size_t, std::size_t>> result;
+    for (const auto& [a, b] : found) result.push_back(std::minmax<std::size_t>(a, b));
+    std::sort(result.begin(), result.end());
+    return result;
 }
 
 } // namespace quality

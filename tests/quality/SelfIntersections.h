@@ -4,6 +4,8 @@
 #include "Subject.h"
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace quality {
 
@@ -16,10 +18,11 @@ public:
     /// 0 where fewer pairs cut each other than at rest.
     std::size_t beyondRest(const compare::Points& posed);
 
+    /// The pairs that cut each other, as indices of triangles, the smaller one first, sorted.
+    std::vector<std::pair<std::size_t, std::size_t>> pairs(const compare::Points& posed);
+
 private:
     struct Mesh;
-    std::size_t count(const compare::Points& points);
-
     std::unique_ptr<Mesh> _mesh;
     std::size_t _atRest = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Measures bodies that nobody has, made of those that there are: does binding hold its bars there?
 #include "../Bars.h"
+#include "../FoldFigures.h"
 #include "Variations.h"
 #include "WorstEdges.h"
 
@@ -19,6 +20,7 @@ struct Options {
     std::vector<std::string> only;
     std::string half = "both";
     std::size_t worst = 0;
+    std::string shapes;
 };
 
 void define(CLI::App& app, Options& options) {
@@ -28,6 +30,11 @@ void define(CLI::App& app, Options& options) {
         ->check(CLI::IsMember({"both", "tuned", "held-out"}))
         ->capture_default_str();
     app.add_option("--worst", options.worst, "how many of a body's worst edges to list");
+    app.add_option(
+           "--shapes", options.shapes,
+           "only what shapes do: to pairs of triangles that cut each other, by pose, and to "
+           "edges and volumes over the clips")
+        ->check(CLI::IsMember({"fast", "elastic"}));
 }
 
 PaintedBody sharedBody(const std::string& shape) {
@@ -89,18 +96,50 @@ bool isWanted(const std::string& name, const std::vector<std::string>& only) {
            });
 }
 
-void run(const Options& options) {
+/// Calls `take` with each body that is asked for.
+template <typename Take>
+void forEachBody(const Options& options, Take take) {
     const PaintedBody neutral = sharedBody("neutral"), male = sharedBody("male");
-    std::vector<Tally> tuned, heldOut;
-    std::cout << format("%-36s%8s%8s%8s%8s%8s  %s\n", "", "/DQS", "/LBS", "99.9 %", "longest",
-                        "volume", "bars missed");
     for (const Variation& variation : variations(neutral, male)) {
         if (!isWanted(variation.name, options.only)) continue;
         if (options.half == (variation.heldOut ? "tuned" : "held-out")) continue;
         PaintedBody body = variation.make();
         body.name = variation.name;
         const Subject subject = makeSubject(std::move(body));
-        const std::vector<NamedPose> poses = standardPoses(options.motions, subject);
+        take(variation, subject, standardPoses(options.motions, subject));
+    }
+}
+
+void runShapes(const Options& options) {
+    std::size_t bodies = 0, missing = 0, poseCount = 0, worse = 0;
+    std::cout << format("%-36s%18s%18s%18s%8s  %s\n", options.shapes.c_str(), "pairs, plain; now",
+                        "99.9 %, plain; now", "volume", "bytes", "poses over 2 % + 2 pairs");
+    forEachBody(options, [&](const Variation& variation, const Subject& subject,
+                             const std::vector<NamedPose>& poses) {
+        const ShapeFigures figures = measureShapes(subject, poses, options.shapes);
+        const PoseFigures &plain = figures.clips.plain, &now = figures.clips.shaped;
+        std::cout << format("%-36s%10.2f%8.2f%10.3f%8.3f%10.4f%8.4f%8.1f  %zu",
+                            variation.name.c_str(), plain.intersections, now.intersections,
+                            plain.percentile999, now.percentile999, plain.volumeError,
+                            now.volumeError, figures.bytesPerVertex,
+                            figures.clips.worsePoses.size());
+        for (const std::string& pose : figures.clips.worsePoses) std::cout << "; " << pose;
+        std::cout << std::endl;
+        ++bodies;
+        poseCount += poses.size();
+        worse += figures.clips.worsePoses.size();
+        if (!figures.clips.worsePoses.empty()) ++missing;
+    });
+    std::cout << format("\n%zu of %zu bodies' poses are over in %zu of %zu\n", missing, bodies,
+                        worse, poseCount);
+}
+
+void run(const Options& options) {
+    std::vector<Tally> tuned, heldOut;
+    std::cout << format("%-36s%8s%8s%8s%8s%8s  %s\n", "", "/DQS", "/LBS", "99.9 %", "longest",
+                        "volume", "bars missed");
+    forEachBody(options, [&](const Variation& variation, const Subject& subject,
+                             const std::vector<NamedPose>& poses) {
         const std::vector<Bar> all = bars(measure(subject, poses));
         std::cout << format("%-36s%8.3f%8.3f%8.3f%8.3f%8.4f ", variation.name.c_str(), all[0].value,
                             all[1].value, all[2].value, all[3].value, all[4].value);
@@ -111,7 +150,7 @@ void run(const Options& options) {
         const std::vector<WorstEdge> worst = worstEdges(subject, poses);
         for (std::size_t i = 0; i < std::min(options.worst, worst.size()); ++i)
             std::cout << "  " << lineOf(subject, worst[i]) << '\n';
-    }
+    });
     print("tuned", tuned);
     print("held out", heldOut);
 }
@@ -130,7 +169,7 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        run(options);
+        options.shapes.empty() ? run(options) : runShapes(options);
     } catch (const std::exception& error) {
         std::cerr << "osgskin_variations: " << error.what() << '\n';
         return 1;

@@ -256,3 +256,15 @@ TEST(NamedRigs, InJapanese) {
     EXPECT_EQ(roles.roles[std::size_t(skeleton.find("右ひざ"))], "RightLowerLeg");
     EXPECT_EQ(roles.roles[std::size_t(skeleton.find("左足ＩＫ"))], "");
 }
+
+/// All below one root, as glTF lists the joints of a skin whose nodes are lost: no joint stands
+/// above another one, and the last of the trunk is not the head.
+TEST(NamedRigs, AListOfNamesTellsNoHead) {
+    const RestSkeleton skeleton =
+        makeNamed("root Hips<root Neck<root Spine<root LeftArm<root RightArm<root "
+                  "LeftForeArm<root RightForeArm<root");
+    const JointRoles roles = recogniseJoints(skeleton);
+    EXPECT_EQ(roles.joints.count("Head"), 0u);
+    EXPECT_EQ(roles.joints.count("Neck"), 1u);
+    EXPECT_EQ(roles.joints.count("Spine"), 1u);
+}
