@@ -268,3 +268,50 @@ TEST(NamedRigs, AListOfNamesTellsNoHead) {
     EXPECT_EQ(roles.joints.count("Neck"), 1u);
     EXPECT_EQ(roles.joints.count("Spine"), 1u);
 }
+
+/// Names that no list has between those that it has: the tree tells what they are.
+TEST(NamedRigs, GapsBetweenKnownNamesAreFilledByTheTree) {
+    expectRoles("gaps",
+                "pelvis vert1<pelvis vert2<vert1 trunk<vert2 cerv<trunk head<cerv "
+                "@_qq<trunk @_upperarm<@_qq @_xx_twist<@_upperarm @_xx<@_upperarm @_yy<@_xx "
+                "@_yy_end<@_yy @_thigh<pelvis @_zz<@_thigh @_ww<@_zz @_toe<@_ww",
+                "l", "r",
+                {{"Hips", "pelvis"},
+                 {"Spine", "vert1"},
+                 {"Neck", "cerv"},
+                 {"Head", "head"},
+                 {"Collar", "@_qq"},
+                 {"UpperArm", "@_upperarm"},
+                 {"UpperLeg", "@_thigh"},
+                 {"Toe", "@_toe"}});
+    expectRoles("biomechanics",
+                "pelvis abdomen<pelvis thorax_low<abdomen thorax<thorax_low neck<thorax head<neck "
+                "@_shoulder<thorax @_uarm<@_shoulder @_larm<@_uarm @_hand<@_larm @_thigh<pelvis "
+                "@_shank<@_thigh @_foot<@_shank @_toes<@_foot",
+                "l", "r", {{"LowerArm", "@_larm"}, {"LowerLeg", "@_shank"}, {"Hand", "@_hand"}});
+    expectRoles("one letter a side",
+                "PelvisSeg LowerTorso<PelvisSeg UpperTorso<LowerTorso Neck<UpperTorso Head<Neck "
+                "@Clav<UpperTorso @UArm<@Clav @LArm<@UArm @Hand<@LArm @Thigh<PelvisSeg "
+                "@LLeg<@Thigh @Foot<@LLeg @Toe<@Foot",
+                "L", "R", {{"LowerArm", "@LArm"}, {"LowerLeg", "@LLeg"}, {"UpperArm", "@UArm"}});
+    expectRoles("vertebrae",
+                "Pelvis L5<Pelvis L3<L5 T8<L3 Neck<T8 Head<Neck @Shoulder<T8 "
+                "@UpperArm<@Shoulder @ForeArm<@UpperArm @Hand<@ForeArm @UpperLeg<Pelvis "
+                "@LowerLeg<@UpperLeg @Foot<@LowerLeg @Toe<@Foot",
+                "Left", "Right", {{"Spine", "L5"}, {"Hips", "Pelvis"}});
+    expectRoles("two words",
+                "Hips SpineLower<Hips SpineUpper<SpineLower Neck<SpineUpper Head<Neck "
+                "@Shoulder<SpineUpper @ArmUpper<@Shoulder @ArmLower<@ArmUpper "
+                "@HandWrist<@ArmLower @HandPalm<@HandWrist @UpperLeg<Hips @LowerLeg<@UpperLeg "
+                "@FootAnkle<@LowerLeg @FootBall<@FootAnkle",
+                "Left", "Right", {{"Hand", "@HandWrist"}, {"Foot", "@FootAnkle"}});
+}
+
+/// A hand or a foot that names do not tell stands below a limb that they do.
+TEST(NamedRigs, EndsOfLimbsAreFilledByTheTree) {
+    expectRoles("ends",
+                "hips spine<hips neck<spine head<neck @_clavicle<spine @_upperarm<@_clavicle "
+                "@_forearm<@_upperarm @_forearm_twist<@_forearm @_aa<@_forearm "
+                "@_thumb1<@_aa @_bb<@_aa @_thigh<hips @_calf<@_thigh @_cc<@_calf @_toe<@_cc",
+                "l", "r", {{"Hand", "@_aa"}, {"Foot", "@_cc"}});
+}

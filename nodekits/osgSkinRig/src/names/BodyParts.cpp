@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 namespace osgSkin {
 namespace {
@@ -58,25 +59,68 @@ std::vector<bool> findLimbs(const SkeletonTree& tree, const JointRoles& roles) {
     return isLimb;
 }
 
+/// The joint of a role, -1 where it is not recognised.
+int jointOf(const JointRoles& roles, const std::string& role) {
+    const auto found = roles.joints.find(role);
+    return found == roles.joints.end() ? -1 : found->second.front();
+}
+
+/// The joints of the legs that are recognised: from each's first joint to its foot and what hangs
+/// on that, or all below the first one where the foot is not.
+std::vector<bool> knownLegs(const SkeletonTree& tree, const JointRoles& roles) {
+    std::vector<bool> isLeg(static_cast<std::size_t>(tree.size()), false);
+    for (const std::string side : {"Left", "Right"}) {
+        int top = -1;
+        for (const char* part : {"UpperLeg", "LowerLeg", "Foot"})
+            if (top < 0) top = jointOf(roles, side + part);
+        if (top < 0) continue;
+        int end = jointOf(roles, side + "Foot");
+        if (end < 0 || !tree.rest().isInSubtree(end, top)) end = top;
+        for (int j = end; j < tree.size(); ++j)
+            if (tree.rest().isInSubtree(j, end)) isLeg[static_cast<std::size_t>(j)] = true;
+        for (int j = end; j != top; j = tree.joint(j).parent)
+            isLeg[static_cast<std::size_t>(j)] = true;
+        isLeg[static_cast<std::size_t>(top)] = true;
+    }
+    return isLeg;
+}
+
+/// The height of the joints that names tell, which helpers have no part in.
+double knownTop(const SkeletonTree& tree, const JointRoles& roles) {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (int j = 0; j < tree.size(); ++j)
+        if (!roles.roles[static_cast<std::size_t>(j)].empty())
+            highest = std::max(highest, top(tree.joint(j)));
+    return highest;
+}
+
 } // namespace
 
 BodyParts findBodyParts(const SkeletonTree& tree, const JointRoles& roles) {
     BodyParts result;
     result.isLimb = findLimbs(tree, roles);
-
-    const auto isLimb = [&](int j) { return bool(result.isLimb[static_cast<std::size_t>(j)]); };
-    const bool hasLimbs =
-        std::find(result.isLimb.begin(), result.isLimb.end(), true) != result.isLimb.end();
+    std::vector<bool> isLeg = knownLegs(tree, roles);
+    const auto any = [](const std::vector<bool>& of) {
+        return std::find(of.begin(), of.end(), true) != of.end();
+    };
+    const bool legsKnown = any(isLeg);
+    if (!legsKnown) {
+        isLeg = result.isLimb;
+        result.stands = !roles.known();
+    }
+    const bool hasLegs = any(isLeg);
     result.lowest = std::numeric_limits<double>::infinity();
-    double highest = -result.lowest;
+    double highest = legsKnown ? knownTop(tree, roles) : -result.lowest;
     for (int j = 0; j < tree.size(); ++j) {
-        if (isLimb(j) || !hasLimbs) result.lowest = std::min(result.lowest, bottom(tree.joint(j)));
-        highest = std::max(highest, top(tree.joint(j)));
+        if (isLeg[static_cast<std::size_t>(j)] || !hasLegs)
+            result.lowest = std::min(result.lowest, bottom(tree.joint(j)));
+        if (!legsKnown) highest = std::max(highest, top(tree.joint(j)));
     }
     // Hands hang to the thigh at most, ankles lie within a tenth of the body above the floor.
     const double ankle = result.lowest + 0.1 * (highest - result.lowest);
-    for (int j = 0; j < tree.size(); ++j)
-        if (isLimb(j) && bottom(tree.joint(j)) <= ankle) result.feet.push_back(j);
+    for (int j = 0; j < tree.size() && result.stands; ++j)
+        if (isLeg[static_cast<std::size_t>(j)] && bottom(tree.joint(j)) <= ankle)
+            result.feet.push_back(j);
     for (const int j : result.feet)
         if (std::count(result.feet.begin(), result.feet.end(), tree.joint(j).parent) == 0)
             result.ankles.push_back(j);

@@ -10,7 +10,9 @@
 namespace osgSkin {
 
 /// Which joints belong to the trunk (hips, spine, collar bones, neck, head and what hangs on it)
-/// and which to a limb, told by what the joints are recognised as and by the tree's shape.
+/// and which to a limb, told by what the joints are recognised as and by the tree's shape. Where
+/// legs are recognised, nothing else is one: what hangs down as far (capes, tails, swords,
+/// targets on the floor) has no part in `feet` and `lowest`.
 struct BodyParts {
     std::vector<bool> isLimb; ///< [joint]
 
@@ -23,6 +25,9 @@ struct BodyParts {
 
     /// Height (y) of the lowest joint or tip of the legs at rest; of all where there are none.
     double lowest = 0.0;
+
+    /// Whether a height above the floor can be told: not where the names are known and name no leg.
+    bool stands = true;
 };
 
 /// Finds them.

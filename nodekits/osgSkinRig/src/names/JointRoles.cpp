@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/JointRoles>
 
+#include "names/GapRoles.h"
 #include "names/LimbWords.h"
 #include "names/NameWords.h"
 #include "names/ShapeRoles.h"
@@ -91,7 +92,7 @@ std::size_t mainRoles(const std::vector<std::string>& roles) {
     return found.size();
 }
 
-JointRoles madeOf(const std::vector<std::string>& roles, const char* family) {
+JointRoles madeOf(const std::vector<std::string>& roles, const std::string& family) {
     JointRoles result;
     result.family = family;
     result.roles = roles;
@@ -201,6 +202,10 @@ JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<Joint
         if (told < kFewestMain) {
             const std::vector<std::string> shape = shapeRoles(skeleton);
             if (mainRoles(shape) > told) result = madeOf(shape, kToldByShape);
+        }
+        if (result.known()) {
+            fillGaps(skeleton, result.roles);
+            result = madeOf(result.roles, result.family);
         }
     }
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {

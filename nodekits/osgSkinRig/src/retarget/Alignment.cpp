@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "retarget/Alignment.h"
 
+#include "names/BodyWord.h"
+#include "names/NameWords.h"
+
 #include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -23,13 +28,30 @@ int rank(const JointRoles& roles, int j) {
     return part == JointPart::MiddleFinger ? 0 : 1;
 }
 
+/// Whether a hand's child is one of its fingers or its end, and not what the hand holds: that has
+/// no role, and seldom a brother.
+bool isOfHand(const SkeletonTree& tree, const JointRoles& roles, int hand, int child) {
+    const auto isKnown = [&](int j) { return !roles.roles[static_cast<std::size_t>(j)].empty(); };
+    if (isKnown(child) || rank(roles, child) != 1) return true;
+    const std::vector<std::string> words = nameWords(tree.joint(child).name);
+    const auto has = [&](const std::string& word) {
+        return std::count(words.begin(), words.end(), word) > 0;
+    };
+    if (has("end") || has("nub") || has("tip") || has("finger") || has("fingers")) return true;
+    if (std::any_of(words.begin(), words.end(), isForeign)) return false;
+    const std::vector<int>& all = tree.children(hand);
+    return all.size() > 1 && std::none_of(all.begin(), all.end(), isKnown);
+}
+
 /// A joint's bone within one skeleton: to its tip, or else to the child that carries the chain on.
 std::optional<glm::dvec3> ownBone(const SkeletonTree& tree, const JointRoles& roles, int j) {
     std::optional<glm::dvec3> result;
     if (tree.joint(j).tip) result = *tree.joint(j).tip - tree.centre(j);
     int best = 3;
+    const bool isHand = roles.is(static_cast<std::size_t>(j), JointPart::Hand);
     if (!result || !hasLength(*result, tree))
         for (const int child : tree.children(j)) {
+            if (isHand && !isOfHand(tree, roles, j, child)) continue;
             const glm::dvec3 bone = tree.centre(child) - tree.centre(j);
             const int childRank = rank(roles, child);
             if (childRank >= best || !hasLength(bone, tree)) continue;

@@ -6,9 +6,10 @@
 namespace osgSkin {
 namespace {
 
-const char* const kEssential[] = {"Hips",          "Head",          "LeftUpperArm", "LeftLowerArm",
-                                  "RightUpperArm", "RightLowerArm", "LeftUpperLeg", "LeftLowerLeg",
-                                  "RightUpperLeg", "RightLowerLeg"};
+const char* const kEssential[] = {
+    "Hips",         "Spine",         "Head",          "LeftUpperArm",  "LeftLowerArm",
+    "LeftHand",     "RightUpperArm", "RightLowerArm", "RightHand",     "LeftUpperLeg",
+    "LeftLowerLeg", "LeftFoot",      "RightUpperLeg", "RightLowerLeg", "RightFoot"};
 
 /// The joints of essential roles for all of whose joints `isIdle` holds: the first of each role.
 template <typename Idle>
@@ -84,7 +85,6 @@ std::vector<std::string> notesOf(const JointPairs& map, const RestSkeleton& rig,
         if (!idle.empty())
             notes.push_back("the motion has nothing for " + listed(idle) +
                             " of the rig, which stay as they rest" + expected);
-        return notes;
     }
     if (map.motion.known()) {
         const auto idle = idleJoints(map.motion, motion, [&](int j) {
@@ -93,8 +93,8 @@ std::vector<std::string> notesOf(const JointPairs& map, const RestSkeleton& rig,
         if (!idle.empty())
             notes.push_back("the rig has nothing for " + listed(idle) + " of the motion" +
                             expected);
-        return notes;
     }
+    if (map.rig.known() || map.motion.known()) return notes;
     const auto driven = static_cast<std::size_t>(
         std::count_if(drivers.begin(), drivers.end(), [](int m) { return m >= 0; }));
     if (2 * driven < std::min(rig.joints.size(), motion.joints.size()))

@@ -14,8 +14,10 @@ namespace {
 /// Who rests with the hips lower than this share of what the legs are long sits.
 constexpr double kSits = 0.9;
 
-/// Height of the hips above the lowest point of the legs; of a body that sits, once it stands.
+/// Height of the hips above the lowest point of the legs; of a body that sits, once it stands; 0
+/// where it has no legs.
 double hipHeight(const SkeletonTree& tree, const BodyParts& parts, int hips) {
+    if (!parts.stands) return 0.0;
     const double atRest = tree.centre(hips).y - parts.lowest;
     double standing = 0.0;
     for (int j : parts.ankles) {
