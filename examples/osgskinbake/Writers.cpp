@@ -3,6 +3,10 @@
 
 #include "Bytes.h"
 
+
+#include <algorithm>
+#include <vector>
+
 namespace bake {
 namespace {
 
@@ -70,7 +74,11 @@ nlohmann::json vectorsJson(const osgSkin::Binding& binding, std::size_t vertex) 
 
 nlohmann::json bindingJson(const osgSkin::Binding& binding) {
     nlohmann::json joints = nlohmann::json::array();
-    for (const osgSkin::BoundJoint& joint : binding.joints) {
+    const std::vector<std::uint32_t> order = osgSkin::productOrder(binding.joints);
+    std::vector<std::uint32_t> places(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = std::uint32_t(i);
+    for (const std::uint32_t j : order) {
+        const osgSkin::BoundJoint& joint = binding.joints[j];
         const nlohmann::json parent =
             joint.parent < 0
                 ? nlohmann::json()
@@ -84,8 +92,12 @@ nlohmann::json bindingJson(const osgSkin::Binding& binding) {
     nlohmann::json vertices = nlohmann::json::array();
     for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
         nlohmann::json ratios = nlohmann::json::array();
-        for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i) {
-            const osgSkin::Influence& influence = binding.influences[i];
+        std::vector<osgSkin::Influence> influences(
+            binding.influences.begin() + binding.firstInfluence[v],
+            binding.influences.begin() + binding.firstInfluence[v + 1]);
+        std::sort(influences.begin(), influences.end(),
+                  [&](const auto& a, const auto& b) { return places[a.joint] < places[b.joint]; });
+        for (const osgSkin::Influence& influence : influences) {
             ratios.push_back({binding.joints[influence.joint].name,
                               static_cast<double>(influence.bend),
                               static_cast<double>(influence.twist)});
@@ -107,6 +119,7 @@ nlohmann::json poseJson(std::size_t frame, const osgSkin::Binding& binding,
         const glm::dquat& q = transform.rotation;
         joints[binding.joints[j].name] = {{"rotation", {q.w, q.x, q.y, q.z}},
                                           {"translation", array(transform.translation)}};
+        if (transform.scale != 1.0) joints[binding.joints[j].name]["scale"] = transform.scale;
     }
     nlohmann::json result{{"frame", frame}, {"joints", std::move(joints)}};
     const std::vector<std::string>& inputs = binding.correctives.inputs;

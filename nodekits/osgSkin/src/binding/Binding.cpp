@@ -6,7 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace osgSkin {
 namespace {
@@ -43,6 +45,28 @@ void validateGradients(const Binding& binding) {
             throw Error("binding: a gradient is not finite");
 }
 
+using Indices = std::vector<std::uint32_t>;
+
+/// How many joints each has in its subtree, itself too.
+std::vector<std::size_t> subtreeSizes(const std::vector<BoundJoint>& joints) {
+    std::vector<std::size_t> sizes(joints.size(), 1);
+    for (std::size_t j = joints.size(); j-- > 1;)
+        sizes[static_cast<std::size_t>(joints[j].parent)] += sizes[j];
+    return sizes;
+}
+
+void sortSiblings(const std::vector<BoundJoint>& joints, const std::vector<std::size_t>& sizes,
+                  Indices& siblings) {
+    std::map<std::size_t, int> alike;
+    for (const std::uint32_t j : siblings) ++alike[sizes[j]];
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+        const bool aHasTwin = alike[sizes[a]] > 1, bHasTwin = alike[sizes[b]] > 1;
+        if (aHasTwin != bHasTwin) return bHasTwin;
+        return joints[a].name < joints[b].name;
+    };
+    std::stable_sort(siblings.begin(), siblings.end(), before);
+}
+
 } // namespace
 
 void Binding::validate() const {
@@ -71,6 +95,24 @@ void Binding::validate() const {
     }
     validateGradients(*this);
     correctives.validate(joints, vertices);
+}
+
+std::vector<std::uint32_t> productOrder(const std::vector<BoundJoint>& joints) {
+    std::vector<Indices> children(joints.size());
+    for (std::size_t j = 1; j < joints.size(); ++j)
+        children[static_cast<std::size_t>(joints[j].parent)].push_back(
+            static_cast<std::uint32_t>(j));
+    const std::vector<std::size_t> sizes = subtreeSizes(joints);
+    Indices order, open;
+    if (!joints.empty()) open.push_back(0);
+    while (!open.empty()) { // without recursion: chains may be as long as they like
+        const std::uint32_t j = open.back();
+        open.pop_back();
+        order.push_back(j);
+        sortSiblings(joints, sizes, children[j]);
+        open.insert(open.end(), children[j].rbegin(), children[j].rend());
+    }
+    return order;
 }
 
 } // namespace osgSkin

@@ -19,18 +19,21 @@ namespace {
 /// Joints that vertices follow in part where groups join, at most; as many as bindings have.
 constexpr std::size_t kMostJoined = 4;
 
-/// What the vertices of a group have in common: twice each joint's index, one more where they
-/// follow it in part.
+/// What the vertices of a group have in common: twice each joint's place in the product, one more
+/// where they follow it in part. Sorted.
 using Signature = std::vector<std::uint32_t>;
 
-Signature signatureOf(const Binding& binding, std::uint32_t vertex) {
+/// \param places of the joints in the product
+Signature signatureOf(const Binding& binding, const std::vector<std::uint32_t>& places,
+                      std::uint32_t vertex) {
     Signature signature;
     for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
          ++i) {
         const Influence& influence = binding.influences[i];
         if (influence.bend == 0.0f && influence.twist == 0.0f) continue;
-        signature.push_back(2 * influence.joint + (influence.isPartial() ? 1u : 0u));
+        signature.push_back(2 * places[influence.joint] + (influence.isPartial() ? 1u : 0u));
     }
+    std::sort(signature.begin(), signature.end());
     return signature;
 }
 
@@ -120,12 +123,16 @@ void joinSmall(Members& members) {
     }
 }
 
-Members groupVertices(const Binding& binding, const std::vector<std::uint32_t>& source) {
+/// \param order productOrder() of the binding's joints
+Members groupVertices(const Binding& binding, const std::vector<std::uint32_t>& order,
+                      const std::vector<std::uint32_t>& source) {
+    std::vector<std::uint32_t> places(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<std::uint32_t>(i);
     Members members;
     for (std::uint32_t v = 0; v < source.size(); ++v) {
         if (source[v] >= binding.vertexCount())
             throw Error("skin model: vertex " + std::to_string(v) + " comes from no bound vertex");
-        members[signatureOf(binding, source[v])].push_back(v);
+        members[signatureOf(binding, places, source[v])].push_back(v);
     }
     joinSmall(members);
     for (auto& [signature, vertices] : members) {
@@ -138,9 +145,10 @@ Members groupVertices(const Binding& binding, const std::vector<std::uint32_t>& 
     return members;
 }
 
-std::vector<VertexGroups::Joint> jointsOf(const Signature& signature) {
+std::vector<VertexGroups::Joint> jointsOf(const std::vector<std::uint32_t>& order,
+                                          const Signature& signature) {
     std::vector<VertexGroups::Joint> joints;
-    for (const std::uint32_t key : signature) joints.push_back({key / 2, key % 2 == 1});
+    for (const std::uint32_t key : signature) joints.push_back({order[key / 2], key % 2 == 1});
     return joints;
 }
 
@@ -159,8 +167,9 @@ VertexGroups::VertexGroups(const Binding& binding, std::vector<std::uint32_t> so
     : _binding(&binding), _source(std::move(source)) {
     binding.validate();
     _order.reserve(_source.size());
-    for (const auto& [signature, vertices] : groupVertices(binding, _source)) {
-        const std::vector<Joint> joints = jointsOf(signature);
+    const std::vector<std::uint32_t> order = productOrder(binding.joints);
+    for (const auto& [signature, vertices] : groupVertices(binding, order, _source)) {
+        const std::vector<Joint> joints = jointsOf(order, signature);
         checkPartial(joints, vertices.front());
         _groups.push_back({joints, static_cast<std::uint32_t>(_order.size()),
                            static_cast<std::uint32_t>(vertices.size())});

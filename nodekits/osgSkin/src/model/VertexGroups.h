@@ -22,7 +22,7 @@ public:
         bool partial;        ///< Influence::isPartial() of some; else followed wholly by all
     };
     struct Group {
-        std::vector<Joint> joints;     ///< that its vertices follow, in joint order
+        std::vector<Joint> joints;     ///< that its vertices follow, in productOrder()
         std::uint32_t firstVertex = 0; ///< in order()
         std::uint32_t vertexCount = 0;
     };

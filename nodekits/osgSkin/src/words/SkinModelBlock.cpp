@@ -6,6 +6,9 @@
 #include "model/SkinModelAccess.h"
 #include "words/CorrectivesWords.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace osgSkin {
 namespace {
 
@@ -47,39 +50,39 @@ std::vector<RatioGradient> takeGradients(WordReader& in, const std::vector<Influ
 } // namespace
 
 Binding bindingOf(const SkinModel& model) {
-    // Per vertex first: groups list their vertices in an order of their own.
-    std::vector<std::vector<Influence>> influences(model.vertexCount());
-    std::vector<std::vector<RatioGradient>> gradients(model.vertexCount());
+    // Per vertex first: groups list their vertices in an order of their own, and their joints in
+    // the product's.
+    std::vector<std::vector<std::pair<Influence, RatioGradient>>> influences(model.vertexCount());
     const std::vector<RatioGradient> grouped = gradientsOf(model);
     auto gradient = grouped.begin();
     for (const SkinModel::Group& group : model.groups()) {
         const SkinModel::Ratio* ratio = model.ratios().data() + group.firstRatio;
         for (std::uint32_t i = 0; i < group.vertexCount; ++i) {
-            std::vector<Influence>& list = influences[model.order()[group.firstVertex + i]];
-            std::vector<RatioGradient>& slopes = gradients[model.order()[group.firstVertex + i]];
+            auto& list = influences[model.order()[group.firstVertex + i]];
             for (std::uint32_t k = 0; k < group.linkCount; ++k) {
                 const SkinModel::Link& link = model.links()[group.firstLink + k];
                 const SkinModel::Ratio own = link.partial ? *ratio++ : SkinModel::Ratio{1.0f, 1.0f};
                 const RatioGradient slope = grouped.empty() ? RatioGradient{} : *gradient++;
                 if (own.bend == 0.0f && own.twist == 0.0f) continue; // others of the group have it
-                list.push_back({link.joint, own.bend, own.twist});
-                if (!grouped.empty()) slopes.push_back(slope);
+                list.push_back({{link.joint, own.bend, own.twist}, slope});
             }
+            std::sort(list.begin(), list.end(),
+                      [](const auto& a, const auto& b) { return a.first.joint < b.first.joint; });
         }
     }
     Binding binding;
     binding.joints = model.joints();
     binding.firstInfluence.push_back(0);
-    for (const std::vector<Influence>& list : influences) {
+    for (const auto& list : influences) {
         std::uint32_t region = 0;
-        for (const Influence& influence : list)
+        for (const auto& [influence, slope] : list) {
             if (influence.bend >= 0.5f) region = influence.joint;
+            binding.influences.push_back(influence);
+            if (!grouped.empty()) binding.gradients.push_back(slope);
+        }
         binding.regions.push_back(region);
-        binding.influences.insert(binding.influences.end(), list.begin(), list.end());
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
-    for (const std::vector<RatioGradient>& list : gradients)
-        binding.gradients.insert(binding.gradients.end(), list.begin(), list.end());
     binding.correctives = correctivesOf(model);
     return binding;
 }
