@@ -139,6 +139,39 @@ TEST(BadGltf, JointsAndWeightsAreSome) {
     expectWeights({0, 200, 1, 0}, {1, 0, -1e-8, 0}, "");
 }
 
+TEST(BadGltf, SetsOfJointsAreFourAtMost) {
+    GltfColumn column;
+    json& attributes = column.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_4"] = attributes["POSITION"];
+    expectMeshRefused(column,
+                      "malformed glTF: meshes[0].primitives[0].JOINTS_4: expected four sets "
+                      "of joints and weights at most");
+}
+
+/// A mesh that two nodes show, only one of which moves it.
+TEST(GltfMorphs, WeightsOfANodeAreItsOwn) {
+    for (const bool first : {true, false}) {
+        GltfColumn column;
+        std::vector<double> up(column.places.size(), 0.0);
+        for (std::size_t v = 0; v < up.size() / 3; ++v) up[3 * v + 1] = 100.0;
+        column.json["meshes"][0]["primitives"][0]["targets"] =
+            json::array({{{"POSITION", column.accessor("VEC3", up)}}});
+        json other;
+        for (json& node : column.json["nodes"])
+            if (node.contains("mesh")) {
+                node.erase("skin");
+                other = {{"mesh", node["mesh"]}, {"name", "other"}};
+                (first ? node : other)["weights"] = {1.0};
+            }
+        column.json["scenes"][0]["nodes"].push_back(column.node(other));
+        const osgSkin::ImportedMesh mesh = osgSkin::importMesh(column.save("weights.gltf"));
+        ASSERT_EQ(mesh.mesh.positions.size(), 2 * up.size() / 3);
+        std::size_t moved = 0;
+        for (const glm::dvec3& p : mesh.mesh.positions) moved += p.y > 50.0 ? 1u : 0u;
+        EXPECT_EQ(moved, up.size() / 3) << first;
+    }
+}
+
 TEST(BadGltf, TimesOfKeysDoNotGoBack) {
     const auto moved = [](const std::vector<double>& times, const char* interpolation) {
         GltfColumn column;

@@ -104,6 +104,16 @@ TEST(ObjDialects, FourthNumbersOfVerticesAreToldOf) {
     const test::Notices none;
     readMesh("unit.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nvn 0 0 1\nf 1 2 3\n");
     EXPECT_FALSE(none.say("fourth number")) << none.text();
+    const test::Notices before;
+    readMesh("both.obj", "v 0 0 0 0.5 1 0 0\nv 1 0 0 1 0 1 0\nv 0 1 0 1 0 0 1\nf 1 2 3\n");
+    EXPECT_TRUE(before.say("1 of 3 vertices have a fourth number that is not 1")) << before.text();
+}
+
+/// "fo", a face's outline, is the format's first name for a face.
+TEST(ObjDialects, FacesMayHaveTheirOldName) {
+    const ImportedMesh mesh =
+        readMesh("old.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nfo 2 4 3\n");
+    EXPECT_EQ(mesh.mesh.triangles().size(), 6u);
 }
 
 TEST(ObjDialects, SomeVerticesWithColoursAreToldOf) {

@@ -50,6 +50,13 @@ int greyOf(const osgSkin::MeshPart& part) {
 
 } // namespace
 
+TEST(MeshLooks, ColoursFollowTheWeightWhereThereIsOne) {
+    EXPECT_EQ(colourOf(saveLooks("seven.obj", "v 0 0 0 1 0.25 0.5 0.75\nv 1 0 0 1 0 0.5 1\n"
+                                              "v 0 1 0 1 0 0 0\nf 1 2 3\n"),
+                       0),
+              osg::Vec4(0.25f, 0.5f, 0.75f, 1.0f));
+}
+
 TEST(MeshLooks, ColoursCountTo1OrTo255) {
     const osg::Vec4 red(1, 0, 0, 1), mixed(0, 0.5f, 1, 1);
     const std::string ones = saveLooks("ones.obj", coloured("1 0 0", "0 0.5 1"));

@@ -234,6 +234,37 @@ const Hostile kHostile[] = {
     {"ClassWithoutReader", object("osgAnimation::Nothing", 1, ""),
      "class \"osgAnimation::Nothing\", expected one that"},
     {"ClassOfATerminal", object("osgAnimation::\x1b[31mRED\x07", 1, ""), "class \"osgAnimation::"},
+    {"MisspeltProperty", object("osg::Group", 1, "Nmae \"a\"\nNodeMask 0x1\n"),
+     "line 6: \"Nmae\", expected a property of osg::Group at its place"},
+    {"PropertyTwice", object("osg::Group", 1, "Name \"a\"\nName \"b\"\n"),
+     "line 7: \"Name\", expected a property of osg::Group"},
+    {"ManyInstances",
+     geometry("PrimitiveSetList 1 {\n" +
+              object("osg::DrawArrays", 7, "NumInstances 1000000000\nMode TRIANGLES\nCount 3\n") +
+              "}\n"),
+     "are shown more often than"},
+    {"FarVertex",
+     object("osg::Geometry", 1,
+            "VertexArray TRUE {\n" +
+                object("osg::Vec3Array", 8, "Binding BIND_PER_VERTEX\nvector 1 {\n0 1e30 0\n}\n") +
+                "}\n"),
+     "vertices that are not finite, or beyond -1e18 to 1e18"},
+    {"FarTransform",
+     object("osg::MatrixTransform", 1, "Matrix {\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1e39 0 0 1\n}\n"),
+     "a matrix with numbers that are not finite, or beyond -1e18 to 1e18"},
+    {"RotationOfNoLength",
+     object("osg::Group", 1,
+            "UpdateCallback TRUE {\n" +
+                object("osgAnimation::BasicAnimationManager", 2,
+                       "Animations 1 {\n" +
+                           object("osgAnimation::Animation", 3,
+                                  "Name \"a\"\nChannels 1 {\n"
+                                  "Type QuatSphericalLinearChannel {\nName \"rotate\"\n"
+                                  "TargetName \"b\"\nKeyFrameContainer TRUE 1 {\n"
+                                  "0 0 0 0 0\n}\n}\n}\n") +
+                           "}\n") +
+                "}\n"),
+     "rotations that are not of length 1"},
     {"EndsInAText", object("osg::Group", 1, "Name \"no end"), "it ends within a text"},
 };
 

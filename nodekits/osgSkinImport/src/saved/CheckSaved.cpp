@@ -5,12 +5,17 @@
 #include "saved/checks/CheckDeformed.h"
 #include "text/FileText.h"
 
+#include <osgSkin/DeformableSkin>
+#include <osgSkin/GlmTypes>
+
 #include <osg/Callback>
 #include <osg/Geometry>
 #include <osg/Group>
+#include <osg/Transform>
 #include <osgAnimation/AnimationManagerBase>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -57,6 +62,21 @@ std::string wrongIn(const osg::PrimitiveSet& set, std::size_t vertices) {
     return {};
 }
 
+bool isFinePlace(double number) {
+    return std::abs(number) <= kLargestCoordinate; // false for NaN
+}
+
+template <typename Array>
+bool areInRange(const osg::Array& array) {
+    const auto* vectors = dynamic_cast<const Array*>(&array);
+    if (vectors == nullptr) return true;
+    return std::all_of(vectors->begin(), vectors->end(), [](const auto& v) {
+        for (unsigned i = 0; i < Array::ElementDataType::num_components; ++i)
+            if (!isFinePlace(double(v[i]))) return false;
+        return true;
+    });
+}
+
 std::string wrongIn(const osg::Geometry& geometry) {
     for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
         if (!set) return "a primitive set that is none";
@@ -65,6 +85,11 @@ std::string wrongIn(const osg::Geometry& geometry) {
         std::string wrong = wrongIn(*set, vertices);
         if (!wrong.empty()) return wrong;
     }
+    if (const osg::Array* places = geometry.getVertexArray())
+        if (!areInRange<osg::Vec2Array>(*places) || !areInRange<osg::Vec3Array>(*places) ||
+            !areInRange<osg::Vec4Array>(*places) || !areInRange<osg::Vec2dArray>(*places) ||
+            !areInRange<osg::Vec3dArray>(*places) || !areInRange<osg::Vec4dArray>(*places))
+            return "vertices that are not finite, or beyond -1e18 to 1e18";
     osg::Geometry::ArrayList arrays;
     geometry.getArrayList(arrays);
     for (const osg::ref_ptr<osg::Array>& array : arrays)
@@ -73,6 +98,16 @@ std::string wrongIn(const osg::Geometry& geometry) {
             return "an array of " + std::to_string(array->getNumElements()) +
                    " elements, expected one for each of " + std::to_string(vertices) + " vertices";
     return whyNotDeformed(geometry);
+}
+
+/// Why a transform has no place for what is below it; empty where it has.
+std::string wrongIn(const osg::Transform& transform) {
+    osg::Matrixd matrix;
+    transform.computeLocalToWorldMatrix(matrix, nullptr);
+    for (int i = 0; i < 16; ++i)
+        if (!isFinePlace(matrix.ptr()[i]))
+            return "a matrix with numbers that are not finite, or beyond -1e18 to 1e18";
+    return {};
 }
 
 /// Whether OSG read a node, callback or animation and has not put it anywhere: it drops without a
@@ -89,11 +124,12 @@ double costOf(const osg::Node& node, std::map<const osg::Node*, double>& known) 
     const auto found = known.find(&node);
     if (found != known.end()) return found->second;
     double cost = 1.0;
-    if (const osg::Geometry* geometry = node.asGeometry()) {
+    const auto* skin = dynamic_cast<const DeformableSkin*>(&node);
+    if (const osg::Geometry* geometry = skin ? skin->getRestGeometry() : node.asGeometry()) {
         if (geometry->getVertexArray() != nullptr)
             cost += geometry->getVertexArray()->getNumElements();
         for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry->getPrimitiveSetList())
-            cost += set->getNumIndices();
+            cost += double(set->getNumIndices()) * std::max(1, set->getNumInstances());
     }
     if (const osg::Group* group = node.asGroup())
         for (unsigned c = 0; c < group->getNumChildren(); ++c)
@@ -114,6 +150,12 @@ void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::str
             const std::string wrong = wrongIn(*geometry);
             if (!wrong.empty())
                 failFile(path, "geometry " + inQuotes(geometry->getName()) + " (object " +
+                                   std::to_string(id) + ") has " + wrong);
+        }
+        if (const auto* transform = dynamic_cast<const osg::Transform*>(object.get())) {
+            const std::string wrong = wrongIn(*transform);
+            if (!wrong.empty())
+                failFile(path, "transform " + inQuotes(transform->getName()) + " (object " +
                                    std::to_string(id) + ") has " + wrong);
         }
         const auto* drawable = dynamic_cast<const osg::Drawable*>(object.get());

@@ -3,6 +3,8 @@
 
 #include "text/FileText.h"
 
+#include <osgDB/Registry>
+
 #include <algorithm>
 
 namespace osgSkin {
@@ -17,13 +19,17 @@ std::string SavedAscii::nextWord() {
     std::string word = _content.substr(_at, end - _at);
     _at = end;
     if (word.empty()) refuse("it ends too early");
+    _word = word;
     return word;
 }
 
 void SavedAscii::readMark(osgDB::ObjectMark& mark) {
     if (mark._name == "{") tookBegin();
+    const std::string before = _word;
     const std::string word = nextWord();
     if (word != mark._name) refuse(inQuotes(word) + ", expected " + inQuotes(mark._name));
+    if (word == "{") _open.push_back(before);
+    if (word == "}" && !_open.empty()) _open.pop_back();
 }
 
 void SavedAscii::readWrappedString(std::string& text) {
@@ -56,10 +62,16 @@ bool SavedAscii::matchString(const std::string& text) {
 }
 
 void SavedAscii::advanceToCurrentEndBracket() {
+    const std::string ofClass = _open.empty() ? std::string() : _open.back();
+    if (!_open.empty()) _open.pop_back();
     for (std::size_t open = 1; open > 0;) {
         const std::string word = nextWord();
         if (word == "{") ++open;
-        if (word == "}") --open;
+        if (word == "}" && --open == 0) break;
+        // A class that nobody knows is left out as a whole, and OSG says so.
+        if (open == 1 &&
+            osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(ofClass))
+            refuseWord(word, ("a property of " + ofClass + " at its place").c_str());
     }
 }
 

@@ -5,6 +5,9 @@
 #include "saved/SavedText.h"
 
 #include <string>
+#include <vector>
+
+#include <string>
 
 namespace osgSkin {
 
@@ -24,6 +27,9 @@ protected:
 
 private:
     void skipSpace();
+
+    std::string _word;              ///< the last that was read
+    std::vector<std::string> _open; ///< what stood before each bracket that is open
 };
 
 } // namespace osgSkin

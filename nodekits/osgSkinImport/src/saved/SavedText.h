@@ -43,9 +43,10 @@ protected:
     /// What is called `expected` here, in the letters of OSG's classes.
     virtual std::string nextName(const std::string& expected) = 0;
 
-private:
     /// \throw osgSkin::Error with the line, without the file's name
     [[noreturn]] void refuseWord(const std::string& word, const char* expected) const;
+
+private:
     long number();
     bool truth();
     int valueOf(const std::string& table);

@@ -32,6 +32,9 @@ constexpr AttributeKind kAttributes[] = {
     {"JOINTS_", 4, {"VEC4", "VEC4"}},   {"WEIGHTS_", 4, {"VEC4", "VEC4"}},
 };
 
+/// Channels times nodes, for each sample that a file may ask for.
+constexpr double kChannelSteps = 400.0;
+
 const AttributeKind* kindOfAttribute(const std::string& name) {
     for (const AttributeKind& kind : kAttributes) {
         if (kind.sets == 0 && name == kind.name) return &kind;
@@ -59,6 +62,7 @@ public:
         addNodes(result);
         addScenes(result);
         addAnimations(result);
+        checkChannels();
         _parts.checkEntries();
         if (_unfinished > 0)
             tellOf(_path, "corners that make no whole triangle are left out, of " +
@@ -83,6 +87,9 @@ private:
         if (!attributes.contains("POSITION")) return; // nothing to be drawn
         const std::size_t vertices =
             _parts.count(_parts.accessor(attributes.at("POSITION"), where + ".POSITION"));
+        for (const char* fifth : {"JOINTS_4", "WEIGHTS_4"})
+            if (attributes.contains(fifth))
+                _parts.fail(where + "." + fifth, "four sets of joints and weights at most");
         for (const auto& [name, value] : attributes.items()) {
             const AttributeKind* kind = kindOfAttribute(name);
             if (kind == nullptr) continue;
@@ -398,13 +405,26 @@ private:
                 _parts.take(keys[sampler], where + ".channels");
                 animation["channels"].push_back({{"sampler", sampler}, {"target", kept}});
             }
+            _channels += animation["channels"].size();
             _parts.addEntries(animation["channels"].size());
             result["animations"].push_back(animation);
         });
     }
 
+    /// Assimp looks for each channel's node by its name, one by one.
+    void checkChannels() {
+        const std::size_t nodes = _parts.size("nodes");
+        const double steps = double(_channels) * double(nodes);
+        const double most = kChannelSteps * double(_parts.limits().samplesOf(_parts.bytes()));
+        if (steps > most)
+            failFile(_path, std::to_string(_channels) + " animation channels of " +
+                                std::to_string(nodes) +
+                                " nodes, expected fewer (option maxSamples)");
+    }
+
     const std::string& _path;
     GltfParts _parts;
+    std::size_t _channels = 0;    ///< of all animations
     std::size_t _unfinished = 0;  ///< primitives whose last triangle lacks corners
     std::size_t _placedTwice = 0; ///< nodes of a matrix and more
     std::string _otherPath;       ///< the first that a channel has and none knows

@@ -84,7 +84,11 @@ private:
                 node["mesh"] = meshes.size() - 1;
             }
             useOf.emplace(mesh, use);
-            if (!shown.is_null()) meshes.at(node.at("mesh").get<std::size_t>())["weights"] = shown;
+            json& own = meshes.at(node.at("mesh").get<std::size_t>());
+            if (shown.is_null())
+                own.erase("weights"); // another node's
+            else
+                own["weights"] = shown;
         }
     }
 

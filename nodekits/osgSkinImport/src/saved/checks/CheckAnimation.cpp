@@ -12,26 +12,53 @@
 namespace osgSkin {
 namespace {
 
-enum class Times { NotOfThisKind, Fine, Wrong };
+enum class Keys { NotOfThisKind, Fine, WrongTimes, WrongValues };
+
+bool isFine(double value) {
+    return std::isfinite(value);
+}
+
+/// OSG blends rotations as they are: one of another length would scale what it turns.
+bool isFine(const osg::Quat& rotation) {
+    return std::abs(rotation.length() - 1.0) < 0.1; // false for NaN too
+}
 
 template <typename Value>
-Times timesOf(const osgAnimation::KeyframeContainer& container) {
+auto isFine(const Value& vector) -> decltype(bool(Value::num_components)) {
+    for (int i = 0; i < int(Value::num_components); ++i)
+        if (!std::isfinite(vector[i])) return false;
+    return true;
+}
+
+bool isFine(const osg::Matrixf& matrix) {
+    return matrix.valid();
+}
+
+template <typename Value>
+bool isFine(const osgAnimation::TemplateCubicBezier<Value>& bezier) {
+    return isFine(bezier.getPosition()) && isFine(bezier.getControlPointIn()) &&
+           isFine(bezier.getControlPointOut());
+}
+
+template <typename Value>
+Keys keysOf(const osgAnimation::KeyframeContainer& container) {
     const auto* keys =
         dynamic_cast<const osgAnimation::TemplateKeyframeContainer<Value>*>(&container);
-    if (keys == nullptr) return Times::NotOfThisKind;
+    if (keys == nullptr) return Keys::NotOfThisKind;
     double before = -HUGE_VAL;
     for (const auto& key : *keys) {
-        if (!std::isfinite(key.getTime()) || key.getTime() < before) return Times::Wrong;
+        if (!std::isfinite(key.getTime()) || key.getTime() < before) return Keys::WrongTimes;
+        if (!isFine(key.getValue())) return Keys::WrongValues;
         before = key.getTime();
     }
-    return Times::Fine;
+    return Keys::Fine;
 }
 
 template <typename... Values>
-bool areInOrder(const osgAnimation::KeyframeContainer& container) {
-    Times found = Times::NotOfThisKind;
-    ((found = found == Times::NotOfThisKind ? timesOf<Values>(container) : found), ...);
-    return found == Times::Fine;
+Keys lookAt(const osgAnimation::KeyframeContainer& container) {
+    Keys found = Keys::NotOfThisKind;
+    ((found = found == Keys::NotOfThisKind ? keysOf<Values>(container) : found), ...);
+    return found;
 }
 
 } // namespace
@@ -46,9 +73,13 @@ std::string whyNotPlayed(const osgAnimation::Animation& animation) {
         const KeyframeContainer* keys =
             sampler != nullptr ? sampler->getKeyframeContainer() : nullptr;
         if (keys == nullptr || keys->size() == 0) return which + " without keys";
-        if (!areInOrder<float, double, osg::Vec2, osg::Vec3, osg::Vec4, osg::Quat, osg::Matrixf,
-                        FloatCubicBezier, DoubleCubicBezier, Vec2CubicBezier, Vec3CubicBezier,
-                        Vec4CubicBezier>(*keys))
+        const Keys found = lookAt<float, double, osg::Vec2, osg::Vec3, osg::Vec4, osg::Quat,
+                                  osg::Matrixf, FloatCubicBezier, DoubleCubicBezier,
+                                  Vec2CubicBezier, Vec3CubicBezier, Vec4CubicBezier>(*keys);
+        if (found == Keys::WrongValues)
+            return which + " with values of keys that are not finite, or rotations that are not "
+                           "of length 1";
+        if (found != Keys::Fine)
             return which + " with times of keys that are not finite or not in order";
     }
     return {};

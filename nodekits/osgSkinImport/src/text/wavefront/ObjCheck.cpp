@@ -67,8 +67,8 @@ public:
         if (kind >= 0) {
             ++_soFar.of[static_cast<std::size_t>(kind)];
             numbers(keyword, rest);
-        } else if (keyword == "f") {
-            keep(keyword, face(rest));
+        } else if (keyword == "f" || keyword == "fo") { // its name in the format's first version
+            keep("f", face(rest));
         } else if (keyword == "usemtl") {
             const std::string name = materialName(rest);
             keep(keyword, ' ' + name);
@@ -93,7 +93,8 @@ private:
         const std::size_t expected = keyword == "vt" ? 1 : 3;
         _checked.append(keyword);
         std::size_t k = 0;
-        double last = 1.0;
+        double weight = 1.0;
+        std::size_t weightAt = 0, weightEnd = 0;
         for (; k < kMostNumbers; ++k) {
             const std::string_view word = takeWord(rest);
             double value = 0.0;
@@ -101,8 +102,13 @@ private:
             // A body is drawn well enough without a broken normal: all are computed then.
             const bool isFine = broken ? keyword != "v" : isNumber;
             if (isFine) {
-                last = broken ? 0.0 : value;
-                addNumber(word, last, _checked);
+                const std::size_t at = _checked.size();
+                addNumber(word, broken ? 0.0 : value, _checked);
+                if (k + 1 == kPlaceAndWeight) {
+                    weight = broken ? 0.0 : value;
+                    weightAt = at;
+                    weightEnd = _checked.size();
+                }
             }
             if (!isFine && k >= expected) break;
             if (isFine) continue;
@@ -112,7 +118,10 @@ private:
                          " finite numbers");
         }
         if (keyword == "v" && k >= kPlaceAndColour) ++_coloured;
-        if (keyword == "v" && k == kPlaceAndWeight && last != 1.0) ++_weighted;
+        const bool all = k == kMostNumbers; // a place, its weight and a colour
+        if (keyword == "v" && (all || k == kPlaceAndWeight) && weight != 1.0) ++_weighted;
+        // tinyobjloader takes the weight for red.
+        if (keyword == "v" && all) _checked.erase(weightAt, weightEnd - weightAt);
         _checked += '\n';
     }
 

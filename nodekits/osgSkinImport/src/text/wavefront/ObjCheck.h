@@ -13,7 +13,7 @@ struct CheckedObj {
     std::string text; ///< the lines that were checked, in their order and with their own digits
     std::set<std::string> materials; ///< that it uses, called as checkMtl() calls them
     std::size_t colouredVertices = 0;
-    std::size_t weightedVertices = 0; ///< with a fourth number, alone, that is not 1
+    std::size_t weightedVertices = 0; ///< with a fourth number of 4 or 7 that is not 1
 };
 
 /// Checks the vertices, faces and materials of an OBJ file before tinyobjloader parses it.
