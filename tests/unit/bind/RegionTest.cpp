@@ -227,6 +227,65 @@ TEST(Regions, JointsBesideEachOtherInOnePointHaveNone) {
     EXPECT_EQ(regionOf(report, "leftHip"), nullptr);
     EXPECT_EQ(regionOf(report, "rightHip"), nullptr);
     EXPECT_EQ(report.regions.size(), 3u);
+    EXPECT_NE(report.text().find("\"leftHip\" and \"rightHip\" are in one place"),
+              std::string::npos);
+}
+
+/// A root on the floor, as games have: what it moves is whole, and all of it turns with the hips.
+TEST(Regions, ARootOutsideHasNoSkin) {
+    RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.0, 6.0, 7.0}, 7.6);
+    const char* const names[] = {"Hips", "Spine", "Neck", "Head"};
+    for (std::size_t j = 0; j < 4; ++j) skeleton.joints[j].name = names[j];
+    RestSkeleton with;
+    with.add("ground", -1, glm::dvec3(0.0, -3.0, 0.0));
+    for (RestJoint joint : skeleton.joints) {
+        ++joint.parent;
+        with.joints.push_back(joint);
+    }
+    for (const BindOptions::Method method :
+         {BindOptions::Method::Smooth, BindOptions::Method::Paper}) {
+        BindOptions options;
+        options.method = method;
+        const Binding binding = bind(shapes::cylinder(), with, options);
+        EXPECT_EQ(std::count(binding.regions.begin(), binding.regions.end(), 0u), 0);
+        for (const Influence& influence : binding.influences)
+            if (influence.joint == 1) {
+                EXPECT_EQ(influence.bend, 1.0f);
+                EXPECT_EQ(influence.twist, 1.0f);
+            }
+    }
+}
+
+/// Targets, twists and copies of another rig stand where a joint stands, and take nothing from it.
+TEST(Regions, AHelperInAJointsPlaceTakesNoSkin) {
+    const RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.0, 7.0}, 7.6);
+    const Binding plain = bind(shapes::cylinder(), skeleton);
+    RestSkeleton with = skeleton;
+    with.add("target", 0, skeleton.joints[1].centre);
+    BindReport report;
+    const Binding binding = bind(shapes::cylinder(), with, {}, &report);
+    EXPECT_EQ(binding.regions, plain.regions);
+    EXPECT_EQ(regionOf(report, "target"), nullptr);
+    // Links of a twist, the first of which stands in the joint's place.
+    RestSkeleton known = skeleton;
+    const char* const names[] = {"LeftArm", "LeftForeArm", "LeftHand"};
+    for (std::size_t j = 0; j < 3; ++j) known.joints[j].name = names[j];
+    RestSkeleton twisted = known;
+    const int twist = twisted.add("LeftForeArmTwist", 0, skeleton.joints[1].centre);
+    twisted.add("LeftForeArmTwist1", twist, glm::dvec3(0.0, 5.5, 0.0));
+    EXPECT_EQ(bind(shapes::cylinder(), twisted).regions, bind(shapes::cylinder(), known).regions);
+
+    // The other way round: the helper comes first in its file.
+    RestSkeleton first;
+    first.joints.push_back(skeleton.joints[0]);
+    first.add("target", 0, skeleton.joints[1].centre);
+    for (std::size_t j = 1; j < skeleton.joints.size(); ++j) {
+        first.joints.push_back(skeleton.joints[j]);
+        if (first.joints.back().parent > 0) ++first.joints.back().parent;
+    }
+    const Binding other = bind(shapes::cylinder(), first);
+    for (std::size_t v = 0; v < plain.regions.size(); ++v)
+        ASSERT_EQ(other.regions[v], plain.regions[v] == 0 ? 0u : plain.regions[v] + 1) << v;
 }
 
 TEST(Regions, WithoutAnyJointInsideGoToTheNearestBone) {

@@ -33,20 +33,47 @@ std::size_t coincident(const std::vector<PlannedJoint>& joints, std::size_t join
     return kNone;
 }
 
+/// How much of a body's joint one is beside another in the same point: one that is recognised more
+/// than a helper (a target, a twist, another rig's copy), one that leads on more than one that
+/// ends.
+int standing(const RestSkeleton& skeleton, const JointRoles& roles, std::size_t joint) {
+    return (roles.roles[joint].empty() ? 0 : 2) +
+           (skeleton.children(static_cast<int>(joint)).empty() ? 0 : 1);
+}
+
 /// Every joint that is not skipped and has a centre of its own gets a region. Of joints in one
-/// point the topmost gets it; none where they stand beside each other (two hips in the middle).
-void giveRegions(const RestSkeleton& skeleton, double tolerance,
-                 std::vector<PlannedJoint>& joints) {
+/// point the topmost gets it. Where they stand beside each other, the one that is more of a joint;
+/// none where they are alike (two hips in the middle).
+void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double tolerance,
+                 std::vector<PlannedJoint>& joints, std::vector<std::string>& notes) {
     std::vector<std::size_t> rivals;
+    std::vector<bool> helps(joints.size(), false); // beside a joint that is more of one
     for (std::size_t j = 0; j < joints.size(); ++j) {
         if (joints[j].options.skip) continue;
         const std::size_t other = coincident(joints, j, tolerance);
-        if (other == kNone)
-            joints[j].holdsRegion = true;
-        else if (!skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(other)))
+        joints[j].holdsRegion = other == kNone;
+        if (other == kNone || skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(other)))
+            continue;
+        const int more = standing(skeleton, roles, j) - standing(skeleton, roles, other);
+        if (more == 0) {
             rivals.push_back(other);
+            notes.push_back("joints \"" + skeleton.joints[other].name + "\" and \"" +
+                            skeleton.joints[j].name +
+                            "\" are in one place, neither has a region of its own");
+            continue;
+        }
+        helps[more > 0 ? other : j] = true;
+        joints[other].holdsRegion = more < 0;
+        joints[j].holdsRegion = more > 0;
     }
     for (const std::size_t rival : rivals) joints[rival].holdsRegion = false;
+    // What hangs on a helper helps, too: the further links of a twist.
+    for (std::size_t j = 1; j < joints.size(); ++j) {
+        if (!helps[static_cast<std::size_t>(skeleton.joints[j].parent)]) continue;
+        if (!roles.roles[j].empty()) continue;
+        helps[j] = true;
+        joints[j].holdsRegion = false;
+    }
 }
 
 /// Joints inside the skin seed their regions. Outside, a joint in the middle of a chain claims the
@@ -133,9 +160,11 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     setJointAxes(skeleton, tolerance, joints);
     markTrunk(joints);
 
-    giveRegions(skeleton, tolerance, joints);
+    giveRegions(skeleton, roles, tolerance, joints, notes);
     findSeeding(skeleton, mesh, joints, notes);
     giveRegionsToRigidJoints(joints);
+    for (std::size_t j = 1; j < joints.size(); ++j)
+        joints[j].topmost = roles.roles[j] == "Hips" && !joints[regionAbove(joints, j)].holdsRegion;
     return joints;
 }
 

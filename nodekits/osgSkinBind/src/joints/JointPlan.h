@@ -30,6 +30,7 @@ struct PlannedJoint {
     int child = -1;           ///< the child that continues the chain, -1 for a leaf
     int rigid = -1;           ///< the rigid joint at or above, -1 where there is none
     bool extremity = false;   ///< a topmost head, hand or foot
+    bool topmost = false;     ///< the hips, with no region above them: a root on the floor
     bool trunk = false;       ///< of the trunk: spine, hips, collar bones
     bool collarBone = false;  ///< between the spine and an upper arm
     bool seeds = false;       ///< its centre takes part in the Delaunay step

@@ -25,6 +25,7 @@ std::vector<Follows> followersOf(const std::vector<PlannedJoint>& joints, std::s
     const std::vector<bool> inside = subtreeOf(joints, joint);
     for (std::size_t r = 0; r < joints.size(); ++r)
         if (inside[r]) regions[r] = Follows::Fully;
+    if (joints[joint].topmost) return regions;
     for (const std::size_t r : {regionAbove(joints, joint), joint, regionBelow(joints, joint)})
         regions[r] = Follows::Planes;
     return regions;

@@ -29,7 +29,7 @@ void trimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints
                  std::vector<std::uint32_t>& jointOf) {
     const std::vector<double> radii = limbRadii({mesh, joints, jointOf});
     for (std::uint32_t j = static_cast<std::uint32_t>(joints.size()); j-- > 1;) {
-        if (!joints[j].holdsRegion || joints[j].rigid >= 0) continue;
+        if (!joints[j].holdsRegion || joints[j].rigid >= 0 || joints[j].topmost) continue;
         const glm::dvec3 normal = planeNormal(joints[j]);
         const double reach = reachFromBone(joints[j], radii);
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
