@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "Snapshots.h"
 
+#include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
-#include <osgDB/WriteFile>
+#include <osgDB/Registry>
 #include <osgViewer/Viewer>
 
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace example {
@@ -91,10 +95,23 @@ osg::ref_ptr<osg::Image> Snapshots::take(double time) {
 }
 
 void Snapshots::write(double time, const std::string& file) {
-    const osg::ref_ptr<osg::Image> image = take(time);
+    writePicture(*take(time), file);
+}
+
+void writePicture(const osg::Image& image, const std::string& file) {
     osgDB::makeDirectoryForFile(file);
-    if (!osgDB::writeImageFile(*image, file))
-        throw std::runtime_error(file + ": cannot be written");
+    // OSG's writers of pictures tell of no full disk: encoded first, then written.
+    osgDB::ReaderWriter* const writer = osgDB::Registry::instance()->getReaderWriterForExtension(
+        osgDB::getLowerCaseFileExtension(file));
+    std::ostringstream encoded;
+    if (writer == nullptr || !writer->writeImage(image, encoded, nullptr).success())
+        throw std::runtime_error(file + ": no picture of a format that can be written");
+    std::ofstream out(file, std::ios::binary);
+    out << encoded.str();
+    out.close();
+    if (out) return;
+    if (std::filesystem::is_regular_file(file)) std::remove(file.c_str());
+    throw std::runtime_error(file + ": cannot be written");
 }
 
 std::string pictureName(const std::string& folder, const std::string& prefix, unsigned int index) {

@@ -41,6 +41,10 @@ private:
     std::unique_ptr<Impl> _impl;
 };
 
+/// Writes a picture whole or not at all; its folder is made if need be.
+/// \throw std::runtime_error where it cannot be written, or where no writer knows its extension
+void writePicture(const osg::Image& image, const std::string& file);
+
 /// PREFIX_00.png, PREFIX_01.png, ... in `folder`, which is made if need be.
 std::string pictureName(const std::string& folder, const std::string& prefix, unsigned int index);
 

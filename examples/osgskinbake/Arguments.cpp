@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Arguments.h"
 
+#include "MaterialLibrary.h"
+
 #include <CLI/CLI.hpp>
+#include <osgDB/FileNameUtils>
 
 #include <charconv>
 #include <cmath>
@@ -110,15 +113,44 @@ void settleRest(const CLI::Option& rest, Arguments& arguments) {
 }
 
 /// What is written first would be written over.
+std::string extensionOf(const std::string& file) {
+    return osgDB::getLowerCaseFileExtension(file);
+}
+
+/// The library that is written beside an OBJ file or sequence.
+std::string libraryOf(const std::string& file) {
+    if (extensionOf(file) != "obj") return {};
+    const std::string folder = osgDB::getFilePath(file), name = libraryName(file);
+    return folder.empty() ? name : osgDB::concatPaths(folder, name);
+}
+
+/// Whether a sequence of this name has a frame called `file`.
+bool isFrameOf(const std::string& pattern, const std::string& file) {
+    std::smatch match;
+    if (!std::regex_search(pattern, match, numberPattern())) return false;
+    const std::string before = match.prefix(), after = match.suffix();
+    if (file.size() <= before.size() + after.size() || file.compare(0, before.size(), before) != 0)
+        return false;
+    const std::string number =
+        file.substr(before.size(), file.size() - before.size() - after.size());
+    return file.compare(file.size() - after.size(), after.size(), after) == 0 &&
+           number.find_first_not_of("0123456789 ") == std::string::npos;
+}
+
 void requireDifferentFiles(const Arguments& arguments) {
     std::set<std::filesystem::path> files;
-    for (const std::string& file :
-         {arguments.out, arguments.rest, arguments.binding, arguments.pose})
-        if (!file.empty() &&
-            !files.insert(std::filesystem::absolute(file).lexically_normal()).second)
+    const std::string& out = arguments.out;
+    // The rest pose and the frames may share a library: it is the same.
+    const std::string ofOut = libraryOf(out), ofRest = libraryOf(arguments.rest);
+    for (const std::string& file : {out, arguments.rest, arguments.binding, arguments.pose, ofOut,
+                                    ofRest == ofOut ? std::string() : ofRest}) {
+        if (file.empty()) continue;
+        const bool isFrame = file != out && isFrameOf(out, file);
+        if (isFrame || !files.insert(std::filesystem::absolute(file).lexically_normal()).second)
             throw UsageError{"expected a file of its own for each of --out, --rest, --binding and "
-                             "--pose, found \"" +
+                             "--pose, and for the materials of the first two, found \"" +
                              file + "\" twice"};
+    }
 }
 
 } // namespace
@@ -160,7 +192,8 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
                    "on or off: motion files' arms are turned out of the body; as the character "
                    "says by default")
         ->check(CLI::IsMember({"on", "off"}));
-    app.add_option("--tense", tensed, "NAME=A: tenses a muscle by A, 0 to 1, in all frames");
+    app.add_option("--tense", tensed, "NAME=A: tenses a muscle by A, 0 to 1, in all frames")
+        ->allow_extra_args(false);
     app.add_option("--out", arguments.out,
                    "the frames' files, like frame_%04d.obj or .ply; or one for all: .pc2, .glb");
     CLI::Option* rest =
@@ -187,6 +220,10 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
         throw UsageError{"expected a CHARACTER, a .skin file or a rigged model"};
     const bool other = rest->count() > 0 || !arguments.binding.empty() || !arguments.pose.empty();
     if (arguments.out.empty() && !other) arguments.out = kDefaultOut;
+    const std::string kind = extensionOf(arguments.rest);
+    if (kind == "ply" || kind == "glb" || kind == "gltf" || kind == "pc2")
+        throw UsageError{"--rest: expected a file whose name ends in .obj, found \"" +
+                         arguments.rest + "\""};
     requireDifferentFiles(arguments);
     return arguments;
 }

@@ -65,7 +65,8 @@ void keepFiles(const std::vector<std::string>& files) {
 }
 
 void removeUnfinishedOnSignals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is one that cannot be written
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         const auto before = std::signal(signal, removeAndGo);
         if (before == SIG_IGN) std::signal(signal, SIG_IGN); // as under nohup
     }

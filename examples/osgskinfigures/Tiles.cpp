@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Tiles.h"
 
-#include <osgDB/WriteFile>
-
 #include <iostream>
-#include <stdexcept>
 
 namespace figures {
 
@@ -25,7 +22,7 @@ Tile photograph(osg::Node* scene, const example::View& view, int width, int heig
 }
 
 void writePicture(const osg::Image& image, const std::string& file) {
-    if (!osgDB::writeImageFile(image, file)) throw std::runtime_error(file + ": cannot be written");
+    example::writePicture(image, file);
     std::cout << file << std::endl;
 }
 

@@ -129,6 +129,19 @@ TEST(AutoPlayManager, PlaysTheFirstClipUnlessAnotherPlays) {
     }
 }
 
+/// Who comes into the scene late plays from the start, and a clip that is played once is.
+TEST(AutoPlayManager, PlaysFromItsFirstUpdateOn) {
+    const osgAnimation::AnimationList some = clips();
+    some[0]->setName("first");
+    some[0]->setPlayMode(osgAnimation::Animation::ONCE);
+    const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
+    manager->registerAnimations(some);
+    manager->update(100.0);
+    EXPECT_TRUE(manager->isPlaying("first"));
+    manager->update(100.0 + 0.5 * some[0]->getDuration());
+    EXPECT_TRUE(manager->isPlaying("first"));
+}
+
 /// A channel moves one target: a rider's bone would take it from the horse's of the same name.
 TEST(AutoPlayManager, LeavesACharacterBelowTheSkeletonToItsOwnManager) {
     const auto boneOf = [] {

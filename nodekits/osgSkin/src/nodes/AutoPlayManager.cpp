@@ -35,6 +35,7 @@ void AutoPlayManager::update(double time) {
         _started = true;
         const bool playing = std::any_of(_animationsPlaying.begin(), _animationsPlaying.end(),
                                          [](const auto& layer) { return !layer.second.empty(); });
+        _lastUpdate = time; // when what is played begins
         if (!playing && !_animations.empty()) playAnimation(_animations.front());
     }
     osgAnimation::BasicAnimationManager::update(time);

@@ -7,16 +7,31 @@
 #include <osgSkinRig/Motion>
 #include <osgSkinRig/Prop>
 
+#include <cmath>
+
 namespace osgSkin {
+namespace {
+
+/// How many of its samples a prop loses, so that it goes on beside its motion: the motion's may be
+/// taken at another rate.
+std::size_t skippedOf(const CharacterSource& source, const CharacterMotion& motion,
+                      const SkinFile::Prop& prop, const osgDB::Options* options) {
+    std::size_t skip = 0;
+    for (const SkinFile::MotionEntry& entry : source.motions)
+        if (entry.name == prop.motion) skip = entry.skipFrames;
+    if (skip == 0) return 0;
+    const double rate = motion.clip.frameTime / importMotion(prop.file, 0, {}, options).frameTime;
+    return static_cast<std::size_t>(std::llround(double(skip) * rate));
+}
+
+} // namespace
 
 void addProps(CharacterSource& source, const CharacterMotion& motion, osg::Group& parent,
               PropMeshes& meshes, const osgDB::Options* options) {
     for (std::size_t i = 0; i < source.props.size(); ++i) {
         const SkinFile::Prop& prop = source.props[i];
         if (prop.motion != motion.name()) continue;
-        std::size_t skip = 0;
-        for (const SkinFile::MotionEntry& entry : source.motions)
-            if (entry.name == prop.motion) skip = entry.skipFrames;
+        const std::size_t skip = skippedOf(source, motion, prop, options);
         // Bones and props share one table of animation targets, so the name must not be a joint's.
         const std::string name = "prop:" + prop.motion + ":" + std::to_string(i);
         const ImportedMesh& mesh = meshes.of(prop.mesh);
