@@ -3,7 +3,6 @@
 
 #include "Bytes.h"
 
-
 #include <algorithm>
 #include <vector>
 

@@ -267,11 +267,11 @@ TEST(Regions, AHelperInAJointsPlaceTakesNoSkin) {
     EXPECT_EQ(binding.regions, plain.regions);
     EXPECT_EQ(regionOf(report, "target"), nullptr);
     // Links of a twist, the first of which stands in the joint's place.
-    RestSkeleton known = skeleton;
-    const char* const names[] = {"LeftArm", "LeftForeArm", "LeftHand"};
-    for (std::size_t j = 0; j < 3; ++j) known.joints[j].name = names[j];
+    RestSkeleton known = shapes::chainAlongY({1.1, 2.5, 4.0, 7.0}, 7.6);
+    const char* const names[] = {"LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand"};
+    for (std::size_t j = 0; j < 4; ++j) known.joints[j].name = names[j];
     RestSkeleton twisted = known;
-    const int twist = twisted.add("LeftForeArmTwist", 0, skeleton.joints[1].centre);
+    const int twist = twisted.add("LeftForeArmTwist", 1, known.joints[2].centre);
     twisted.add("LeftForeArmTwist1", twist, glm::dvec3(0.0, 5.5, 0.0));
     EXPECT_EQ(bind(shapes::cylinder(), twisted).regions, bind(shapes::cylinder(), known).regions);
 
