@@ -44,6 +44,7 @@ SelfIntersections::pairs(const compare::Points& posed) {
     std::vector<std::pair<Surface::Face_index, Surface::Face_index>> found;
     CGAL::Polygon_mesh_processing::self_intersections(_mesh->surface, std::back_inserter(found));
     std::vector<std::pair<std::size_t, std::size_t>> result;
+    result.reserve(found.size());
     for (const auto& [a, b] : found) result.push_back(std::minmax<std::size_t>(a, b));
     std::sort(result.begin(), result.end());
     return result;

@@ -9,8 +9,10 @@
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportRig>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -110,6 +112,26 @@ TEST(GltfNames, EndWhereTheyEnd) {
     EXPECT_EQ(rig.rest.joints[1].name, "bone_b");
     EXPECT_EQ(rig.body.weights.size(), 3u);
     ASSERT_EQ(rig.animations.size(), 1u);
+}
+
+/// Of two nodes called alike the one that moves keeps its name.
+TEST(GltfNames, GoToWhatMovesFirst) {
+    GltfColumn column;
+    column.bend();
+    json& nodes = column.json["nodes"];
+    json& roots = column.json["scenes"][0]["nodes"];
+    const json before = roots;
+    const std::size_t moved = column.node({{"name", "twin"}, {"children", before}});
+    const std::size_t still = column.node({{"name", "twin"}, {"children", {moved}}});
+    std::swap(nodes[moved], nodes[still]); // the one that stands comes first in the file
+    nodes[moved]["children"] = {still};
+    roots = {moved};
+    column.animate("bend", still, "translation", {0.0, 1.0}, {0, 0, 0, 0, 1, 0});
+    const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("twins.gltf"));
+    std::vector<std::string> targets;
+    for (const auto& channel : rig.animations.at(0)->getChannels())
+        targets.push_back(channel->getTargetName());
+    EXPECT_GT(std::count(targets.begin(), targets.end(), "twin"), 0);
 }
 
 TEST(GltfNames, AreAsLongAsTheyMayBe) {

@@ -60,14 +60,19 @@ void tellGaps(CharacterSource& source, const VertexWeights& weights) {
 /// Tells where a mesh' own weights are not what its body is bound by.
 void tellUnused(CharacterSource& source, const VertexWeights& weights) {
     const std::size_t gaps = gapsOf(weights);
-    if (gaps == 0) return; // all are one joint's: there is nothing to keep
-    const bool isBare = gaps == weights.size();
-    takeNote(source.notes,
-             source.meshFile + ": " +
-                 (isBare ? "no weight is above 0, the body is bound by regions"
-                         : std::to_string(gaps) + " of " + std::to_string(weights.size()) +
-                               " vertices have no weights, the body is bound by regions "
-                               "(a .skin file's \"bind\": \"weights\" keeps to them)"));
+    if (gaps == weights.size()) {
+        takeNote(source.notes,
+                 source.meshFile + ": no weight is above 0, the body is bound by regions");
+        return;
+    }
+    if (gaps == 0 && source.rest.joints.size() == 1) return; // which all follow either way
+    const std::string why = gaps == 0
+                                ? "all vertices follow one joint"
+                                : std::to_string(gaps) + " of " + std::to_string(weights.size()) +
+                                      " vertices have no weights";
+    takeNote(source.notes, source.meshFile + ": " + why +
+                               ", the body is bound by regions (a .skin file's \"bind\": "
+                               "\"weights\" keeps to them)");
 }
 
 /// Throws osgSkin::Error where binding would take a minute.

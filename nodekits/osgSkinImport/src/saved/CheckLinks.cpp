@@ -28,9 +28,14 @@ void checkLinks(const SavedStream::IdentifierMap& objects, const ReadLimits& lim
     for (const auto& [id, object] : objects) {
         const auto* animation = dynamic_cast<const osgAnimation::Animation*>(object.get());
         if (animation == nullptr) continue;
+        std::size_t idle = 0;
+        std::string first;
         for (const osg::ref_ptr<Channel>& channel : animation->getChannels()) {
             const auto found = moved.find(channel->getTargetName());
-            if (found == moved.end() || found->first.empty()) continue; // OSG links none of no name
+            if (found == moved.end() || found->first.empty()) { // OSG links none of no name
+                if (idle++ == 0) first = channel->getTargetName();
+                continue;
+            }
             for (AnimationUpdateCallbackBase* callback : found->second) {
                 if (++links > limits.samples)
                     failFile(path, "channels move more things called alike than " +
@@ -44,6 +49,11 @@ void checkLinks(const SavedStream::IdentifierMap& objects, const ReadLimits& lim
                                        " is of another kind than what it moves");
             }
         }
+        if (idle > 0)
+            tellOf(path, "animation " + inQuotes(animation->getName()) + ": " +
+                             std::to_string(idle) + " of its " +
+                             std::to_string(animation->getChannels().size()) +
+                             " channels move nothing that is here, the first " + inQuotes(first));
     }
 }
 

@@ -72,7 +72,7 @@ bool areInRange(const osg::Array& array) {
     if (vectors == nullptr) return true;
     return std::all_of(vectors->begin(), vectors->end(), [](const auto& v) {
         for (unsigned i = 0; i < Array::ElementDataType::num_components; ++i)
-            if (!isFinePlace(double(v[i]))) return false;
+            if (!isFinePlace(double(v.ptr()[i]))) return false;
         return true;
     });
 }

@@ -26,7 +26,7 @@ bool isFine(const osg::Quat& rotation) {
 template <typename Value>
 auto isFine(const Value& vector) -> decltype(bool(Value::num_components)) {
     for (int i = 0; i < int(Value::num_components); ++i)
-        if (!std::isfinite(vector[i])) return false;
+        if (!std::isfinite(vector.ptr()[i])) return false;
     return true;
 }
 
