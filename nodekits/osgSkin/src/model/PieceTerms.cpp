@@ -57,9 +57,11 @@ std::map<std::uint32_t, PieceTerms::Share> PieceTerms::shares() {
 
 /// The place in _ranges of a joint; the number of ranges where it is not there.
 std::size_t PieceTerms::placeOf(int joint) const {
-    const auto at = std::lower_bound(_ranges.begin(), _ranges.end(), joint,
-                                     [](const PieceRatios& range, int wanted) {
-                                         return static_cast<int>(range.joint) < wanted;
+    if (joint < 0) return _ranges.size();
+    const std::uint32_t place = _vertices.place(static_cast<std::uint32_t>(joint));
+    const auto at = std::lower_bound(_ranges.begin(), _ranges.end(), place,
+                                     [this](const PieceRatios& range, std::uint32_t wanted) {
+                                         return _vertices.place(range.joint) < wanted;
                                      });
     return at != _ranges.end() && static_cast<int>(at->joint) == joint
                ? static_cast<std::size_t>(at - _ranges.begin())

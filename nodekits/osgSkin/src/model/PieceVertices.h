@@ -50,7 +50,14 @@ public:
     explicit PieceVertices(const SkinModel& of) : model(of) {
         for (std::uint32_t g = 0; g < model.groups().size(); ++g)
             _group.insert(_group.end(), model.groups()[g].vertexCount, g);
+        const std::vector<std::uint32_t> order = productOrder(model.joints());
+        _places.resize(order.size());
+        for (std::size_t i = 0; i < order.size(); ++i)
+            _places[order[i]] = static_cast<std::uint32_t>(i);
     }
+    /// A joint's place in productOrder().
+    std::uint32_t place(std::uint32_t joint) const { return _places[joint]; }
+
     const glm::vec3& position(std::uint32_t row) const {
         return model.positions()[model.order()[row]];
     }
@@ -60,7 +67,7 @@ public:
         return row - model.groups()[_group[row]].firstVertex;
     }
 
-    /// Calls `each(joint, ratio)` for the joints that a vertex follows, in their order.
+    /// Calls `each(joint, ratio)` for the joints that a vertex follows, in productOrder().
     template <typename Each>
     void forEachJoint(std::uint32_t row, Each&& each) const {
         const SkinModel::Group& group = model.groups()[_group[row]];
@@ -73,18 +80,18 @@ public:
         }
     }
 
-    /// What a vertex has of each of these joints, which stand in their order.
+    /// What a vertex has of each of these joints, which stand in productOrder().
     void ratiosOf(std::uint32_t row, const std::vector<PieceRatios>& joints,
                   SkinModel::Ratio* result) const {
         std::fill(result, result + joints.size(), SkinModel::Ratio{0.0f, 0.0f});
         std::size_t at = 0;
         forEachJoint(row, [&](std::uint32_t joint, const SkinModel::Ratio& ratio) {
-            while (at < joints.size() && joints[at].joint < joint) ++at;
+            while (at < joints.size() && place(joints[at].joint) < place(joint)) ++at;
             if (at < joints.size() && joints[at].joint == joint) result[at] = ratio;
         });
     }
 
-    /// The joints that any of the vertices follows, in their order.
+    /// The joints that any of the vertices follows, in productOrder().
     /// \param rows of the vertices
     std::vector<PieceRatios> ranges(const Rows& rows) const {
         std::vector<PieceRatios> result;
@@ -92,7 +99,7 @@ public:
         for (const std::uint32_t row : rows) {
             std::size_t at = 0;
             forEachJoint(row, [&](std::uint32_t joint, const SkinModel::Ratio& ratio) {
-                while (at < result.size() && result[at].joint < joint) ++at;
+                while (at < result.size() && place(result[at].joint) < place(joint)) ++at;
                 if (at == result.size() || result[at].joint != joint) {
                     result.insert(result.begin() + static_cast<std::ptrdiff_t>(at),
                                   PieceRatios{joint});
@@ -110,6 +117,7 @@ public:
     const SkinModel& model;
 
 private:
+    std::vector<std::uint32_t> _places;
     std::vector<std::uint32_t> _group; ///< of each row
 };
 
