@@ -73,13 +73,13 @@ double checkBounds(double grown) {
 
 /// Legs that part from a trunk: vertices follow both in part, in front of a knee and a moved,
 /// scaled foot.
-osgSkin::Binding forkedBinding(const std::vector<glm::vec3>& positions) {
+osgSkin::Binding forkedBinding(const std::vector<glm::vec3>& positions, const char* rightName) {
     const glm::dvec3 down(0, -1, 0);
     osgSkin::Binding binding;
     binding.joints = {{"root", -1, {0, 0, 0}, down, down},
                       {"left", 0, {1, -1, 0}, down, down},
                       {"knee", 1, {1, -3, 0}, down, down},
-                      {"right", 0, {-1, -1, 0}, down, down}};
+                      {rightName, 0, {-1, -1, 0}, down, down}};
     binding.firstInfluence.push_back(0);
     const auto ratio = [](float x) { return std::min(1.0f, std::max(0.0f, x)); };
     for (const glm::vec3& p : positions) {
@@ -96,9 +96,7 @@ osgSkin::Binding forkedBinding(const std::vector<glm::vec3>& positions) {
     return binding;
 }
 
-} // namespace
-
-TEST(PoseBounds, ContainVerticesOfTwoBranches) {
+void checkTwoBranches(const char* rightName) {
     std::mt19937_64 random(9);
     std::uniform_real_distribution<float> x(-2.0f, 2.0f), y(-4.0f, 1.0f);
     std::vector<glm::vec3> positions, normals;
@@ -108,7 +106,7 @@ TEST(PoseBounds, ContainVerticesOfTwoBranches) {
         normals.emplace_back(test::randomUnit(random));
         source.push_back(v);
     }
-    const osgSkin::Binding binding = forkedBinding(positions);
+    const osgSkin::Binding binding = forkedBinding(positions, rightName);
     const auto model = osgSkin::SkinModel::create(binding, positions, normals, source);
     osgSkin::Pose pose(model->joints());
     osgSkin::DeformJob job;
@@ -140,6 +138,17 @@ TEST(PoseBounds, ContainVerticesOfTwoBranches) {
                 ASSERT_LE(p[axis], bounds.high[axis] + 1e-4f);
             }
     }
+}
+
+} // namespace
+
+TEST(PoseBounds, ContainVerticesOfTwoBranches) {
+    checkTwoBranches("right");
+}
+
+/// The branch that is the last of the file is the first of the product.
+TEST(PoseBounds, ContainVerticesOfBranchesInAnotherOrder) {
+    checkTwoBranches("first");
 }
 
 TEST(PoseBounds, ContainEveryVertexAndStayClose) {
