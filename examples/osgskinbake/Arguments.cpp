@@ -112,7 +112,6 @@ void settleRest(const CLI::Option& rest, Arguments& arguments) {
     if (!arguments.frames) arguments.out.clear();
 }
 
-/// What is written first would be written over.
 std::string extensionOf(const std::string& file) {
     return osgDB::getLowerCaseFileExtension(file);
 }
@@ -137,6 +136,7 @@ bool isFrameOf(const std::string& pattern, const std::string& file) {
            number.find_first_not_of("0123456789 ") == std::string::npos;
 }
 
+/// What is written first would be written over.
 void requireDifferentFiles(const Arguments& arguments) {
     std::set<std::filesystem::path> files;
     const std::string& out = arguments.out;

@@ -74,8 +74,7 @@ nlohmann::json vectorsJson(const osgSkin::Binding& binding, std::size_t vertex) 
 nlohmann::json bindingJson(const osgSkin::Binding& binding) {
     nlohmann::json joints = nlohmann::json::array();
     const std::vector<std::uint32_t> order = osgSkin::productOrder(binding.joints);
-    std::vector<std::uint32_t> places(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = std::uint32_t(i);
+    const std::vector<std::uint32_t> places = osgSkin::productPlaces(order);
     for (const std::uint32_t j : order) {
         const osgSkin::BoundJoint& joint = binding.joints[j];
         const nlohmann::json parent =

@@ -17,30 +17,21 @@ namespace {
 RestSkeleton makeBody(double armDegrees) {
     RestSkeleton body = makeFigure(armDegrees);
     const std::vector<RestJoint> left = body.joints;
-    const int count = static_cast<int>(left.size());
     const auto mirrored = [](glm::dvec3 p) { return glm::dvec3(-p.x, p.y, p.z); };
+    const auto otherSide = [](const std::string& name) {
+        return name.substr(0, 4) == "Left" ? "Right" + name.substr(4) : "R" + name.substr(1);
+    };
     for (const RestJoint& joint : left) {
-        const bool sided = joint.name[0] == 'L';
-        if (!sided) continue;
+        if (joint.name[0] != 'L') continue;
         RestJoint other = joint;
-        other.name = joint.name.substr(0, 4) == "Left" ? "Right" + joint.name.substr(4)
-                                                       : "R" + joint.name.substr(1);
+        other.name = otherSide(joint.name);
         other.centre = mirrored(joint.centre);
         if (joint.tip) other.tip = mirrored(*joint.tip);
         const std::string& above = left[std::size_t(joint.parent)].name;
-        if (above[0] == 'L') {
-            const std::string mine =
-                above.substr(0, 4) == "Left" ? "Right" + above.substr(4) : "R" + above.substr(1);
-            for (int j = count; j < int(body.joints.size()); ++j)
-                if (body.joints[std::size_t(j)].name == mine) other.parent = j;
-        }
+        if (above[0] == 'L') other.parent = body.find(otherSide(above));
         body.joints.push_back(other);
     }
     return body;
-}
-
-int jointOf(const RestSkeleton& skeleton, const std::string& name) {
-    return skeleton.find(name);
 }
 
 struct Helper {
@@ -49,7 +40,7 @@ struct Helper {
 };
 
 void chain(RestSkeleton& body, const char* name, const char* above, glm::dvec3 to) {
-    const int top = jointOf(body, above);
+    const int top = body.find(above);
     const glm::dvec3 from = body.joints[std::size_t(top)].centre;
     const int first = body.add(std::string(name) + "1", top, 0.5 * (from + to));
     body.add(std::string(name) + "2", first, to);
@@ -89,7 +80,7 @@ Motion walkAway(const RestSkeleton& actor) {
     Motion motion = standStill(actor, 20);
     for (std::size_t f = 0; f < motion.frames; ++f) {
         motion.rootPositions[f] += glm::dvec3(0.1, 0.0, 0.3) * double(f);
-        motion.rotations[f * actor.joints.size() + std::size_t(jointOf(actor, "LeftUpLeg"))] =
+        motion.rotations[f * actor.joints.size() + std::size_t(actor.find("LeftUpLeg"))] =
             turnDegrees(2.0 * double(f), {1, 0, 0});
     }
     return motion;
@@ -168,7 +159,7 @@ TEST(HelperJoints, AMotionWithoutLegsKeepsItsUnit) {
 /// What a hand holds is not where it points to; its end and its fingers are.
 TEST(HelperJoints, AHandDoesNotTurnToWhatItHolds) {
     RestSkeleton rig = makeBody(0.0);
-    const int hand = jointOf(rig, "LeftHand");
+    const int hand = rig.find("LeftHand");
     rig.joints[std::size_t(hand)].tip.reset();
     const Motion motion = standStill(makeBody(0.0), 1);
     const glm::dvec3 at = rig.joints[std::size_t(hand)].centre;

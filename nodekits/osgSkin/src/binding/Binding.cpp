@@ -115,4 +115,10 @@ std::vector<std::uint32_t> productOrder(const std::vector<BoundJoint>& joints) {
     return order;
 }
 
+std::vector<std::uint32_t> productPlaces(const std::vector<std::uint32_t>& order) {
+    Indices places(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<std::uint32_t>(i);
+    return places;
+}
+
 } // namespace osgSkin

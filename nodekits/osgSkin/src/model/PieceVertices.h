@@ -47,13 +47,10 @@ struct PieceRatios {
 /// A model's vertices in the order of its groups: row i is vertex order()[i].
 class PieceVertices {
 public:
-    explicit PieceVertices(const SkinModel& of) : model(of) {
+    explicit PieceVertices(const SkinModel& of)
+        : model(of), _places(productPlaces(productOrder(of.joints()))) {
         for (std::uint32_t g = 0; g < model.groups().size(); ++g)
             _group.insert(_group.end(), model.groups()[g].vertexCount, g);
-        const std::vector<std::uint32_t> order = productOrder(model.joints());
-        _places.resize(order.size());
-        for (std::size_t i = 0; i < order.size(); ++i)
-            _places[order[i]] = static_cast<std::uint32_t>(i);
     }
     /// A joint's place in productOrder().
     std::uint32_t place(std::uint32_t joint) const { return _places[joint]; }
@@ -117,8 +114,8 @@ public:
     const SkinModel& model;
 
 private:
-    std::vector<std::uint32_t> _places;
-    std::vector<std::uint32_t> _group; ///< of each row
+    std::vector<std::uint32_t> _places; ///< of each joint
+    std::vector<std::uint32_t> _group;  ///< of each row
 };
 
 inline float fromTwistAxis(const BoundJoint& joint, const glm::vec3& point) {

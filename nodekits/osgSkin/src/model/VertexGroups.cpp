@@ -126,8 +126,7 @@ void joinSmall(Members& members) {
 /// \param order productOrder() of the binding's joints
 Members groupVertices(const Binding& binding, const std::vector<std::uint32_t>& order,
                       const std::vector<std::uint32_t>& source) {
-    std::vector<std::uint32_t> places(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<std::uint32_t>(i);
+    const std::vector<std::uint32_t> places = productPlaces(order);
     Members members;
     for (std::uint32_t v = 0; v < source.size(); ++v) {
         if (source[v] >= binding.vertexCount())

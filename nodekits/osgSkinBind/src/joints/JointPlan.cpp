@@ -47,6 +47,7 @@ int standing(const RestSkeleton& skeleton, const JointRoles& roles, std::size_t 
 void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double tolerance,
                  std::vector<PlannedJoint>& joints, std::vector<std::string>& notes) {
     std::vector<std::size_t> rivals;
+    std::string note;                              // of the first ones
     std::vector<bool> helps(joints.size(), false); // beside a joint that is more of one
     for (std::size_t j = 0; j < joints.size(); ++j) {
         if (joints[j].options.skip) continue;
@@ -56,10 +57,11 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
             continue;
         const int more = standing(skeleton, roles, j) - standing(skeleton, roles, other);
         if (more == 0) {
+            if (rivals.empty())
+                note = "joints \"" + skeleton.joints[other].name + "\" and \"" +
+                       skeleton.joints[j].name +
+                       "\" are in one place, neither has a region of its own";
             rivals.push_back(other);
-            notes.push_back("joints \"" + skeleton.joints[other].name + "\" and \"" +
-                            skeleton.joints[j].name +
-                            "\" are in one place, neither has a region of its own");
             continue;
         }
         helps[more > 0 ? other : j] = true;
@@ -67,6 +69,8 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
         joints[j].holdsRegion = more > 0;
     }
     for (const std::size_t rival : rivals) joints[rival].holdsRegion = false;
+    if (rivals.size() > 1) note += "; nor have " + std::to_string(rivals.size() - 1) + " more";
+    if (!rivals.empty()) notes.push_back(note);
     // What hangs on a helper helps, too: the further links of a twist.
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!helps[static_cast<std::size_t>(skeleton.joints[j].parent)]) continue;

@@ -19,10 +19,10 @@ std::vector<double> BinaryField::subtree(std::size_t joint) const {
 std::vector<double> BinaryField::divided(std::size_t joint, double shift) const {
     const PlannedJoint& planned = joints[joint];
     std::vector<double> field = subtree(joint);
-    if (planned.rigid >= 0 && planned.lengthAbove < planned.boneLength) return field;
+    if (planned.topmost || (planned.rigid >= 0 && planned.lengthAbove < planned.boneLength))
+        return field;
     const glm::dvec3 normal = planeNormal(planned);
     const std::size_t above = regionAbove(joints, joint);
-    if (planned.topmost) return field;
     for (std::size_t v = 0; v < field.size(); ++v) {
         if (regions[v] != joint && (shift >= 0.0 || regions[v] != above)) continue;
         const double along = glm::dot(mesh.positions[v] - planned.centre, normal);
@@ -32,11 +32,11 @@ std::vector<double> BinaryField::divided(std::size_t joint, double shift) const 
 }
 
 std::vector<double> BinaryField::bounded(std::size_t joint, double upper, double lower) const {
+    std::vector<double> field = subtree(joint);
+    if (joints[joint].topmost) return field;
     const glm::dvec3 normal = planeNormal(joints[joint]);
     const double length = std::max(joints[joint].boneLength, 1e-9 * mesh.size);
     const std::size_t above = regionAbove(joints, joint);
-    std::vector<double> field = subtree(joint);
-    if (joints[joint].topmost) return field;
     for (std::size_t v = 0; v < field.size(); ++v) {
         if (regions[v] != joint && regions[v] != above) continue;
         const double along = glm::dot(mesh.positions[v] - joints[joint].centre, normal) / length;

@@ -418,8 +418,9 @@ private:
         const double most = kChannelSteps * double(_parts.limits().samplesOf(_parts.bytes()));
         if (steps > most)
             failFile(_path, std::to_string(_channels) + " animation channels of " +
-                                std::to_string(nodes) +
-                                " nodes, expected fewer (option maxSamples)");
+                                std::to_string(nodes) + " nodes, expected at most " +
+                                std::to_string(static_cast<std::uint64_t>(most / double(nodes))) +
+                                " (option maxSamples)");
     }
 
     const std::string& _path;
