@@ -163,7 +163,7 @@ TEST(ConvertScale, ThatIsUnevenIsNoted) {
     EXPECT_EQ(report.skins.size(), 1u);
     ASSERT_EQ(report.notes.size(), 1u);
     EXPECT_EQ(report.notes[0], "skeleton \"figure\": bone \"bone1\" as it stands and 1 more scaled "
-                               "non-uniformly or mirrored, which skins do not follow");
+                               "non-uniformly, mirrored or to nothing, which skins do not follow");
 }
 
 TEST(ConvertScale, ThatAClipMakesUnevenIsNoted) {

@@ -3,14 +3,16 @@
 #include "ExpectError.h"
 #include "GlbNumber.h"
 #include "GltfBuilder.h"
+#include "Notices.h"
 #include "Paths.h"
 
-#include <cmath>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportRig>
 
+#include <osgAnimation/Channel>
 #include <osgDB/Options>
 
+#include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <fstream>
@@ -169,6 +171,90 @@ TEST(GltfMorphs, WeightsOfANodeAreItsOwn) {
         std::size_t moved = 0;
         for (const glm::dvec3& p : mesh.mesh.positions) moved += p.y > 50.0 ? 1u : 0u;
         EXPECT_EQ(moved, up.size() / 3) << first;
+    }
+}
+
+/// As those do that write a body of several materials: one list of vertices for all of them.
+TEST(GltfMeshes, VerticesThatPrimitivesShareAreTakenWhereTheyAreUsed) {
+    GltfColumn column;
+    json& primitives = column.json["meshes"][0]["primitives"];
+    json other = primitives[0];
+    primitives[0]["indices"] = column.accessor("SCALAR", {0, 2, 1, 1, 2, 3, 17, 5, 6}, 5123);
+    other["indices"] = column.accessor("SCALAR", {8, 10, 9, 23, 17, 18}, 5123);
+    primitives.push_back(other);
+    const osgSkin::ImportedMesh body = osgSkin::importRig(column.save("shared.gltf")).body;
+    const std::vector<std::uint32_t> used = {0, 1, 2, 3, 5, 6, 17, 8, 9, 10, 17, 18, 23};
+    ASSERT_EQ(body.mesh.positions.size(), used.size());
+    for (std::size_t v = 0; v < used.size(); ++v)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(body.mesh.positions[v][k], column.places[3 * used[v] + k], 1e-6) << v;
+    EXPECT_EQ(body.mesh.faceVertices,
+              (std::vector<std::uint32_t>{0, 2, 1, 1, 2, 3, 6, 4, 5, 7, 9, 8, 12, 10, 11}));
+    std::vector<std::string> boneOf(used.size());
+    for (const osgSkin::BoneWeights& bone : body.weights)
+        for (const osgSkin::BoneWeights::Entry& entry : bone.entries) {
+            ASSERT_LT(entry.vertex, used.size());
+            if (entry.weight > 0.5) boneOf[entry.vertex] = bone.bone;
+        }
+    const char* const names[] = {"base", "middle", "top"};
+    for (std::size_t v = 0; v < used.size(); ++v) EXPECT_EQ(boneOf[v], names[used[v] / 8]) << v;
+}
+
+/// Each vertex of each primitive takes memory, however few bytes say so.
+TEST(BadGltf, PrimitivesThatNameTheSameVerticesAreInProportion) {
+    GltfColumn column;
+    json& primitives = column.json["meshes"][0]["primitives"];
+    const json one = {
+        {"attributes", {{"POSITION", column.accessor("VEC3", std::vector<double>(900))}}}};
+    for (int copy = 0; copy < 1600; ++copy) primitives.push_back(one);
+    const std::string path = column.save("repeated.gltf");
+    expectError([&] { osgSkin::importMesh(path); },
+                "expected no more vertices, corners and keys than the file's size allows");
+    const osg::ref_ptr<osgDB::Options> more = new osgDB::Options("maxSamples=9000000");
+    EXPECT_EQ(osgSkin::importMesh(path, more).mesh.positions.size(), 24u + 1600u * 300u);
+}
+
+TEST(GltfSkins, MatricesWithoutAnInverseAreToldOf) {
+    for (const bool flat : {false, true}) {
+        GltfColumn column;
+        std::vector<double> matrices;
+        for (int joint = 0; joint < 3; ++joint)
+            for (int i = 0; i < 16; ++i)
+                matrices.push_back(i == 13 ? -joint : i % 5 == 0 ? 1.0 : 0.0);
+        if (flat) matrices[16 + 5] = 0.0;
+        column.json["skins"][0]["inverseBindMatrices"] = column.accessor("MAT4", matrices);
+        const std::string path = column.save("flat.gltf");
+        const test::Notices notices;
+        const osgSkin::ImportedRig rig = osgSkin::importRig(path);
+        EXPECT_EQ(notices.say("has 1 inverse bind matrices without an inverse"), flat);
+        EXPECT_EQ(rig.body.mesh.positions.size(), 24u);
+    }
+}
+
+TEST(GltfAnimations, OfTwoChannelsForOneThingTheLastCounts) {
+    const std::vector<double> half = {0, 0, 0, 1, 0, 0, std::sqrt(0.5), std::sqrt(0.5)};
+    const std::vector<double> none = {0, 0, 0, 1, 0, 0, 0, 1};
+    for (const bool twice : {false, true}) {
+        GltfColumn column;
+        if (twice) column.animate("bend", column.joints[1], "rotation", {0, 1}, none);
+        column.animate("bend", column.joints[1], "rotation", {0, 1}, half);
+        column.animate("bend", column.joints[2], "rotation", {0, 1}, none);
+        const test::Notices notices;
+        const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("twice.gltf"));
+        EXPECT_EQ(notices.say("the last counts; left out are 1"), twice);
+        ASSERT_EQ(rig.animations.size(), 1u);
+        double turned = 0.0;
+        for (const auto& channel : rig.animations[0]->getChannels()) {
+            const auto* rotation =
+                dynamic_cast<const osgAnimation::QuatSphericalLinearChannel*>(channel.get());
+            if (rotation != nullptr && channel->getTargetName() == "middle")
+                turned = std::abs(rotation->getSamplerTyped()
+                                      ->getKeyframeContainerTyped()
+                                      ->back()
+                                      .getValue()
+                                      .z());
+        }
+        EXPECT_NEAR(turned, std::sqrt(0.5), 1e-5);
     }
 }
 

@@ -194,7 +194,7 @@ TEST_F(GuardedTime, ZerosThatStandNowhereCount) {
     const std::string file = column.save("zeros.gltf");
     expectError([&] { osgSkin::importMesh(file); }, "(option maxSamples)");
     const osg::ref_ptr<osgDB::Options> more = new osgDB::Options("maxSamples=9000000");
-    EXPECT_EQ(osgSkin::importMesh(file, more).mesh.positions.size(), 24u + many);
+    EXPECT_EQ(osgSkin::importMesh(file, more).mesh.positions.size(), 24u); // no face names others
 }
 
 TEST_F(GuardedTime, MaterialsAreInProportion) {

@@ -281,6 +281,22 @@ TEST(Saved, HostileTextIsRefused) {
     }
 }
 
+/// OSG would go on without all that comes after it.
+TEST(Saved, MisspeltElementsAreRefused) {
+    const std::string whole = saved("osgx");
+    for (const std::string property :
+         {"<Children ", "<Matrix ", "<PrimitiveSetList ", "<NodeMask "}) {
+        std::string changed = whole;
+        const std::size_t at = changed.find(property);
+        ASSERT_NE(at, std::string::npos) << property;
+        changed[at + 2] = 'q';
+        const std::string path = scratch("misspelt.osgx", changed);
+        expectError([&] { read(path); }, "misspelt.osgx: ");
+    }
+    const std::string path = scratch("kept.osgx", whole);
+    EXPECT_NE(read(path), nullptr);
+}
+
 TEST(Saved, ScenesAreReadAsOsgReadsThem) {
     for (const std::string format : kFormats) {
         const std::string path = scratch("same." + format, saved(format));

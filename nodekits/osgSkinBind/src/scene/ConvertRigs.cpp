@@ -138,7 +138,8 @@ void noteNonUniformScale(osgAnimation::Skeleton& skeleton, const osgAnimation::A
     if (bones.empty()) return;
     std::string note = "skeleton \"" + skeleton.getName() + "\": " + bones.front();
     if (bones.size() > 1) note += " and " + std::to_string(bones.size() - 1) + " more";
-    report.notes.push_back(note + " scaled non-uniformly or mirrored, which skins do not follow");
+    report.notes.push_back(
+        note + " scaled non-uniformly, mirrored or to nothing, which skins do not follow");
 }
 
 } // namespace

@@ -46,7 +46,7 @@ void takeAnimations(const CharacterSource& source, Character& character) {
             character.notes,
             character.file + ": " + bones.front() +
                 (bones.size() > 1 ? " and " + std::to_string(bones.size() - 1) + " more" : "") +
-                " scaled non-uniformly or mirrored, which the skin does not follow");
+                " scaled non-uniformly, mirrored or to nothing, which the skin does not follow");
     for (const auto& animation : source.animations)
         character.motions.emplace_back().animation = animation;
 }

@@ -21,6 +21,7 @@ using osgAnimation::Channel;
 void checkLinks(const SavedStream::IdentifierMap& objects, const ReadLimits& limits,
                 const std::string& path) {
     std::map<std::string, std::vector<AnimationUpdateCallbackBase*>> moved;
+    const std::vector<AnimationUpdateCallbackBase*> nothing;
     for (const auto& [id, object] : objects)
         if (auto* callback = dynamic_cast<AnimationUpdateCallbackBase*>(object.get()))
             moved[callback->getName()].push_back(callback);
@@ -32,28 +33,28 @@ void checkLinks(const SavedStream::IdentifierMap& objects, const ReadLimits& lim
         std::string first;
         for (const osg::ref_ptr<Channel>& channel : animation->getChannels()) {
             const auto found = moved.find(channel->getTargetName());
-            if (found == moved.end() || found->first.empty()) { // OSG links none of no name
-                if (idle++ == 0) first = channel->getTargetName();
-                continue;
-            }
-            for (AnimationUpdateCallbackBase* callback : found->second) {
+            const bool isThere = found != moved.end() && !found->first.empty(); // as OSG links
+            bool moves = false;
+            for (AnimationUpdateCallbackBase* callback : isThere ? found->second : nothing) {
                 if (++links > limits.samples)
                     failFile(path, "channels move more things called alike than " +
                                        std::to_string(limits.samples) + " (option maxSamples)");
                 const osg::ref_ptr<Channel> tried = channel->clone();
-                callback->link(tried.get());
+                moves = callback->link(tried.get()) || moves;
                 if (tried->getTarget() == nullptr)
                     failFile(path, "animation " + inQuotes(animation->getName()) + ": channel " +
                                        inQuotes(channel->getName()) + " of " +
                                        inQuotes(channel->getTargetName()) +
                                        " is of another kind than what it moves");
             }
+            if (!moves && idle++ == 0)
+                first = inQuotes(channel->getName()) + " of " + inQuotes(channel->getTargetName());
         }
         if (idle > 0)
             tellOf(path, "animation " + inQuotes(animation->getName()) + ": " +
                              std::to_string(idle) + " of its " +
                              std::to_string(animation->getChannels().size()) +
-                             " channels move nothing that is here, the first " + inQuotes(first));
+                             " channels move nothing that is here, the first " + first);
     }
 }
 

@@ -52,6 +52,7 @@ osg::ref_ptr<osg::Node> readWith(SavedStream& stream, SavedInput& input) {
     if (stream.getException() != nullptr) SavedInput::refuse(stream.getException()->getError());
     if (dynamic_cast<osg::Node*>(object.get()) == nullptr)
         SavedInput::refuse("no node, expected one");
+    input.finish();
     return dynamic_cast<osg::Node*>(object.get());
 }
 

@@ -35,6 +35,8 @@ public:
     /// \throw osgSkin::Error without the file's name
     [[noreturn]] static void refuse(const std::string& reason);
 
+    /// Refuses what is left after the scene, where that means that some of it was not understood.
+    virtual void finish() {}
     void advanceToCurrentEndBracket() override { begin(); }
 
 protected:

@@ -102,6 +102,7 @@ bool SavedXml::takeElement() {
 bool SavedXml::prepare() {
     begin();
     while (_chunk.find_first_not_of(kSpace, _next) == std::string::npos) {
+        _chunk.clear();
         _next = 0;
         if (!_attribute.empty())
             _chunk = std::exchange(_attribute, {});
@@ -152,6 +153,10 @@ bool SavedXml::matchString(const std::string& text) {
     _next = _chunk.size();
     tookMatch(text);
     return true;
+}
+
+void SavedXml::finish() {
+    if (prepare()) refuseWord(nextWord(), "a property of the object at its place");
 }
 
 } // namespace osgSkin

@@ -18,6 +18,8 @@ public:
     void readMark(osgDB::ObjectMark& mark) override;
     void readWrappedString(std::string& text) override;
     bool matchString(const std::string& text) override;
+    /// Nothing skips an element that its object does not know: all after it is left.
+    void finish() override;
 
 protected:
     std::string nextWord() override;

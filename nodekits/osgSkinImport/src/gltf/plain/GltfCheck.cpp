@@ -2,6 +2,7 @@
 #include "gltf/plain/GltfCheck.h"
 
 #include "gltf/plain/GltfLooks.h"
+#include "gltf/plain/GltfMoves.h"
 #include "gltf/plain/GltfParts.h"
 #include "text/Base64.h"
 #include "text/FileText.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <set>
 #include <string>
 #include <unordered_set>
@@ -32,8 +32,9 @@ constexpr AttributeKind kAttributes[] = {
     {"JOINTS_", 4, {"VEC4", "VEC4"}},   {"WEIGHTS_", 4, {"VEC4", "VEC4"}},
 };
 
-/// Channels times nodes, for each sample that a file may ask for.
-constexpr double kChannelSteps = 400.0;
+// An element is what 64 bytes hold.
+constexpr std::size_t kRead = 2;   ///< elements of a vertex that Assimp reads
+constexpr std::size_t kDrawn = 12; ///< of one that is bound and deformed
 
 const AttributeKind* kindOfAttribute(const std::string& name) {
     for (const AttributeKind& kind : kAttributes) {
@@ -61,8 +62,7 @@ public:
         addSkins(result);
         addNodes(result);
         addScenes(result);
-        addAnimations(result);
-        checkChannels();
+        GltfMoves(_parts, _path).check(result);
         _parts.checkEntries();
         if (_unfinished > 0)
             tellOf(_path, "corners that make no whole triangle are left out, of " +
@@ -70,10 +70,6 @@ public:
         if (_placedTwice > 0)
             tellOf(_path, "translations, rotations and scales beside a matrix are left out, of " +
                               std::to_string(_placedTwice) + " of the nodes");
-        if (!_otherPath.empty())
-            tellOf(_path, "animation channels are left out whose path is none of translation, "
-                          "rotation, scale and weights, the first " +
-                              inQuotes(_otherPath));
         for (auto part = result.begin(); part != result.end();)
             part = part->empty() ? result.erase(part) : std::next(part);
         return result;
@@ -127,8 +123,10 @@ private:
         if (!primitive.contains("extensions"))
             checkMode(primitive.contains("indices") ? corners : vertices, primitive);
         addTargets(from, vertices, where, primitive);
-        _parts.take(vertices + corners, where);
-        _elements.back() += vertices + corners;
+        const std::size_t all = from.contains("indices") ? corners : vertices;
+        _parts.take(kRead * vertices + all, where);
+        _elements.back() += kRead * vertices + all;
+        _drawn.back() += kDrawn * std::min(vertices, all) + all;
         list.push_back(primitive);
     }
 
@@ -206,6 +204,7 @@ private:
             json mesh = {{"primitives", json::array()}};
             _parts.copyName(from, mesh);
             _elements.push_back(0);
+            _drawn.push_back(0);
             _parts.copyWeights(from, where, mesh);
             const json& primitives = from.at("primitives");
             if (!primitives.is_array()) _parts.fail(where + ".primitives", "a list");
@@ -268,10 +267,13 @@ private:
             cutWeights(node.contains("mesh") ? _targets[node["mesh"].get<std::size_t>()] : 0, node);
             // Every node that shows a mesh makes a copy of it.
             if (node.contains("mesh")) {
-                if (!_shown.insert(node["mesh"].get<std::size_t>()).second)
-                    _parts.addEntries(_allTargets[node["mesh"].get<std::size_t>()]);
-                _parts.take(_elements[node["mesh"].get<std::size_t>()], where + ".mesh");
-                _parts.addEntries(_primitives[node["mesh"].get<std::size_t>()]);
+                const auto mesh = node["mesh"].get<std::size_t>();
+                if (!_shown.insert(mesh).second) {
+                    _parts.addEntries(_allTargets[mesh]);
+                    _parts.take(_elements[mesh], where + ".mesh");
+                }
+                _parts.take(_drawn[mesh], where + ".mesh");
+                _parts.addEntries(_primitives[mesh]);
             }
             if (from.contains("skin"))
                 node["skin"] = _parts.indexOf(from.at("skin"), "skins", where + ".skin");
@@ -369,73 +371,18 @@ private:
         result["scene"] = 0;
     }
 
-    void addAnimations(json& result) {
-        _parts.forEach("animations", [&](const json& from, const std::string& where) {
-            json animation = {{"channels", json::array()}, {"samplers", json::array()}};
-            _parts.copyName(from, animation);
-            std::vector<std::size_t> keys;
-            for (const json& sampler : from.at("samplers")) {
-                const std::size_t input =
-                    _parts.accessor(sampler.at("input"), where + ".samplers.input");
-                const std::size_t output =
-                    _parts.accessor(sampler.at("output"), where + ".samplers.output");
-                _parts.requireType(input, {"SCALAR"}, where + ".samplers.input");
-                keys.push_back(_parts.count(input) + _parts.count(output));
-                const std::string way = sampler.value("interpolation", "LINEAR");
-                if (way != "LINEAR" && way != "STEP" && way != "CUBICSPLINE")
-                    _parts.fail(where + ".samplers.interpolation",
-                                "LINEAR, STEP or CUBICSPLINE, found " + inQuotes(way));
-                animation["samplers"].push_back(
-                    {{"input", input}, {"output", output}, {"interpolation", way}});
-            }
-            for (const json& channel : from.at("channels")) {
-                const std::size_t sampler =
-                    _parts.index(channel.at("sampler"), keys.size(), where + ".channels.sampler");
-                const json& target = channel.at("target");
-                const auto path = target.at("path").get<std::string>();
-                if (path != "translation" && path != "rotation" && path != "scale" &&
-                    path != "weights") {
-                    if (_otherPath.empty()) _otherPath = path.substr(0, 100);
-                    continue;
-                }
-                json kept = {{"path", path}};
-                if (target.contains("node"))
-                    kept["node"] = _parts.indexOf(target.at("node"), "nodes", where + ".channels");
-                // Samplers may be shared: each channel's keys take memory.
-                _parts.take(keys[sampler], where + ".channels");
-                animation["channels"].push_back({{"sampler", sampler}, {"target", kept}});
-            }
-            _channels += animation["channels"].size();
-            _parts.addEntries(animation["channels"].size());
-            result["animations"].push_back(animation);
-        });
-    }
-
-    /// Assimp looks for each channel's node by its name, one by one.
-    void checkChannels() {
-        const std::size_t nodes = _parts.size("nodes");
-        const double steps = double(_channels) * double(nodes);
-        const double most = kChannelSteps * double(_parts.limits().samplesOf(_parts.bytes()));
-        if (steps > most)
-            failFile(_path, std::to_string(_channels) + " animation channels of " +
-                                std::to_string(nodes) + " nodes, expected at most " +
-                                std::to_string(static_cast<std::uint64_t>(most / double(nodes))) +
-                                " (option maxSamples)");
-    }
-
     const std::string& _path;
     GltfParts _parts;
-    std::size_t _channels = 0;    ///< of all animations
     std::size_t _unfinished = 0;  ///< primitives whose last triangle lacks corners
     std::size_t _placedTwice = 0; ///< nodes of a matrix and more
-    std::string _otherPath;       ///< the first that a channel has and none knows
     std::vector<std::size_t> _primitives, _elements; ///< of each mesh
-    std::vector<std::size_t> _targets;               ///< of each mesh: the most of a primitive
-    std::vector<std::size_t> _allTargets;            ///< of each mesh: those of all primitives
-    std::set<std::size_t> _shown;                    ///< meshes, by the nodes so far
-    bool _isCompressed = false;                      ///< some mesh, by Draco
-    std::vector<std::size_t> _joints;                ///< of each skin
-    std::vector<std::ptrdiff_t> _above;              ///< each node's parent
+    std::vector<std::size_t> _drawn;      ///< of each mesh: elements where a node shows it
+    std::vector<std::size_t> _targets;    ///< of each mesh: the most of a primitive
+    std::vector<std::size_t> _allTargets; ///< of each mesh: those of all primitives
+    std::set<std::size_t> _shown;         ///< meshes, by the nodes so far
+    bool _isCompressed = false;           ///< some mesh, by Draco
+    std::vector<std::size_t> _joints;     ///< of each skin
+    std::vector<std::ptrdiff_t> _above;   ///< each node's parent
 };
 
 } // namespace

@@ -246,9 +246,9 @@ void GltfParts::requireValues(std::size_t accessor, const std::string& where) co
 void GltfParts::take(std::size_t elements, const std::string& where) {
     _elements += elements;
     if (_elements > 2 * limits().samplesOf(_bytes))
-        fail(where, "no more vertices, corners and keys than " +
-                        std::to_string(2 * limits().samplesOf(_bytes)) +
-                        " in all (option maxSamples)");
+        fail(where,
+             "no more vertices, corners and keys than the file's size allows, each as often as "
+             "it is named (option maxSamples)");
 }
 
 void GltfParts::takeZeros(std::size_t accessor, const std::string& where) {

@@ -16,6 +16,8 @@
 
 #include <osgDB/FileNameUtils>
 
+#include <glm/matrix.hpp>
+
 #include <map>
 #include <set>
 #include <string>
@@ -92,6 +94,23 @@ private:
         }
     }
 
+    /// What is read then goes by the joints' nodes.
+    void tellOfFlat(const json& skin, const std::vector<double>& matrices) const {
+        std::size_t flat = 0;
+        for (std::size_t joint = 0; joint < skin.at("joints").size(); ++joint) {
+            glm::dmat3 axes;
+            for (int column = 0; column < 3; ++column)
+                for (int row = 0; row < 3; ++row)
+                    axes[column][row] = matrices[16 * joint + 4 * column + row];
+            flat += glm::determinant(axes) == 0.0;
+        }
+        if (flat > 0)
+            tellOf(_file.path, "skin " + osgSkin::inQuotes(skin.value("name", "")) + " has " +
+                                   std::to_string(flat) +
+                                   " inverse bind matrices without an inverse, whose joints are "
+                                   "bound where their nodes stand");
+    }
+
     /// Without inverse bind matrices, all of them are the identity (section 3.7.3.1).
     void addBindMatrices(json& skin, const std::string& where) {
         const std::size_t joints = skin.at("joints").size();
@@ -104,6 +123,7 @@ private:
                                          " joints");
             const std::vector<double> matrices = _accessors.values(index);
             requireCoordinates(_file, index, where + ".inverseBindMatrices", matrices);
+            tellOfFlat(skin, matrices);
             if (!_accessors.isPlain(index))
                 skin["inverseBindMatrices"] = _accessors.add("MAT4", matrices);
             return;
