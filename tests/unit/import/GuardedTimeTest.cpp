@@ -109,11 +109,11 @@ TEST_F(GuardedTime, ManyMeshesMayStandBesideManyNodes) {
     json& primitives = column.json["meshes"][0]["primitives"];
     json plain = primitives[0];
     plain.erase("indices");
-    for (const char* joints : {"JOINTS_0", "WEIGHTS_0"}) plain["attributes"].erase(joints);
+    plain["attributes"] = {{"POSITION", column.accessor("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0})}};
     column.json["meshes"].push_back({{"primitives", json::array_t(8'000, plain)}});
     column.json["nodes"][addNodes(column, 1).front()]["mesh"] = 1;
     EXPECT_EQ(osgSkin::importRig(column.save("meshes.gltf")).body.mesh.positions.size(),
-              24u * 8'001u);
+              24u + 3u * 8'000u);
 }
 
 /// Bones without weights, deep below others and beside as many with weights.
@@ -152,10 +152,10 @@ TEST_F(GuardedTime, WeightsThatNoMorphTargetGoesByAreDropped) {
     GltfColumn column;
     column.json["meshes"][0]["weights"] = json::array_t(100'000, 0.0);
     column.json["skins"].push_back(column.json["skins"][0]);
-    for (int copy = 0; copy < 3000; ++copy)
+    for (int copy = 0; copy < 2000; ++copy)
         column.json["scenes"][0]["nodes"].push_back(column.node({{"mesh", 0}, {"skin", 1}}));
     EXPECT_EQ(osgSkin::importRig(column.save("weights.gltf")).body.mesh.positions.size(),
-              24u * 3001u);
+              24u * 2001u);
 }
 
 TEST_F(GuardedTime, CopiesOfMorphTargetsCount) {
