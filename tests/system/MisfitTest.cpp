@@ -17,8 +17,9 @@ namespace {
 
 const std::string kBodyThatFits = OSGSKIN_DATA "/thrower";
 
-/// What is told of the thrower where his body is moved, and his skeleton is not.
-std::string misfitsOf(const osg::Matrixd& move) {
+/// What is told of the thrower where his body is moved, and the skeleton, his own if no other is
+/// given, is not.
+std::string misfitsOf(const osg::Matrixd& move, const std::string& skeleton = {}) {
     const std::string folder = test::makeTestFolder();
     std::ifstream from(kBodyThatFits + ".obj");
     std::ofstream body(folder + "/body.obj");
@@ -34,8 +35,10 @@ std::string misfitsOf(const osg::Matrixd& move) {
         }
     }
     body.close();
-    std::ofstream(folder + "/c.skin") << "{\"osgskin\": 1, \"mesh\": \"body.obj\", \"skeleton\": \""
-                                      << kBodyThatFits << ".bvh\"}";
+    if (!skeleton.empty()) std::ofstream(folder + "/other.bvh") << skeleton;
+    std::ofstream(folder + "/c.skin")
+        << "{\"osgskin\": 1, \"mesh\": \"body.obj\", \"skeleton\": \""
+        << (skeleton.empty() ? kBodyThatFits : folder + "/other") << ".bvh\"}";
     const test::Notices notices;
     const osgSkin::Character character = osgSkin::loadCharacter(folder + "/c.skin");
     std::string result;
@@ -61,6 +64,15 @@ TEST(Misfit, SkeletonsInAnotherPlaceAreToldOf) {
           osg::Matrixd::rotate(-osg::PI_2, osg::Vec3d(1, 0, 0))})
         EXPECT_NE(misfitsOf(move).find(" joints lie outside the skin, expected"),
                   std::string::npos);
+}
+
+TEST(Misfit, JointsInOnePointHaveNoLengthToCompare) {
+    const std::string channels = "CHANNELS 3 Zrotation Xrotation Yrotation\n";
+    const std::string note = misfitsOf(
+        osg::Matrixd(),
+        "HIERARCHY\nROOT a\n{\nOFFSET 5 1 0\n" + channels + "JOINT b\n{\nOFFSET 0 0 0\n" +
+            channels + "End Site\n{\nOFFSET 0 0 0\n}\n}\n}\nMOTION\nFrames: 0\nFrame Time: 1\n");
+    EXPECT_NE(note.find("1 of 1 joints lie outside the skin"), std::string::npos) << note;
 }
 
 TEST(Misfit, BodiesThatSinglePrecisionRoundsAreToldOf) {

@@ -117,6 +117,10 @@ TEST(ConvertRigs, AreReplacedWhereTheyStand) {
     const osg::ref_ptr<osg::Node> before = new osg::Node, after = new osg::Node;
     const auto rig = makeRig(blended, "coat");
     rig->setNodeMask(0x10);
+    const osg::ref_ptr<osg::NodeCallback> culls = new osg::NodeCallback;
+    const osg::ref_ptr<osg::NodeCallback> hears = new osg::NodeCallback;
+    rig->setCullCallback(culls);
+    rig->setEventCallback(hears);
     rig->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
     for (osg::Node* child : {before.get(), static_cast<osg::Node*>(rig), after.get()})
         dresser->addChild(child);
@@ -128,6 +132,8 @@ TEST(ConvertRigs, AreReplacedWhereTheyStand) {
     EXPECT_EQ(dresser->getChild(1), report.skins[0]);
     EXPECT_EQ(report.skins[0]->getName(), "coat");
     EXPECT_EQ(report.skins[0]->getNodeMask(), 0x10u);
+    EXPECT_EQ(report.skins[0]->getCullCallback(), culls);
+    EXPECT_EQ(report.skins[0]->getEventCallback(), hears);
     EXPECT_EQ(report.skins[0]->getStateSet(), rig->getStateSet());
     EXPECT_NE(dynamic_cast<UpdateDeformableSkin*>(report.skins[0]->getUpdateCallback()), nullptr);
     EXPECT_EQ(scene.bones[1]->getUpdateCallback(), callback);
@@ -151,6 +157,26 @@ TEST(ConvertRigs, RigUnderATransformComesToStandUnderItsSkeleton) {
     for (std::size_t v = 0; v < verticesOf(rest).size(); ++v)
         EXPECT_NEAR(double(verticesOf(rest)[v].z()), mesh.positions[sourceOf(rest, v)].z + 4.0,
                     1e-5);
+}
+
+TEST(ConvertRigs, TransformsThatMoveARigAreToldOf) {
+    for (const bool away : {false, true})
+        for (const bool moves : {false, true}) {
+            Scene scene;
+            const osg::ref_ptr<osg::MatrixTransform> aside = new osg::MatrixTransform;
+            if (away) aside->setMatrix(osg::Matrix::translate(0, 0, 4));
+            if (moves) aside->setUpdateCallback(new osg::NodeCallback);
+            aside->addChild(makeRig(rigid));
+            scene.skeleton->addChild(aside);
+            const ConvertReport report = convertRigs(*scene.root);
+            ASSERT_EQ(report.skins.size(), 1u);
+            EXPECT_EQ(aside->getNumChildren(), away ? 0u : 1u);
+            ASSERT_EQ(report.notes.size(), away && moves ? 1u : 0u);
+            if (away && moves) {
+                EXPECT_NE(report.notes[0].find("stands where its transforms are now"),
+                          std::string::npos);
+            }
+        }
 }
 
 /// Out of its transform it would be drawn at all distances, or though it is switched off.

@@ -69,11 +69,23 @@ void requireDrawnAsBefore(const Rig& rig) {
                 "a cull callback");
 }
 
+/// Whether the rig stands away from its skeleton, by transforms some of which callbacks move.
+bool isMovedApart(const Rig& rig) {
+    return std::any_of(rig.nodePaths.begin(), rig.nodePaths.end(), [](const osg::NodePath& path) {
+        const bool moves = std::any_of(path.begin(), path.end(), [](const osg::Node* node) {
+            return node->asTransform() != nullptr && node->getUpdateCallback() != nullptr;
+        });
+        return moves && !osg::computeLocalToWorld(path).isIdentity();
+    });
+}
+
 /// Puts the skin where the rig is.
 void replace(const Rig& rig, DeformableSkin& skin) {
     skin.setName(rig.geometry->getName());
     skin.setNodeMask(rig.geometry->getNodeMask());
     skin.setUserDataContainer(rig.geometry->getUserDataContainer());
+    skin.setCullCallback(rig.geometry->getCullCallback());
+    skin.setEventCallback(rig.geometry->getEventCallback());
     const osg::ref_ptr<osg::Node> keep = rig.geometry;
     for (const osg::NodePath& path : rig.nodePaths) {
         osg::Group* parent = path.empty() ? rig.skeleton : path.back()->asGroup();
@@ -124,6 +136,10 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
     made.skins = makeSkins(body.mesh, body.parts, made.binding, whole).skins;
     for (std::size_t i = 0; i < taken.size(); ++i) {
         DeformableSkin& skin = *made.skins[i].drawable;
+        if (isMovedApart(*taken[i]))
+            report.notes.push_back(nameOf(*taken[i]) + " stands where its transforms are now, "
+                                                       "which callbacks may move: it does not "
+                                                       "follow them");
         replace(*taken[i], skin);
         report.skins.push_back(&skin);
     }
