@@ -46,7 +46,7 @@ void expectMeshRefused(GltfColumn& column, const std::string& message) {
 
 /// A column with some of its joint indices and weights changed: the first joint's is in front.
 void expectWeights(const std::vector<double>& joints, const std::vector<double>& weights,
-                   const std::string& message) {
+                   const std::string& message, bool normalized = false) {
     GltfColumn column;
     constexpr std::size_t kVertices = 24, kChanged = 5;
     std::vector<double> allJoints(4 * kVertices, 0.0), allWeights(4 * kVertices, 0.0);
@@ -60,6 +60,7 @@ void expectWeights(const std::vector<double>& joints, const std::vector<double>&
         allWeights[4 * kChanged + k] = weights[k];
     }
     column.attributes()["JOINTS_0"] = column.accessor("VEC4", allJoints, 5121);
+    column.json["accessors"].back()["normalized"] = normalized;
     column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", allWeights);
     if (!message.empty()) return expectMeshRefused(column, message);
     const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("true.gltf"));
@@ -118,6 +119,7 @@ TEST(BadGltf, IndicesNameVerticesThatAreThere) {
         corners[5] = beyond;
         column.json["meshes"][0]["primitives"][0]["indices"] =
             column.accessor("SCALAR", corners, 5123);
+        column.json["accessors"].back()["normalized"] = beyond > 24; // which means nothing here
         expectMeshRefused(column, "malformed glTF: accessors[5], meshes[0].primitives[0].indices: "
                                   "number 5 is " +
                                       std::to_string(beyond) + ", expected a vertex below 24");
@@ -130,6 +132,9 @@ TEST(BadGltf, JointsAndWeightsAreSome) {
         {0, 3, 0, 0}, {0.5, 0.5, 0, 0},
         "malformed glTF: accessors[5]" + primitive +
             "JOINTS_0: vertex 5 follows joint 3, expected one of the 3 that the skin has");
+    expectWeights({0, 3, 0, 0}, {0.5, 0.5, 0, 0},
+                  "malformed glTF: accessors[5]" + primitive + "JOINTS_0: vertex 5 follows joint 3",
+                  true); // which means nothing here
     expectWeights({0, 0, 0, 0}, {std::nan(""), 0, 0, 0},
                   "malformed glTF: accessors[6]" + primitive +
                       "WEIGHTS_0: vertex 5 has the weight nan, expected a number of 0 or more");

@@ -151,6 +151,15 @@ void GltfAccessors::read(std::size_t view, std::size_t offset, int type, std::si
 }
 
 std::vector<double> GltfAccessors::values(std::size_t index) {
+    std::vector<double> result = stored(index);
+    const nlohmann::json& source = accessor(index);
+    if (source.value("normalized", false))
+        for (double& value : result)
+            value = normalised(value, source.at("componentType").get<int>());
+    return result;
+}
+
+std::vector<double> GltfAccessors::stored(std::size_t index) {
     const nlohmann::json& source = accessor(index);
     const int type = source.at("componentType").get<int>();
     const std::size_t wide = width(index), many = count(index);
@@ -180,8 +189,6 @@ std::vector<double> GltfAccessors::values(std::size_t index) {
             for (std::size_t k = 0; k < wide; ++k)
                 result.at(static_cast<std::size_t>(indices[i]) * wide + k) = numbers[i * wide + k];
     }
-    if (source.value("normalized", false))
-        for (double& value : result) value = normalised(value, type);
     return result;
 }
 

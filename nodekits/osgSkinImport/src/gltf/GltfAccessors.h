@@ -39,6 +39,10 @@ public:
     /// All numbers of an accessor, element by element.
     std::vector<double> values(std::size_t accessor);
 
+    /// The same of an accessor of joints or indices, which are whole numbers even where the file
+    /// calls them normalised.
+    std::vector<double> stored(std::size_t accessor);
+
     /// What a buffer holds.
     /// \param index of the buffer
     const std::string& buffer(std::size_t index) const;

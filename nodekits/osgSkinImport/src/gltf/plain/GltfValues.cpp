@@ -68,7 +68,7 @@ private:
     void checkIndices(std::size_t accessor, std::size_t positions) {
         const std::size_t vertices = _accessors.count(positions);
         if (!_accessors.hasValues(accessor) || !_indices.emplace(accessor, vertices).second) return;
-        const std::vector<double> indices = _accessors.values(accessor);
+        const std::vector<double> indices = _accessors.stored(accessor);
         for (std::size_t i = 0; i < indices.size(); ++i)
             if (indices[i] >= double(vertices))
                 fail(accessor, "indices",
@@ -82,7 +82,7 @@ private:
         if (!_accessors.hasValues(names) || !_accessors.hasValues(parts) ||
             !_weights.insert({names, parts, joints}).second)
             return;
-        const std::vector<double> followed = _accessors.values(names);
+        const std::vector<double> followed = _accessors.stored(names);
         const std::vector<double> weights = _accessors.values(parts);
         for (std::size_t i = 0; i < weights.size(); ++i) {
             if (!(std::isfinite(weights[i]) && weights[i] >= kRounding))

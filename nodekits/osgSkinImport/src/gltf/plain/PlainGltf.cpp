@@ -164,7 +164,7 @@ private:
         if (areWhole && bytes.size() <= 1) return;
         for (const auto& [name, accessor] : joints) {
             const auto [entry, isNew] = _shorts.emplace(accessor, 0);
-            if (isNew) entry->second = _accessors.addShorts("VEC4", _accessors.values(accessor));
+            if (isNew) entry->second = _accessors.addShorts("VEC4", _accessors.stored(accessor));
             primitive["attributes"][name] = entry->second;
         }
     }
@@ -175,7 +175,7 @@ private:
         const auto accessor = primitive.at("indices").get<std::size_t>();
         if (!_accessors.hasValues(accessor) || _accessors.isWhole(accessor)) return;
         const auto [entry, isNew] = _ints.emplace(accessor, 0);
-        if (isNew) entry->second = _accessors.addInts("SCALAR", _accessors.values(accessor));
+        if (isNew) entry->second = _accessors.addInts("SCALAR", _accessors.stored(accessor));
         primitive["indices"] = entry->second;
     }
 
