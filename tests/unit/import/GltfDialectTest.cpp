@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 // What glTF's specification allows and Assimp does not read, and numbers that it takes for others.
 #include "ExpectError.h"
+#include "FindNodes.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
 
-#include <cmath>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSkeleton>
 
+#include <osgAnimation/Bone>
 #include <osgAnimation/Channel>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -351,6 +353,17 @@ TEST(GltfDialect, ScalesOf0AreAlmost0) {
             }
     }
     EXPECT_EQ(keys, 9u);
+}
+
+TEST(GltfDialect, JointsMayBeHiddenAtRest) {
+    GltfColumn column;
+    column.json["nodes"][column.joints[2]]["scale"] = {0, 0.0, -0.0};
+    column.animate("show", column.joints[2], "scale", {0.0, 1.0}, {0, 0, 0, 1, 1, 1});
+    const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("shown.gltf"));
+    const auto bones = test::findNodes<osgAnimation::Bone>(*rig.skeleton);
+    ASSERT_EQ(bones.size(), 3u);
+    EXPECT_NEAR(std::abs(bones[2].node->getMatrix()(0, 0)), 1e-5, 1e-9);
+    EXPECT_TRUE(osg::Matrixd().invert(bones[2].node->getMatrixInSkeletonSpace()));
 }
 
 TEST(BadGltf, JointsAreNamedOnce) {

@@ -260,6 +260,7 @@ private:
             _parts.copyNumbers(from, "rotation", 4, where, node);
             _parts.copyNumbers(from, "scale", 3, where, node);
             makeUnit(node);
+            keepApart(node);
             if (node.contains("matrix")) _placedTwice += keepMatrix(node);
             _parts.copyWeights(from, where, node);
             if (from.contains("mesh"))
@@ -306,6 +307,16 @@ private:
             squares += number.get<double>() * number.get<double>();
         if (!(squares > 0.0) || std::abs(squares - 1.0) < 1e-6) return;
         for (json& number : node["rotation"]) number = number.get<double>() / std::sqrt(squares);
+    }
+
+    /// What is hidden by a scale of 0 is almost a point: a joint's matrix has an inverse then.
+    static void keepApart(json& node) {
+        constexpr double kLeast = 1e-5;
+        if (!node.contains("scale")) return;
+        for (json& number : node["scale"]) {
+            const auto scale = number.get<double>();
+            if (std::abs(scale) < kLeast) number = std::copysign(kLeast, scale);
+        }
     }
 
     /// A node is placed by its matrix alone. Whether it had more.
