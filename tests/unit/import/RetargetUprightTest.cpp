@@ -125,6 +125,25 @@ TEST_P(UprightFrames, ATurnedActorIsTurnedBack) {
     EXPECT_LT(angleBetween(report.rotation, glm::conjugate(turn())), 1e-5);
 }
 
+/// Thighs that begin in one point, but for rounding: the shoulders tell, whatever the unit.
+TEST(UprightBodies, HipsInOnePointDoNotTellWhereItFaces) {
+    const Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
+    for (const double unit : {0.01, 1.0, 100.0}) {
+        RestSkeleton body = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
+        for (osgSkin::RestJoint& joint : body.joints) {
+            joint.centre *= unit;
+            if (joint.tip) *joint.tip *= unit;
+        }
+        osgSkin::RestJoint& left = body.joints[std::size_t(body.find("LeftUpLeg"))];
+        osgSkin::RestJoint& right = body.joints[std::size_t(body.find("RightUpLeg"))];
+        left.centre = 0.5 * (left.centre + right.centre);
+        right.centre = left.centre + glm::dvec3(0.0, 0.0, 1e-4 * glm::length(left.centre));
+        RetargetReport report;
+        osgSkin::retarget(motion, body, {}, &report);
+        EXPECT_LT(angleBetween(report.rotation, {1, 0, 0, 0}), 1e-5) << unit;
+    }
+}
+
 /// A driver's body gets up and throws: its bones are where the standing one's are.
 TEST_P(UprightFrames, ABodyThatSitsAtRestDoesTheSame) {
     for (const double degrees : {50.0, 85.0, 100.0}) {
