@@ -68,21 +68,41 @@ void SavedXml::skipSpace() {
     _at = std::min(_content.find_first_not_of(kSpace, _at), _content.size());
 }
 
-bool SavedXml::takeElement() {
+/// Whether what comes next stands in the element that is read, or closes it.
+bool SavedXml::isAtEnd() {
     for (;;) {
-        if (_content.find('<', _at) == std::string::npos) return false;
-        skipPast("<");
-        if (_content.compare(_at, 3, "!--") == 0)
+        const bool isLast = !_scopes.empty() && _depth == _scopes.back();
+        if (_isClosed) {
+            if (isLast) return true;
+            _isClosed = false;
+            --_depth;
+            continue;
+        }
+        const std::size_t tag = _content.find('<', _at);
+        if (tag == std::string::npos) return true;
+        _at = tag;
+        if (_content.compare(tag, 4, "<!--") == 0) {
             skipPast("-->");
-        else if (_content.compare(_at, 1, "/") == 0)
+        } else if (_content.compare(tag, 2, "</") != 0) {
+            return false;
+        } else {
+            if (isLast) return true;
             skipPast(">");
-        else
-            break;
+            if (_depth > 0) --_depth;
+        }
     }
+}
+
+bool SavedXml::takeElement() {
+    if (isAtEnd()) return false;
+    skipPast("<");
     _chunk = takeName();
     _next = 0;
+    _isName = true;
+    ++_depth;
     for (skipSpace(); _at < _content.size() && _content[_at] != '>'; skipSpace()) {
-        if (_content[_at] == '/') {
+        _isClosed = _content[_at] == '/';
+        if (_isClosed) {
             ++_at;
             continue;
         }
@@ -98,12 +118,30 @@ bool SavedXml::takeElement() {
     return true;
 }
 
+/// Leaves the element that the last bracket opened; what nothing has read of it is refused.
+void SavedXml::leave() {
+    begin();
+    if (_scopes.empty()) return;
+    const std::size_t depth = _scopes.back();
+    const bool isWhole = _scopes.size() < 2 || _scopes[_scopes.size() - 2] != depth;
+    if (isWhole && ((_isName && _next < _chunk.size()) || takeElement()))
+        refuseWord(nextWord(), "a property of the object at its place");
+    _scopes.pop_back();
+    if (!isWhole) return; // a bracket within another, in one element
+    for (std::string* words : {&_chunk, &_attribute, &_text}) words->clear();
+    _next = 0;
+    if (!_isClosed) skipPast(">");
+    _isClosed = false;
+    --_depth;
+}
+
 /// Whether there is something left, which is in the chunk then.
 bool SavedXml::prepare() {
     begin();
     while (_chunk.find_first_not_of(kSpace, _next) == std::string::npos) {
         _chunk.clear();
         _next = 0;
+        _isName = false;
         if (!_attribute.empty())
             _chunk = std::exchange(_attribute, {});
         else if (!_text.empty())
@@ -127,7 +165,12 @@ std::string SavedXml::nextName(const std::string& expected) {
 }
 
 void SavedXml::readMark(osgDB::ObjectMark& mark) {
-    if (mark._name == "{") tookBegin();
+    if (mark._name == "{") {
+        tookBegin();
+        _scopes.push_back(_depth);
+    } else if (mark._name == "}") {
+        leave();
+    }
 }
 
 void SavedXml::readWrappedString(std::string& text) {

@@ -6,11 +6,13 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace osgSkin {
 
 /// The layout of `.osgx` files: of each element its name, its attributes `attribute` and `text`,
-/// then the elements within it. What closes elements has no meaning.
+/// then the elements within it. Brackets, of other files' texts, open and close the element that is
+/// read; within one that has no elements they have no meaning.
 class SavedXml : public SavedText {
 public:
     using SavedText::SavedText;
@@ -18,7 +20,7 @@ public:
     void readMark(osgDB::ObjectMark& mark) override;
     void readWrappedString(std::string& text) override;
     bool matchString(const std::string& text) override;
-    /// Nothing skips an element that its object does not know: all after it is left.
+    void advanceToCurrentEndBracket() override { leave(); }
     void finish() override;
 
 protected:
@@ -27,7 +29,9 @@ protected:
 
 private:
     bool prepare();
+    bool isAtEnd();
     bool takeElement();
+    void leave();
     void skipSpace();
     std::string takeName();
     std::string takeValue();
@@ -35,6 +39,10 @@ private:
 
     std::string _chunk, _attribute, _text; ///< what is read, and what comes after it
     std::size_t _next = 0;                 ///< in the chunk
+    bool _isName = false;                  ///< the chunk, of an element
+    std::size_t _depth = 0;                ///< of the element that was taken last
+    bool _isClosed = false;                ///< it is, at once
+    std::vector<std::size_t> _scopes;      ///< depths of the elements that brackets opened
 };
 
 } // namespace osgSkin

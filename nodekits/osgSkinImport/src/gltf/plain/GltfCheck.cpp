@@ -4,6 +4,7 @@
 #include "gltf/plain/GltfLooks.h"
 #include "gltf/plain/GltfMoves.h"
 #include "gltf/plain/GltfParts.h"
+#include "gltf/plain/NamedVertices.h"
 #include "text/Base64.h"
 #include "text/FileText.h"
 
@@ -32,9 +33,11 @@ constexpr AttributeKind kAttributes[] = {
     {"JOINTS_", 4, {"VEC4", "VEC4"}},   {"WEIGHTS_", 4, {"VEC4", "VEC4"}},
 };
 
-// An element is what 64 bytes hold.
-constexpr std::size_t kRead = 2;   ///< elements of a vertex that Assimp reads
-constexpr std::size_t kDrawn = 12; ///< of one that is bound and deformed
+// What takes 64 bytes is an element.
+constexpr std::size_t kRead = 1;        ///< elements of a vertex that Assimp reads
+constexpr std::size_t kDrawn = 12;      ///< of one that is bound and deformed
+constexpr std::size_t kReadCorners = 4; ///< that are one
+constexpr std::size_t kDrawnCorners = 2;
 
 const AttributeKind* kindOfAttribute(const std::string& name) {
     for (const AttributeKind& kind : kAttributes) {
@@ -123,10 +126,15 @@ private:
         if (!primitive.contains("extensions"))
             checkMode(primitive.contains("indices") ? corners : vertices, primitive);
         addTargets(from, vertices, where, primitive);
-        const std::size_t all = from.contains("indices") ? corners : vertices;
-        _parts.take(kRead * vertices + all, where);
-        _elements.back() += kRead * vertices + all;
-        _drawn.back() += kDrawn * std::min(vertices, all) + all;
+        const bool areNamed = primitive.contains("indices");
+        const bool isDrawn = primitive["mode"] != 0; // no points
+        const std::size_t all = areNamed ? corners : vertices;
+        const std::size_t read = kRead * vertices + all / kReadCorners;
+        _parts.take(read, where);
+        _elements.back() += read;
+        const std::size_t named =
+            areNamed ? _named.count(primitive["indices"].get<std::size_t>(), vertices) : vertices;
+        if (isDrawn) _drawn.back() += kDrawn * named + all / kDrawnCorners;
         list.push_back(primitive);
     }
 
@@ -384,6 +392,7 @@ private:
 
     const std::string& _path;
     GltfParts _parts;
+    NamedVertices _named{_parts};
     std::size_t _unfinished = 0;  ///< primitives whose last triangle lacks corners
     std::size_t _placedTwice = 0; ///< nodes of a matrix and more
     std::vector<std::size_t> _primitives, _elements; ///< of each mesh

@@ -224,6 +224,10 @@ std::size_t GltfParts::accessor(const json& value, const std::string& where) con
     return index;
 }
 
+std::size_t GltfParts::bytesOfComponent(std::size_t accessor) const {
+    return componentSize(_accessors[accessor].component);
+}
+
 void GltfParts::requireType(std::size_t accessor, std::initializer_list<const char*> types,
                             const std::string& where) const {
     for (const char* type : types)

@@ -74,6 +74,7 @@ public:
     /// The place of an accessor whose bytes are all there.
     std::size_t accessor(const nlohmann::json& value, const std::string& where) const;
     std::size_t count(std::size_t accessor) const { return _accessors[accessor].count; }
+    std::size_t bytesOfComponent(std::size_t accessor) const;
     void requireType(std::size_t accessor, std::initializer_list<const char*> types,
                      const std::string& where) const;
     /// Of bytes or shorts, or where `wide` four bytes, as they stand.
