@@ -3,6 +3,7 @@
 
 #include <osgSkin/Error>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bake {
@@ -19,7 +20,9 @@ SampledMotion ownSamples(Character& character, const CharacterMotion& motion) {
 }
 
 SampledMotion samplesAt(Character& character, const CharacterMotion& motion, double rate) {
-    const double last = std::floor(motion.animation->getDuration() * rate + 1e-6);
+    // Files have times as floats, and those round.
+    const double frames = motion.animation->getDuration() * rate;
+    const double last = std::floor(frames + std::min(0.01, 1e-6 * (1.0 + frames)));
     if (!(last < kMostSamples))
         throw osgSkin::Error(character.file + ": motion \"" + motion.name() + "\" has " +
                              std::to_string(last) + " frames, expected less than 1e9");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Saved rigs, morphs and uniforms that osgAnimation or OSG would read, write or make room beyond.
 #include "ExpectError.h"
+#include "TextFile.h"
 
+#include <osgSkin/Error>
 #include <osgSkinImport/ReadScene>
 
 #include <osg/Geometry>
@@ -15,14 +17,21 @@
 #include <osgAnimation/Skeleton>
 #include <osgAnimation/StackedQuaternionElement>
 #include <osgAnimation/StackedTranslateElement>
+#include <osgAnimation/UpdateBone>
 #include <osgAnimation/UpdateMatrixTransform>
+#include <osgDB/Registry>
 #include <osgDB/WriteFile>
 #include <osgUtil/UpdateVisitor>
 
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -103,7 +112,18 @@ TEST(SavedDeform, RigsFollowVerticesThatAreThere) {
                 (*rig.getInfluenceMap())["bone"].push_back({beyond, 1.0f});
             },
             "bone \"bone\": weight of vertex " + std::to_string(beyond) +
-                ", expected a vertex below 3 and a finite number");
+                ", expected a vertex below 3 and a number of 0 or more, up to 1e18");
+    for (const float wrong : {-1.0f, -1e38f, 1e38f})
+        expectRig(
+            [&](RigGeometry& rig) {
+                (*rig.getInfluenceMap())["bone"].push_back({1, wrong});
+            },
+            "bone \"bone\": weight of vertex 1, expected a vertex below 3 and a number");
+    expectRig(
+        [](RigGeometry& rig) {
+            (*rig.getInfluenceMap())["bone"].push_back({1, -1e-8f});
+        },
+        "");
     expectRig([](RigGeometry& rig) { rig.setSourceGeometry(nullptr); },
               "no geometry that it is made of, expected one");
     expectRig([](RigGeometry& rig) { rig.setSourceGeometry(new osg::Geometry); },
@@ -160,6 +180,82 @@ TEST(SavedDeform, UniformsHaveAsManyValuesAsTheFileHasRoomFor) {
     std::ofstream(path) << text;
     expectError([&] { osgSkin::readScene(path, nullptr); },
                 "4000000000 elements, expected no more than the file has room for");
+}
+
+/// OSG's reader of uniforms takes an array of no kind for one.
+TEST(SavedDeform, ArraysOfUniformsAreOfAKind) {
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->getOrCreateStateSet()->addUniform(new osg::Uniform(osg::Uniform::FLOAT_VEC2, "u", 2));
+    auto& kinds =
+        osgDB::Registry::instance()->getObjectWrapperManager()->getLookupMap()["ArrayType"];
+    const std::string floats = "FloatArray";
+    for (const std::string format : {"osgt", "osgx"}) {
+        const std::string path = testing::TempDir() + "kinds." + format;
+        ASSERT_TRUE(osgDB::writeNodeFile(*scene, path));
+        const std::string whole = test::fileText(path);
+        ASSERT_NE(whole.find(floats), std::string::npos);
+        std::vector<std::string> names = {"99", "-1"};
+        for (const auto& [name, value] : kinds.getStringToValue()) names.push_back(name);
+        EXPECT_GT(names.size(), 20u);
+        for (const std::string& name : names) {
+            std::string changed = whole;
+            changed.replace(changed.find(floats), floats.size(), name);
+            std::ofstream(path) << changed;
+            try { // of other kinds than the uniform's: at least without harm
+                EXPECT_NE(osgSkin::readScene(path, nullptr), nullptr);
+                EXPECT_GT(name.size(), 2u) << name;
+            } catch (const osgSkin::Error& error) {
+                EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << name;
+            }
+        }
+    }
+    const std::string path = testing::TempDir() + "kinds.osgb";
+    ASSERT_TRUE(osgDB::writeNodeFile(*scene, path));
+    const std::string whole = test::fileText(path);
+    const auto kind = static_cast<std::int32_t>(kinds.getValue(floats.c_str()));
+    std::size_t refused = 0;
+    for (std::size_t at = 0; at + sizeof kind <= whole.size(); ++at) {
+        if (std::memcmp(whole.data() + at, &kind, sizeof kind) != 0) continue;
+        std::string changed = whole;
+        changed[at] = 99;
+        std::ofstream(path, std::ios::binary) << changed;
+        try {
+            osgSkin::readScene(path, nullptr);
+        } catch (const osgSkin::Error& error) {
+            refused +=
+                std::string(error.what()).find("an array of the kind 99") != std::string::npos;
+        }
+    }
+    EXPECT_EQ(refused, 1u);
+}
+
+TEST(SavedDeform, BonesAndWhatMovesThemHavePlaces) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const char* format : kSavedFormats)
+        for (const double number : {0.5, 1e19, nan})
+            for (int where = 0; where < 2; ++where) {
+                // A text leaves out what does not differ from the default, as no number does.
+                if (where == 1 && std::isnan(number) && format != kSavedFormats[1]) continue;
+                const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("bone");
+                const osg::ref_ptr<osgAnimation::UpdateBone> update =
+                    new osgAnimation::UpdateBone("bone");
+                const float moved = where == 0 ? float(number) : 0.0f;
+                update->getStackedTransforms().push_back(
+                    new osgAnimation::StackedTranslateElement("translate", {moved, 0, 0}));
+                bone->setUpdateCallback(update);
+                if (where == 1)
+                    bone->setInvBindMatrixInSkeletonSpace(osg::Matrixd::translate(number, 0, 0));
+                const osg::ref_ptr<osgAnimation::Skeleton> scene = new osgAnimation::Skeleton;
+                scene->setDefaultUpdateCallback();
+                scene->addChild(bone);
+                SCOPED_TRACE(std::string(format) + std::to_string(where) + std::to_string(number));
+                const std::string path = testing::TempDir() + "places." + format;
+                ASSERT_TRUE(osgDB::writeNodeFile(*scene, path));
+                if (number < 1.0)
+                    EXPECT_NE(osgSkin::readScene(path, nullptr), nullptr);
+                else
+                    expectError([&] { osgSkin::readScene(path, nullptr); }, path);
+            }
 }
 
 TEST(SavedDeform, BoxesOfRigsAreOfRigs) {

@@ -9,6 +9,7 @@
 #include <osg/Geometry>
 #include <osg/Material>
 #include <osg/MatrixTransform>
+#include <osg/Switch>
 #include <osg/Texture2D>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
@@ -295,6 +296,25 @@ TEST(Saved, MisspeltElementsAreRefused) {
     }
     const std::string path = scratch("kept.osgx", whole);
     EXPECT_NE(read(path), nullptr);
+}
+
+/// What a last child leaves out is not taken from what stands after it, of its parent.
+TEST(Saved, ElementsKeepTheirProperties) {
+    const osg::ref_ptr<osg::MatrixTransform> outer =
+        new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
+    const osg::ref_ptr<osg::MatrixTransform> inner = new osg::MatrixTransform;
+    const osg::ref_ptr<osg::Switch> off = new osg::Switch, empty = new osg::Switch;
+    outer->addChild(inner);
+    inner->addChild(off);
+    off->addChild(new osg::Node, false);
+    off->addChild(empty, true);
+    outer->setUserData(new osg::Group);
+    for (const std::string format : kFormats) {
+        const std::string path = scratch("nested." + format, {});
+        ASSERT_TRUE(osgDB::writeNodeFile(*outer, path));
+        const osg::ref_ptr<osg::Node> scene = read(path);
+        EXPECT_EQ(textOf(*scene), textOf(*outer)) << format;
+    }
 }
 
 TEST(Saved, ScenesAreReadAsOsgReadsThem) {

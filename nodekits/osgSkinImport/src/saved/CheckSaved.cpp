@@ -13,6 +13,8 @@
 #include <osg/Group>
 #include <osg/Transform>
 #include <osgAnimation/AnimationManagerBase>
+#include <osgAnimation/Bone>
+#include <osgAnimation/StackedTransformElement>
 
 #include <algorithm>
 #include <cmath>
@@ -100,14 +102,22 @@ std::string wrongIn(const osg::Geometry& geometry) {
     return whyNotDeformed(geometry);
 }
 
-/// Why a transform has no place for what is below it; empty where it has.
-std::string wrongIn(const osg::Transform& transform) {
+bool isFinePlace(const osg::Matrixd& matrix) {
+    return std::all_of(matrix.ptr(), matrix.ptr() + 16,
+                       [](double number) { return isFinePlace(number); });
+}
+
+/// Whether a transform, or a part of one that moves, has a place for what is below it.
+bool hasPlace(const osg::Object& object) {
     osg::Matrixd matrix;
-    transform.computeLocalToWorldMatrix(matrix, nullptr);
-    for (int i = 0; i < 16; ++i)
-        if (!isFinePlace(matrix.ptr()[i]))
-            return "a matrix with numbers that are not finite, or beyond -1e18 to 1e18";
-    return {};
+    if (const auto* transform = dynamic_cast<const osg::Transform*>(&object))
+        transform->computeLocalToWorldMatrix(matrix, nullptr);
+    else if (const auto* part = dynamic_cast<const osgAnimation::StackedTransformElement*>(&object))
+        part->applyToMatrix(matrix);
+    const auto* bone = dynamic_cast<const osgAnimation::Bone*>(&object);
+    return isFinePlace(matrix) &&
+           (bone == nullptr || (isFinePlace(bone->getMatrixInSkeletonSpace()) &&
+                                isFinePlace(bone->getInvBindMatrixInSkeletonSpace())));
 }
 
 /// Whether OSG read a node, callback or animation and has not put it anywhere: it drops without a
@@ -152,12 +162,11 @@ void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::str
                 failFile(path, "geometry " + inQuotes(geometry->getName()) + " (object " +
                                    std::to_string(id) + ") has " + wrong);
         }
-        if (const auto* transform = dynamic_cast<const osg::Transform*>(object.get())) {
-            const std::string wrong = wrongIn(*transform);
-            if (!wrong.empty())
-                failFile(path, "transform " + inQuotes(transform->getName()) + " (object " +
-                                   std::to_string(id) + ") has " + wrong);
-        }
+        if (!hasPlace(*object))
+            failFile(path, "transform " + inQuotes(object->getName()) + " (object " +
+                               std::to_string(id) +
+                               ") has a matrix with numbers that are not finite, or beyond -1e18 "
+                               "to 1e18");
         const auto* drawable = dynamic_cast<const osg::Drawable*>(object.get());
         if (drawable != nullptr && hasBoxOfARig(*drawable))
             failFile(path, "drawable " + inQuotes(drawable->getName()) + " (object " +

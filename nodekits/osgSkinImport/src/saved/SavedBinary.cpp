@@ -66,7 +66,7 @@ std::string SavedBinary::takeText() {
 }
 
 void SavedBinary::readProperty(osgDB::ObjectProperty& property) {
-    property.set(property._mapProperty ? take<int>() : 0);
+    property.set(property._mapProperty ? tookMapped(property._name, take<int>()) : 0);
     if (!property._mapProperty) tookProperty(property._name);
 }
 

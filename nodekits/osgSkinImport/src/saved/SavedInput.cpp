@@ -107,6 +107,15 @@ unsigned SavedInput::took(unsigned number) {
     return number;
 }
 
+int SavedInput::tookMapped(const std::string& table, int value) const {
+    if (table != "ArrayType") return value;
+    osgDB::ObjectWrapperManager& all = *osgDB::Registry::instance()->getObjectWrapperManager();
+    if (all.getLookupMap()[table].getValueToString().count(value) == 0)
+        refuse("an array of the kind " + std::to_string(value) +
+               ", expected one that OpenSceneGraph knows");
+    return value;
+}
+
 void SavedInput::tookProperty(const std::string& name) {
     _property = name;
     _numberIsLast = false;

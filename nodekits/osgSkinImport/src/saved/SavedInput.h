@@ -49,6 +49,9 @@ protected:
     // What was read, to be checked. \return what OSG is to see of it
     int took(int number);
     unsigned took(unsigned number);
+    /// What was read of a table, by its number: OSG goes on without an array of a kind that it does
+    /// not know, and some take it for one.
+    int tookMapped(const std::string& table, int value) const;
     void tookProperty(const std::string& name);
     void tookBegin();
     void tookMatch(const std::string& name) { _property = name; }

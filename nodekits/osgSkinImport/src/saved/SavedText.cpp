@@ -84,7 +84,8 @@ void SavedText::readGLenum(osgDB::ObjectGLenum& value) {
 }
 
 void SavedText::readProperty(osgDB::ObjectProperty& property) {
-    if (property._mapProperty) return property.set(valueOf(property._name));
+    if (property._mapProperty)
+        return property.set(tookMapped(property._name, valueOf(property._name)));
     const std::string name = nextName(property._name);
     if (name != property._name) refuse(inQuotes(name) + ", expected " + inQuotes(property._name));
     tookProperty(property._name);

@@ -49,7 +49,8 @@ osg::ref_ptr<const SampledClip> SampledClip::create(const osgAnimation::Animatio
                     " samples a second, expected more than 0");
     BoneSampler sampler(animation, skeleton);
     const double seconds = sampler.duration();
-    const double samples = std::max(1.0, std::ceil(seconds * samplesPerSecond - 1e-6));
+    const double steps = seconds * samplesPerSecond; // whole ones, as floats round them
+    const double samples = std::max(1.0, std::ceil(steps - std::min(0.01, 1e-6 * (1.0 + steps))));
     const double joints = static_cast<double>(sampler.joints().size());
     if (!(samples * joints <= kMostJointSamples)) // for NaN, too
         throw Error("sampled clip: animation \"" + animation.getName() + "\" of " +

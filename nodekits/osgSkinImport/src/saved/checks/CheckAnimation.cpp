@@ -3,10 +3,13 @@
 
 #include "text/FileText.h"
 
+#include <osgSkin/GlmTypes>
+
 #include <osgAnimation/CubicBezier>
 #include <osgAnimation/Keyframe>
 #include <osgAnimation/Sampler>
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgSkin {
@@ -15,7 +18,7 @@ namespace {
 enum class Keys { NotOfThisKind, Fine, WrongTimes, WrongValues };
 
 bool isFine(double value) {
-    return std::isfinite(value);
+    return std::abs(value) <= kLargestCoordinate; // false for NaN too
 }
 
 /// OSG blends rotations as they are: one of another length would scale what it turns.
@@ -26,12 +29,12 @@ bool isFine(const osg::Quat& rotation) {
 template <typename Value>
 auto isFine(const Value& vector) -> decltype(bool(Value::num_components)) {
     for (int i = 0; i < int(Value::num_components); ++i)
-        if (!std::isfinite(vector.ptr()[i])) return false;
+        if (!isFine(double(vector.ptr()[i]))) return false;
     return true;
 }
 
 bool isFine(const osg::Matrixf& matrix) {
-    return matrix.valid();
+    return std::all_of(matrix.ptr(), matrix.ptr() + 16, [](double x) { return isFine(x); });
 }
 
 template <typename Value>
@@ -77,8 +80,8 @@ std::string whyNotPlayed(const osgAnimation::Animation& animation) {
                                   osg::Matrixf, FloatCubicBezier, DoubleCubicBezier,
                                   Vec2CubicBezier, Vec3CubicBezier, Vec4CubicBezier>(*keys);
         if (found == Keys::WrongValues)
-            return which + " with values of keys that are not finite, or rotations that are not "
-                           "of length 1";
+            return which + " with values of keys that are not finite, or beyond -1e18 to 1e18, or "
+                           "rotations that are not of length 1";
         if (found != Keys::Fine)
             return which + " with times of keys that are not finite or not in order";
     }

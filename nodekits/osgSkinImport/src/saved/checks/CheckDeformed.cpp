@@ -3,13 +3,16 @@
 
 #include "text/FileText.h"
 
+#include <osgSkin/GlmTypes>
+
 #include <osgAnimation/MorphGeometry>
 #include <osgAnimation/RigGeometry>
 
-#include <cmath>
-
 namespace osgSkin {
 namespace {
+
+constexpr float kRounding = -1e-3f; ///< the least weight that exporters make of 0
+constexpr auto kMostWeight = static_cast<float>(kLargestCoordinate);
 
 /// Why an array is not one of so many places or directions in floats; empty where it is.
 std::string wrongWith(const osg::Array* array, std::size_t count, const std::string& what) {
@@ -30,10 +33,10 @@ std::string whyNotRigged(const osgAnimation::RigGeometry& rig) {
     const std::size_t vertices = places != nullptr ? places->getNumElements() : 0;
     for (const auto& [bone, entries] : *influences)
         for (const auto& [vertex, weight] : entries)
-            if (vertex >= vertices || !std::isfinite(weight))
+            if (vertex >= vertices || !(weight >= kRounding && weight <= kMostWeight))
                 return "bone " + inQuotes(bone) + ": weight of vertex " + std::to_string(vertex) +
                        ", expected a vertex below " + std::to_string(vertices) +
-                       " and a finite number";
+                       " and a number of 0 or more, up to 1e18";
     return {};
 }
 
