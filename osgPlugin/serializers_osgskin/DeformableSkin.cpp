@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "RegisterWrapper.h"
-#include "RestGeometry.h"
 #include "SavedPose.h"
 
 #include <osgSkin/DeformableSkin>
@@ -42,8 +41,6 @@ bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     if (is.getException()) return false;
     if (!rest) return fail(is, skin, "no rest geometry");
     if (!model) return fail(is, skin, "no skin model");
-    const std::string wrong = whatIsWrongWith(*rest, model->vertexCount());
-    if (!wrong.empty()) return fail(is, skin, wrong);
     // osg::Node's part of the file has it already, and it need not be the geometry's.
     const osg::ref_ptr<osg::StateSet> stateSet = skin.getStateSet();
     try {

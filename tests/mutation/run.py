@@ -17,6 +17,7 @@ import os
 import random
 import re
 import shlex
+import signal
 import subprocess
 import sys
 import time
@@ -50,10 +51,13 @@ SKIPPED = re.compile(r'^\s*(//|\*|#|using|template|namespace|static_assert)|"|fa
 
 
 def shell(command, where, timeout=None, **environment):
+    running = subprocess.Popen(command, cwd=where, shell=True, env={**os.environ, **environment},
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
-        return subprocess.run(command, cwd=where, timeout=timeout, shell=True, env={**os.environ, **environment},
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+        return running.wait(timeout)
     except subprocess.TimeoutExpired:
+        os.killpg(running.pid, signal.SIGKILL)  # the shell's program, too
+        running.wait()
         return 124  # a mutant that hangs is noticed
 
 

@@ -3,7 +3,11 @@
 #include "CharacterFiles.h"
 #include "Command.h"
 #include "GlbFile.h"
+#include "GltfBuilder.h"
 #include "ReferenceSkin.h"
+
+#include <osgSkinImport/ImportRig>
+#include <osgSkinRig/SampledClip>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +15,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -140,6 +146,30 @@ TEST(Bake, FramesAreTheFilesOwnSamples) {
         const glm::dquat found(r[0].get<double>(), r[1].get<double>(), r[2].get<double>(),
                                r[3].get<double>());
         EXPECT_NEAR(std::abs(glm::dot(expected, found)), 1.0, 1e-9) << frame;
+    }
+}
+
+/// Keys at whole frames, whose times floats round: up or down.
+TEST(Bake, TheLastFrameIsThere) {
+    const std::string folder = test::makeTestFolder();
+    for (const int last : {43, 70, 100, 115}) {
+        test::GltfColumn column;
+        std::vector<double> times, turns;
+        for (int frame = 0; frame <= last; ++frame) {
+            times.push_back(double(float(frame) / 30.0f));
+            const double half = 0.4 * frame / last;
+            turns.insert(turns.end(), {0.0, 0.0, std::sin(half), std::cos(half)});
+        }
+        column.animate("bend", column.joints[1], "rotation", times, turns);
+        const std::string path = column.save("frames.gltf"), out = std::to_string(last) + "_%d.ply";
+        const auto baked = runBake("'" + path + "' --quiet --out " + out, folder);
+        ASSERT_EQ(baked.status, 0) << baked.err;
+        const std::string before = folder + "/" + std::to_string(last) + "_";
+        EXPECT_TRUE(std::filesystem::exists(before + std::to_string(last) + ".ply")) << last;
+        EXPECT_FALSE(std::filesystem::exists(before + std::to_string(last + 1) + ".ply")) << last;
+        const osgSkin::ImportedRig rig = osgSkin::importRig(path);
+        const auto clip = osgSkin::SampledClip::create(*rig.animations[0], *rig.skeleton, 30.0);
+        EXPECT_EQ(clip->sampleCount(), std::size_t(last));
     }
 }
 

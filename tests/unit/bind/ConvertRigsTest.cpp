@@ -159,6 +159,19 @@ TEST(ConvertRigs, RigUnderATransformComesToStandUnderItsSkeleton) {
                     1e-5);
 }
 
+TEST(ConvertRigs, CallbacksThatSkinsCannotKeepAreToldOf) {
+    Scene scene;
+    const auto rig = makeRig(blended, "coat");
+    rig->addUpdateCallback(new osg::NodeCallback);
+    rig->setCullingActive(false);
+    scene.skeleton->addChild(rig);
+    const ConvertReport report = convertRigs(*scene.root);
+    ASSERT_EQ(report.skins.size(), 1u);
+    EXPECT_FALSE(report.skins[0]->getCullingActive());
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_EQ(report.notes[0], "rig \"coat\" loses its own update callback");
+}
+
 TEST(ConvertRigs, TransformsThatMoveARigAreToldOf) {
     for (const bool away : {false, true})
         for (const bool moves : {false, true}) {

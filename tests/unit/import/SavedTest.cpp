@@ -329,6 +329,13 @@ TEST(Saved, ScenesAreReadAsOsgReadsThem) {
     }
 }
 
+TEST(Saved, ABeginningAloneIsOne) {
+    const std::string whole = saved("osgb");
+    for (const std::size_t size : {7, 8, 15})
+        expectError([&] { read(scratch("begun.osgb", whole.substr(0, size))); },
+                    size < 8 ? "it begins with neither" : "it ends too early");
+}
+
 TEST(Saved, CutShortIsReadOrRefused) {
     for (const std::string format : kFormats) {
         const std::string whole = saved(format);

@@ -1,150 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
 // Clips played without bones, beside the same clips on an osgAnimation skeleton.
-#include <osgSkin/Error>
-#include <osgSkin/GlmOsg>
-#include <osgSkin/RigidPart>
-#include <osgSkin/UpdateDeformableSkin>
-#include <osgSkinRig/ClipCharacter>
-#include <osgSkinRig/MakeAnimation>
-#include <osgSkinRig/MakeSkeleton>
-
-#include "FindNodes.h"
-#include "Tube.h"
+#include "Notices.h"
+#include "PlayedFigure.h"
 #include "Turns.h"
 
-#include <osg/FrameStamp>
-#include <osg/Geometry>
-#include <osgAnimation/BasicAnimationManager>
-#include <osgUtil/UpdateVisitor>
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+#include <osgSkinRig/ClipCharacter>
 
-#include <glm/gtc/quaternion.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <limits>
 #include <random>
 
-namespace {
-
+using namespace played;
 using osgSkin::ClipPlayer;
 using osgSkin::SampledClip;
-
-constexpr double kFrame = 1.0 / 30.0;
-
-osgSkin::RestSkeleton tubeRig() {
-    osgSkin::RestSkeleton rig;
-    rig.add("root", -1, glm::dvec3(0, 0, 0));
-    rig.add("middle", 0, glm::dvec3(0, 2, 0));
-    rig.add("end", 1, glm::dvec3(0, 4, 0));
-    return rig;
-}
-
-/// Turns of all joints, and a walk along x with steps up and down.
-osgSkin::Clip someClip(std::size_t frames, double speed) {
-    osgSkin::Clip clip;
-    clip.name = "some";
-    clip.frameTime = kFrame;
-    clip.frames = frames;
-    clip.joints = 3;
-    for (std::size_t f = 0; f < frames; ++f) {
-        const double phase = 2.0 * glm::pi<double>() * double(f) / double(frames);
-        for (std::size_t j = 0; j < 3; ++j)
-            clip.rotations.push_back(
-                glm::angleAxis(speed * std::sin(phase + double(j)),
-                               glm::normalize(glm::dvec3(1.0, 0.4 * double(j), 0.3))));
-        clip.rootPositions.emplace_back(0.1 * speed * double(f), 1.0 + 0.1 * std::sin(phase), 0.0);
-    }
-    return clip;
-}
-
-/// A character as binding makes them: a skin under a skeleton that a manager animates, and a rigid
-/// part.
-struct Character {
-    osgSkin::RestSkeleton rig = tubeRig();
-    osg::ref_ptr<osg::Group> scene = new osg::Group;
-    osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(rig);
-    osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
-    osg::ref_ptr<osgSkin::RigidPart> rigid;
-    osg::ref_ptr<osgAnimation::Animation> animation;
-
-    explicit Character(const osgSkin::Clip& clip) {
-        const test::Tube tube(41, 12);
-        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-        const osg::ref_ptr<osg::Vec3Array> vertices =
-            new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
-        const osg::ref_ptr<osg::Vec3Array> normals =
-            new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
-        for (const glm::vec3& p : tube.positions) vertices->push_back({p.x, p.y, p.z});
-        for (const glm::vec3& n : tube.normals) normals->push_back({n.x, n.y, n.z});
-        geometry->setVertexArray(vertices);
-        geometry->setNormalArray(normals);
-        skin->setSkin(geometry, tube.model());
-        skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
-        osgAnimation::Bone* bone = findBone(*skeleton, "end");
-        rigid = new osgSkin::RigidPart(new osg::Geometry, *bone);
-        skeleton->addChild(skin);
-        animation = osgSkin::makeAnimation(clip, rig);
-        const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
-            new osgAnimation::BasicAnimationManager;
-        manager->registerAnimation(animation);
-        scene->addUpdateCallback(manager);
-        const osg::ref_ptr<osg::MatrixTransform> upright =
-            new osg::MatrixTransform(osg::Matrix::rotate(1.0, osg::Vec3d(1, 0, 0)));
-        upright->addChild(skeleton);
-        scene->addChild(upright);
-        manager->buildTargetReference();
-        update(0.0);
-        manager->playAnimation(animation);
-    }
-    static osgAnimation::Bone* findBone(osg::Group& below, const std::string& name) {
-        for (unsigned int i = 0; i < below.getNumChildren(); ++i) {
-            auto* bone = dynamic_cast<osgAnimation::Bone*>(below.getChild(i));
-            if (!bone) continue;
-            if (bone->getName() == name) return bone;
-            if (auto* found = findBone(*bone, name)) return found;
-        }
-        return nullptr;
-    }
-    void update(double time) const {
-        const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-        stamp->setSimulationTime(time);
-        stamp->setFrameNumber(static_cast<unsigned int>(1000.0 * time));
-        osgUtil::UpdateVisitor visitor;
-        visitor.setFrameStamp(stamp);
-        scene->accept(visitor);
-    }
-};
-
-/// The only skin below a node.
-osgSkin::DeformableSkin& skinOf(osg::Node& node) {
-    return *test::findNodes<osgSkin::DeformableSkin>(node).at(0).node;
-}
-
-using Vertices = std::vector<osg::Vec3>;
-
-Vertices verticesOf(const osg::Geometry* geometry) {
-    return static_cast<const osg::Vec3Array&>(*geometry->getVertexArray()).asVector();
-}
-Vertices verticesOf(const osgSkin::DeformableSkin& skin) {
-    return verticesOf(skin.getDeformedGeometry());
-}
-
-double difference(const Vertices& a, const Vertices& b) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        largest = std::max(largest, double((a[i] - b[i]).length()));
-    return largest;
-}
-
-Vertices posedBy(ClipPlayer& player, osgSkin::DeformableSkin& skin) {
-    EXPECT_TRUE(player.pose());
-    return verticesOf(skin);
-}
-
-constexpr double kSize = 6.0;
-
-} // namespace
 
 TEST(SampledClip, PlacesTimes) {
     const auto clip = SampledClip::create(someClip(10, 0.3), tubeRig());
@@ -245,60 +115,6 @@ TEST(ClipPlayer, PosesAsTheSkeletonDoes) {
     }
 }
 
-TEST(ClipPlayer, RigidPartsMayStandInGroupsBelowTheirBones) {
-    Character character(someClip(12, 0.8));
-    osg::Group& bone = *character.rigid->getParent(0);
-    const osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->addChild(character.rigid);
-    bone.replaceChild(character.rigid, group);
-    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
-    const auto copy = copies->makeInstance();
-    copy.player->setTrack(0, {copies->sample(*copies->animations().front(), 30.0), 4.0 * kFrame});
-    ASSERT_TRUE(copy.player->pose());
-    character.update(1.0 + 4.0 * kFrame); // the manager starts at its first update
-    character.update(4.0 * kFrame);
-    osg::NodePath path = character.rigid->getParentalNodePaths(character.scene).front();
-    const osg::Matrix expected = osg::computeLocalToWorld(path);
-    const auto& rigid = dynamic_cast<osg::MatrixTransform&>(*copy.node->getChild(1));
-    for (int i = 0; i < 16; ++i)
-        EXPECT_NEAR(rigid.getMatrix().ptr()[i], expected.ptr()[i], 1e-6) << i;
-    // One that moves it away from its bone is not followed.
-    const osg::ref_ptr<osg::MatrixTransform> aside =
-        new osg::MatrixTransform(osg::Matrixd::translate(1, 0, 0));
-    aside->addChild(character.rigid);
-    bone.replaceChild(group, aside);
-    EXPECT_THROW(osgSkin::ClipCharacter::create(*character.scene), osgSkin::Error);
-}
-
-TEST(ClipPlayer, BakedBoundsHoldTheSkinBetweenSamples) {
-    Character character(someClip(12, 0.0));
-    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
-    std::mt19937_64 random(17);
-    std::uniform_real_distribution<double> at(-1.0, 3.0);
-    for (const double speed : {0.3, 0.8, 2.6, 3.5}) { // the last ones turn joints half around
-        const auto clip = SampledClip::create(someClip(12, speed), character.rig);
-        copies->bake(clip);
-        const auto copy = copies->makeInstance();
-        osgSkin::DeformableSkin& skin = skinOf(*copy.node);
-        double mean = 0.0;
-        constexpr int kTimes = 400;
-        for (int i = 0; i < kTimes; ++i) {
-            copy.player->setTrack(0, {clip, at(random) * clip->duration(), 1.0, i % 2 == 0});
-            osg::BoundingBox tight;
-            for (const osg::Vec3& p : posedBy(*copy.player, skin)) {
-                ASSERT_TRUE(skin.getBoundingBox().contains(p)) << speed;
-                tight.expandBy(p);
-            }
-            const osg::Vec3d is = skin.getBoundingBox()._max - skin.getBoundingBox()._min;
-            const osg::Vec3d least = tight._max - tight._min;
-            mean += is.x() * is.y() * is.z() / (least.x() * least.y() * least.z()) / kTimes;
-        }
-        if (speed < 1.0) {
-            EXPECT_LE(mean, 1.2) << speed;
-        }
-    }
-}
-
 TEST(ClipPlayer, PosesWhatItIsGiven) {
     const osgSkin::Clip clip = someClip(12, 0.8);
     Character character(clip);
@@ -340,30 +156,51 @@ TEST(ClipPlayer, AJointThatTheClipHasNotGoesWithItsParent) {
     }
 }
 
-TEST(ClipPlayer, BlendsBetweenBakedClipsAreBoundedToo) {
-    Character character(someClip(12, 0.0));
-    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
-    const auto slow = SampledClip::create(someClip(12, 0.3), character.rig);
-    const auto fast = SampledClip::create(someClip(9, 1.2), character.rig);
-    copies->bake(slow);
-    copies->bake(fast);
-    const auto copy = copies->makeInstance();
-    osgSkin::DeformableSkin& skin = skinOf(*copy.node);
-    const auto expectHeld = [&] {
-        for (const osg::Vec3& p : posedBy(*copy.player, skin))
-            ASSERT_TRUE(skin.getBoundingBox().contains(p, 1e-5f));
-    };
-    for (int i = 0; i < 60; ++i) {
-        copy.player->setTrack(0, {slow, 0.013 * i});
-        copy.player->setTrack(1, {fast, 0.017 * i});
-        for (const double weight : {0.0, 0.4, 1.0}) {
-            copy.player->setWeight(weight);
-            expectHeld();
+/// At both ends of a blend, whichever clip has fewer joints.
+TEST(ClipPlayer, BlendsWithClipsOfFewerJoints) {
+    const osgSkin::Clip whole = someClip(12, 0.8);
+    osgSkin::Clip without = whole;
+    without.joints = 2;
+    without.rotations.clear();
+    for (std::size_t f = 0; f < whole.frames; ++f)
+        for (const std::size_t j : {0, 2}) without.rotations.push_back(whole.rotations[3 * f + j]);
+    osgSkin::RestSkeleton sparse;
+    sparse.add("root", -1, glm::dvec3(0, 0, 0));
+    sparse.add("end", 0, glm::dvec3(0, 4, 0));
+    const Character character(whole);
+    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    player->addSkin(character.skin);
+    const ClipPlayer::Track tracks[] = {{SampledClip::create(whole, character.rig), 0.21},
+                                        {SampledClip::create(without, sparse), 0.13}};
+    for (const std::size_t first : {0, 1}) {
+        Vertices alone[2];
+        for (const std::size_t t : {0, 1}) {
+            player->setTrack(1, {});
+            player->setTrack(0, tracks[t == 0 ? first : 1 - first]);
+            alone[t] = posedBy(*player, *character.skin);
         }
-        copy.player->setRoot(ClipPlayer::Root::InPlace);
-        expectHeld();
-        copy.player->setRoot(ClipPlayer::Root::Moving);
+        ASSERT_GT(difference(alone[0], alone[1]), 0.1);
+        player->setTrack(0, tracks[first]);
+        player->setTrack(1, tracks[1 - first]);
+        for (const double weight : {0.0, 1e-4, 0.5, 1.0 - 1e-4, 1.0}) {
+            player->setWeight(weight);
+            const Vertices here = posedBy(*player, *character.skin);
+            const bool isNext = weight > 0.5;
+            if (weight == 0.5)
+                EXPECT_GT(difference(here, alone[0]), 0.05);
+            else
+                EXPECT_LE(difference(here, alone[isNext]), weight == double(isNext) ? 0.0 : 0.01)
+                    << first << ' ' << weight;
+        }
     }
+}
+
+TEST(ClipPlayer, ItsCopyPosesNothing) {
+    const test::Notices notices;
+    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    const osg::ref_ptr<ClipPlayer> copy = osg::clone(player.get(), osg::CopyOp::DEEP_COPY_ALL);
+    EXPECT_TRUE(notices.say("a copy of a ClipPlayer poses nothing")) << notices.text();
+    EXPECT_STREQ(copy->className(), "ClipPlayer");
 }
 
 TEST(ClipPlayer, LoopsWithoutASeam) {

@@ -57,6 +57,16 @@ TEST(DeformableSkin, RefusesGeometryThatDoesNotFit) {
             new osg::DrawElementsUInt(GL_TRIANGLES, corners.begin(), corners.end()));
         EXPECT_THROW(skin->setSkin(broken, test::Tube().model()), osgSkin::Error);
     }
+    // A driver would read beyond an array, and what is saved would be refused.
+    for (const auto binding : {osg::Array::BIND_PER_VERTEX, osg::Array::BIND_OVERALL}) {
+        const osg::ref_ptr<osg::Geometry> lacking = makeGeometry(test::Tube());
+        lacking->setTexCoordArray(0, new osg::Vec2Array(3), binding);
+        if (binding == osg::Array::BIND_PER_VERTEX)
+            EXPECT_THROW(skin->setSkin(lacking, test::Tube().model()), osgSkin::Error);
+        else
+            EXPECT_NO_THROW(osg::ref_ptr<osgSkin::DeformableSkin>(new osgSkin::DeformableSkin)
+                                ->setSkin(lacking, test::Tube().model()));
+    }
     EXPECT_EQ(skin->getModel(), nullptr);
 }
 
@@ -296,4 +306,8 @@ TEST(DeformableSkin, FollowsAnActivation) {
     EXPECT_EQ(vertices(*copy), vertices(*skin));
     EXPECT_TRUE(copy->setActivation("breath", 0.0f));
     EXPECT_EQ(skin->getActivation("breath"), 0.5f);
+    // Another geometry of the same skin is as tense.
+    skin->setSkin(makeGeometry(tube), tube.model());
+    EXPECT_EQ(skin->getActivation("breath"), 0.5f);
+    EXPECT_NE(vertices(*skin), atRest);
 }

@@ -4,6 +4,7 @@
 #include "nodes/NameLinker.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgSkin {
 
@@ -31,6 +32,7 @@ void AutoPlayManager::link(osg::Node* subgraph) {
 }
 
 void AutoPlayManager::update(double time) {
+    if (!std::isfinite(time)) return; // OSG would add to it from then on
     if (!_started) {
         _started = true;
         const bool playing = std::any_of(_animationsPlaying.begin(), _animationsPlaying.end(),

@@ -57,16 +57,20 @@ void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinM
         throw Error("deformable skin: the geometry \"" + rest->getName() +
                     "\" needs Vec3Arrays of " + std::to_string(model->vertexCount()) +
                     " vertices and normals, as many as the model has");
-    const std::string broken = brokenPrimitive(*rest, model->vertexCount());
+    std::string broken = brokenPrimitive(*rest, model->vertexCount());
+    if (broken.empty()) broken = findShort(*rest, model->vertexCount());
     if (!broken.empty())
         throw Error("deformable skin: the geometry \"" + rest->getName() + "\" has " + broken);
     _tangents = tangentsOf(*rest, _tangentAttribute, *model);
+    const Pose before = _pose;
+    const std::vector<std::string> inputs = _model ? _model->inputs() : std::vector<std::string>();
     _rest = rest;
     _model = model;
     _pose = Pose(_model->joints(), _model->inputs().size());
     setStateSet(rest->getStateSet());
     makeBuffers();
     poseChanged();
+    for (std::size_t i = 0; i < inputs.size(); ++i) setActivation(inputs[i], before.input(i));
 }
 
 osg::ref_ptr<const SkinTangents> DeformableSkin::tangentsOf(const osg::Geometry& rest,

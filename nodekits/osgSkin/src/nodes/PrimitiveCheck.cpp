@@ -58,6 +58,20 @@ std::string whatIsWrongWith(const osg::PrimitiveSet* primitives, std::size_t ver
     return {};
 }
 
+std::size_t fewest(const osg::Array& array, const osg::Geometry& geometry,
+                   std::size_t vertexCount) {
+    switch (array.getBinding()) {
+    case osg::Array::BIND_PER_VERTEX:
+        return vertexCount;
+    case osg::Array::BIND_PER_PRIMITIVE_SET:
+        return geometry.getNumPrimitiveSets();
+    case osg::Array::BIND_OVERALL:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
 } // namespace
 
 std::string findBroken(const osg::Geometry& geometry, std::size_t vertices) {
@@ -65,6 +79,18 @@ std::string findBroken(const osg::Geometry& geometry, std::size_t vertices) {
         std::string wrong = whatIsWrongWith(geometry.getPrimitiveSet(i), vertices);
         if (!wrong.empty()) return wrong;
     }
+    return {};
+}
+
+std::string findShort(const osg::Geometry& geometry, std::size_t vertices) {
+    osg::Geometry::ArrayList arrays;
+    geometry.getArrayList(arrays);
+    for (const osg::ref_ptr<osg::Array>& array : arrays)
+        if (array->getNumElements() < fewest(*array, geometry, vertices))
+            return "an array with " + std::to_string(array->getNumElements()) +
+                   " elements, expected at least " +
+                   std::to_string(fewest(*array, geometry, vertices)) + " for " +
+                   std::to_string(vertices) + " vertices";
     return {};
 }
 

@@ -71,7 +71,7 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
         startTwistAfresh();
         // A root over several bones, as readSkeleton() adds one, has none and stays at rest.
         for (const std::string& joint : _reader.missing())
-            if (joint != model->joints().front().name)
+            if (joint != model->joints().front().name && _toldMissing.insert(joint).second)
                 OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
                                       skeleton.getName() + "\" has no bone \"" + joint +
                                       "\"; the joint moves with its parent")

@@ -16,6 +16,7 @@
 #include <osg/Sequence>
 #include <osg/Switch>
 #include <osg/Transform>
+#include <osgAnimation/RigGeometry>
 
 #include <algorithm>
 #include <iterator>
@@ -79,6 +80,23 @@ bool isMovedApart(const Rig& rig) {
     });
 }
 
+/// What an application has set on a rig that its skin does not take over, for a note; empty:
+/// nothing.
+std::string whatIsLost(const osgAnimation::RigGeometry& rig) {
+    const auto isOwn = [](const osg::Callback* callback) {
+        return dynamic_cast<const osgAnimation::UpdateRigGeometry*>(callback) != nullptr;
+    };
+    bool updates = false;
+    for (const osg::Callback* c = rig.getUpdateCallback(); c != nullptr; c = c->getNestedCallback())
+        updates = updates || !isOwn(c);
+    const osg::Drawable::ComputeBoundingBoxCallback* box = rig.getComputeBoundingBoxCallback();
+    std::string result = updates ? "update callback" : "";
+    if (box != nullptr &&
+        dynamic_cast<const osgAnimation::RigComputeBoundingBoxCallback*>(box) == nullptr)
+        result += result.empty() ? "bounding box callback" : " and bounding box callback";
+    return result;
+}
+
 /// Puts the skin where the rig is.
 void replace(const Rig& rig, DeformableSkin& skin) {
     skin.setName(rig.geometry->getName());
@@ -86,6 +104,8 @@ void replace(const Rig& rig, DeformableSkin& skin) {
     skin.setUserDataContainer(rig.geometry->getUserDataContainer());
     skin.setCullCallback(rig.geometry->getCullCallback());
     skin.setEventCallback(rig.geometry->getEventCallback());
+    skin.setCullingActive(rig.geometry->getCullingActive());
+    if (rig.geometry->getDrawCallback()) skin.setDrawCallback(rig.geometry->getDrawCallback());
     const osg::ref_ptr<osg::Node> keep = rig.geometry;
     for (const osg::NodePath& path : rig.nodePaths) {
         osg::Group* parent = path.empty() ? rig.skeleton : path.back()->asGroup();
@@ -136,6 +156,8 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
     made.skins = makeSkins(body.mesh, body.parts, made.binding, whole).skins;
     for (std::size_t i = 0; i < taken.size(); ++i) {
         DeformableSkin& skin = *made.skins[i].drawable;
+        const std::string lost = whatIsLost(*taken[i]->geometry);
+        if (!lost.empty()) report.notes.push_back(nameOf(*taken[i]) + " loses its own " + lost);
         if (isMovedApart(*taken[i]))
             report.notes.push_back(nameOf(*taken[i]) + " stands where its transforms are now, "
                                                        "which callbacks may move: it does not "

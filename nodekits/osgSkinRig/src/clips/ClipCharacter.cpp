@@ -9,7 +9,10 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkin/RigidPart>
 
+#include <osg/LOD>
 #include <osg/NodeVisitor>
+#include <osg/Notify>
+#include <osg/Switch>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Bone>
 
@@ -82,6 +85,27 @@ osg::BoundingBox boundsOf(const SkinMoment& moment) {
 
 } // namespace
 
+ClipCharacter::Look ClipCharacter::lookOf(const osg::NodePath& path) {
+    Look look;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const osg::Node& node = *path[i];
+        if (dynamic_cast<const DeformableSkin*>(&node)) break; // a copy has the skin's own look
+        look.mask &= node.getNodeMask();
+        if (i + 1 < path.size()) {
+            const auto* choice = dynamic_cast<const osg::Switch*>(&node);
+            if (choice && !choice->getChildValue(path[i + 1])) look.mask = 0;
+            if (dynamic_cast<const osg::LOD*>(&node))
+                OSG_NOTICE << onOneLine("osgSkin: clip character: \"" + path.back()->getName() +
+                                        "\" is drawn at all distances, not by its level of detail")
+                           << std::endl;
+        }
+        if (!node.getStateSet()) continue;
+        if (!look.state) look.state = new osg::StateSet;
+        look.state->merge(*node.getStateSet());
+    }
+    return look;
+}
+
 osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
     CharacterParts found;
     character.accept(found);
@@ -97,12 +121,12 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
                         "\" does not stand under the character's skeleton");
         result->_skeleton = static_cast<osgAnimation::Skeleton*>(above.back());
         result->_skeletonToCharacter = osg::computeLocalToWorld(above);
-        result->_skins.push_back({skin, osg::computeLocalToWorld(path)});
+        result->_skins.push_back({skin, osg::computeLocalToWorld(path), lookOf(path)});
     }
     if (result->_skins.empty()) throw Error("clip character: no skin, expected a DeformableSkin");
     for (const osg::NodePath& path : found.rigids) {
         osg::Group& part = *path.back()->asGroup();
-        Rigid rigid{{}, part.getName()};
+        Rigid rigid{{}, part.getName(), lookOf(path)};
         rigid.joint = boneAbove(path);
         for (unsigned int i = 0; i < part.getNumChildren(); ++i)
             rigid.parts.emplace_back(part.getChild(i));
@@ -175,8 +199,12 @@ ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
         const osg::ref_ptr<DeformableSkin> skin =
             osg::clone(source.skin.get(), osg::CopyOp::SHALLOW_COPY);
         skin->setUpdateCallback(nullptr); // the player sets its pose
+        const std::vector<glm::dmat4> rest(skin->getModel()->joints().size(), glm::dmat4(1.0));
+        skin->setPose(rest.data(), rest.size());
         const osg::ref_ptr<osg::MatrixTransform> place =
             new osg::MatrixTransform(source.toCharacter);
+        place->setStateSet(source.look.state);
+        place->setNodeMask(source.look.mask);
         place->addChild(skin);
         result.node->addChild(place);
         result.player->addSkin(skin);
@@ -185,6 +213,8 @@ ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
         const osg::ref_ptr<osg::MatrixTransform> rigid =
             new osg::MatrixTransform(_skeletonToCharacter);
         rigid->setDataVariance(osg::Object::DYNAMIC);
+        rigid->setStateSet(source.look.state);
+        rigid->setNodeMask(source.look.mask);
         for (const osg::ref_ptr<osg::Node>& part : source.parts) rigid->addChild(part);
         result.node->addChild(rigid);
         result.player->addRigid(rigid, source.joint, _skeletonToCharacter);

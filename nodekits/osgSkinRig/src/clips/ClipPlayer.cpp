@@ -8,6 +8,7 @@
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
+#include <osg/Notify>
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,14 @@ int parentJoint(const SampledClip& clip, int joint) {
 
 ClipPlayer::ClipPlayer() = default;
 ClipPlayer::~ClipPlayer() = default;
+
+ClipPlayer::ClipPlayer(const ClipPlayer& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
+      _tracks(other._tracks), _weight(other._weight), _interpolated(other._interpolated),
+      _root(other._root), _up(other._up) {
+    OSG_WARN << "osgSkin: a copy of a ClipPlayer poses nothing, expected ClipCharacter to make one"
+             << std::endl;
+}
 
 void ClipPlayer::setTrack(std::size_t index, const Track& track) {
     if (index >= _tracks.size()) return;
@@ -132,12 +141,34 @@ void ClipPlayer::advance(double seconds) {
 
 bool ClipPlayer::knowsJoints() const {
     return _found[0].get() == _tracks[0].clip.get() && _found[1].get() == _tracks[1].clip.get() &&
-           std::all_of(_skins.begin(), _skins.end(),
-                       [](const Skin& skin) { return skin.model.get() == skin.skin->getModel(); });
+           _base == baseTrack() && std::all_of(_skins.begin(), _skins.end(), [](const Skin& skin) {
+               return skin.model.get() == skin.skin->getModel();
+           });
+}
+
+void ClipPlayer::compareClips() {
+    _alike = true;
+    _covers = false;
+    if (!_tracks[1].clip) return;
+    const std::vector<SampledClip::Joint>& own = _tracks[0].clip->joints();
+    const std::vector<SampledClip::Joint>& others = _tracks[1].clip->joints();
+    _alike = std::equal(others.begin(), others.end(), own.begin(), own.end(),
+                        [](const auto& a, const auto& b) { return a.name == b.name; });
+    _covers =
+        others.size() > own.size() && std::all_of(own.begin(), own.end(), [&](const auto& joint) {
+            return _tracks[1].clip->find(joint.name) >= 0;
+        });
+}
+
+std::size_t ClipPlayer::baseTrack() const {
+    if (!_tracks[1].clip || _weight == 0.0 || _alike) return 0;
+    return _weight == 1.0 || _covers ? 1 : 0;
 }
 
 void ClipPlayer::findJoints() {
-    const SampledClip& clip = *_tracks[0].clip;
+    compareClips();
+    _base = baseTrack();
+    const SampledClip& clip = *_tracks[_base].clip;
     _needsWhole = !_rigids.empty();
     for (Skin& skin : _skins) {
         skin.model = skin.skin->getModel();
@@ -158,15 +189,9 @@ void ClipPlayer::findJoints() {
     }
     for (Rigid& rigid : _rigids) rigid.joint = clip.find(rigid.name);
     _others.clear();
-    _alike = true;
-    if (_tracks[1].clip) {
-        const std::vector<SampledClip::Joint>& others = _tracks[1].clip->joints();
+    if (const SampledClip* other = _tracks[1 - _base].clip.get())
         for (const SampledClip::Joint& joint : clip.joints())
-            _others.push_back(_tracks[1].clip->find(joint.name));
-        _alike =
-            std::equal(others.begin(), others.end(), clip.joints().begin(), clip.joints().end(),
-                       [](const auto& a, const auto& b) { return a.name == b.name; });
-    }
+            _others.push_back(other->find(joint.name));
     for (std::size_t i = 0; i < _found.size(); ++i) _found[i] = _tracks[i].clip.get();
 }
 
@@ -186,13 +211,15 @@ void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
         const glm::dvec3 up = toGlm(_up);
         to[root].translation -= gone - up * glm::dot(gone, up);
     };
-    take(_tracks[0], joints);
-    if (!_tracks[1].clip || _weight == 0.0) return;
-    take(_tracks[1], others);
-    const SampleBlend weighted(_weight);
+    take(_tracks[_base], joints);
+    const double weight = _base == 0 ? _weight : 1.0 - _weight;
+    if (!_tracks[1].clip || weight == 0.0) return;
+    take(_tracks[1 - _base], others);
+    const SampleBlend weighted(weight);
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (_others[j] >= 0)
-            joints[j] = weighted(joints[j], others[static_cast<std::size_t>(_others[j])]);
+        joints[j] =
+            weighted(joints[j],
+                     _others[j] < 0 ? JointSample() : others[static_cast<std::size_t>(_others[j])]);
 }
 
 bool ClipPlayer::poseSkin(const Skin& skin, const std::vector<JointMap>& own,
@@ -269,7 +296,7 @@ bool ClipPlayer::pose() {
     static thread_local std::vector<JointSample> samples;
     static thread_local std::vector<JointMap> own, whole;
     sampleJoints(samples);
-    const std::vector<SampledClip::Joint>& joints = _tracks[0].clip->joints();
+    const std::vector<SampledClip::Joint>& joints = _tracks[_base].clip->joints();
     own.resize(samples.size());
     whole.resize(samples.size());
     for (std::size_t j = 0; j < samples.size(); ++j) {
@@ -281,8 +308,7 @@ bool ClipPlayer::pose() {
     }
     bool good = true;
     for (std::size_t i = 0; i < _skins.size(); ++i) {
-        // A joint that track 1 does not have would move by track 0.
-        const osg::BoundingBox* bounds = baked && _alike ? &baked->skins[i].boundsAt(at) : nullptr;
+        const osg::BoundingBox* bounds = baked ? &baked->skins[i].boundsAt(at) : nullptr;
         if (bounds && !bounds->valid()) bounds = nullptr;
         good = poseSkin(_skins[i], own, whole, bounds) && good;
     }
