@@ -91,7 +91,7 @@ TEST(ClipCharacter, InstancesLookAsTheCharacterDoes) {
         choice->addChild(character.skin, on);
         upright.setNodeMask(on ? 0x30u : 0x10u);
         const auto copy = osgSkin::ClipCharacter::create(*character.scene)->makeInstance();
-        const osg::Node &skin = *skinOf(*copy.node).getParent(0), &rigid = *copy.node->getChild(1);
+        const osg::Node &skin = *copy.node->getChild(0), &rigid = *copy.node->getChild(1);
         for (const osg::Node* part : {&skin, &rigid}) {
             ASSERT_NE(part->getStateSet(), nullptr);
             EXPECT_EQ(part->getStateSet()->getMode(GL_BLEND), osg::StateAttribute::ON);

@@ -3,10 +3,9 @@
 
 #include <osgSkin/GlmOsg>
 
-#include <algorithm>
 #include <map>
 #include <set>
-#include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -17,23 +16,33 @@ public:
     void apply(osg::Transform& node) override {
         const osg::NodePath& path = getNodePath();
         if (path.size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
-        if (path.size() > 1) _above.emplace(&node, path[path.size() - 2]->asGroup());
+        if (path.size() > 1) _parents.emplace(&node, path[path.size() - 2]->asGroup());
         osgAnimation::BoneMapVisitor::apply(node);
     }
 
-    /// The node's parent on the way from the skeleton; null above that.
-    const osg::Group* above(const osg::Node* node) const {
-        const auto found = _above.find(node);
-        return found == _above.end() ? nullptr : found->second;
-    }
+    /// On the way from the skeleton.
+    const osg::Group* parentOf(const osg::Node& node) const { return _parents.at(&node); }
 
 private:
-    std::map<const osg::Node*, const osg::Group*> _above;
+    std::map<const osg::Node*, const osg::Group*> _parents;
 };
 
-bool isChild(const std::pair<const osg::Node*, const osg::Group*>& link) {
-    for (unsigned i = 0; i < link.first->getNumParents(); ++i)
-        if (link.first->getParent(i) == link.second) return true;
+std::set<const osg::Node*> nodesAbove(const osg::Node* node) {
+    std::set<const osg::Node*> result;
+    std::vector<const osg::Node*> open;
+    if (node) open.push_back(node);
+    while (!open.empty()) {
+        const osg::Node& next = *open.back();
+        open.pop_back();
+        for (unsigned i = 0; i < next.getNumParents(); ++i)
+            if (result.insert(next.getParent(i)).second) open.push_back(next.getParent(i));
+    }
+    return result;
+}
+
+bool standsBelow(const osg::Node& node, const osg::Group* parent) {
+    for (unsigned i = 0; i < node.getNumParents(); ++i)
+        if (node.getParent(i) == parent) return true;
     return false;
 }
 
@@ -45,37 +54,44 @@ osgAnimation::BoneMap bonesOf(osgAnimation::Skeleton& skeleton) {
     return visitor.getBoneMap();
 }
 
-BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skeleton& skeleton) {
+BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skeleton& skeleton,
+                       const osg::Node* skin) {
     OwnBones visitor;
     skeleton.accept(visitor);
     const osgAnimation::BoneMap& bones = visitor.getBoneMap();
-    std::set<const osg::Node*> linked;
+    const std::set<const osg::Node*> above = nodesAbove(skin);
     _bones.reserve(joints.size());
-    for (const BoundJoint& joint : joints) {
-        const auto found = bones.find(joint.name);
-        if (found == bones.end()) {
-            _missing.push_back(joint.name);
-            _bones.push_back(joint.parent < 0 ? nullptr
-                                              : _bones[static_cast<std::size_t>(joint.parent)]);
+    _parents.reserve(joints.size());
+    std::vector<osgAnimation::Bone*> found(joints.size(), nullptr);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        const auto bone = bones.find(joints[j].name);
+        if (bone != bones.end()) {
+            found[j] = bone->second;
         } else {
-            _bones.emplace_back(found->second);
-            const osg::Node* node = found->second;
-            while (const osg::Group* above =
-                       linked.insert(node).second ? visitor.above(node) : nullptr) {
-                _links.emplace_back(node, above);
-                node = above;
-            }
+            _missing.push_back(joints[j].name);
+            if (joints[j].parent >= 0) found[j] = found[static_cast<std::size_t>(joints[j].parent)];
         }
-        if (_bones.back().valid()) ++_alive;
+        const bool keepsSkin = found[j] && above.count(found[j]) > 0;
+        if (keepsSkin) _above.push_back({j, found[j]});
+        _bones.emplace_back(keepsSkin ? nullptr : found[j]);
+        _parents.push_back(found[j] ? visitor.parentOf(*found[j]) : nullptr);
     }
 }
 
+const osgAnimation::Bone* BoneReader::boneOf(std::size_t joint) const {
+    if (_bones[joint] || _above.empty()) return _bones[joint].get();
+    for (const Above& above : _above)
+        if (above.joint == joint) return above.bone.get();
+    return nullptr;
+}
+
 bool BoneReader::isOutdated() const {
-    const auto isAlive = [](const auto& bone) { return bone.valid(); };
-    const auto alive = std::count_if(_bones.begin(), _bones.end(), isAlive);
-    // A link's node is a bone, alive then, or the parent of the link before.
-    return static_cast<std::size_t>(alive) < _alive ||
-           !std::all_of(_links.begin(), _links.end(), isChild);
+    for (std::size_t j = 0; j < _parents.size(); ++j) {
+        if (!_parents[j]) continue;
+        const osgAnimation::Bone* bone = boneOf(j);
+        if (!bone || !standsBelow(*bone, _parents[j])) return true;
+    }
+    return false;
 }
 
 const std::vector<glm::dmat4>& BoneReader::read() const {
@@ -83,7 +99,7 @@ const std::vector<glm::dmat4>& BoneReader::read() const {
     static thread_local std::vector<glm::dmat4> skinning;
     skinning.assign(_bones.size(), glm::dmat4(1.0));
     for (std::size_t j = 0; j < _bones.size(); ++j)
-        if (const osgAnimation::Bone* bone = _bones[j].get())
+        if (const osgAnimation::Bone* bone = boneOf(j))
             skinning[j] =
                 toGlm(bone->getInvBindMatrixInSkeletonSpace() * bone->getMatrixInSkeletonSpace());
     return skinning;

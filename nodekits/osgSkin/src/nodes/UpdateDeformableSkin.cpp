@@ -65,7 +65,7 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
     const SkinModel* model = skin.getModel();
     if (!model) return false;
     if (_skeleton.get() != &skeleton || _model.get() != model || _reader.isOutdated()) {
-        _reader = BoneReader(model->joints(), skeleton);
+        _reader = BoneReader(model->joints(), skeleton, &skin);
         _skeleton = &skeleton;
         _model = model;
         startTwistAfresh();
