@@ -3,7 +3,6 @@
 
 #include <osgSkin/GlmOsg>
 
-#include <map>
 #include <set>
 #include <vector>
 
@@ -14,17 +13,9 @@ class OwnBones : public osgAnimation::BoneMapVisitor {
 public:
     using osgAnimation::BoneMapVisitor::apply;
     void apply(osg::Transform& node) override {
-        const osg::NodePath& path = getNodePath();
-        if (path.size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
-        if (path.size() > 1) _parents.emplace(&node, path[path.size() - 2]->asGroup());
+        if (getNodePath().size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
         osgAnimation::BoneMapVisitor::apply(node);
     }
-
-    /// On the way from the skeleton.
-    const osg::Group* parentOf(const osg::Node& node) const { return _parents.at(&node); }
-
-private:
-    std::map<const osg::Node*, const osg::Group*> _parents;
 };
 
 std::set<const osg::Node*> nodesAbove(const osg::Node* node) {
@@ -40,12 +31,6 @@ std::set<const osg::Node*> nodesAbove(const osg::Node* node) {
     return result;
 }
 
-bool standsBelow(const osg::Node& node, const osg::Group* parent) {
-    for (unsigned i = 0; i < node.getNumParents(); ++i)
-        if (node.getParent(i) == parent) return true;
-    return false;
-}
-
 } // namespace
 
 osgAnimation::BoneMap bonesOf(osgAnimation::Skeleton& skeleton) {
@@ -56,12 +41,9 @@ osgAnimation::BoneMap bonesOf(osgAnimation::Skeleton& skeleton) {
 
 BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skeleton& skeleton,
                        const osg::Node* skin) {
-    OwnBones visitor;
-    skeleton.accept(visitor);
-    const osgAnimation::BoneMap& bones = visitor.getBoneMap();
+    const osgAnimation::BoneMap bones = bonesOf(skeleton);
     const std::set<const osg::Node*> above = nodesAbove(skin);
     _bones.reserve(joints.size());
-    _parents.reserve(joints.size());
     std::vector<osgAnimation::Bone*> found(joints.size(), nullptr);
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const auto bone = bones.find(joints[j].name);
@@ -72,26 +54,33 @@ BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skel
             if (joints[j].parent >= 0) found[j] = found[static_cast<std::size_t>(joints[j].parent)];
         }
         const bool keepsSkin = found[j] && above.count(found[j]) > 0;
-        if (keepsSkin) _above.push_back({j, found[j]});
         _bones.emplace_back(keepsSkin ? nullptr : found[j]);
-        _parents.push_back(found[j] ? visitor.parentOf(*found[j]) : nullptr);
+        if (!keepsSkin) continue;
+        if (!_above) _above = new Above;
+        _above->bones[j] = found[j];
     }
+    _places = placesOf(skin);
 }
 
 const osgAnimation::Bone* BoneReader::boneOf(std::size_t joint) const {
-    if (_bones[joint] || _above.empty()) return _bones[joint].get();
-    for (const Above& above : _above)
-        if (above.joint == joint) return above.bone.get();
-    return nullptr;
+    if (_bones[joint] || !_above) return _bones[joint].get();
+    const auto found = _above->bones.find(joint);
+    return found == _above->bones.end() ? nullptr : found->second.get();
 }
 
-bool BoneReader::isOutdated() const {
-    for (std::size_t j = 0; j < _parents.size(); ++j) {
-        if (!_parents[j]) continue;
-        const osgAnimation::Bone* bone = boneOf(j);
-        if (!bone || !standsBelow(*bone, _parents[j])) return true;
-    }
-    return false;
+std::uint64_t BoneReader::placesOf(const osg::Node* skin) const {
+    std::uint64_t result = 14695981039346656037u; // FNV-1a, an address at a time
+    const auto add = [&](const osg::Node* node) {
+        const osg::Group* parent = node && node->getNumParents() > 0 ? node->getParent(0) : nullptr;
+        result = (result ^ reinterpret_cast<std::uintptr_t>(parent)) * 1099511628211u;
+    };
+    for (std::size_t j = 0; j < _bones.size(); ++j) add(boneOf(j));
+    add(skin);
+    return result;
+}
+
+bool BoneReader::isOutdated(const osg::Node* skin) const {
+    return placesOf(skin) != _places;
 }
 
 const std::vector<glm::dmat4>& BoneReader::read() const {

@@ -64,18 +64,22 @@ void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable)
 bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
     const SkinModel* model = skin.getModel();
     if (!model) return false;
-    if (_skeleton.get() != &skeleton || _model.get() != model || _reader.isOutdated()) {
+    if (_skeleton.get() != &skeleton || _model.get() != model || _reader.isOutdated(&skin)) {
         _reader = BoneReader(model->joints(), skeleton, &skin);
         _skeleton = &skeleton;
         _model = model;
         startTwistAfresh();
         // A root over several bones, as readSkeleton() adds one, has none and stays at rest.
-        for (const std::string& joint : _reader.missing())
-            if (joint != model->joints().front().name && _toldMissing.insert(joint).second)
+        const bool toldMissing = _toldMissing;
+        for (const std::string& joint : _reader.missing()) {
+            if (joint == model->joints().front().name) continue;
+            _toldMissing = true;
+            if (!toldMissing)
                 OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
                                       skeleton.getName() + "\" has no bone \"" + joint +
                                       "\"; the joint moves with its parent")
                          << std::endl;
+        }
     }
     const std::vector<glm::dmat4>& skinning = _reader.read();
     if (!skin.setPose(skinning.data(), skinning.size(), _twist)) {
