@@ -25,9 +25,10 @@ public:
         const std::optional<ImageBytes> bytes = bytesOf(image, _folder);
         if (!bytes) return entry->second;
         if (!bytes->file.empty()) {
-            const std::filesystem::path here = std::filesystem::absolute(_file).parent_path();
-            return entry->second =
-                       std::filesystem::absolute(bytes->file).lexically_proximate(here).string();
+            // Without links: a name that leads upward goes by where folders are.
+            const auto file = std::filesystem::weakly_canonical(bytes->file);
+            const auto here = std::filesystem::weakly_canonical(_file).parent_path();
+            return entry->second = file.lexically_proximate(here).string();
         }
         const std::string name = osgDB::getNameLessExtension(_file) + "_" +
                                  std::to_string(++_written) + (bytes->isJpeg ? ".jpg" : ".png");

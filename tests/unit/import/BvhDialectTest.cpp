@@ -17,7 +17,10 @@
 #include <cctype>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -82,6 +85,8 @@ const Dialect kSame[] = {
     {"EndSiteInLowerCase",
      [](const std::string& t) { return replaced(t, "End Site", "End site"); }},
     {"ByteOrderMark", [](const std::string& t) { return "\xef\xbb\xbf" + t; }},
+    {"EndOfFileMark", [](const std::string& t) { return t + "\x1a"; }},
+    {"Zeros", [](const std::string& t) { return t + std::string(3, '\0'); }},
     {"TrailingBlankLines", [](const std::string& t) { return t + " \n\n\t\n"; }},
     {"NoLastLineEnd",
      [](std::string t) {
@@ -173,6 +178,41 @@ TEST_P(OtherMotion, IsRefusedWithTheLine) {
 
 INSTANTIATE_TEST_SUITE_P(Dialects, OtherMotion, testing::ValuesIn(kRefused),
                          [](const auto& refused) { return std::string(refused.param.name); });
+
+TEST(BvhDialect, ARestPoseNeedsNoTime) {
+    std::string text = replaced(plainText(), "Time: 0.025", "Time: 0");
+    expectError([&] { osgSkin::importMotion(TemporaryBvh(text).path); },
+                "the frame time is 0.000000");
+    text = replaced(text, "Frames: 2", "Frames: 1");
+    const TemporaryBvh file(text);
+    EXPECT_EQ(osgSkin::importSkeleton(file.path).joints.size(), 2u);
+    EXPECT_GT(osgSkin::importMotion(file.path).frameTime, 0.0);
+}
+
+TEST(BvhDialect, ARootMayMoveAndNotTurn) {
+    std::string text = replaced(plainText(), " Zrotation Yrotation Xrotation", "");
+    text = replaced(text, "CHANNELS 6", "CHANNELS 3");
+    std::istringstream in(text);
+    std::string kept;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::vector<std::string> row(std::istream_iterator<std::string>(words), {});
+        if (row.size() == 9) row.erase(row.begin() + 3, row.begin() + 6);
+        if (row.size() == 6 && line.find_first_of("CO") == std::string::npos) {
+            line.clear();
+            for (const std::string& word : row) line += word + " ";
+        }
+        kept += line + "\n";
+    }
+    const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
+    const TemporaryBvh file(kept);
+    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    EXPECT_EQ(motion.rootPositions, plain.rootPositions);
+    for (std::size_t f = 0; f < motion.frames; ++f) {
+        EXPECT_EQ(motion.rotation(f, 0), glm::dquat(1, 0, 0, 0));
+        EXPECT_EQ(motion.rotation(f, 1), plain.rotation(f, 1));
+    }
+}
 
 TEST(BvhDialect, NamesMayHaveBlanks) {
     const TemporaryBvh file(replaced(replaced(plainText(), "JOINT Spine", "JOINT Bip01  L Thigh "),

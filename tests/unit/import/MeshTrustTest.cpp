@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a mesh file says wrongly, and how much is said about it.
+#include "ExpectError.h"
 #include "Notices.h"
 #include "Paths.h"
 
@@ -7,6 +8,7 @@
 
 #include <osg/Array>
 #include <osg/Material>
+#include <osgDB/Options>
 
 #include <filesystem>
 #include <fstream>
@@ -114,4 +116,37 @@ TEST(MeshTrust, NamesOfMaterialsAndLibrariesMayHaveBlanks) {
         EXPECT_EQ(colours[1], osg::Vec4(0, 1, 0, 1));
         EXPECT_EQ(colours[2], osg::Vec4(0, 0, 1, 1));
     }
+}
+
+/// Three bytes a vertex: each is bound.
+TEST(MeshTrust, VerticesAreInProportion) {
+    const std::string path = testing::TempDir() + "bytes.ply";
+    const std::size_t vertices = 200'000;
+    std::ofstream out(path, std::ios::binary);
+    out << "ply\nformat binary_little_endian 1.0\nelement vertex " << vertices
+        << "\nproperty uchar x\nproperty uchar y\nproperty uchar z\nelement face 1\n"
+           "property list uchar int vertex_indices\nend_header\n";
+    for (std::size_t v = 0; v < vertices; ++v)
+        out << char(v % 256) << char(v / 256 % 256) << char(v / 65536);
+    out.write("\x03\0\0\0\0\x01\0\0\0\0\x01\0\0", 13);
+    out.close();
+    expectError([&] { osgSkin::importMesh(path); }, "200000 vertices, expected at most ");
+    const osg::ref_ptr<osgDB::Options> more = new osgDB::Options("maxSamples=2000000");
+    EXPECT_EQ(osgSkin::importMesh(path, more).mesh.positions.size(), vertices);
+}
+
+TEST(MeshTrust, ColoursOfFacesAreToldOf) {
+    const std::string ply = testing::TempDir() + "faces.ply",
+                      off = testing::TempDir() + "faces.off";
+    std::ofstream(ply) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                          "property float y\nproperty float z\nelement face 1\n"
+                          "property list uchar int vertex_indices\nproperty uchar red\n"
+                          "property uchar green\nproperty uchar blue\nend_header\n"
+                          "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n";
+    std::ofstream(off) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n";
+    const test::Notices notices;
+    EXPECT_EQ(osgSkin::importMesh(ply).mesh.faceSizes.size(), 1u);
+    EXPECT_TRUE(notices.say("faces.ply: colours of faces are left out")) << notices.text();
+    EXPECT_EQ(osgSkin::importMesh(off).mesh.faceSizes.size(), 1u);
+    EXPECT_TRUE(notices.say("1 of 1 faces have colours, which are left out")) << notices.text();
 }

@@ -128,6 +128,29 @@ TEST_F(SafeNames, AreNoLongerThanNamesOfFiles) {
     }
 }
 
+/// A texture has folders of another machine often: the mesh's own is looked in, no other.
+TEST_F(SafeNames, TexturesComeFromNoOtherFolder) {
+    const std::string ppm = "P6\n1 1\n255\nabc";
+    for (const std::string folder : {"here", "mesh"})
+        std::filesystem::create_directories(file(folder));
+    std::ofstream(file("here/away.ppm"), std::ios::binary) << ppm;
+    std::ofstream(file("mesh/beside.ppm"), std::ios::binary) << ppm;
+    std::ofstream(file("mesh/m.obj"))
+        << "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(file("here"));
+    for (const std::string name :
+         {"../secret/away.ppm", "C:\\Users\\x\\beside.ppm", "beside.ppm"}) {
+        std::ofstream(file("mesh/m.mtl")) << "newmtl m\nKd 1 1 1\nmap_Kd " << name << "\n";
+        const osgSkin::ImportedMesh mesh = osgSkin::importMesh("../mesh/m.obj");
+        const osg::StateSet& state = *mesh.parts.at(0).geometry->getStateSet();
+        EXPECT_EQ(state.getTextureAttribute(0, osg::StateAttribute::TEXTURE) != nullptr,
+                  name.find("beside") != std::string::npos)
+            << name;
+    }
+    std::filesystem::current_path(before);
+}
+
 /// OSG would look for the name's last part in the working folder.
 TEST_F(SafeNames, MeanNoOtherFile) {
     saveScene("named.osgt");

@@ -47,8 +47,8 @@ struct BvhFile {
 /// Reads a BVH file.
 ///
 /// Keywords may have any case, names may have blanks in them, and a frame may be wrapped over
-/// several lines. A joint has up to three rotations, or three positions and three rotations, each
-/// in any order. Frames beyond the declared number are passed over, with a notice.
+/// several lines. A joint has up to three rotations, or three positions with three rotations or
+/// none, in any order. Frames beyond the declared number are passed over, with a notice.
 ///
 /// \throw osgSkin::Error "PATH: line N: what was found, what was expected".
 BvhFile readBvh(const std::string& path, const ReadLimits& limits);

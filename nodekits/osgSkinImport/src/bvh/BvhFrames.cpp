@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t mostFrames = 16'777'216; // more than a day at 120 a second
 constexpr double shortestFrame = 1e-6;         // seconds: a million frames a second
+constexpr double kOtherwise = 1.0 / 30.0;      // seconds
 constexpr double kSlowFrame = 1.0;             // seconds: what is longer may be milliseconds
 
 /// A line that holds values.
@@ -16,10 +17,12 @@ struct Row {
     std::size_t values;
 };
 
-double readFrameTime(BvhTokens& words) {
+/// \param frames of which one or none needs no time: it may be 0
+double readFrameTime(BvhTokens& words, std::size_t frames) {
     const std::string expected = ", expected a positive number of seconds";
     if (words.isAtLineEnd()) words.fail("the frame time is missing" + expected);
     const double result = words.number("the frame time");
+    if (frames <= 1 && result == 0.0) return kOtherwise;
     if (!(result >= shortestFrame))
         words.fail("the frame time is " + std::to_string(result) + expected);
     return result;
@@ -83,7 +86,7 @@ void readBvhFrames(BvhTokens& words, const std::string& path, BvhFile& file) {
     words.expect("Frame");
     words.expect("Time");
     words.expect(":");
-    file.frameTime = readFrameTime(words);
+    file.frameTime = readFrameTime(words, file.frames);
     if (file.frameTime > kSlowFrame && file.frames > 1)
         tellOf(path, "a frame takes " + std::to_string(file.frameTime) +
                          " seconds; is its \"Frame Time\" in milliseconds?");

@@ -106,15 +106,22 @@ private:
         joint().firstChannel = _file.channels;
         _file.channels += count;
         std::set<int> positions;
+        std::size_t rotations = 0;
         for (std::size_t c = 0; c < count; ++c) {
             const BvhChannel channel = readChannel();
-            if (!channel.isRotation) positions.insert(channel.axis);
+            if (channel.isRotation)
+                ++rotations;
+            else
+                positions.insert(channel.axis);
             joint().channels.push_back(channel);
         }
-        const bool fits = positions.empty() ? count <= 3 : positions.size() == 3 && count == 6;
+        const bool fits = positions.empty()
+                              ? count <= 3
+                              : positions.size() == 3 && (count == 3 || rotations == 3);
         if (!fits)
-            _words.fail(owner() + " has CHANNELS of another kind than supported, expected up to "
-                                  "three rotations, or three positions and three rotations");
+            _words.fail(owner() +
+                        " has CHANNELS of another kind than supported, expected up to "
+                        "three rotations, or three positions with three rotations or none");
     }
 
     BvhTokens& _words;

@@ -44,6 +44,9 @@ BvhTokens::BvhTokens(const std::string& path, std::string_view text) : _path(pat
     const std::string_view byteOrderMark = "\xef\xbb\xbf";
     if (_rest.substr(0, byteOrderMark.size()) == byteOrderMark)
         _rest.remove_prefix(byteOrderMark.size());
+    // What old systems end a text with.
+    while (!_rest.empty() && (_rest.back() == '\0' || _rest.back() == '\x1a'))
+        _rest.remove_suffix(1);
 }
 
 void BvhTokens::skipBlanks() {

@@ -18,16 +18,24 @@
 namespace osgSkin {
 namespace {
 
+CornerMesh readOwn(const std::string& format, const std::string& path,
+                   const osgDB::Options* options) {
+    // Assimp's and OSG's OBJ readers reorder the vertices.
+    CornerMesh result = format == "obj"   ? readObjMesh(path, options)
+                        : format == "off" ? readOffMesh(path, options)
+                                          : readPlyMesh(path, options);
+    checkVertices(result, path, ReadLimits::of(options));
+    return result;
+}
+
 CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
     const std::string format = osgDB::getLowerCaseFileExtension(path);
     if (format == "skin")
         failFile(path, "a character, expected a mesh: name the file that its \"mesh\" names");
-    // Assimp's and OSG's OBJ readers reorder the vertices.
-    if (format == "obj") return readObjMesh(path, options);
-    if (format == "off") return readOffMesh(path, options);
-    if (format == "ply") return readPlyMesh(path, options);
+    if (format == "obj" || format == "off" || format == "ply")
+        return readOwn(format, path, options);
     if (!assimpReads(path)) return readOsgMesh(path, options);
     return readAssimpMesh(path, options);
 }

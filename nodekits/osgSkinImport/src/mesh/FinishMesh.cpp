@@ -20,6 +20,7 @@
 namespace osgSkin {
 namespace {
 
+constexpr std::size_t kElementsOfVertex = 14;   ///< of 64 bytes each, half a sample
 constexpr std::size_t kSamplesOfMaterial = 500; ///< what is drawn by itself takes 50 kilobytes
 
 /// Makes all normals unit vectors; false where some are missing.
@@ -59,6 +60,15 @@ void finishColours(std::vector<glm::vec4>& colours) {
 }
 
 } // namespace
+
+void checkVertices(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits) {
+    std::error_code failure;
+    const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(path, failure));
+    const std::size_t most = 2 * limits.samplesOf(failure ? 0 : bytes);
+    if (kElementsOfVertex * mesh.mesh.positions.size() > most)
+        failFile(path, std::to_string(mesh.mesh.positions.size()) + " vertices, expected at most " +
+                           std::to_string(most / kElementsOfVertex) + " (option maxSamples)");
+}
 
 void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits) {
     std::error_code failure;

@@ -11,6 +11,11 @@
 
 namespace osgSkin {
 
+/// Each vertex is bound and deformed, whether a face names it or not.
+/// \param path of a file that holds the mesh alone
+/// \throw osgSkin::Error where there are more than a file of this size may have
+void checkVertices(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits);
+
 /// Each material that faces have becomes a drawable of its own, whatever bytes name it.
 /// \throw osgSkin::Error where there are more than a file of this size may have
 void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits);

@@ -4,6 +4,8 @@
 #include "text/FileText.h"
 #include "text/SafeNames.h"
 
+#include <osgSkinImport/FindNamedFile>
+
 #include <osg/AlphaFunc>
 #include <osg/CullFace>
 #include <osg/LightModel>
@@ -41,6 +43,18 @@ void setAlpha(osg::StateSet& state, const Material& material) {
     state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
 }
 
+/// From the mesh's folder on, or as other files are found; or a file of that folder that has the
+/// name's last part: names have folders of the machine that they were written on.
+std::string findPicture(const std::string& name, const std::string& folder,
+                        const osgDB::Options* options) {
+    const std::string beside = osgDB::concatPaths(folder, name);
+    if (!osgDB::isAbsolutePath(name) && osgDB::fileExists(beside)) return beside;
+    const std::string found = findNamedFile(name, options);
+    if (!found.empty()) return found;
+    const std::string last = osgDB::concatPaths(folder, osgDB::getSimpleFileName(name));
+    return osgDB::fileExists(last) ? last : std::string();
+}
+
 osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::string& meshPath,
                                        const osgDB::Options* options, PictureCheck& pictures) {
     osg::ref_ptr<osgDB::Options> local =
@@ -49,7 +63,7 @@ osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::strin
     const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
     // Nothing is fetched from a network or run, and what is no regular file may never end.
     if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName)) return nullptr;
-    const std::string found = osgDB::findDataFile(fileName, local);
+    const std::string found = findPicture(fileName, osgDB::getFilePath(meshPath), local);
     if (!isRegularFile(found)) return nullptr;
     return pictures.shared().once(found, {}, [&]() -> osg::ref_ptr<osg::Image> {
         pictures.takeFile(found);

@@ -45,6 +45,8 @@ public:
                 _indices = element.find({"vertex_indices", "vertex_index"});
                 _cornerTexCoords = element.find({"texcoord"});
                 _texture = element.find({"texnumber"});
+                if (element.find({"red", "diffuse_red"}))
+                    tellOf(path, "colours of faces are left out");
             }
             if (element.name == "tristrips")
                 _strips = element.find({"vertex_indices", "vertex_index"});

@@ -43,6 +43,9 @@ public:
         for (std::size_t v = 0; v < vertices; ++v) addVertex(v);
         for (std::size_t f = 0; f < faces; ++f) addFace(f);
         if (!_text.word().empty()) tellOf(_path, "lines behind the last face, passed over");
+        if (_colouredFaces > 0)
+            tellOf(_path, std::to_string(_colouredFaces) + " of " + std::to_string(faces) +
+                              " faces have colours, which are left out");
         _mesh.hasTexCoords = _kind.texCoords;
         return std::move(_mesh);
     }
@@ -106,6 +109,7 @@ private:
         if (words.empty()) fail();
         const std::uint32_t corners = number(words[0], words.size());
         if (corners == 0) fail();
+        if (words.size() > corners + 1) ++_colouredFaces;
         if (corners >= 3) _mesh.addFace(0);
         for (std::uint32_t k = 1; k <= corners; ++k) {
             const std::uint32_t v = number(words[k], vertices);
@@ -125,6 +129,7 @@ private:
     std::vector<glm::vec3> _normals;
     std::vector<glm::vec2> _texCoords;
     std::vector<glm::vec4> _colours;
+    std::size_t _colouredFaces = 0;
     CornerMesh _mesh;
 };
 
