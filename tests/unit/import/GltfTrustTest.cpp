@@ -192,7 +192,8 @@ TEST(GltfMeshes, VerticesThatPrimitivesShareAreTakenWhereTheyAreUsed) {
     ASSERT_EQ(body.mesh.positions.size(), used.size());
     for (std::size_t v = 0; v < used.size(); ++v)
         for (int k = 0; k < 3; ++k)
-            EXPECT_NEAR(body.mesh.positions[v][k], column.places[3 * used[v] + k], 1e-6) << v;
+            EXPECT_NEAR(body.mesh.positions[v][k], column.places[3 * used[v] + unsigned(k)], 1e-6)
+                << v;
     EXPECT_EQ(body.mesh.faceVertices,
               (std::vector<std::uint32_t>{0, 2, 1, 1, 2, 3, 6, 4, 5, 7, 9, 8, 12, 10, 11}));
     std::vector<std::string> boneOf(used.size());

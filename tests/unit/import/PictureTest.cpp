@@ -297,7 +297,7 @@ TEST(Pictures, HaveWhatTheirReadersTakeForGranted) {
                   "expected at least");
     expectRefused("depth.sgi", with(sgi("\x05z\0"s), 10, big(7, 2)), "of an unknown kind");
     expectRefused("colour.bmp", bmp("\x10\x31\x10\0"s), "more colours than its table");
-    for (const std::size_t row : {0, 1, 2})
+    for (const std::size_t row : {0u, 1u, 2u})
         expectRefused("row.bmp", with(bmp("\x10\x01\x10\0"s), 62 + 4 * row, "\x10\x31"),
                       "more colours than its table");
     expectRefused("bits.bmp", with(bmp("\x10\x01\x10\0"s), 28, little(12, 2)), "unknown length");

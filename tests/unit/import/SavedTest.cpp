@@ -331,7 +331,7 @@ TEST(Saved, ScenesAreReadAsOsgReadsThem) {
 
 TEST(Saved, ABeginningAloneIsOne) {
     const std::string whole = saved("osgb");
-    for (const std::size_t size : {7, 8, 15})
+    for (const std::size_t size : {7u, 8u, 15u})
         expectError([&] { read(scratch("begun.osgb", whole.substr(0, size))); },
                     size < 8 ? "it begins with neither" : "it ends too early");
 }

@@ -163,7 +163,8 @@ TEST(ClipPlayer, BlendsWithClipsOfFewerJoints) {
     without.joints = 2;
     without.rotations.clear();
     for (std::size_t f = 0; f < whole.frames; ++f)
-        for (const std::size_t j : {0, 2}) without.rotations.push_back(whole.rotations[3 * f + j]);
+        for (const std::size_t j : {0u, 2u})
+            without.rotations.push_back(whole.rotations[3 * f + j]);
     osgSkin::RestSkeleton sparse;
     sparse.add("root", -1, glm::dvec3(0, 0, 0));
     sparse.add("end", 0, glm::dvec3(0, 4, 0));
@@ -172,9 +173,9 @@ TEST(ClipPlayer, BlendsWithClipsOfFewerJoints) {
     player->addSkin(character.skin);
     const ClipPlayer::Track tracks[] = {{SampledClip::create(whole, character.rig), 0.21},
                                         {SampledClip::create(without, sparse), 0.13}};
-    for (const std::size_t first : {0, 1}) {
+    for (const std::size_t first : {0u, 1u}) {
         Vertices alone[2];
-        for (const std::size_t t : {0, 1}) {
+        for (const std::size_t t : {0u, 1u}) {
             player->setTrack(1, {});
             player->setTrack(0, tracks[t == 0 ? first : 1 - first]);
             alone[t] = posedBy(*player, *character.skin);

@@ -47,11 +47,11 @@ void setAlpha(osg::StateSet& state, const Material& material) {
 /// name's last part: names have folders of the machine that they were written on.
 std::string findPicture(const std::string& name, const std::string& folder,
                         const osgDB::Options* options) {
-    const std::string beside = osgDB::concatPaths(folder, name);
+    std::string beside = osgDB::concatPaths(folder, name);
     if (!osgDB::isAbsolutePath(name) && osgDB::fileExists(beside)) return beside;
-    const std::string found = findNamedFile(name, options);
+    std::string found = findNamedFile(name, options);
     if (!found.empty()) return found;
-    const std::string last = osgDB::concatPaths(folder, osgDB::getSimpleFileName(name));
+    std::string last = osgDB::concatPaths(folder, osgDB::getSimpleFileName(name));
     return osgDB::fileExists(last) ? last : std::string();
 }
 

@@ -98,10 +98,10 @@ private:
     void tellOfFlat(const json& skin, const std::vector<double>& matrices) const {
         std::size_t flat = 0;
         for (std::size_t joint = 0; joint < skin.at("joints").size(); ++joint) {
+            const double* matrix = matrices.data() + 16 * joint;
             glm::dmat3 axes;
             for (int column = 0; column < 3; ++column)
-                for (int row = 0; row < 3; ++row)
-                    axes[column][row] = matrices[16 * joint + 4 * column + row];
+                for (int row = 0; row < 3; ++row) axes[column][row] = matrix[4 * column + row];
             flat += glm::determinant(axes) == 0.0;
         }
         if (flat > 0)
