@@ -9,6 +9,7 @@
 #include <osgSkinImport/ReadLimits>
 
 #include <osg/Image>
+#include <osg/Material>
 #include <osg/Texture2D>
 #include <osgDB/WriteFile>
 
@@ -165,4 +166,18 @@ TEST(MeshLooks, QuotedValuesAreNoOptionsOfTheirOwn) {
               (Words{{"a", ""}, {"b", ""}, {"c", "d e"}, {"f", ""}, {"g", "h"}}));
     EXPECT_EQ(osgSkin::optionValues("a=\"").size(), 1u);
     EXPECT_TRUE(osgSkin::optionValues(" \n").empty());
+}
+
+TEST(MeshLooks, ColoursOfMaterialsAreOnes) {
+    const std::string path = testing::TempDir() + "bright.obj";
+    std::ofstream(path) << "mtllib bright.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+    std::ofstream(testing::TempDir() + "bright.mtl")
+        << "newmtl m\nKd 255 51 0\nKs 1.5 -1 0.5\nd -5\nmap_d hair.png\n";
+    const test::Notices notices;
+    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
+    EXPECT_TRUE(notices.say("textures of opacity (map_d): 1, left out")) << notices.text();
+    const auto& material = dynamic_cast<const osg::Material&>(
+        *mesh.parts.at(0).geometry->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
+    EXPECT_EQ(material.getDiffuse(osg::Material::FRONT), osg::Vec4(1.0f, 0.2f, 0.0f, 1.0f));
+    EXPECT_EQ(material.getSpecular(osg::Material::FRONT), osg::Vec4(1.0f, 0.0f, 0.5f, 1.0f));
 }

@@ -25,9 +25,18 @@ namespace {
 
 constexpr std::size_t kSamplesOf = 20; ///< that a material counts for: two kilobytes or three
 
+/// No surface is as bright: such numbers count to 255.
+constexpr double kBrightest = 16.0;
+
+float upToOne(double number) {
+    return static_cast<float>(std::clamp(number, 0.0, 1.0));
+}
+
 osg::Vec4 colour(const tinyobj::real_t (&rgb)[3], double alpha = 1.0) {
-    return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]),
-            static_cast<float>(alpha)};
+    const double most = std::max({double(rgb[0]), double(rgb[1]), double(rgb[2])});
+    const double one = most > kBrightest ? 255.0 : 1.0;
+    return {upToOne(double(rgb[0]) / one), upToOne(double(rgb[1]) / one),
+            upToOne(double(rgb[2]) / one), alpha < 0.0 ? 1.0f : upToOne(alpha)};
 }
 
 Material readMaterial(const tinyobj::material_t& source, const std::string& path,
@@ -97,6 +106,9 @@ public:
                 tellOf(path, "moved or scaled textures (-o, -s): " +
                                  std::to_string(checked.placedTextures) +
                                  ", drawn as if they were not");
+            if (checked.opacityTextures > 0)
+                tellOf(path, "textures of opacity (map_d): " +
+                                 std::to_string(checked.opacityTextures) + ", left out");
             std::istringstream lines(checked.text);
             tinyobj::LoadMtl(numbers, materials, &lines, warning, error);
             return true;

@@ -67,6 +67,7 @@ CheckedMtl checkMtl(std::string_view text, std::set<std::string>& wanted) {
             hasColour = !isWanted;
         }
         if (!isWanted) return;
+        if (osgDB::equalCaseInsensitive(keyword, "map_d")) ++result.opacityTextures;
         for (const MtlKeyword& known : kMtlKeywords) {
             if (!osgDB::equalCaseInsensitive(keyword, known.name)) continue;
             std::string line(known.name);

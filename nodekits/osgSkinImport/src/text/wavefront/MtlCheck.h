@@ -11,8 +11,9 @@ namespace osgSkin {
 
 /// What is left of a library of materials.
 struct CheckedMtl {
-    std::string text;               ///< the lines that were checked, in their order
-    std::size_t placedTextures = 0; ///< that are moved or scaled (-o, -s), which nothing here does
+    std::string text;                ///< the lines that were checked, in their order
+    std::size_t placedTextures = 0;  ///< that are moved or scaled (-o, -s), which nothing here does
+    std::size_t opacityTextures = 0; ///< map_d, which is left out
 };
 
 /// Checks a library of materials before tinyobjloader parses it. Nothing is refused: lines are kept
