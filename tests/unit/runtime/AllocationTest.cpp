@@ -44,6 +44,13 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
     return counted(std::malloc(size));
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { // std::stable_sort's
+    void* memory = std::malloc(size);
+    return memory ? counted(memory) : nullptr;
+}
+void* operator new[](std::size_t size, const std::nothrow_t& nothrow) noexcept {
+    return operator new(size, nothrow);
+}
 void* operator new(std::size_t size, std::align_val_t alignment) {
     const std::size_t step = static_cast<std::size_t>(alignment);
     return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
