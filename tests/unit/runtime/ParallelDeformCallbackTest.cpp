@@ -64,6 +64,26 @@ TEST(ParallelDeformCallback, DeformsInTheUpdateWhatWasSeen) {
     EXPECT_EQ(crowd.skins[1]->getDeformCount(), 3u);
 }
 
+/// Scenes may have thousands of nodes: skins are looked for when the scene changes.
+TEST(ParallelDeformCallback, LooksForSkinsOnce) {
+    struct Counted : osg::Group {
+        void traverse(osg::NodeVisitor& nv) override {
+            if (nv.getVisitorType() != osg::NodeVisitor::UPDATE_VISITOR) ++looks;
+            osg::Group::traverse(nv);
+        }
+        int looks = 0;
+    };
+    SkinsBelow crowd(3);
+    const osg::ref_ptr<Counted> counted = new Counted;
+    crowd.group->addChild(counted);
+    for (int frame = 0; frame < 10; ++frame) crowd.update();
+    EXPECT_EQ(counted->looks, 1);
+    crowd.group->removeChild(0, 1);
+    crowd.update();
+    crowd.update();
+    EXPECT_EQ(counted->looks, 2);
+}
+
 TEST(ParallelDeformCallback, DeformsAllWhereToldTo) {
     SkinsBelow crowd(5);
     crowd.together->setOnlySeen(false);
