@@ -16,6 +16,27 @@ using namespace played;
 using osgSkin::ClipPlayer;
 using osgSkin::SampledClip;
 
+namespace {
+
+/// The same clip, and a rig for it, without the middle joint.
+osgSkin::Clip withoutMiddle(osgSkin::Clip clip) {
+    std::vector<glm::dquat> kept;
+    for (std::size_t f = 0; f < clip.frames; ++f)
+        for (const std::size_t j : {0u, 2u}) kept.push_back(clip.rotations[3 * f + j]);
+    clip.joints = 2;
+    clip.rotations = kept;
+    return clip;
+}
+
+osgSkin::RestSkeleton sparseRig() {
+    osgSkin::RestSkeleton rig;
+    rig.add("root", -1, glm::dvec3(0, 0, 0));
+    rig.add("end", 0, glm::dvec3(0, 4, 0));
+    return rig;
+}
+
+} // namespace
+
 TEST(SampledClip, PlacesTimes) {
     const auto clip = SampledClip::create(someClip(10, 0.3), tubeRig());
     ASSERT_EQ(clip->sampleCount(), 10u);
@@ -134,17 +155,10 @@ TEST(ClipPlayer, PosesWhatItIsGiven) {
 
 TEST(ClipPlayer, AJointThatTheClipHasNotGoesWithItsParent) {
     osgSkin::Clip whole = someClip(12, 0.8);
-    osgSkin::Clip without = whole;
-    without.joints = 2;
-    without.rotations.clear();
-    for (std::size_t f = 0; f < whole.frames; ++f) {
+    for (std::size_t f = 0; f < whole.frames; ++f)
         whole.rotations[3 * f + 1] = glm::dquat(1.0, 0.0, 0.0, 0.0); // the middle one stands still
-        without.rotations.push_back(whole.rotations[3 * f]);
-        without.rotations.push_back(whole.rotations[3 * f + 2]);
-    }
-    osgSkin::RestSkeleton sparse;
-    sparse.add("root", -1, glm::dvec3(0, 0, 0));
-    sparse.add("end", 0, glm::dvec3(0, 4, 0));
+    const osgSkin::Clip without = withoutMiddle(whole);
+    const osgSkin::RestSkeleton sparse = sparseRig();
     const Character character(whole);
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(character.skin);
@@ -159,15 +173,8 @@ TEST(ClipPlayer, AJointThatTheClipHasNotGoesWithItsParent) {
 /// At both ends of a blend, whichever clip has fewer joints.
 TEST(ClipPlayer, BlendsWithClipsOfFewerJoints) {
     const osgSkin::Clip whole = someClip(12, 0.8);
-    osgSkin::Clip without = whole;
-    without.joints = 2;
-    without.rotations.clear();
-    for (std::size_t f = 0; f < whole.frames; ++f)
-        for (const std::size_t j : {0u, 2u})
-            without.rotations.push_back(whole.rotations[3 * f + j]);
-    osgSkin::RestSkeleton sparse;
-    sparse.add("root", -1, glm::dvec3(0, 0, 0));
-    sparse.add("end", 0, glm::dvec3(0, 4, 0));
+    const osgSkin::Clip without = withoutMiddle(whole);
+    const osgSkin::RestSkeleton sparse = sparseRig();
     const Character character(whole);
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(character.skin);

@@ -59,21 +59,23 @@ void finishColours(std::vector<glm::vec4>& colours) {
     }
 }
 
+std::size_t samplesFor(const std::string& path, const ReadLimits& limits) {
+    std::error_code failure;
+    const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(path, failure));
+    return limits.samplesOf(failure ? 0 : bytes);
+}
+
 } // namespace
 
 void checkVertices(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits) {
-    std::error_code failure;
-    const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(path, failure));
-    const std::size_t most = 2 * limits.samplesOf(failure ? 0 : bytes);
+    const std::size_t most = 2 * samplesFor(path, limits);
     if (kElementsOfVertex * mesh.mesh.positions.size() > most)
         failFile(path, std::to_string(mesh.mesh.positions.size()) + " vertices, expected at most " +
                            std::to_string(most / kElementsOfVertex) + " (option maxSamples)");
 }
 
 void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits) {
-    std::error_code failure;
-    const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(path, failure));
-    const std::size_t most = limits.samplesOf(failure ? 0 : bytes) / kSamplesOfMaterial;
+    const std::size_t most = samplesFor(path, limits) / kSamplesOfMaterial;
     const std::set<std::uint32_t> used(mesh.materials.begin(), mesh.materials.end());
     if (used.size() > most)
         failFile(path, std::to_string(used.size()) + " materials, expected at most " +
