@@ -2,6 +2,7 @@
 // Any bytes as a file of one format (FuzzFormat.cpp), by every reader of it. Errors are
 // osgSkin::Error; anything else that is thrown ends the run.
 #include "FuzzFormat.h"
+#include "GlbParts.h"
 #include "InputFile.h"
 
 #include <osgSkin/Error>
@@ -26,7 +27,14 @@ void attempt(const Read& read) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     osg::setNotifyLevel(osg::ALWAYS);
-    const std::string path = fuzz::save(std::string("input.") + fuzzExtension(), data, size);
+    const std::string extension = fuzzExtension();
+    std::string glb;
+    if (extension == "glb") {
+        glb = fuzz::GlbParts::file(data, size);
+        data = reinterpret_cast<const std::uint8_t*>(glb.data());
+        size = glb.size();
+    }
+    const std::string path = fuzz::save("input." + extension, data, size);
     attempt([&] { osgSkin::importMesh(path); });
     attempt([&] { osgSkin::importSkeleton(path); });
     attempt([&] { osgSkin::importMotion(path); });

@@ -7,7 +7,8 @@ osgskin_fuzz_seeds() {
   local seeds=() seed
   case $1 in
     obj | ply | off | bvh) seeds=(tests/data/mesh/*."$1" tests/data/bvh/*."$1") ;;
-    gltf | glb) seeds=(tests/data/*/*."$1" tests/data/character/bad/*."$1") ;;
+    gltf) seeds=(tests/data/*/*.gltf tests/data/character/bad/*.gltf) ;;
+    glb) seeds=(tests/data/glb/*.parts) ;;
     osgt | osgb | osgx) seeds=(tests/data/saved/*."$1" tests/data/mesh/*."$1") ;;
     picture) seeds=(tests/data/pictures/*.picture) ;;
     bind) seeds=(tests/data/bind/*.bind) ;;
