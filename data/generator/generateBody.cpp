@@ -62,7 +62,7 @@ int generate(const std::string& directory, bool check) {
 
 int main(int argc, char** argv) {
     const bool check = argc == 3 && std::string(argv[1]) == "--check";
-    if (argc != (check ? 3 : 2)) {
+    if (argc != (check ? 3 : 2) || argv[argc - 1][0] == '-' || argv[argc - 1][0] == '\0') {
         std::cerr << "usage: osgskin_generate_body [--check] OUTDIR\n"
                      "Writes OUTDIR/thrower.obj and OUTDIR/ball.obj.\n"
                      "--check  fail unless the skin is what a deformable one must be\n";

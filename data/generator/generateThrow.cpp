@@ -62,7 +62,8 @@ int run(const std::string& folder, bool check) {
 
 int main(int argc, char** argv) {
     const std::string option = argc == 3 ? argv[2] : "";
-    if (argc < 2 || argc > 3 || (argc == 3 && option != "--check")) {
+    if (argc < 2 || argc > 3 || argv[1][0] == '-' || argv[1][0] == '\0' ||
+        (argc == 3 && option != "--check")) {
         std::cerr << "usage: osgskin_generate_throw OUTDIR [--check]\n";
         return 2;
     }

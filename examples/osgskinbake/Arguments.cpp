@@ -63,10 +63,16 @@ FrameRange parseRange(const std::string& text) {
     return range;
 }
 
+/// Where a file's name begins in a path: folders may have a % in theirs.
+std::size_t nameOf(const std::string& path) {
+    return path.rfind('/') + 1; // 0 without one
+}
+
 void checkPattern(const std::string& out) {
-    const std::string rest = std::regex_replace(out, numberPattern(), "");
+    const std::string name = out.substr(nameOf(out));
+    const std::string rest = std::regex_replace(name, numberPattern(), "");
     const auto numbers = std::distance(
-        std::sregex_iterator(out.begin(), out.end(), numberPattern()), std::sregex_iterator());
+        std::sregex_iterator(name.begin(), name.end(), numberPattern()), std::sregex_iterator());
     if (numbers > 1 || rest.find('%') != std::string::npos)
         throw UsageError{"--out: expected one %d (or %04d) at most, found \"" + out + "\""};
 }
@@ -125,9 +131,11 @@ std::string libraryOf(const std::string& file) {
 
 /// Whether a sequence of this name has a frame called `file`.
 bool isFrameOf(const std::string& pattern, const std::string& file) {
+    const std::string folder = pattern.substr(0, nameOf(pattern));
+    const std::string name = pattern.substr(folder.size());
     std::smatch match;
-    if (!std::regex_search(pattern, match, numberPattern())) return false;
-    const std::string before = match.prefix(), after = match.suffix();
+    if (!std::regex_search(name, match, numberPattern())) return false;
+    const std::string before = folder + match.prefix().str(), after = match.suffix();
     if (file.size() <= before.size() + after.size() || file.compare(0, before.size(), before) != 0)
         return false;
     const std::string number =
@@ -156,18 +164,20 @@ void requireDifferentFiles(const Arguments& arguments) {
 } // namespace
 
 bool hasNumber(const std::string& pattern) {
-    return std::regex_search(pattern, numberPattern());
+    return std::regex_search(pattern.substr(nameOf(pattern)), numberPattern());
 }
 
 std::string frameName(const std::string& pattern, std::size_t frame) {
+    const std::string folder = pattern.substr(0, nameOf(pattern));
+    const std::string name = pattern.substr(folder.size());
     std::smatch match;
-    if (!std::regex_search(pattern, match, numberPattern())) return pattern;
+    if (!std::regex_search(name, match, numberPattern())) return pattern;
     std::string number = std::to_string(frame);
     const std::size_t width =
         match[2].length() ? static_cast<std::size_t>(match.str(2)[0] - '0') : 0;
     const char fill = match[1].length() ? '0' : ' ';
     if (number.size() < width) number.insert(0, width - number.size(), fill);
-    return match.prefix().str() + number + match.suffix().str();
+    return folder + match.prefix().str() + number + match.suffix().str();
 }
 
 std::optional<Arguments> parseArguments(int argc, char** argv) {

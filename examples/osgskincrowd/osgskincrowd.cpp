@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "CardCrowd.h"
+#include "CommandLine.h"
 #include "Crowd.h"
 #include "FrameBench.h"
 #include "FrameTime.h"
@@ -97,11 +98,16 @@ int main(int argc, char** argv) {
     app.add_option("--threads", threads, "most threads that pose and deform; 0: all processors");
     CLI::Option* const onCard = app.add_flag(
         "--gpu", gpu, "everything on the graphics card (OpenGL 3.3; 4.3 culls there, too)");
-    app.add_option("--pictures", pictures, "write pictures to this folder; no window to look at");
-    app.add_option("--frames", frames, "how many pictures")->check(CLI::Range(1u, 99u));
+    CLI::Option* const toFolder = app.add_option(
+        "--pictures", pictures, "write pictures to this folder; no window to look at");
+    app.add_option("--frames", frames, "how many pictures")
+        ->check(CLI::Range(1u, 99u))
+        ->needs(toFolder);
     app.add_option("--time", timed, "time so many frames without drawing; no window")
         ->check(CLI::Range(1u, 10000u))
-        ->excludes(onCard);
+        ->excludes(onCard)
+        ->excludes(toFolder);
+    if (!example::hasNoEmptyWord("osgskincrowd", argc, argv)) return 2;
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -109,7 +115,7 @@ int main(int argc, char** argv) {
     }
     try {
         osgDB::Registry::instance()->setOptions(new osgDB::Options(options));
-        if (gpu) return runOnCard(files, count, frames, pictures);
+        if (gpu) return example::finish("osgskincrowd", runOnCard(files, count, frames, pictures));
         std::vector<CrowdCharacter> characters;
         characters.reserve(files.size());
         for (const std::string& file : files) characters.emplace_back(file);
@@ -119,7 +125,7 @@ int main(int argc, char** argv) {
                   << pool->getThreadCount() << " threads" << std::endl;
         if (timed > 0) {
             benchFrames(*crowd, crowd->getScene(), timed, pool->getThreadCount());
-            return 0;
+            return example::finish("osgskincrowd", 0);
         }
         const osg::ref_ptr<osg::Group> scene = new osg::Group;
         scene->addChild(crowd->getScene());
@@ -129,7 +135,7 @@ int main(int argc, char** argv) {
             return show(scene, viewOf(*crowd));
         }
         takePictures(*crowd, scene, frames, pictures);
-        return 0;
+        return example::finish("osgskincrowd", 0);
     } catch (const std::exception& error) {
         std::cerr << "osgskincrowd: " << error.what() << std::endl;
         return 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Body.h"
+#include "CommandLine.h"
 #include "CompareFigure.h"
 #include "RatioFigure.h"
 #include "RegionFigure.h"
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
     app.add_flag("--elastic", elastic,
                  "a column with elastic shapes, too; solving them takes a minute or two, once");
     app.add_option("CHARACTER", file, "a .skin file with the joint names of the CMU skeletons");
+    if (!example::hasNoEmptyWord("osgskinfigures", argc, argv)) return 2;
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -67,7 +69,7 @@ int main(int argc, char** argv) {
         options.shapes = osgSkin::BindOptions::Shapes::Elastic;
         if (elastic) solid.emplace(file, weights, options);
         writeFigures(body, solid ? &*solid : nullptr, out, !weights.empty());
-        return 0;
+        return example::finish("osgskinfigures", 0);
     } catch (const std::exception& error) {
         std::cerr << "osgskinfigures: " << error.what() << std::endl;
         return 1;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "CommandLine.h"
 #include "Ground.h"
 #include "OpenWindow.h"
 #include "Snapshots.h"
@@ -57,6 +58,7 @@ int main(int argc, char** argv) {
     app.add_option("--from", from, "first picture's time, as a fraction of the throw's length")
         ->check(CLI::Range(0.0, 1.0));
     app.add_option("--to", to, "last picture's time, the same")->check(CLI::Range(0.0, 1.0));
+    if (!example::hasNoEmptyWord("osgskinthrow", argc, argv)) return 2;
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -73,7 +75,7 @@ int main(int argc, char** argv) {
         scene->addChild(example::makeFloor(8.0f));
         if (pictures.empty()) return show(scene);
         takePictures(scene, from * facts.seconds, to * facts.seconds, count, pictures);
-        return 0;
+        return example::finish("osgskinthrow", 0);
     } catch (const std::exception& error) {
         std::cerr << "osgskinthrow: " << error.what() << std::endl;
         return 1;

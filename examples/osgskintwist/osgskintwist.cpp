@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "CommandLine.h"
 #include "OpenWindow.h"
 #include "Report.h"
 #include "TwistKeys.h"
@@ -91,6 +92,7 @@ int main(int argc, char** argv) {
     app.add_option("--pictures", arguments.pictures,
                    "write pictures of a set of poses to this folder; no window to look at");
     app.add_flag("--report", arguments.report, "print the methods' figures; needs no display");
+    if (!example::hasNoEmptyWord("osgskintwist", argc, argv)) return 2;
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -102,7 +104,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        return run(arguments);
+        return example::finish("osgskintwist", run(arguments));
     } catch (const std::exception& error) {
         std::cerr << "osgskintwist: " << error.what() << std::endl;
         return 1;

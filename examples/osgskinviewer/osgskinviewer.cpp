@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "CommandLine.h"
 #include "Keys.h"
 #include "OpenWindow.h"
 #include "Stage.h"
@@ -95,12 +96,15 @@ int main(int argc, char** argv) {
     app.add_option("--at", at, "seconds into the motion to start at");
     app.add_flag("--paused", paused, "start paused");
     app.add_option("--keys", keys, "keys to press first; with --pictures, one before each picture");
-    app.add_option("--pictures", pictures,
-                   "write viewer_00.png, ... to this folder: no window to look at, but an X "
-                   "display (Xvfb will do)");
-    app.add_flag("--times", times, "with --pictures: say how long each frame and its skin took");
+    CLI::Option* const toFolder =
+        app.add_option("--pictures", pictures,
+                       "write viewer_00.png, ... to this folder: no window to look at, but an X "
+                       "display (Xvfb will do)");
+    app.add_flag("--times", times, "with --pictures: say how long each frame and its skin took")
+        ->needs(toFolder);
     app.add_option("--width", size.width, "of the window, pixels")->check(CLI::Range(100, 8000));
     app.add_option("--height", size.height, "of the window, pixels")->check(CLI::Range(100, 8000));
+    if (!example::hasNoEmptyWord("osgskinviewer", argc, argv)) return 2;
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -123,7 +127,7 @@ int main(int argc, char** argv) {
         stage.clock.playing = !paused;
         if (!pictures.empty()) {
             takePictures(stage, keys, pictures, size, times);
-            return 0;
+            return example::finish("osgskinviewer", 0);
         }
         for (const char key : keys) viewer::press(stage, key);
         return show(stage, size);

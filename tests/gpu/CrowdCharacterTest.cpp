@@ -155,6 +155,9 @@ TEST(GpuCrowd, RefusesMembersThatItCannotShow) {
     refuses([](CrowdInstance& one) { one.blend = std::numeric_limits<float>::quiet_NaN(); });
     refuses([](CrowdInstance& one) { one.position.x() = 1e39; });
     refuses([](CrowdInstance& one) { one.rotation.y() = kNaN; });
+    refuses([](CrowdInstance& one) { one.position.z() = -2e18; });
+    refuses([](CrowdInstance& one) { one.scale = 1e38f; });
+    refuses([](CrowdInstance& one) { one.rotation *= 1e10; });
     refuses([](CrowdInstance& one) { one.phase = kInf; });
     refuses([](CrowdInstance& one) { one.scale = std::numeric_limits<float>::infinity(); });
     refuses([](CrowdInstance& one) { one.colour.a() = std::numeric_limits<float>::quiet_NaN(); });

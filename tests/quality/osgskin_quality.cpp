@@ -39,10 +39,11 @@ void define(CLI::App& app, Options& options) {
     app.add_option("--bind", options.method, "how our ratios are found")
         ->check(CLI::IsMember({"smooth", "paper", "weights"}))
         ->capture_default_str();
-    app.add_option("--json", options.json, "a file to write the figures to");
+    auto* json = app.add_option("--json", options.json, "a file to write the figures to");
     app.add_option("--shapes", options.shapes,
                    "only what shapes do: limbs folded, and the clips, with and without them")
-        ->check(CLI::IsMember({"fast", "elastic"}));
+        ->check(CLI::IsMember({"fast", "elastic"}))
+        ->excludes(json);
     app.add_flag("--no-sweeps", options.noSweeps, "leave out the sweeps, which take longest");
 }
 
@@ -126,6 +127,8 @@ int main(int argc, char** argv) {
     }
     try {
         run(options);
+        if (!std::cout.flush() || std::fflush(stdout) != 0)
+            throw std::runtime_error("standard output cannot be written");
     } catch (const std::exception& error) {
         std::cerr << "osgskin_quality: " << error.what() << '\n';
         return 1;

@@ -5,6 +5,7 @@
 #include "QuadRig.h"
 #include "WhyRefused.h"
 
+#include <osgSkin/DeformJob>
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
 
@@ -16,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -249,6 +251,41 @@ TEST(LoadCharacter, AtRestNothingPlays) {
         EXPECT_TRUE(character.motions.empty());
         EXPECT_EQ(character.manager, nullptr);
         EXPECT_EQ(character.root->getUpdateCallback(), nullptr);
+    }
+}
+
+/// Kernels keep vertices in their groups' own frames: rounding would show.
+TEST(LoadCharacter, TheIdentityPoseIsTheRestToTheBit) {
+    const Character character = loadCharacter(OSGSKIN_DATA "/thrower.skin");
+    ASSERT_FALSE(character.skin.skins.empty());
+    for (const auto& skin : character.skin.skins) {
+        const osgSkin::SkinModel& model = *skin.drawable->getModel();
+        osgSkin::Pose pose(model.joints());
+        const std::vector<glm::dmat4> identity(pose.size(), glm::dmat4(1.0));
+        ASSERT_TRUE(pose.set(identity.data(), identity.size()));
+        std::vector<glm::vec3> positions(model.vertexCount()), normals(positions.size());
+        osgSkin::DeformJob job;
+        job.model = &model;
+        job.pose = &pose;
+        job.positions = positions.data();
+        job.normals = normals.data();
+        job.positionCount = job.normalCount = positions.size();
+        const auto expectRest = [&] {
+            EXPECT_EQ(std::memcmp(positions.data(), model.positions().data(),
+                                  positions.size() * sizeof(glm::vec3)),
+                      0);
+            EXPECT_EQ(std::memcmp(normals.data(), model.normals().data(),
+                                  normals.size() * sizeof(glm::vec3)),
+                      0);
+            positions.assign(positions.size(), glm::vec3(9.0f));
+            normals = positions;
+        };
+        ASSERT_TRUE(job.run());
+        expectRest();
+        for (std::size_t part = job.partCount(); part-- > 0;) ASSERT_TRUE(job.runPart(part));
+        expectRest();
+        ASSERT_TRUE(job.runReference());
+        expectRest();
     }
 }
 

@@ -4,6 +4,8 @@
 #include "Notices.h"
 
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportSkeleton>
 
 #include <osg/Matrixd>
 
@@ -17,9 +19,25 @@ namespace {
 
 const std::string kBodyThatFits = OSGSKIN_DATA "/thrower";
 
+/// Weights of the thrower: each joint has its share of the vertices, one after the other.
+void paint(const std::string& path) {
+    const osgSkin::RestSkeleton rest = osgSkin::importSkeleton(kBodyThatFits + ".bvh");
+    const std::size_t vertices = osgSkin::importMesh(kBodyThatFits + ".obj").mesh.positions.size();
+    std::ofstream file(path);
+    file << "{\"weights\": {";
+    for (std::size_t j = 0; j < rest.joints.size(); ++j) {
+        file << (j > 0 ? "], \"" : "\"") << rest.joints[j].name << "\": [";
+        for (std::size_t v = j; v < vertices; v += rest.joints.size())
+            file << (v > j ? ", [" : "[") << v << ", 1]";
+    }
+    file << "]}}";
+}
+
 /// What is told of the thrower where his body is moved, and the skeleton, his own if no other is
 /// given, is not.
-std::string misfitsOf(const osg::Matrixd& move, const std::string& skeleton = {}) {
+/// \param painted whether weights name each of his joints
+std::string misfitsOf(const osg::Matrixd& move, const std::string& skeleton = {},
+                      bool painted = false) {
     const std::string folder = test::makeTestFolder();
     std::ifstream from(kBodyThatFits + ".obj");
     std::ofstream body(folder + "/body.obj");
@@ -38,7 +56,9 @@ std::string misfitsOf(const osg::Matrixd& move, const std::string& skeleton = {}
     if (!skeleton.empty()) std::ofstream(folder + "/other.bvh") << skeleton;
     std::ofstream(folder + "/c.skin")
         << "{\"osgskin\": 1, \"mesh\": \"body.obj\", \"skeleton\": \""
-        << (skeleton.empty() ? kBodyThatFits : folder + "/other") << ".bvh\"}";
+        << (skeleton.empty() ? kBodyThatFits : folder + "/other") << ".bvh\""
+        << (painted ? ", \"bind\": \"weights\", \"weights\": \"w.json\"}" : "}");
+    if (painted) paint(folder + "/w.json");
     const test::Notices notices;
     const osgSkin::Character character = osgSkin::loadCharacter(folder + "/c.skin");
     std::string result;
@@ -64,6 +84,18 @@ TEST(Misfit, SkeletonsInAnotherPlaceAreToldOf) {
           osg::Matrixd::rotate(-osg::PI_2, osg::Vec3d(1, 0, 0))})
         EXPECT_NE(misfitsOf(move).find(" joints lie outside the skin, expected"),
                   std::string::npos);
+}
+
+TEST(Misfit, PaintedOnesAreToldOfToo) {
+    for (const double scale : {0.01, 39.37, 100.0})
+        EXPECT_NE(misfitsOf(osg::Matrixd::scale(scale, scale, scale), {}, true)
+                      .find(" times as long as the skeleton, expected both in the same unit"),
+                  std::string::npos)
+            << scale;
+    EXPECT_NE(misfitsOf(osg::Matrixd::translate(5, 0, 0), {}, true)
+                  .find(" joints lie outside the skin, expected"),
+              std::string::npos);
+    EXPECT_EQ(misfitsOf(osg::Matrixd(), {}, true), "");
 }
 
 TEST(Misfit, JointsInOnePointHaveNoLengthToCompare) {

@@ -366,6 +366,33 @@ TEST(GltfDialect, JointsMayBeHiddenAtRest) {
     EXPECT_TRUE(osg::Matrixd().invert(bones[2].node->getMatrixInSkeletonSpace()));
 }
 
+/// Exporters store nodes as the clip's first frame has them; the bind pose is the skin's, where its
+/// mesh and matrices say so.
+TEST(GltfDialect, APosedRootDoesNotTurnTheBindPose) {
+    const struct {
+        double degrees;
+        double height; ///< of the first joint
+        bool isPose;
+    } cases[] = {{20.0, 0.0, true},  {20.0, 1.0, true},  {90.0, 1.0, true},
+                 {90.0, 0.0, false}, {60.0, 0.0, false}, {0.0, 1.0, true}};
+    for (const auto& c : cases) {
+        GltfColumn column;
+        const double half = glm::radians(c.degrees) / 2.0;
+        column.json["nodes"][column.joints[0]]["rotation"] = {std::sin(half), 0, 0, std::cos(half)};
+        column.json["nodes"][column.joints[0]]["translation"] = {0, c.height, 0};
+        std::vector<double> matrices;
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < 16; ++k)
+                matrices.push_back(k == 13 ? -(c.height + j) : k % 5 == 0 ? 1.0 : 0.0);
+        column.json["skins"][0]["inverseBindMatrices"] = column.accessor("MAT4", matrices);
+        const auto skeleton = osgSkin::importSkeleton(column.save("posed_root.gltf"));
+        const glm::dvec3 top = skeleton.joints[2].centre - skeleton.joints[0].centre;
+        EXPECT_EQ(glm::distance(top, {0, 2, 0}) < 1e-6, c.isPose)
+            << c.degrees << " degrees, " << c.height << " above the origin: " << top.x << " "
+            << top.y << " " << top.z;
+    }
+}
+
 TEST(BadGltf, JointsAreNamedOnce) {
     GltfColumn column;
     column.json["skins"][0]["joints"] = {0, 1, 1};

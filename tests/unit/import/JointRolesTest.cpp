@@ -122,6 +122,44 @@ TEST(JointRoles, HipsOfEveryFamilyAreNotAligned) {
     EXPECT_EQ(hips, 2u);
 }
 
+TEST(JointRoles, ARokokoBodyMovesLikeTheSameBody) {
+    expectAlike(test::knownNames("Rokoko"), {});
+}
+
+/// Assimp's exporters make joints of what it made of an FBX joint's pivots.
+TEST(JointRoles, PivotsAreNoPartOfABody) {
+    const std::string pivot = "_$AssimpFbx$_Rotation";
+    RestSkeleton skeleton;
+    int above = -1;
+    double height = 0.0;
+    const auto add = [&](const std::string& name, int parent, double x) {
+        for (const std::string& one : {"mixamorig:" + name + pivot, "mixamorig:" + name}) {
+            skeleton.joints.push_back({one, parent, {x, height, 0}, {}});
+            parent = static_cast<int>(skeleton.joints.size()) - 1;
+        }
+        return parent;
+    };
+    for (const char* name : {"Hips", "Spine", "Spine1", "Neck", "Head"}) {
+        above = add(name, above, 0.0);
+        height += 0.2;
+    }
+    for (const std::string side : {"Left", "Right"}) {
+        const double x = side == "Left" ? 0.2 : -0.2;
+        height = 0.5;
+        const int spine = skeleton.find("mixamorig:Spine1");
+        add(side + "Hand", add(side + "ForeArm", add(side + "Arm", spine, x), 2 * x), 3 * x);
+        height = -0.5;
+        const int hips = skeleton.find("mixamorig:Hips");
+        add(side + "Foot", add(side + "Leg", add(side + "UpLeg", hips, x), x), x);
+    }
+    const JointRoles roles = recogniseJoints(skeleton);
+    EXPECT_TRUE(roles.known());
+    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+        const std::string& name = skeleton.joints[j].name;
+        EXPECT_EQ(roles.roles[j].empty(), name.find(pivot) != std::string::npos) << name;
+    }
+}
+
 TEST(JointRoles, AVrmBodyMovesLikeTheSameBody) {
     expectAlike(test::knownNames("VRM"), {});
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which joint's position carries a motion's figure, and what is told of what does not.
+#include "Figure.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
 
@@ -7,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -68,4 +71,45 @@ TEST(RootMotion, ScalesAreToldOf) {
                   scale > 1.0)
             << notices.text();
     }
+}
+
+/// Game engines' skeletons have a root on the ground, and targets beside the hips.
+TEST(RootMotion, HipsBesideTargetsCarryTheFigure) {
+    const std::string moves =
+        "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n";
+    const std::string turns = "CHANNELS 3 Zrotation Xrotation Yrotation\n";
+    const auto joint = [](const std::string& name, const std::string& offset,
+                          const std::string& channels, const std::string& below) {
+        return "JOINT " + name + "\n{\nOFFSET " + offset + "\n" + channels + below + "}\n";
+    };
+    const std::string end = "End Site\n{\nOFFSET 0 0.1 0\n}\n";
+    std::string body = joint("spine_01", "0 0.2 0", turns, joint("head", "0 0.4 0", turns, end));
+    for (const std::string side : {"l", "r"}) {
+        const std::string foot = joint("foot_" + side, "0 -0.5 0", turns, end);
+        const std::string calf = joint("calf_" + side, "0 -0.5 0", turns, foot);
+        body += joint("thigh_" + side, side == "l" ? "0.1 0 0" : "-0.1 0 0", turns, calf);
+    }
+    std::string rest;
+    for (int i = 0; i < 24; ++i) rest += "0 ";
+    const std::string path = testing::TempDir() + "engine.bvh";
+    std::ofstream(path) << "HIERARCHY\nROOT root\n{\nOFFSET 0 0 0\n"
+                        << moves << joint("ik_foot_root", "0 0 0", turns, end)
+                        << joint("pelvis", "0 1 0", moves, body)
+                        << "}\nMOTION\nFrames: 2\nFrame Time: 0.1\n"
+                        << "0 0 0 0 0 0  0 0 0  0 1 0 0 0 0 " << rest << "\n"
+                        << "1 0 0 0 0 90  0 40 0  0 0.5 0 0 30 0 " << rest << "\n";
+    const test::Notices notices;
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
+    ASSERT_EQ(motion.skeleton.joints.size(), 10u);
+    EXPECT_EQ(motion.skeleton.joints[0].name, "pelvis");
+    EXPECT_EQ(motion.skeleton.joints[1].name, "ik_foot_root");
+    EXPECT_EQ(motion.skeleton.joints[1].parent, 0);
+    EXPECT_EQ(motion.skeleton.joints[1].centre, glm::dvec3(0.0));
+    EXPECT_LT(glm::distance(motion.rootPositions[0], {0, 1, 0}), 1e-9);
+    EXPECT_LT(glm::distance(motion.rootPositions[1], {1, 0.5, 0}), 1e-9);
+    const glm::dquat above = turnDegrees(90, {0, 1, 0});
+    const glm::dquat pelvis = motion.rotation(1, 0), target = pelvis * motion.rotation(1, 1);
+    EXPECT_GT(std::abs(glm::dot(pelvis, above * turnDegrees(30, {1, 0, 0}))), 1.0 - 1e-9);
+    EXPECT_GT(std::abs(glm::dot(target, above * turnDegrees(40, {1, 0, 0}))), 1.0 - 1e-9);
+    EXPECT_EQ(notices.text(), "");
 }

@@ -307,3 +307,38 @@ TEST(SavedDeform, ChannelsAreOfTheKindThatTheyMove) {
                                    "another kind than what it moves");
     }
 }
+
+// OSG divides by an animation's length, and looks behind the only key of a pose then.
+TEST(SavedDeform, AnimationsLastForAFiniteTime) {
+    using osgAnimation::Animation;
+    for (const double duration : {0.0, 2.0, double(NAN), double(INFINITY)}) {
+        const osg::ref_ptr<osgAnimation::Vec3LinearChannel> channel =
+            new osgAnimation::Vec3LinearChannel;
+        channel->setName("translate");
+        channel->setTargetName("thing");
+        channel->getOrCreateSampler()->getOrCreateKeyframeContainer()->push_back(
+            osgAnimation::Vec3Keyframe(0.0, osg::Vec3(1, 2, 3)));
+        const osg::ref_ptr<Animation> animation = new Animation;
+        animation->setName("pose");
+        animation->addChannel(channel);
+        animation->setPlayMode(Animation::STAY);
+        if (duration != 0.0) animation->setDuration(duration);
+        const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
+            new osgAnimation::BasicAnimationManager;
+        manager->registerAnimation(animation);
+        const osg::ref_ptr<osg::Group> scene = new osg::Group;
+        scene->setUpdateCallback(manager);
+        const std::string path = testing::TempDir() + "pose.osgb";
+        ASSERT_TRUE(osgDB::writeNodeFile(*scene, path));
+        if (!std::isfinite(duration)) {
+            expectError([&] { osgSkin::readScene(path, nullptr); },
+                        "animation \"pose\" has a duration or a start that is not finite");
+            continue;
+        }
+        const osg::ref_ptr<osg::Node> read = osgSkin::readScene(path, nullptr);
+        auto* player =
+            dynamic_cast<osgAnimation::BasicAnimationManager*>(read->getUpdateCallback());
+        ASSERT_NE(player, nullptr);
+        EXPECT_EQ(player->getAnimationList().front()->getPlayMode(), Animation::LOOP);
+    }
+}

@@ -370,6 +370,14 @@ TEST(Saved, LengthsAreInTheFile) {
 }
 
 /// What a binary file is to hold is a number, which no enumerator may have.
+// OSG unpacks pixels before it looks for their end, and loses them.
+TEST(Saved, PixelsEndWithTheirBracket) {
+    std::string text = saved("osgt");
+    const std::size_t pixels = text.find('"', text.find("AllocationMode"));
+    text.insert(text.find('"', pixels + 1) + 1, " more");
+    EXPECT_NE(whyRefused(scratch("more.osgt", text)).find("pixels that go on"), std::string::npos);
+}
+
 TEST(Saved, KindsAreScenesAndObjects) {
     const std::string whole = saved("osgb");
     for (const std::uint32_t kind : {0u, 2u, 4u, 0x50001u, 0xffffffffu}) {

@@ -345,6 +345,29 @@ TEST_F(StandingPose, AnActorWhoLiesStaysLying) {
     EXPECT_TRUE(saysOf(report, "he lies, or the zero pose does"));
 }
 
+/// A clip alone rests as its first sample has the actor. glTF says which axis is up; elsewhere who
+/// lies half of the time may as well be an actor who stands along another one.
+TEST_F(StandingPose, WhoGetsUpDoesSoWhereYIsUp) {
+    Motion getsUp = actor;
+    for (std::size_t f = 0; f < getsUp.frames; ++f) {
+        const double share = std::clamp(2.0 * double(f) / double(getsUp.frames) - 0.5, 0.0, 1.0);
+        for (std::size_t j = 0; j < joints; ++j) getsUp.rotations[f * joints + j] = kIdentity;
+        getsUp.rotations[f * joints] = turnDegrees(90 * (share - 1), {1, 0, 0});
+        getsUp.rootPositions[f] = {0.0, (0.1 + 0.9 * share) * rig.joints[0].centre.y, 0.0};
+    }
+    RestSkeleton broad = rig; // another body
+    for (RestJoint& joint : broad.joints) joint.centre.x *= 1.3;
+    const std::vector<glm::dquat> lying(joints, turnDegrees(-90, {1, 0, 0}));
+    Motion motion = countedFrom(getsUp, lying);
+    EXPECT_GT(compare(retarget(motion, broad), broad, getsUp).heads, 45.0);
+    motion.yIsUp = true;
+    for (const RestSkeleton& body : {broad, rig}) {
+        const Difference difference = compare(retarget(motion, body), body, getsUp);
+        EXPECT_LT(difference.limbs, 1.0);
+        EXPECT_LT(difference.heads, 2.0) << "upright is by the legs";
+    }
+}
+
 TEST_F(StandingPose, ARootFarFromTheOriginStartsAtIt) {
     Motion far = actor;
     const glm::dvec3 there(1e3, 0.0, -2e3);

@@ -11,6 +11,7 @@
 #include <osgAnimation/LinkVisitor>
 #include <osgAnimation/Skeleton>
 #include <osgAnimation/StackedTranslateElement>
+#include <osgAnimation/Target>
 #include <osgAnimation/UpdateBone>
 #include <osgAnimation/UpdateMaterial>
 
@@ -129,17 +130,39 @@ TEST(AutoPlayManager, PlaysTheFirstClipUnlessAnotherPlays) {
     }
 }
 
+TEST(AutoPlayManager, PlaysPosesInEveryMode) {
+    using osgAnimation::Animation;
+    for (const Animation::PlayMode mode :
+         {Animation::ONCE, Animation::STAY, Animation::LOOP, Animation::PPONG}) {
+        const osg::ref_ptr<Animation> pose = clips().front();
+        pose->setPlayMode(mode);
+        const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
+        manager->registerAnimation(pose);
+        for (const double time : {5.0, 5.5, 9.0}) manager->update(time);
+        auto* target =
+            dynamic_cast<osgAnimation::Vec3Target*>(pose->getChannels().front()->getTarget());
+        ASSERT_NE(target, nullptr);
+        EXPECT_EQ(target->getValue(), osg::Vec3(1, 2, 3)) << mode;
+    }
+}
+
 /// Who comes into the scene late plays from the start, and a clip that is played once is.
 TEST(AutoPlayManager, PlaysFromItsFirstUpdateOn) {
     const osgAnimation::AnimationList some = clips();
     some[0]->setName("first");
     some[0]->setPlayMode(osgAnimation::Animation::ONCE);
+    dynamic_cast<osgAnimation::Vec3LinearChannel&>(*some[0]->getChannels().front())
+        .getOrCreateSampler()
+        ->getOrCreateKeyframeContainer()
+        ->push_back(osgAnimation::Vec3Keyframe(2.0, osg::Vec3()));
     const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
     manager->registerAnimations(some);
     manager->update(100.0);
     EXPECT_TRUE(manager->isPlaying("first"));
-    manager->update(100.0 + 0.5 * some[0]->getDuration());
+    manager->update(101.0);
     EXPECT_TRUE(manager->isPlaying("first"));
+    manager->update(102.5);
+    EXPECT_FALSE(manager->isPlaying("first"));
 }
 
 /// A channel moves one target: a rider's bone would take it from the horse's of the same name.

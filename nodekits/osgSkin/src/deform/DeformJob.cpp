@@ -9,6 +9,7 @@
 #include "deform/Chain.h"
 #include "deform/DeformKernel.h"
 #include "deform/KernelSlopes.h"
+#include "deform/RestCopy.h"
 #include "deform/SurfaceChain.h"
 #include "model/SkinModelAccess.h"
 
@@ -85,6 +86,8 @@ std::size_t runGroups(Kernel kernel, std::size_t g, std::size_t endGroup, std::s
 void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
     if (first >= end) return;
     const SkinModel& model = *job.model;
+    if (isAtRest(model, *job.pose))
+        return copyRest(job, firstVertexOf(model, first), firstVertexOf(model, end));
     const SkinBlocks& blocks = SkinModelAccess::blocks(model);
     PosedChains chains;
     KernelRun run = runOf(job, firstVertexOf(model, end));
@@ -160,6 +163,10 @@ bool DeformJob::runPart(std::size_t part) const noexcept {
 
 bool DeformJob::runReference() const noexcept {
     if (!isValid()) return false;
+    if (isAtRest(*model, *pose)) {
+        copyRest(*this, 0, model->vertexCount());
+        return true;
+    }
     std::optional<ReferenceCorrections> corrections;
     if (SkinModelAccess::correctives(*model)) corrections.emplace(*model, *pose);
     for (std::size_t g = 0; g < model->groups().size(); ++g) {

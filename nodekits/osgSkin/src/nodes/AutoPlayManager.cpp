@@ -40,6 +40,11 @@ void AutoPlayManager::update(double time) {
         _lastUpdate = time; // when what is played begins
         if (!playing && !_animations.empty()) playAnimation(_animations.front());
     }
+    // OSG divides by a pose's length, unless it is repeated, and looks behind its only key then.
+    for (const auto& layer : _animationsPlaying)
+        for (const osg::ref_ptr<osgAnimation::Animation>& clip : layer.second)
+            if (clip->getDuration() == 0.0 && clip->computeDurationFromChannels() == 0.0)
+                clip->setPlayMode(osgAnimation::Animation::LOOP);
     osgAnimation::BasicAnimationManager::update(time);
 }
 

@@ -102,7 +102,10 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
         return byWeights ? bindWeights(source.body.mesh, source.rest, weights, options, &report)
                          : bind(source.body.mesh, source.rest, options, &report);
     });
-    if (source.painted == Painted::Yes) tellGaps(source, weights);
+    if (source.painted == Painted::Yes) {
+        tellGaps(source, weights);
+        tellMisfit(source, weights);
+    }
     if (source.painted == Painted::WhereGood && !byWeights) tellUnused(source, weights);
     if (!byWeights) {
         tellMisfit(source, report);

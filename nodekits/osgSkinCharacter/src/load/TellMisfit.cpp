@@ -13,6 +13,7 @@
 #include <locale>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -21,6 +22,13 @@ namespace {
 /// common ones those are 10 (centimetres), 39.4 (inches), 100 and 1000 times as long.
 constexpr double kMostRatio = 5.0;
 
+/// The same where weights name the joints: a face's stand close to each other.
+constexpr double kMostPaintedRatio = 8.0;
+constexpr std::size_t kFewJoints = 3; ///< fewer are no measure of a body
+
+/// Of the body's length: what joints may lie beside it, in an open jacket's sleeve.
+constexpr double kRoom = 0.05;
+
 /// Of the body's size: what vertices may be rounded by unseen.
 constexpr double kMostRounding = 1e-4;
 
@@ -28,30 +36,70 @@ double lengthOf(const osg::BoundingBoxd& box) {
     return box.valid() ? 2.0 * box.radius() : 0.0;
 }
 
-} // namespace
+osg::BoundingBoxd boxOf(const SkinMesh& mesh) {
+    osg::BoundingBoxd result;
+    for (const glm::dvec3& position : mesh.positions) result.expandBy(toOsg(position));
+    return result;
+}
 
-void tellMisfit(CharacterSource& source, const BindReport& report) {
-    osg::BoundingBoxd body, skeleton;
-    for (const glm::dvec3& position : source.body.mesh.positions) body.expandBy(toOsg(position));
-    for (const RestJoint& joint : source.rest.joints) {
-        skeleton.expandBy(toOsg(joint.centre));
-        if (joint.tip) skeleton.expandBy(toOsg(*joint.tip));
-    }
+/// \param joints to compare the body with
+/// \param mostRatio of lengths that is no other unit
+/// \param outside of them lie outside the skin
+void tellMisfit(CharacterSource& source, const osg::BoundingBoxd& body,
+                const osg::BoundingBoxd& skeleton, std::size_t joints, double mostRatio,
+                std::size_t outside) {
     std::ostringstream note;
     note.imbue(std::locale::classic());
     note.precision(3);
     note << source.file << ": ";
     const double ratio = lengthOf(skeleton) > 0.0 ? lengthOf(body) / lengthOf(skeleton) : 1.0;
-    if (source.rest.joints.size() > 1 && (ratio > kMostRatio || ratio < 1.0 / kMostRatio))
+    if (ratio > mostRatio || ratio < 1.0 / mostRatio)
         note << "the body is " << ratio
              << " times as long as the skeleton, expected both in the same unit";
-    else if (report.jointsOutside > report.jointsInside)
-        note << report.jointsOutside << " of " << report.jointsOutside + report.jointsInside
+    else if (outside > joints - outside)
+        note << outside << " of " << joints
              << " joints lie outside the skin, expected the skeleton in the body's pose, unit "
                 "and place";
     else
         return;
     takeNote(source.notes, note.str());
+}
+
+} // namespace
+
+void tellMisfit(CharacterSource& source, const BindReport& report) {
+    osg::BoundingBoxd skeleton;
+    if (source.rest.joints.size() > 1)
+        for (const RestJoint& joint : source.rest.joints) {
+            skeleton.expandBy(toOsg(joint.centre));
+            if (joint.tip) skeleton.expandBy(toOsg(*joint.tip));
+        }
+    tellMisfit(source, boxOf(source.body.mesh), skeleton,
+               report.jointsOutside + report.jointsInside, kMostRatio, report.jointsOutside);
+}
+
+void tellMisfit(CharacterSource& source, const VertexWeights& weights) {
+    std::vector<bool> named(source.rest.joints.size());
+    for (const auto& entries : weights)
+        for (const JointWeight& entry : entries)
+            if (entry.weight > 0.0) named[static_cast<std::size_t>(entry.joint)] = true;
+    const osg::BoundingBoxd body = boxOf(source.body.mesh);
+    const double room = kRoom * lengthOf(body);
+    osg::BoundingBoxd skeleton;
+    std::size_t joints = 0, outside = 0;
+    for (std::size_t j = 0; j < named.size(); ++j) {
+        if (!named[j]) continue;
+        const osg::Vec3d centre = toOsg(source.rest.joints[j].centre);
+        skeleton.expandBy(centre);
+        ++joints;
+        for (int axis = 0; axis < 3; ++axis)
+            if (centre[axis] < body._min[axis] - room || centre[axis] > body._max[axis] + room) {
+                ++outside;
+                break;
+            }
+    }
+    if (joints < kFewJoints) skeleton.init();
+    tellMisfit(source, body, skeleton, joints, kMostPaintedRatio, outside);
 }
 
 void tellRounding(CharacterSource& source) {

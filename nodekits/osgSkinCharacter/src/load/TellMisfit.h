@@ -4,6 +4,7 @@
 #include "source/CharacterSource.h"
 
 #include <osgSkinBind/BindReport>
+#include <osgSkinBind/BindWeights>
 
 namespace osgSkin {
 
@@ -13,6 +14,13 @@ namespace osgSkin {
 /// \param source with body and rest skeleton; gets a note
 /// \param report of its binding by regions
 void tellMisfit(CharacterSource& source, const BindReport& report);
+
+/// The same of a body that is bound by weights from outside: the joints that they name lie around
+/// its skin.
+///
+/// \param source with body and rest skeleton; gets a note
+/// \param weights of its vertices
+void tellMisfit(CharacterSource& source, const VertexWeights& weights);
 
 /// Tells of a body so far from the origin that skins, which have floats, cannot hold its shape.
 ///

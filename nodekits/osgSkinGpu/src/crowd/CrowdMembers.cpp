@@ -2,6 +2,7 @@
 #include "crowd/CrowdMembers.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmTypes>
 
 #include <osg/BufferObject>
 
@@ -12,17 +13,24 @@
 namespace osgSkin {
 namespace {
 
+constexpr float kLargestScale = 1e9f; ///< as of poses
+
 /// For shaders, which have single precision.
 bool areFinite(std::initializer_list<double> numbers) {
     return std::all_of(numbers.begin(), numbers.end(),
                        [](double x) { return std::isfinite(static_cast<float>(x)); });
 }
 
-bool isUsable(const CrowdInstance& one) {
+/// So that no vertex and no sphere is infinite.
+bool isPlaceable(const CrowdInstance& one) {
+    const glm::dvec3 position(one.position.x(), one.position.y(), one.position.z());
+    return isInRange(position) && std::abs(one.scale) <= kLargestScale &&
+           std::abs(one.rotation.length2() - 1.0) <= 0.02; // false for NaN
+}
+
+bool isPlayable(const CrowdInstance& one) {
     const osg::Vec4d colour(one.colour);
-    return areFinite({one.position.x(), one.position.y(), one.position.z(), double(one.scale),
-                      one.rotation.x(), one.rotation.y(), one.rotation.z(), one.rotation.w(),
-                      one.phase, double(one.speed), one.otherPhase, double(one.otherSpeed),
+    return areFinite({one.phase, double(one.speed), one.otherPhase, double(one.otherSpeed),
                       colour.x(), colour.y(), colour.z(), colour.w()}) &&
            one.blend >= 0.0f && one.blend <= 1.0f;
 }
@@ -37,7 +45,10 @@ void checkMembers(const CrowdCharacter& character, const std::vector<CrowdInstan
             if (clip >= character.clipCount())
                 throw Error(label + " plays clip " + std::to_string(clip) +
                             ", expected less than " + std::to_string(character.clipCount()));
-        if (!isUsable(one))
+        if (!isPlaceable(one))
+            throw Error(label + " is beyond 1e18, scaled by more than 1e9 or turned by no unit "
+                                "quaternion");
+        if (!isPlayable(one))
             throw Error(label + " has a number that is not finite, or a blend beyond 0..1");
     }
 }

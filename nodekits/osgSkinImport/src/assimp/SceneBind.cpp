@@ -4,12 +4,61 @@
 #include "assimp/AssimpScene.h"
 #include "assimp/TrustedBones.h"
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace osgSkin {
+
+namespace {
+
+constexpr double kOneScale = 0.01;                ///< relative
+constexpr double kOnePlace = 0.01;                ///< of the bones' extent
+constexpr double kLeastPosed = glm::radians(1.0); ///< that a pose turns a bone by
+constexpr double kMostPosed =
+    glm::radians(45.0);                ///< more is another axis up, if nothing else tells
+constexpr double kFarthestPosed = 0.5; ///< of the extent, that a pose moves a bone
+
+double scaleOf(const glm::dmat4& m) {
+    return std::cbrt(std::abs(glm::determinant(glm::dmat3(m))));
+}
+
+double angleBetween(const glm::dmat4& a, const glm::dmat4& b) {
+    const glm::dmat3 turn = glm::dmat3(a) / scaleOf(a) * glm::inverse(glm::dmat3(b) / scaleOf(b));
+    return std::acos(std::clamp((turn[0][0] + turn[1][1] + turn[2][2] - 1.0) / 2.0, -1.0, 1.0));
+}
+
+/// Whether bones stand in the bind pose where the mesh does, and the topmost node is posed: as
+/// exporters that store a clip's first frame leave it. What else tells the spaces apart, another
+/// unit or axis up or a mesh's node that means nothing, is no pose.
+///
+/// \param byBone from the mesh to the scene, if the topmost bone's node is not posed
+/// \param byMesh the same, if the mesh's node is where the mesh was bound
+bool isPosed(const std::vector<const aiBone*>& bones, const aiBone& topmost,
+             const glm::dmat4& byBone, const glm::dmat4& byMesh) {
+    const double scale = scaleOf(byMesh);
+    if (!(scale > 0.0) || !(std::abs(scaleOf(byBone) / scale - 1.0) < kOneScale)) return false;
+    const glm::dmat4 bound = glm::inverse(toGlm(topmost.mOffsetMatrix));
+    double extent = 0.0;
+    for (const aiBone* bone : bones) {
+        const glm::dmat4 other = glm::inverse(toGlm(bone->mOffsetMatrix));
+        extent =
+            std::max(extent, scale * glm::distance(glm::dvec3(bound[3]), glm::dvec3(other[3])));
+    }
+    const glm::dvec3 place(byMesh * bound[3]);
+    const double moved = glm::distance(place, glm::dvec3(byBone * bound[3]));
+    const double turned = angleBetween(byBone, byMesh);
+    if (!(turned > kLeastPosed)) return false; // not a number, too
+    if (turned < kMostPosed) return moved < kFarthestPosed * extent;
+    const double away = glm::distance(place, glm::dvec3(byMesh[3])); // from what all turns about
+    return moved < kOnePlace * extent && away > 10.0 * kOnePlace * extent;
+}
+
+} // namespace
 
 SceneBind::SceneBind(const aiScene& scene) {
     std::vector<const aiNode*> open{scene.mRootNode};
@@ -42,7 +91,11 @@ SceneBind::SceneBind(const aiScene& scene) {
             skins.emplace_back(_depth.at(find(nameOf(*top))), m);
     }
     std::sort(skins.begin(), skins.end());
-    for (const auto& [depth, m] : skins) bindSkin(bones[m], _skins[m]);
+    std::vector<glm::dmat4> shown(scene.mNumMeshes, glm::dmat4(0.0)); // by its first node
+    for (auto node = _nodes.rbegin(); node != _nodes.rend(); ++node)
+        for (unsigned i = 0; i < (*node)->mNumMeshes; ++i)
+            shown[(*node)->mMeshes[i]] = _posed.at(*node);
+    for (const auto& [depth, m] : skins) bindSkin(bones[m], shown[m], _skins[m]);
 
     for (const aiNode* node : _nodes)
         if (_bind.count(node) == 0) _bind[node] = bindFromAbove(*node);
@@ -80,7 +133,8 @@ glm::dmat4 SceneBind::bindFromAbove(const aiNode& node) const {
     return above == nullptr ? result : _bind.at(above) * result;
 }
 
-void SceneBind::bindSkin(const std::vector<const aiBone*>& bones, glm::dmat4& toScene) {
+void SceneBind::bindSkin(const std::vector<const aiBone*>& bones, const glm::dmat4& meshToScene,
+                         glm::dmat4& toScene) {
     const aiBone* reference = topmost(bones);
     for (const aiBone* bone : bones)
         if (_bind.count(find(nameOf(*bone))) != 0) {
@@ -89,6 +143,8 @@ void SceneBind::bindSkin(const std::vector<const aiBone*>& bones, glm::dmat4& to
         }
     const aiNode* standing = find(nameOf(*reference));
     toScene = bindFromAbove(*standing) * toGlm(reference->mOffsetMatrix);
+    if (_bind.count(standing) == 0 && isPosed(bones, *reference, toScene, meshToScene))
+        toScene = meshToScene;
     for (const aiBone* bone : bones)
         _bind.emplace(find(nameOf(*bone)), toScene * glm::inverse(toGlm(bone->mOffsetMatrix)));
 }

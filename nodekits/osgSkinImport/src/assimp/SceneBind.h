@@ -16,7 +16,8 @@ namespace osgSkin {
 ///
 /// Skins say where each bone was, seen from the mesh, when they were painted (offset matrices). The
 /// topmost bone of a skin is taken to stand there as its node does; what hangs on it follows from
-/// the offsets, which may differ from the nodes' pose (often the first sample of a motion). Nodes
+/// the offsets, which may differ from the nodes' pose (often the first sample of a motion). Where
+/// that one is posed, too, the skin is bound where the node of its mesh has it. Nodes
 /// that no skin names keep their transform under the node above, and so do bones without weights
 /// whose offsets cannot be right: exporters list helpers with any matrix (see TrustedBones).
 class SceneBind {
@@ -46,7 +47,8 @@ public:
     glm::dmat4 mesh(const aiNode& node, unsigned meshIndex) const;
 
 private:
-    void bindSkin(const std::vector<const aiBone*>& bones, glm::dmat4& toScene);
+    void bindSkin(const std::vector<const aiBone*>& bones, const glm::dmat4& meshToScene,
+                  glm::dmat4& toScene);
     const aiBone* topmost(const std::vector<const aiBone*>& bones) const; ///< null for none
     glm::dmat4 bindFromAbove(const aiNode& node) const;
 

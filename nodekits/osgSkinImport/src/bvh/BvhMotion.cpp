@@ -7,6 +7,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <utility>
+#include <vector>
+
 namespace osgSkin {
 namespace {
 
@@ -88,25 +91,35 @@ Motion makeMotion(const BvhFile& file, const std::string& path) {
     noticeUnusedMoves(skeleton, moved, root, path);
 
     Motion motion;
-    motion.skeleton = skeletonFrom(skeleton, root);
+    CarriedSkeleton carried(skeleton, root);
+    motion.skeleton = std::move(carried.rest);
     motion.frameTime = file.frameTime;
     motion.frames = file.frames;
     motion.rotations.reserve(file.frames * motion.skeleton.joints.size());
     motion.rootPositions.reserve(file.frames);
+    std::vector<bool> isAbove(file.joints.size());
+    for (const std::size_t j : carried.above) isAbove[j] = true;
+    // World rotations, of the joints above the root and of the root.
+    std::vector<glm::dquat> world(file.joints.size());
     for (std::size_t f = 0; f < file.frames; ++f) {
         const double* frame = file.frame(f);
-        glm::dquat above(1.0, 0.0, 0.0, 0.0); // the world rotation of the joints above the root
         glm::dvec3 position(0.0);
-        for (std::size_t j = 0; j < file.joints.size(); ++j) {
-            const glm::dquat local = localRotation(file.joints[j], frame);
-            if (j > root) {
-                motion.rotations.push_back(glm::normalize(local));
-                continue;
-            }
-            // The joints down to the root stand in a row.
+        glm::dquat above(1.0, 0.0, 0.0, 0.0);
+        for (const std::size_t j : carried.above) {
             position += above * localPosition(file.joints[j], frame);
-            above = above * local;
-            if (j == root) motion.rotations.push_back(glm::normalize(above));
+            world[j] = above = above * localRotation(file.joints[j], frame);
+        }
+        position += above * localPosition(file.joints[root], frame);
+        for (const std::size_t j : carried.joints) {
+            const glm::dquat local = localRotation(file.joints[j], frame);
+            const int parent = file.joints[j].parent;
+            if (j == root)
+                motion.rotations.push_back(glm::normalize(world[j] = above * local));
+            else if (isAbove[static_cast<std::size_t>(parent)])
+                motion.rotations.push_back(glm::normalize(
+                    glm::conjugate(world[root]) * world[static_cast<std::size_t>(parent)] * local));
+            else
+                motion.rotations.push_back(glm::normalize(local));
         }
         motion.rootPositions.push_back(position);
     }

@@ -5,6 +5,7 @@
 #include "assimp/SceneSkeleton.h"
 #include "bvh/BvhFile.h"
 #include "bvh/BvhMotion.h"
+#include "gltf/plain/PlainGltf.h"
 #include "rig/ClipNames.h"
 #include "rig/SampleTracks.h"
 #include "rig/TrackOffsets.h"
@@ -74,6 +75,7 @@ Motion readAssimpMotion(const std::string& path, const std::string& clip,
                                  limits.samplesOf(bytes), path);
     validate(motion, path);
     motion.name = names[chosen];
+    motion.yIsUp = isGltfName(path);
     return motion;
 }
 

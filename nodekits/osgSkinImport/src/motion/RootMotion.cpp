@@ -3,38 +3,77 @@
 
 #include "text/FileText.h"
 
+#include <osgSkinRig/JointRoles>
+
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace osgSkin {
+namespace {
+
+/// Of each joint, whether both upper legs are below it.
+std::vector<bool> leadsToBothLegs(const RestSkeleton& skeleton) {
+    const JointRoles roles = recogniseJoints(skeleton);
+    std::vector<int> legs(skeleton.joints.size(), 0);
+    for (const char* role : {"LeftUpperLeg", "RightUpperLeg"}) {
+        const auto found = roles.joints.find(role);
+        if (found == roles.joints.end()) continue;
+        for (int a = skeleton.joints[static_cast<std::size_t>(found->second.front())].parent;
+             a >= 0; a = skeleton.joints[static_cast<std::size_t>(a)].parent)
+            ++legs[static_cast<std::size_t>(a)];
+    }
+    std::vector<bool> result;
+    for (const int count : legs) result.push_back(count == 2);
+    return result;
+}
+
+} // namespace
 
 bool isMoved(const glm::dvec3& position, const glm::dvec3& atRest) {
     return glm::distance(position, atRest) > 1e-3 * (1.0 + glm::length(atRest));
 }
 
 std::size_t rootMotionJoint(const RestSkeleton& skeleton, const std::vector<bool>& moved) {
+    const std::vector<bool> towardsLegs = leadsToBothLegs(skeleton);
     std::size_t result = 0;
     for (int j = 0;;) {
         const std::vector<int> children = skeleton.children(j);
         if (moved[static_cast<std::size_t>(j)] && !children.empty())
             result = static_cast<std::size_t>(j);
-        if (children.size() != 1) return result;
-        j = children[0];
+        const auto next = children.size() == 1
+                              ? children.begin()
+                              : std::find_if(children.begin(), children.end(), [&](int c) {
+                                    return towardsLegs[static_cast<std::size_t>(c)];
+                                });
+        if (next == children.end()) return result;
+        j = *next;
     }
 }
 
-RestSkeleton skeletonFrom(const RestSkeleton& skeleton, std::size_t root) {
-    RestSkeleton result;
-    for (std::size_t j = root; j < skeleton.joints.size(); ++j) {
-        result.joints.push_back(skeleton.joints[j]);
-        result.joints.back().parent -= static_cast<int>(root);
+CarriedSkeleton::CarriedSkeleton(const RestSkeleton& skeleton, std::size_t root) {
+    for (int a = skeleton.joints[root].parent; a >= 0;
+         a = skeleton.joints[static_cast<std::size_t>(a)].parent)
+        above.insert(above.begin(), static_cast<std::size_t>(a));
+    std::vector<int> place(skeleton.joints.size(), 0); // those above it: the root's
+    joints.push_back(root);
+    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+        if (j == root || std::find(above.begin(), above.end(), j) != above.end()) continue;
+        place[j] = static_cast<int>(joints.size());
+        joints.push_back(j);
     }
-    result.joints[0].parent = -1;
-    return result;
+    for (const std::size_t j : joints) {
+        rest.joints.push_back(skeleton.joints[j]);
+        int& parent = rest.joints.back().parent;
+        parent = j == root ? -1 : place[static_cast<std::size_t>(parent)];
+    }
 }
 
 void noticeUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
                        std::size_t root, const std::string& path) {
-    for (std::size_t j = root + 1; j < moved.size(); ++j) {
+    const std::vector<std::size_t> joints = CarriedSkeleton(skeleton, root).joints;
+    for (std::size_t i = 1; i < joints.size(); ++i) {
+        const std::size_t j = joints[i];
         if (!moved[j]) continue;
         tellOf(path, "joint \"" + skeleton.joints[j].name +
                          "\" moves from its place; only moves of \"" + skeleton.joints[root].name +

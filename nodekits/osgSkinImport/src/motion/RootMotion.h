@@ -16,13 +16,24 @@ namespace osgSkin {
 bool isMoved(const glm::dvec3& position, const glm::dvec3& atRest);
 
 /// The joint whose position carries the figure: the root, or the last that moves of those that
-/// follow it one by one (the hips below a root on the ground) and have joints below.
+/// follow it on the way to the hips and have joints below: one by one, or where names tell the
+/// upper legs, also beside joints that are no part of the body (targets, a camera).
 /// \param moved whether the motion moves a joint from its rest position, [joint]
-/// \return index of the joint; those above it are its ancestors, in order
+/// \return index of the joint
 std::size_t rootMotionJoint(const RestSkeleton& skeleton, const std::vector<bool>& moved);
 
-/// The skeleton from the joint `root` of rootMotionJoint() on.
-RestSkeleton skeletonFrom(const RestSkeleton& skeleton, std::size_t root);
+/// A skeleton from a joint of its own on.
+struct CarriedSkeleton {
+    /// \param skeleton whole
+    /// \param root of rootMotionJoint()
+    CarriedSkeleton(const RestSkeleton& skeleton, std::size_t root);
+
+    /// `root`, then all others that do not stand above it, in their order; below the root those
+    /// that stood beside it.
+    RestSkeleton rest;
+    std::vector<std::size_t> joints; ///< of the whole skeleton, [joint of `rest`]
+    std::vector<std::size_t> above;  ///< of the whole skeleton, from its root down
+};
 
 /// Says in a notice where joints below `root` move, since a Motion holds rotations only.
 void noticeUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,

@@ -179,7 +179,8 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
     Motion motion;
     const std::vector<bool> moved = findMovedJoints(tracks, skeleton);
     const std::size_t root = rootMotionJoint(skeleton.rest, moved);
-    motion.skeleton = skeletonFrom(skeleton.rest, root);
+    CarriedSkeleton carried(skeleton.rest, root);
+    motion.skeleton = std::move(carried.rest);
     motion.frames = grid.samples();
     motion.frameTime = grid.samples() > 1 ? grid.step() : 1.0 / rate;
     if (!std::isfinite(motion.frameTime) || !(motion.frameTime > 0.0))
@@ -201,14 +202,19 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
                            .below(localRotation(tracks[j], *skeleton.nodes[j], moment),
                                   localScale(tracks[j], *skeleton.nodes[j]));
             aligned[j] = world[j].rotation * glm::conjugate(skeleton.worldRotations[j]);
-            if (j >= root)
-                motion.rotations.push_back(glm::normalize(
-                    j == root ? aligned[j] : glm::conjugate(aligned[p]) * aligned[j]));
+        }
+        for (std::size_t k = 0; k < carried.joints.size(); ++k) {
+            const glm::dquat& own = aligned[carried.joints[k]];
+            const int up = motion.skeleton.joints[k].parent;
+            motion.rotations.push_back(glm::normalize(
+                up < 0
+                    ? own
+                    : glm::conjugate(aligned[carried.joints[static_cast<std::size_t>(up)]]) * own));
         }
         glm::dvec3 position = skeleton.rest.joints[0].centre;
         if (root > 0 || (tracks[0] != nullptr && tracks[0]->mNumPositionKeys > 0)) {
             glm::dmat4 above = skeleton.aboveRoot;
-            for (std::size_t j = 0; j < root; ++j)
+            for (const std::size_t j : carried.above)
                 above *= localMatrix(tracks[j], *skeleton.nodes[j], moment);
             position = glm::dvec3(
                 above *

@@ -171,10 +171,13 @@ void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::str
         if (drawable != nullptr && hasBoxOfARig(*drawable))
             failFile(path, "drawable " + inQuotes(drawable->getName()) + " (object " +
                                std::to_string(id) + ") has the box of a rig, expected a rig");
-        if (const auto* animation = dynamic_cast<const osgAnimation::Animation*>(object.get())) {
+        if (auto* animation = dynamic_cast<osgAnimation::Animation*>(object.get())) {
             const std::string wrong = whyNotPlayed(*animation);
             if (!wrong.empty())
                 failFile(path, "animation " + inQuotes(animation->getName()) + " has " + wrong);
+            // A pose: OSG divides by its length unless it is repeated.
+            if (animation->computeDurationFromChannels() == 0.0)
+                animation->setPlayMode(osgAnimation::Animation::LOOP);
         }
         const auto* manager = dynamic_cast<const osgAnimation::AnimationManagerBase*>(object.get());
         if (manager == nullptr) continue;

@@ -46,7 +46,15 @@ void SavedAscii::readWrappedString(std::string& text) {
         text.push_back(_content[_at]);
     }
     ++_at;
+    const bool isPicture = _image.isOpen();
     text = tookWrapped(text);
+    if (isPicture && !_image.isOpen()) expectPixelsEnd();
+}
+
+void SavedAscii::expectPixelsEnd() {
+    skipSpace();
+    if (_content.compare(_at, 1, "}") == 0) return;
+    refuse("a picture's pixels that go on, expected \"}\"");
 }
 
 bool SavedAscii::matchString(const std::string& text) {

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <string>
-
 namespace osgSkin {
 
 /// The layout of `.osgt` files.
@@ -27,6 +25,8 @@ protected:
 
 private:
     void skipSpace();
+    /// OSG unpacks them before it looks, and would lose what it has.
+    void expectPixelsEnd();
 
     std::string _word;              ///< the last that was read
     std::vector<std::string> _open; ///< what stood before each bracket that is open

@@ -39,7 +39,8 @@ private:
 
     bool isFree(int j) {
         const std::vector<std::string> words = nameWords(joint(j).name);
-        return role(j).empty() && std::none_of(words.begin(), words.end(), isForeign);
+        return role(j).empty() && !isPivot(joint(j).name) &&
+               std::none_of(words.begin(), words.end(), isForeign);
     }
 
     /// The free joints between two, the lower one first; none where `below` is not below `above`.

@@ -93,6 +93,10 @@ bool isNumber(const std::string& word) {
     return !word.empty();
 }
 
+bool isPivot(const std::string& name) {
+    return name.find("$AssimpFbx$") != std::string::npos;
+}
+
 std::string plainName(const std::string& name) {
     std::string result;
     for (const char c : withoutNamespace(name, ":|"))
@@ -101,7 +105,7 @@ std::string plainName(const std::string& name) {
 }
 
 std::vector<std::string> nameWords(const std::string& name) {
-    if (name.size() > kLongestName) return {};
+    if (name.size() > kLongestName || isPivot(name)) return {};
     return wordsOf(withoutNote(withoutNamespace(withoutCodes(name), ":|/")));
 }
 

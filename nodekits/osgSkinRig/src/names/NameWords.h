@@ -22,6 +22,10 @@ std::vector<std::string> nameWords(const std::string& name);
 /// "LeftHand", "hand_l" and "Bip01 L Hand", but "hand1" for "Hand1".
 std::string bareName(const std::string& name);
 
+/// Whether a node is one of those that Assimp makes of an FBX joint's pivots, and its exporters
+/// joints ("Hips_$AssimpFbx$_Rotation"): no part of the body, and nameWords() are none.
+bool isPivot(const std::string& name);
+
 /// Whether a word is a number.
 bool isNumber(const std::string& word);
 

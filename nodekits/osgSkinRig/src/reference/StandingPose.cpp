@@ -10,6 +10,7 @@
 #include <osgSkinRig/ForwardKinematics>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +39,8 @@ struct Samples {
     std::map<int, std::size_t> grounded; ///< of them, with the feet on a floor through the origin
     std::size_t all = 0;
 
-    int axis = 0; ///< along which most stand
+    int axis = 0;         ///< along which most stand; +y where that is up and some do
+    bool isKnown = false; ///< whether it is that
 
     /// The tidiest sample along `axis`, or of all where none stands.
     std::size_t best = 0;
@@ -71,12 +73,17 @@ public:
                 most = count;
                 result.axis = axis;
             }
+        result.isKnown = _motion.yIsUp && result.standing.count(kPlusY) > 0;
+        if (result.isKnown) result.axis = kPlusY;
         double tidiest = 0.0;
         for (const auto& [f, stance] : stances) {
             const bool stands = stance.stands() && nearAxis(stance.up) == result.axis;
             if (result.axis != 0 && !stands) continue;
-            if (result.bestStance && stance.untidiness() >= tidiest) continue;
-            tidiest = stance.untidiness();
+            double untidiness = stance.untidiness();
+            if (result.isKnown)
+                untidiness += glm::degrees(std::acos(std::clamp(stance.up.y, -1.0, 1.0)));
+            if (result.bestStance && untidiness >= tidiest) continue;
+            tidiest = untidiness;
             result.best = f;
             result.bestStance = stance;
         }
@@ -136,7 +143,7 @@ std::string faults(const std::optional<Stance>& stance) {
 /// Where the skeletons are one, the rig's rest pose tells what the motion's rotations mean.
 void countFromRig(const Motion& motion, const RestSkeleton& rig, const SameSkeleton& same,
                   const std::optional<Stance>& rest, const std::optional<Stance>& zero,
-                  int samplesAxis, StandingPose& result) {
+                  const Samples& samples, StandingPose& result) {
     const bool alike = std::all_of(same.toRigRest.begin(), same.toRigRest.end(),
                                    [](const glm::dquat& q) { return std::abs(q.w) > 1.0 - 1e-9; });
     if (!rest || !rest->stands()) {
@@ -148,7 +155,8 @@ void countFromRig(const Motion& motion, const RestSkeleton& rig, const SameSkele
     if (alike) return; // it stands as the rig does
     // Both files' spaces may have different axes up.
     glm::dquat turn(1.0, 0.0, 0.0, 0.0);
-    const int axis = zero && zero->stands() ? nearAxis(zero->up) : samplesAxis;
+    int axis = zero && zero->stands() ? nearAxis(zero->up) : samples.axis;
+    if (motion.yIsUp && (samples.isKnown || axis == 0)) axis = kPlusY;
     const int rigAxis = nearAxis(rest->up);
     if (axis != 0 && rigAxis != 0 && axis != rigAxis) {
         glm::dvec3 from(0.0), to(0.0);
@@ -184,7 +192,7 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
     if (rigJoints.complete()) {
         const std::optional<Stance> rest = rigJoints.measure(centresOf(rig));
         if (same) {
-            countFromRig(motion, rig, *same, rest, zero, samples.axis, result);
+            countFromRig(motion, rig, *same, rest, zero, samples, result);
             return result;
         }
         if (!rest || !rest->stands())
@@ -202,9 +210,10 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
         // Who lies on the floor stands across it, too. Who has the floor under the feet stands, and
         // who stands along +y does where files have it up.
         const std::size_t across = countOf(samples.standing, samples.axis);
-        const bool isUp =
-            samples.axis == kPlusY || 10 * countOf(samples.grounded, samples.axis) >= 8 * across;
-        if (!isUp || 10 * countOf(samples.standing, own) > across) {
+        const bool isUp = samples.isKnown || samples.axis == kPlusY ||
+                          10 * countOf(samples.grounded, samples.axis) >= 8 * across;
+        const bool staysLying = !samples.isKnown && 10 * countOf(samples.standing, own) > across;
+        if (!isUp || staysLying) {
             if (countOf(samples.standing, own) == 0)
                 result.notes.push_back(
                     "the actor's legs are never along the axis of the motion's zero pose: he lies, "

@@ -31,6 +31,17 @@ double degrees(const glm::dquat& q) {
     return glm::degrees(2.0 * std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), std::abs(q.w)));
 }
 
+/// More than any foot is off its like in another body.
+constexpr double kBackwards = 120.0;
+
+/// Whether the feet of one skeleton point to where the other's do not.
+bool doFeetDisagree(const BodyParts& parts, const std::vector<glm::dquat>& alignment) {
+    return !parts.ankles.empty() &&
+           std::all_of(parts.ankles.begin(), parts.ankles.end(), [&](int ankle) {
+               return degrees(alignment[static_cast<std::size_t>(ankle)]) > kBackwards;
+           });
+}
+
 void fillReport(RetargetReport& report, const Motion& motion, const RestSkeleton& rig,
                 const std::vector<int>& motionJoint, const std::vector<glm::dquat>& alignment) {
     report.entries.clear();
@@ -142,6 +153,10 @@ Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& ma
         for (std::size_t j = 0; j < clip.joints; ++j)
             report->entries[j].rolledOver = feetRoll.rolledOver(j);
         report->notes.clear();
+        if (doFeetDisagree(body.rigParts, alignment))
+            report->notes.emplace_back("the rig's feet point backwards where the actor's do not, "
+                                       "or the reverse: one has left and right exchanged, or is "
+                                       "mirrored");
         if (root.movedToOrigin())
             report->notes.emplace_back("the motion begins far from the origin: it starts at the "
                                        "origin here");

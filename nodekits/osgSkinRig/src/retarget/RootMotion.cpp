@@ -50,7 +50,11 @@ double floorHeight(std::vector<double> feet, double band) {
 } // namespace
 
 RootMotion::RootMotion(const DrivenRig& body) : _body(body) {
-    while (body.driver(_rigHips) < 0) ++_rigHips;
+    // What carries the motion, or else the first that has a driver.
+    const int joints = static_cast<int>(body.rig.rest().joints.size());
+    while (_rigHips < joints && body.driver(_rigHips) != 0) ++_rigHips;
+    if (_rigHips == joints)
+        for (_rigHips = 0; body.driver(_rigHips) < 0;) ++_rigHips;
     _motionHips = body.driver(_rigHips);
     _rigHeight = hipHeight(body.rig, body.rigParts, _rigHips);
     const double motionHeight = hipHeight(body.motion, body.motionParts, _motionHips);

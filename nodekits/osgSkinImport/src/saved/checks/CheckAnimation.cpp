@@ -85,6 +85,8 @@ std::string whyNotPlayed(const osgAnimation::Animation& animation) {
         if (found != Keys::Fine)
             return which + " with times of keys that are not finite or not in order";
     }
+    if (!std::isfinite(animation.getDuration()) || !std::isfinite(animation.getStartTime()))
+        return "a duration or a start that is not finite";
     return {};
 }
 
