@@ -23,8 +23,8 @@ std::vector<bool> leadsToBothLegs(const RestSkeleton& skeleton) {
              a >= 0; a = skeleton.joints[static_cast<std::size_t>(a)].parent)
             ++legs[static_cast<std::size_t>(a)];
     }
-    std::vector<bool> result;
-    for (const int count : legs) result.push_back(count == 2);
+    std::vector<bool> result(legs.size());
+    for (std::size_t j = 0; j < legs.size(); ++j) result[j] = legs[j] == 2;
     return result;
 }
 
