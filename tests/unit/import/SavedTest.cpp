@@ -378,6 +378,24 @@ TEST(Saved, PixelsEndWithTheirBracket) {
     EXPECT_NE(whyRefused(scratch("more.osgt", text)).find("pixels that go on"), std::string::npos);
 }
 
+TEST(Saved, PicturesThatAreNotThereAreNone) {
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->setFileName("nowhere.png");
+    image->setWriteHint(osg::Image::EXTERNAL_FILE);
+    scene->getOrCreateStateSet()->setTextureAttribute(0, new osg::Texture2D(image));
+    for (const char* format : {"osgt", "osgb", "osgx"}) {
+        const std::string path = scratch(std::string("pictured.") + format, {});
+        const osg::ref_ptr<osgDB::Options> apart = new osgDB::Options("WriteImageHint=UseExternal");
+        ASSERT_TRUE(osgDB::writeNodeFile(*scene, path, apart.get()));
+        const osg::ref_ptr<osg::Node> read = osgSkin::readScene(path, nullptr);
+        const auto* texture = dynamic_cast<const osg::Texture2D*>(
+            read->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+        ASSERT_NE(texture, nullptr) << format;
+        EXPECT_EQ(texture->getImage(), nullptr) << format;
+    }
+}
+
 TEST(Saved, KindsAreScenesAndObjects) {
     const std::string whole = saved("osgb");
     for (const std::uint32_t kind : {0u, 2u, 4u, 0x50001u, 0xffffffffu}) {

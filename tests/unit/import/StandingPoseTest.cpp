@@ -368,6 +368,30 @@ TEST_F(StandingPose, WhoGetsUpDoesSoWhereYIsUp) {
     }
 }
 
+/// Authors name sides as they see them.
+TEST_F(StandingPose, FeetThatPointBackwardsAreToldOf) {
+    RestSkeleton swapped = rig;
+    for (RestJoint& joint : swapped.joints) {
+        joint.centre.x *= 1.3; // not the actor's own
+        const bool left = joint.name.rfind("Left", 0) == 0;
+        if (left)
+            joint.name.replace(0, 4, "Right");
+        else if (joint.name.rfind("Right", 0) == 0)
+            joint.name.replace(0, 5, "Left");
+        else if (joint.name == "LHipJoint")
+            joint.name = "RHipJoint";
+        else if (joint.name == "RHipJoint")
+            joint.name = "LHipJoint";
+    }
+    RestSkeleton broad = rig;
+    for (RestJoint& joint : broad.joints) joint.centre.x *= 1.3;
+    RetargetReport wrong, right;
+    retarget(actor, swapped, {}, &wrong);
+    retarget(actor, broad, {}, &right);
+    EXPECT_TRUE(saysOf(wrong, "feet point backwards")) << wrong.text().substr(0, 500);
+    EXPECT_FALSE(saysOf(right, "feet point backwards"));
+}
+
 TEST_F(StandingPose, ARootFarFromTheOriginStartsAtIt) {
     Motion far = actor;
     const glm::dvec3 there(1e3, 0.0, -2e3);

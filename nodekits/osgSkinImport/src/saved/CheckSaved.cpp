@@ -152,6 +152,7 @@ double costOf(const osg::Node& node, std::map<const osg::Node*, double>& known) 
 
 void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::string& path) {
     for (const auto& [id, object] : objects) {
+        if (!object) continue; // a picture that could not be read
         if (isDropped(object.get()))
             failFile(path, "object " + std::to_string(id) + " of class " +
                                inQuotes(object->getCompoundClassName()) +
