@@ -371,15 +371,20 @@ TEST(GltfDialect, JointsMayBeHiddenAtRest) {
 TEST(GltfDialect, APosedRootDoesNotTurnTheBindPose) {
     const struct {
         double degrees;
-        double height; ///< of the first joint
+        double height;     ///< of the first joint
+        double meshTurned; ///< degrees, its node
         bool isPose;
-    } cases[] = {{20.0, 0.0, true},  {20.0, 1.0, true},  {90.0, 1.0, true},
-                 {90.0, 0.0, false}, {60.0, 0.0, false}, {0.0, 1.0, true}};
+    } cases[] = {{20.0, 0.0, 0.0, true},  {20.0, 1.0, 0.0, true},  {90.0, 1.0, 0.0, true},
+                 {90.0, 0.0, 0.0, false}, {60.0, 0.0, 0.0, false}, {0.0, 1.0, 0.0, true},
+                 {0.0, 1.0, 20.0, true},  {20.0, 1.0, 10.0, false}};
     for (const auto& c : cases) {
         GltfColumn column;
         const double half = glm::radians(c.degrees) / 2.0;
         column.json["nodes"][column.joints[0]]["rotation"] = {std::sin(half), 0, 0, std::cos(half)};
         column.json["nodes"][column.joints[0]]["translation"] = {0, c.height, 0};
+        const double halfOfMesh = glm::radians(c.meshTurned) / 2.0;
+        column.json["nodes"][column.meshNode]["rotation"] = {std::sin(halfOfMesh), 0, 0,
+                                                             std::cos(halfOfMesh)};
         std::vector<double> matrices;
         for (int j = 0; j < 3; ++j)
             for (int k = 0; k < 16; ++k)

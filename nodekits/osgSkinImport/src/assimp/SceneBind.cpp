@@ -20,26 +20,38 @@ constexpr double kOneScale = 0.01;                ///< relative
 constexpr double kOnePlace = 0.01;                ///< of the bones' extent
 constexpr double kLeastPosed = glm::radians(1.0); ///< that a pose turns a bone by
 constexpr double kMostPosed =
-    glm::radians(45.0);                ///< more is another axis up, if nothing else tells
+    glm::radians(45.0); ///< more is another axis up, if nothing else tells
+constexpr double kStraight = 1e-3;
 constexpr double kFarthestPosed = 0.5; ///< of the extent, that a pose moves a bone
 
 double scaleOf(const glm::dmat4& m) {
     return std::cbrt(std::abs(glm::determinant(glm::dmat3(m))));
 }
 
-double angleBetween(const glm::dmat4& a, const glm::dmat4& b) {
-    const glm::dmat3 turn = glm::dmat3(a) / scaleOf(a) * glm::inverse(glm::dmat3(b) / scaleOf(b));
+double angleOf(const glm::dmat3& turn) {
     return std::acos(std::clamp((turn[0][0] + turn[1][1] + turn[2][2] - 1.0) / 2.0, -1.0, 1.0));
 }
 
+/// Whether a space's axes are the scene's, or swapped: somebody chose them.
+bool isAlongAxes(const glm::dmat4& m) {
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) {
+            const double part = std::abs(m[column][row]) / scaleOf(m);
+            if (!(part < kStraight || std::abs(part - 1.0) < kStraight)) return false;
+        }
+    return true;
+}
+
 /// Whether bones stand in the bind pose where the mesh does, and the topmost node is posed: as
-/// exporters that store a clip's first frame leave it. What else tells the spaces apart, another
-/// unit or axis up or a mesh's node that means nothing, is no pose.
+/// exporters that store a clip's first frame leave it. What else tells the spaces apart is no pose:
+/// another unit or axis up, a figure that stands turned, a mesh's node that means nothing.
 ///
+/// \param above from what the topmost bone's node stands in to the scene
 /// \param byBone from the mesh to the scene, if the topmost bone's node is not posed
 /// \param byMesh the same, if the mesh's node is where the mesh was bound
 bool isPosed(const std::vector<const aiBone*>& bones, const aiBone& topmost,
-             const glm::dmat4& byBone, const glm::dmat4& byMesh) {
+             const glm::dmat4& above, const glm::dmat4& byBone, const glm::dmat4& byMesh) {
+    if (!isAlongAxes(above) || !isAlongAxes(byMesh)) return false;
     const double scale = scaleOf(byMesh);
     if (!(scale > 0.0) || !(std::abs(scaleOf(byBone) / scale - 1.0) < kOneScale)) return false;
     const glm::dmat4 bound = glm::inverse(toGlm(topmost.mOffsetMatrix));
@@ -51,11 +63,14 @@ bool isPosed(const std::vector<const aiBone*>& bones, const aiBone& topmost,
     }
     const glm::dvec3 place(byMesh * bound[3]);
     const double moved = glm::distance(place, glm::dvec3(byBone * bound[3]));
-    const double turned = angleBetween(byBone, byMesh);
+    const glm::dmat3 turn =
+        glm::dmat3(byBone) / scaleOf(byBone) * glm::inverse(glm::dmat3(byMesh) / scale);
+    const double turned = angleOf(turn);
     if (!(turned > kLeastPosed)) return false; // not a number, too
     if (turned < kMostPosed) return moved < kFarthestPosed * extent;
-    const double away = glm::distance(place, glm::dvec3(byMesh[3])); // from what all turns about
-    return moved < kOnePlace * extent && away > 10.0 * kOnePlace * extent;
+    // Turned about the mesh's origin, as a whole, it would stand elsewhere.
+    const glm::dvec3 arm = place - glm::dvec3(byMesh[3]);
+    return moved < kOnePlace * extent && glm::distance(turn * arm, arm) > 10.0 * kOnePlace * extent;
 }
 
 } // namespace
@@ -143,7 +158,10 @@ void SceneBind::bindSkin(const std::vector<const aiBone*>& bones, const glm::dma
         }
     const aiNode* standing = find(nameOf(*reference));
     toScene = bindFromAbove(*standing) * toGlm(reference->mOffsetMatrix);
-    if (_bind.count(standing) == 0 && isPosed(bones, *reference, toScene, meshToScene))
+    const aiNode* above = parent(*standing);
+    if (_bind.count(standing) == 0 &&
+        isPosed(bones, *reference, above != nullptr ? posed(*above) : glm::dmat4(1.0), toScene,
+                meshToScene))
         toScene = meshToScene;
     for (const aiBone* bone : bones)
         _bind.emplace(find(nameOf(*bone)), toScene * glm::inverse(toGlm(bone->mOffsetMatrix)));
