@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Arguments.h"
 
+#include "CommandLine.h"
 #include "MaterialLibrary.h"
 
 #include <CLI/CLI.hpp>
@@ -63,13 +64,32 @@ FrameRange parseRange(const std::string& text) {
     return range;
 }
 
-/// Where a file's name begins in a path: folders may have a % in theirs.
-std::size_t nameOf(const std::string& path) {
-    return path.rfind('/') + 1; // 0 without one
+/// The file's name in a path: folders may have a % in theirs.
+std::string nameOf(const std::string& path) {
+    return path.substr(path.rfind('/') + 1); // all of it without one
 }
 
+/// A frame pattern, taken apart at its number.
+struct NumberedName {
+    std::string before, after;
+    std::size_t width = 0;
+    char fill = ' ';
+
+    static std::optional<NumberedName> of(const std::string& pattern) {
+        const std::string name = nameOf(pattern);
+        std::smatch match;
+        if (!std::regex_search(name, match, numberPattern())) return std::nullopt;
+        NumberedName result;
+        result.before = pattern.substr(0, pattern.size() - name.size()) + match.prefix().str();
+        result.after = match.suffix();
+        if (match[2].length()) result.width = static_cast<std::size_t>(match.str(2)[0] - '0');
+        if (match[1].length()) result.fill = '0';
+        return result;
+    }
+};
+
 void checkPattern(const std::string& out) {
-    const std::string name = out.substr(nameOf(out));
+    const std::string name = nameOf(out);
     const std::string rest = std::regex_replace(name, numberPattern(), "");
     const auto numbers = std::distance(
         std::sregex_iterator(name.begin(), name.end(), numberPattern()), std::sregex_iterator());
@@ -85,22 +105,6 @@ std::pair<std::string, float> parseActivation(const std::string& word) {
     if (sign == 0 || !(in >> value) || !in.eof() || !std::isfinite(value))
         throw UsageError{"--tense: expected NAME=A with a number, found \"" + word + "\""};
     return {word.substr(0, sign), value};
-}
-
-/// A shell makes empty words of variables that are not set; options would do as if they were not
-/// there.
-void requireWords(int argc, char** argv) {
-    bool hasOptions = true; // until "--"
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const bool isOption = hasOptions && word.rfind("--", 0) == 0;
-        if (word.empty())
-            throw UsageError{std::string(i > 1 ? argv[i - 1] : "CHARACTER") +
-                             ": expected a name or number behind it, found an empty word"};
-        if (isOption && word.find('=') == word.size() - 1)
-            throw UsageError{word + ": expected a name or number behind it, found none"};
-        if (word == "--") hasOptions = false;
-    }
 }
 
 /// `--rest` may stand alone, and then takes the place of the frames in --out; and a file name that
@@ -131,11 +135,9 @@ std::string libraryOf(const std::string& file) {
 
 /// Whether a sequence of this name has a frame called `file`.
 bool isFrameOf(const std::string& pattern, const std::string& file) {
-    const std::string folder = pattern.substr(0, nameOf(pattern));
-    const std::string name = pattern.substr(folder.size());
-    std::smatch match;
-    if (!std::regex_search(name, match, numberPattern())) return false;
-    const std::string before = folder + match.prefix().str(), after = match.suffix();
+    const std::optional<NumberedName> numbered = NumberedName::of(pattern);
+    if (!numbered) return false;
+    const std::string &before = numbered->before, &after = numbered->after;
     if (file.size() <= before.size() + after.size() || file.compare(0, before.size(), before) != 0)
         return false;
     const std::string number =
@@ -164,20 +166,16 @@ void requireDifferentFiles(const Arguments& arguments) {
 } // namespace
 
 bool hasNumber(const std::string& pattern) {
-    return std::regex_search(pattern.substr(nameOf(pattern)), numberPattern());
+    return NumberedName::of(pattern).has_value();
 }
 
 std::string frameName(const std::string& pattern, std::size_t frame) {
-    const std::string folder = pattern.substr(0, nameOf(pattern));
-    const std::string name = pattern.substr(folder.size());
-    std::smatch match;
-    if (!std::regex_search(name, match, numberPattern())) return pattern;
+    const std::optional<NumberedName> numbered = NumberedName::of(pattern);
+    if (!numbered) return pattern;
     std::string number = std::to_string(frame);
-    const std::size_t width =
-        match[2].length() ? static_cast<std::size_t>(match.str(2)[0] - '0') : 0;
-    const char fill = match[1].length() ? '0' : ' ';
-    if (number.size() < width) number.insert(0, width - number.size(), fill);
-    return folder + match.prefix().str() + number + match.suffix().str();
+    if (number.size() < numbered->width)
+        number.insert(0, numbered->width - number.size(), numbered->fill);
+    return numbered->before + number + numbered->after;
 }
 
 std::optional<Arguments> parseArguments(int argc, char** argv) {
@@ -211,7 +209,8 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.add_option("--binding", arguments.binding, "write joints, regions and ratios (JSON)");
     app.add_option("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
     app.add_flag("--quiet", arguments.quiet, "no progress and no summary");
-    requireWords(argc, argv);
+    const std::string wrong = example::findEmptyWord(argc, argv);
+    if (!wrong.empty()) throw UsageError{wrong};
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

@@ -1,29 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a file of one format (FuzzFormat.cpp), by every reader of it. Errors are
 // osgSkin::Error; anything else that is thrown ends the run.
+#include "Attempt.h"
 #include "FuzzFormat.h"
 #include "GlbParts.h"
 #include "InputFile.h"
 
-#include <osgSkin/Error>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSkeleton>
 
 #include <osg/Notify>
-
-namespace {
-
-template <typename Read>
-void attempt(const Read& read) {
-    try {
-        read();
-    } catch (const osgSkin::Error&) {
-    }
-}
-
-} // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     osg::setNotifyLevel(osg::ALWAYS);
@@ -35,9 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         size = glb.size();
     }
     const std::string path = fuzz::save("input." + extension, data, size);
-    attempt([&] { osgSkin::importMesh(path); });
-    attempt([&] { osgSkin::importSkeleton(path); });
-    attempt([&] { osgSkin::importMotion(path); });
-    if (osgSkin::isReadByAssimp(path)) attempt([&] { osgSkin::importRig(path); });
+    fuzz::attempt([&] { osgSkin::importMesh(path); });
+    fuzz::attempt([&] { osgSkin::importSkeleton(path); });
+    fuzz::attempt([&] { osgSkin::importMotion(path); });
+    if (osgSkin::isReadByAssimp(path)) fuzz::attempt([&] { osgSkin::importRig(path); });
     return 0;
 }

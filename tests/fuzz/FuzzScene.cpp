@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a saved scene, played after its rigs became skins, as a viewer would. Errors are
 // osgSkin::Error; anything else that is thrown ends the run.
+#include "Attempt.h"
 #include "FuzzFormat.h"
 #include "InputFile.h"
 
-#include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ReadScene>
@@ -50,24 +50,16 @@ void play(osg::Node& scene) {
     }
 }
 
-template <typename Read>
-void attempt(const Read& read) {
-    try {
-        read();
-    } catch (const osgSkin::Error&) {
-    }
-}
-
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     osg::setNotifyLevel(osg::ALWAYS);
     const std::string path = fuzz::save(std::string("input.") + fuzzExtension(), data, size);
-    attempt([&] { osgSkin::importMesh(path); });
-    attempt([&] {
+    fuzz::attempt([&] { osgSkin::importMesh(path); });
+    fuzz::attempt([&] {
         const osg::ref_ptr<osg::Node> scene = osgSkin::readScene(path, nullptr);
         play(*scene);
-        attempt([&] { osgSkin::convertRigs(*scene); });
+        fuzz::attempt([&] { osgSkin::convertRigs(*scene); });
         play(*scene);
     });
     return 0;

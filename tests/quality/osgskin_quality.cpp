@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Measures deformed bodies: ours beside linear blending and dual quaternions with painted weights.
 #include "Bars.h"
+#include "CommandLine.h"
 #include "CylinderReport.h"
 #include "FoldFigures.h"
 #include "Json.h"
@@ -127,11 +128,9 @@ int main(int argc, char** argv) {
     }
     try {
         run(options);
-        if (!std::cout.flush() || std::fflush(stdout) != 0)
-            throw std::runtime_error("standard output cannot be written");
     } catch (const std::exception& error) {
         std::cerr << "osgskin_quality: " << error.what() << '\n';
         return 1;
     }
-    return 0;
+    return example::finish("osgskin_quality", 0);
 }

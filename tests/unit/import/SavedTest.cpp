@@ -369,7 +369,6 @@ TEST(Saved, LengthsAreInTheFile) {
     }
 }
 
-/// What a binary file is to hold is a number, which no enumerator may have.
 // OSG unpacks pixels before it looks for their end, and loses them.
 TEST(Saved, PixelsEndWithTheirBracket) {
     std::string text = saved("osgt");
@@ -396,6 +395,7 @@ TEST(Saved, PicturesThatAreNotThereAreNone) {
     }
 }
 
+/// What a binary file is to hold is a number, which no enumerator may have.
 TEST(Saved, KindsAreScenesAndObjects) {
     const std::string whole = saved("osgb");
     for (const std::uint32_t kind : {0u, 2u, 4u, 0x50001u, 0xffffffffu}) {

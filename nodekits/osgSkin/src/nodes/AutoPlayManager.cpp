@@ -43,7 +43,8 @@ void AutoPlayManager::update(double time) {
     // OSG divides by a pose's length, unless it is repeated, and looks behind its only key then.
     for (const auto& layer : _animationsPlaying)
         for (const osg::ref_ptr<osgAnimation::Animation>& clip : layer.second)
-            if (clip->getDuration() == 0.0 && clip->computeDurationFromChannels() == 0.0)
+            if (clip->getPlayMode() != osgAnimation::Animation::LOOP &&
+                clip->getDuration() == 0.0 && clip->computeDurationFromChannels() == 0.0)
                 clip->setPlayMode(osgAnimation::Animation::LOOP);
     osgAnimation::BasicAnimationManager::update(time);
 }

@@ -88,10 +88,10 @@ Motion makeMotion(const BvhFile& file, const std::string& path) {
     const RestSkeleton skeleton = makeRestSkeleton(file);
     const std::vector<bool> moved = findMovedJoints(file);
     const std::size_t root = rootMotionJoint(skeleton, moved);
-    noticeUnusedMoves(skeleton, moved, root, path);
 
     Motion motion;
     CarriedSkeleton carried(skeleton, root);
+    noticeUnusedMoves(skeleton, moved, carried, path);
     motion.skeleton = std::move(carried.rest);
     motion.frameTime = file.frameTime;
     motion.frames = file.frames;

@@ -54,11 +54,15 @@ std::size_t rootMotionJoint(const RestSkeleton& skeleton, const std::vector<bool
 CarriedSkeleton::CarriedSkeleton(const RestSkeleton& skeleton, std::size_t root) {
     for (int a = skeleton.joints[root].parent; a >= 0;
          a = skeleton.joints[static_cast<std::size_t>(a)].parent)
-        above.insert(above.begin(), static_cast<std::size_t>(a));
-    std::vector<int> place(skeleton.joints.size(), 0); // those above it: the root's
+        above.push_back(static_cast<std::size_t>(a));
+    std::reverse(above.begin(), above.end());
+    constexpr int kOpen = -1;
+    std::vector<int> place(skeleton.joints.size(), kOpen);
+    place[root] = 0;
+    for (const std::size_t a : above) place[a] = 0; // the root's
     joints.push_back(root);
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-        if (j == root || std::find(above.begin(), above.end(), j) != above.end()) continue;
+        if (place[j] != kOpen) continue;
         place[j] = static_cast<int>(joints.size());
         joints.push_back(j);
     }
@@ -70,14 +74,14 @@ CarriedSkeleton::CarriedSkeleton(const RestSkeleton& skeleton, std::size_t root)
 }
 
 void noticeUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
-                       std::size_t root, const std::string& path) {
-    const std::vector<std::size_t> joints = CarriedSkeleton(skeleton, root).joints;
+                       const CarriedSkeleton& carried, const std::string& path) {
+    const std::vector<std::size_t>& joints = carried.joints;
     for (std::size_t i = 1; i < joints.size(); ++i) {
         const std::size_t j = joints[i];
         if (!moved[j]) continue;
         tellOf(path, "joint \"" + skeleton.joints[j].name +
-                         "\" moves from its place; only moves of \"" + skeleton.joints[root].name +
-                         "\" are used");
+                         "\" moves from its place; only moves of \"" +
+                         skeleton.joints[joints.front()].name + "\" are used");
         return;
     }
 }

@@ -35,9 +35,10 @@ struct CarriedSkeleton {
     std::vector<std::size_t> above;  ///< of the whole skeleton, from its root down
 };
 
-/// Says in a notice where joints below `root` move, since a Motion holds rotations only.
+/// Says in a notice where joints other than the root move, since a Motion holds rotations only.
+/// \param skeleton whole
 void noticeUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
-                       std::size_t root, const std::string& path);
+                       const CarriedSkeleton& carried, const std::string& path);
 
 } // namespace osgSkin
 

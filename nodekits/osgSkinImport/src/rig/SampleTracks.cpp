@@ -185,7 +185,7 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
     motion.frameTime = grid.samples() > 1 ? grid.step() : 1.0 / rate;
     if (!std::isfinite(motion.frameTime) || !(motion.frameTime > 0.0))
         failFile(path, "the time between its samples is not positive");
-    noticeUnusedMoves(skeleton.rest, moved, root, path);
+    noticeUnusedMoves(skeleton.rest, moved, carried, path);
     noticeScales(tracks, skeleton, path);
 
     const std::size_t joints = tracks.size();
