@@ -172,6 +172,37 @@ TEST(Faults, NamesMayBeOdd) {
     EXPECT_TRUE(fs::exists(folder / "-r \xc3\xbc.obj"));
 }
 
+TEST(Faults, NumbersAreOfNamesNotOfFolders) {
+    const fs::path folder = test::makeTestFolder();
+    fs::create_directory(folder / "100%d");
+    const auto baked = test::runBake(
+        "'" + kParts + "good.skin' --quiet --frames 0:1 --out '100%d/x_%02d.obj'", folder.string());
+    EXPECT_EQ(baked.status, 0) << baked.err;
+    EXPECT_TRUE(fs::exists(folder / "100%d" / "x_01.obj"));
+}
+
+/// Programs that would open a window, print to a full disk or do nothing of what they are asked.
+TEST(Faults, CommandLinesAreTakenAtTheirWord) {
+    const std::string folder = test::makeTestFolder();
+    const std::string crowd = "'" OSGSKIN_CROWD "' '" + kParts + "good.skin' --count 2 ";
+    const struct {
+        std::string command;
+        int status;
+    } cases[] = {{"'" OSGSKIN_VIEWER "' --pictures ''", 2},
+                 {"'" OSGSKIN_VIEWER "' --pictures=", 2},
+                 {"'" OSGSKIN_VIEWER "' --times", 2},
+                 {"'" OSGSKIN_THROW "' --pictures ''", 2},
+                 {crowd + "--time 1 --pictures x", 2},
+                 {crowd + "--frames 2", 2},
+                 {crowd + "--time 1", 0},
+                 {"(" + crowd + "--time 1 > /dev/full)", 1}};
+    for (const auto& c : cases) {
+        const test::CommandResult result = test::runCommand(c.command, folder);
+        EXPECT_EQ(result.status, c.status) << c.command << "\n" << result.err;
+        EXPECT_EQ(result.err.empty(), c.status == 0) << c.command << "\n" << result.err;
+    }
+}
+
 TEST(Faults, SignalsLeaveWholeFiles) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const fs::path folder = test::makeTestFolder();
