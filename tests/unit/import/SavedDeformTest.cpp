@@ -309,6 +309,40 @@ TEST(SavedDeform, ChannelsAreOfTheKindThatTheyMove) {
 }
 
 // OSG divides by an animation's length, and looks behind the only key of a pose then.
+/// OSG takes any number for an enumerator.
+TEST(SavedDeform, ChoicesAreThoseThereAre) {
+    const osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+    animation->setStartTime(3.25);
+    animation->setPlayMode(osgAnimation::Animation::STAY);
+    const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
+        new osgAnimation::BasicAnimationManager;
+    manager->registerAnimation(animation);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setUpdateCallback(manager);
+    for (const char* format : kSavedFormats) {
+        SCOPED_TRACE(format);
+        const std::string path = testing::TempDir() + "choice." + format;
+        ASSERT_TRUE(osgDB::writeNodeFile(*scene, path));
+        EXPECT_TRUE(osgSkin::readScene(path, nullptr).valid());
+        std::string file = test::fileText(path);
+        const std::int32_t unknown = 131072;
+        if (std::string(format) == "osgb") { // behind the start
+            const double start = 3.25;
+            const std::string bytes(reinterpret_cast<const char*>(&start), sizeof start);
+            const std::size_t place = file.find(bytes);
+            ASSERT_NE(place, std::string::npos);
+            std::memcpy(&file[place + sizeof start], &unknown, sizeof unknown);
+        } else {
+            const std::size_t place = file.find("STAY");
+            ASSERT_NE(place, std::string::npos);
+            file.replace(place, 4, std::to_string(unknown));
+        }
+        std::ofstream(path, std::ios::binary) << file;
+        expectError([&] { osgSkin::readScene(path, nullptr); },
+                    "PlayMode 131072, expected one of ");
+    }
+}
+
 TEST(SavedDeform, AnimationsLastForAFiniteTime) {
     using osgAnimation::Animation;
     for (const double duration : {0.0, 2.0, double(NAN), double(INFINITY)}) {

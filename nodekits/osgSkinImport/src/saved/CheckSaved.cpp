@@ -2,6 +2,7 @@
 #include "saved/CheckSaved.h"
 
 #include "saved/checks/CheckAnimation.h"
+#include "saved/checks/CheckChoices.h"
 #include "saved/checks/CheckDeformed.h"
 #include "text/FileText.h"
 
@@ -151,12 +152,17 @@ double costOf(const osg::Node& node, std::map<const osg::Node*, double>& known) 
 } // namespace
 
 void checkSavedObjects(const SavedStream::IdentifierMap& objects, const std::string& path) {
+    CheckChoices choices;
     for (const auto& [id, object] : objects) {
         if (!object) continue; // a picture that could not be read
         if (isDropped(object.get()))
             failFile(path, "object " + std::to_string(id) + " of class " +
                                inQuotes(object->getCompoundClassName()) +
                                ", expected one of a class that can stand there");
+        const std::string unknown = choices.wrongIn(*object);
+        if (!unknown.empty())
+            failFile(path, "object " + std::to_string(id) + " of class " +
+                               inQuotes(object->getCompoundClassName()) + " has " + unknown);
         if (const auto* geometry = dynamic_cast<const osg::Geometry*>(object.get())) {
             const std::string wrong = wrongIn(*geometry);
             if (!wrong.empty())
