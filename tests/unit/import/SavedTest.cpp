@@ -371,10 +371,20 @@ TEST(Saved, LengthsAreInTheFile) {
 
 // OSG unpacks pixels before it looks for their end, and loses them.
 TEST(Saved, PixelsEndWithTheirBracket) {
-    std::string text = saved("osgt");
-    const std::size_t pixels = text.find('"', text.find("AllocationMode"));
-    text.insert(text.find('"', pixels + 1) + 1, " more");
-    EXPECT_NE(whyRefused(scratch("more.osgt", text)).find("pixels that go on"), std::string::npos);
+    const std::string whole = saved("osgt");
+    const std::size_t pixels = whole.find('"', whole.find("AllocationMode"));
+    const std::size_t end = whole.find('"', pixels + 1) + 1, bracket = whole.find('}', end) + 1;
+    for (const auto& [place, more] : {std::pair(end, " more"), std::pair(bracket, "more")}) {
+        std::string text = whole;
+        text.insert(place, more);
+        EXPECT_NE(whyRefused(scratch("more.osgt", text)).find("pixels that go on"),
+                  std::string::npos);
+    }
+    std::string text = saved("osgx");
+    const std::size_t data = text.find("<Data ", text.find("<AllocationMode "));
+    text.replace(text.find("/>", data), 2, "><More attribute=\"1\" /></Data>");
+    const std::string why = whyRefused(scratch("more.osgx", text));
+    EXPECT_NE(why.find("expected a property"), std::string::npos) << why;
 }
 
 TEST(Saved, PicturesThatAreNotThereAreNone) {

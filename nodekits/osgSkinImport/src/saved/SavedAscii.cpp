@@ -52,8 +52,10 @@ void SavedAscii::readWrappedString(std::string& text) {
 }
 
 void SavedAscii::expectPixelsEnd() {
+    // OSG has made room for them when it looks for their end, and would lose that.
     skipSpace();
-    if (_content.compare(_at, 1, "}") == 0) return;
+    const std::size_t end = std::min(_content.find_first_of(kSpace, _at), _content.size());
+    if (_content.compare(_at, end - _at, "}") == 0) return;
     refuse("a picture's pixels that go on, expected \"}\"");
 }
 

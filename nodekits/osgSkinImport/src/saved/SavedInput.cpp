@@ -36,6 +36,7 @@ void SavedInput::refuse(const std::string& reason) {
 
 void SavedInput::begin() {
     _numberIsLast = false;
+    if (!_refusal.empty()) refuse(_refusal);
     if (_inputStream != nullptr && _inputStream->getException() != nullptr)
         refuse(_inputStream->getException()->getError());
 }

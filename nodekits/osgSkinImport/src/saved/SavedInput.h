@@ -15,6 +15,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -43,6 +44,8 @@ protected:
     /// For each thing that is read, before it is. A serializer that refused what came before has
     /// left nothing where OSG goes on as if something were there.
     void begin();
+    /// Refuses where OSG reads next: now it would lose what it has made room for.
+    void refuseNext(std::string reason) { _refusal = std::move(reason); }
     std::string_view rest() const { return std::string_view(_content).substr(_at); }
     std::size_t remaining() const { return _content.size() - _at; }
 
@@ -61,6 +64,7 @@ protected:
     const std::string _content;
     std::size_t _at = 0;
     SavedImage _image;
+    std::string _refusal; ///< see refuseNext(); empty: none
 
 private:
     enum class Lists { None, Some, Itself };

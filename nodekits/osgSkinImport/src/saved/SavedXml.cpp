@@ -3,6 +3,8 @@
 
 #include "text/FileText.h"
 
+#include <osgSkin/Error>
+
 #include <algorithm>
 #include <utility>
 
@@ -135,6 +137,16 @@ void SavedXml::leave() {
     --_depth;
 }
 
+/// OSG has made room for a picture's pixels when it leaves them.
+void SavedXml::leavePixels() {
+    _isBehindPixels = false;
+    try {
+        leave();
+    } catch (const Error& error) {
+        refuseNext(error.what());
+    }
+}
+
 /// Whether there is something left, which is in the chunk then.
 bool SavedXml::prepare() {
     begin();
@@ -169,7 +181,7 @@ void SavedXml::readMark(osgDB::ObjectMark& mark) {
         tookBegin();
         _scopes.push_back(_depth);
     } else if (mark._name == "}") {
-        leave();
+        _isBehindPixels ? leavePixels() : leave();
     }
 }
 
@@ -185,7 +197,9 @@ void SavedXml::readWrappedString(std::string& text) {
         text.push_back(_chunk[_next]);
     }
     if (_next < _chunk.size()) ++_next;
+    const bool isPicture = _image.isOpen();
     text = tookWrapped(text);
+    _isBehindPixels = isPicture && !_image.isOpen();
 }
 
 bool SavedXml::matchString(const std::string& text) {
@@ -199,6 +213,7 @@ bool SavedXml::matchString(const std::string& text) {
 }
 
 void SavedXml::finish() {
+    begin();
     if (prepare()) refuseWord(nextWord(), "a property of the object at its place");
 }
 

@@ -32,6 +32,7 @@ private:
     bool isAtEnd();
     bool takeElement();
     void leave();
+    void leavePixels();
     void skipSpace();
     std::string takeName();
     std::string takeValue();
@@ -42,6 +43,7 @@ private:
     bool _isName = false;                  ///< the chunk, of an element
     std::size_t _depth = 0;                ///< of the element that was taken last
     bool _isClosed = false;                ///< it is, at once
+    bool _isBehindPixels = false;          ///< what was read last, of a picture
     std::vector<std::size_t> _scopes;      ///< depths of the elements that brackets opened
 };
 
