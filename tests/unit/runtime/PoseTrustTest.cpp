@@ -14,6 +14,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <random>
+#include <string>
+#include <vector>
 
 using test::makeBones;
 using test::makeSkin;
@@ -130,6 +133,35 @@ TEST(PoseTrust, JointMapsBeyondAllNumbersAreRefused) {
         EXPECT_TRUE(areFinite(*skin)) << maps[0].offset.y << " " << maps[0].scale;
         EXPECT_EQ(positionsOf(*skin) == before, !followed);
     }
+}
+
+/// A vertex follows several joints by shares: what each of them may do, all may not together.
+TEST(PoseTrust, JointsTogetherKeepVerticesInRange) {
+    std::mt19937 random(31);
+    std::uniform_real_distribution<double> exponent(-8.9, 8.9);
+    int followed = 0;
+    for (int i = 0; i < 300; ++i) {
+        const auto skin = makeSkin();
+        Matrices matrices;
+        std::string scales;
+        for (int j = 0; j < 3; ++j) {
+            const double scale = i % 2 == 0 ? 1.0 : std::pow(10.0, exponent(random));
+            const double scaleOfTwo = j == 0 ? 1.0 : std::pow(10.0, exponent(random) / 3.0);
+            matrices.push_back(glm::scale(glm::dmat4(1.0), glm::dvec3(scale * scaleOfTwo)));
+            scales += " " + std::to_string(std::log10(scale * scaleOfTwo));
+        }
+        if (!skin->setPose(matrices.data(), 3)) continue;
+        ++followed;
+        EXPECT_TRUE(areFinite(*skin)) << scales;
+        const osg::BoundingBox box = skin->getBoundingBox();
+        for (const osg::Vec3& p : positionsOf(*skin)) EXPECT_TRUE(box.contains(p)) << scales;
+    }
+    EXPECT_GT(followed, 150);
+    const auto scaled = [](double by) { return glm::scale(glm::dmat4(1.0), glm::dvec3(by)); };
+    const auto skin = makeSkin();
+    EXPECT_TRUE(skin->setPose(Matrices{scaled(1e-9), scaled(1.0), scaled(1.0)}.data(), 3));
+    EXPECT_TRUE(skin->setPose(Matrices{scaled(1e-8), scaled(1.0), scaled(1e3)}.data(), 3));
+    EXPECT_FALSE(skin->setPose(Matrices{scaled(1e-8), scaled(1.0), scaled(1e8)}.data(), 3));
 }
 
 TEST(PoseTrust, ABoneThatCannotBeFollowedIsWarnedOfOnce) {

@@ -39,6 +39,38 @@ bool isScale(double scale) noexcept {
     return scale >= kSmallestScale && scale <= 1.0 / kSmallestScale; // false for NaN
 }
 
+/// How far a pose can bring vertices, which follow any of its joints by shares.
+struct Spread {
+    /// Beside what is moved, a place at rest is farther away by no more than that.
+    static constexpr double kMostGrown = 1e12;
+
+    double grown = 1.0; ///< by all joints that are larger than their parents
+    double moved = 0.0; ///< by all joints, before they are grown
+
+    void add(const Reach& own) noexcept {
+        moved += own.scale > 1.0 ? own.length / own.scale : own.length;
+        if (own.scale > 1.0) grown *= own.scale;
+    }
+    bool isInRange() const noexcept { // false for NaN
+        return grown <= kMostGrown && grown * moved <= kLargestCoordinate;
+    }
+};
+
+/// The same of frames, of which each by itself is in range.
+bool isInRange(const PoseFrames& frames, const int* parents, std::size_t count) noexcept {
+    const auto row = [&](std::size_t number) { return frames.rows + number * frames.stride; };
+    const double* const scales = row(12);
+    if (std::all_of(scales, scales + count, [](double scale) { return scale == 1.0; })) return true;
+    Spread spread;
+    for (std::size_t j = 0; j < count; ++j) {
+        const std::ptrdiff_t parent = parents[j]; // -1: no turn
+        const glm::dvec3 shift(row(9)[j] - row(9)[parent], row(10)[j] - row(10)[parent],
+                               row(11)[j] - row(11)[parent]);
+        spread.add({lengthOf(shift) / scales[parent], scales[j] / scales[parent]});
+    }
+    return spread.isInRange();
+}
+
 /// Fewer joints than are worked on at a time: a copy, with the last one over again.
 class FewJoints {
     static constexpr std::size_t kAtOnce = PoseCall::kAtOnce;
@@ -86,13 +118,16 @@ private:
     std::array<double, PoseAccess::kRows * kAtOnce> _rows;
 };
 
+/// \param count the joints, without those over again
 /// \return false where the matrices cannot be followed
-bool setFrom(const glm::dmat4* skinning, const PoseCall& call, bool& other) noexcept {
+bool setFrom(const glm::dmat4* skinning, const PoseCall& call, std::size_t count,
+             bool& other) noexcept {
     static thread_local std::vector<double> room;
     const std::size_t stride = PoseFrames::kBefore + call.count;
     if (room.size() < kFrameRows * stride) room.resize(kFrameRows * stride);
     const PoseFrames frames{room.data() + PoseFrames::kBefore, stride};
-    if (!readFrames(skinning, call, frames)) return false;
+    if (!readFrames(skinning, call, frames) || !isInRange(frames, call.parents, count))
+        return false;
     other = splitFrames(call, frames);
     return true;
 }
@@ -132,10 +167,10 @@ bool Pose::set(const glm::dmat4* skinning, std::size_t count, Twist twist, bool*
     if (count != size()) return false;
     bool other = false;
     if (count >= PoseCall::kAtOnce) {
-        if (!setFrom(skinning, callFor(twist), other)) return false;
+        if (!setFrom(skinning, callFor(twist), count, other)) return false;
     } else if (count > 0) {
         FewJoints few(callFor(twist));
-        if (!setFrom(few.padded(skinning).data(), few.call(), other)) return false;
+        if (!setFrom(few.padded(skinning).data(), few.call(), count, other)) return false;
         few.write();
     }
     if (changed) *changed = other;
@@ -146,11 +181,14 @@ bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* change
     if (count != size()) return false;
     static thread_local std::vector<Reach> reaches;
     if (reaches.size() < count) reaches.resize(count, Reach{0.0, 1.0});
+    Spread spread;
     for (std::size_t j = 0; j < count; ++j) {
         const JointMap& map = own[j];
         const int parent = _rest->parents[j];
         const Reach& above = parent >= 0 ? reaches[static_cast<std::size_t>(parent)] : kNoReach;
-        reaches[j] = {above.length + above.scale * lengthOf(map.offset), above.scale * map.scale};
+        const Reach reach{lengthOf(map.offset), map.scale};
+        reaches[j] = {above.length + above.scale * reach.length, above.scale * reach.scale};
+        spread.add(reach);
         // Written so that NaN is refused.
         const glm::dquat& q = map.rotation;
         if (!(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < 1e-6) ||
@@ -158,6 +196,7 @@ bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* change
             !isScale(map.scale) || !isScale(reaches[j].scale))
             return false;
     }
+    if (!spread.isInRange()) return false;
     bool other = false;
     if (count >= PoseCall::kAtOnce) {
         other = splitMaps(callFor(twist), own);
