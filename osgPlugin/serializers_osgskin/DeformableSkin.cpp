@@ -25,7 +25,16 @@ bool checkSkin(const osgSkin::DeformableSkin& skin) {
     return skin.getModel() != nullptr;
 }
 
+/// From then on OSG's nodes write what its drawables wrote before.
+constexpr int kNodesWriteCallbacks = 156;
+
 bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
+    // OSG writes today's version into text, whatever it writes behind it.
+    if (!os.isBinary() && os.getFileVersion() < kNodesWriteCallbacks)
+        os.throwException("skin \"" + skin.getName() + "\": text for version " +
+                          std::to_string(os.getFileVersion()) +
+                          " could not be read again, expected a TargetFileVersion of " +
+                          std::to_string(kNodesWriteCallbacks) + " or more, or .osgb");
     os << os.BEGIN_BRACKET << std::endl;
     os << skin.getRestGeometry();
     os << skin.getModel();

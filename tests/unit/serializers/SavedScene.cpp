@@ -146,9 +146,10 @@ std::vector<osgSkin::DeformableSkin*> skinsOf(osg::Node& root) {
     return skins;
 }
 
-std::string save(const osg::Node& scene, const std::string& extension) {
+std::string save(const osg::Node& scene, const std::string& extension, int version) {
     std::ostringstream out(std::ios::binary);
     const osg::ref_ptr<osgDB::Options> options = optionsFor(extension);
+    if (version != 0) options->setPluginStringData("TargetFileVersion", std::to_string(version));
     return plugin(extension)->writeNode(scene, out, options).success() ? out.str() : "";
 }
 

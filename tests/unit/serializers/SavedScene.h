@@ -23,7 +23,8 @@ osg::ref_ptr<osg::Group> makeScene(const Tube& tube = Tube());
 std::vector<osgSkin::DeformableSkin*> skinsOf(osg::Node& root);
 
 /// Writes in the format of this extension, to memory. Text has all digits of a number.
-std::string save(const osg::Node& scene, const std::string& extension);
+/// \param version of OSG's files; 0: today's
+std::string save(const osg::Node& scene, const std::string& extension, int version = 0);
 
 /// Reads what save() wrote; null where osgDB refuses it, for the reason that it would print.
 osg::ref_ptr<osg::Node> load(const std::string& file, const std::string& extension,
