@@ -8,12 +8,14 @@
 #include <osg/Geometry>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <ctime>
 #include <fstream>
 #include <numeric>
+#include <random>
 
 namespace {
 
@@ -92,6 +94,25 @@ TEST(Polygons, ConcaveOnesAreCutWithinTheirOutline) {
 TEST(Polygons, ConvexOnesAreFans) {
     const SkinMesh mesh = polygon({{0, 0, 0}, {2, 0, 0}, {2, 1, 0.1}, {1, 2, 0}, {0, 1, 0}});
     EXPECT_EQ(mesh.triangles(), (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4}));
+}
+
+/// One that is bent has no plane in which all would see the same inner corners.
+TEST(Polygons, BentOnesAreCutAlikeHoweverTheyStand) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    int cut = 0;
+    for (int i = 0; i < 200; ++i) {
+        std::vector<glm::dvec3> corners, turned;
+        for (int k = 0; k < 4 + i % 4; ++k)
+            corners.emplace_back(number(random), number(random), 0.7 * number(random));
+        const glm::dquat turn = glm::normalize(
+            glm::dquat(number(random), number(random), number(random), number(random)));
+        for (const glm::dvec3& corner : corners) turned.push_back(turn * corner);
+        const std::vector<std::uint32_t> as = polygon(corners).triangles();
+        EXPECT_EQ(as, polygon(turned).triangles()) << i;
+        cut += as[3] != 0; // no fan
+    }
+    EXPECT_GT(cut, 40);
 }
 
 TEST(Polygons, WithoutAreaOrInnerAreCutSomehow) {

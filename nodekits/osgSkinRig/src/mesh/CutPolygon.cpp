@@ -13,6 +13,9 @@ namespace {
 /// How much of a polygon a fan's triangle may fold back over it, for what is all but flat.
 constexpr double kFold = 1e-6;
 
+/// How far corners of a flat polygon may be off its plane, of its extent.
+constexpr double kBent = 1e-4;
+
 } // namespace
 
 bool PolygonCutter::fanFits(const std::uint32_t* corners, std::uint32_t size) {
@@ -37,18 +40,35 @@ bool PolygonCutter::fanFits(const std::uint32_t* corners, std::uint32_t size) {
 }
 
 void PolygonCutter::project(const std::uint32_t* corners, std::uint32_t size) {
-    // Along the axis that the normal is nearest to; turned so that the polygon runs to the left.
+    const glm::dvec3& origin = _positions[corners[0]];
+    const auto way = [&](std::uint32_t k) { return _positions[corners[k]] - origin; };
+    _flat.clear();
+    // One that is bent: along its normal, so that it is cut alike however it stands.
+    const double length = glm::length(_normal);
+    std::uint32_t farthest = 0;
+    double off = 0.0;
+    for (std::uint32_t k = 1; k < size; ++k) {
+        if (glm::length(way(k)) > glm::length(way(farthest))) farthest = k;
+        off = std::max(off, std::abs(glm::dot(way(k), _normal)));
+    }
+    const double extent = glm::length(way(farthest));
+    if (length > 0.0 && off > kBent * extent * length) {
+        const glm::dvec3 normal = _normal / length;
+        const glm::dvec3 across =
+            glm::normalize(way(farthest) - normal * glm::dot(normal, way(farthest)));
+        const glm::dvec3 up = glm::cross(normal, across);
+        for (std::uint32_t k = 0; k < size; ++k)
+            _flat.emplace_back(glm::dot(way(k), across), glm::dot(way(k), up));
+        return;
+    }
+    // A flat one along the axis that the normal is nearest to, which rounds nothing; turned so that
+    // the polygon runs to the left.
     int axis = 0;
     for (int k = 1; k < 3; ++k)
         if (std::abs(_normal[k]) > std::abs(_normal[axis])) axis = k;
-    const int across = (axis + 1) % 3, up = (axis + 2) % 3;
+    const int right = (axis + 1) % 3, up = (axis + 2) % 3;
     const double side = _normal[axis] < 0.0 ? -1.0 : 1.0;
-    const glm::dvec3& origin = _positions[corners[0]];
-    _flat.clear();
-    for (std::uint32_t k = 0; k < size; ++k) {
-        const glm::dvec3 way = _positions[corners[k]] - origin;
-        _flat.emplace_back(side * way[across], way[up]);
-    }
+    for (std::uint32_t k = 0; k < size; ++k) _flat.emplace_back(side * way(k)[right], way(k)[up]);
 }
 
 /// Above 0 where three corners turn to the left.
