@@ -4,6 +4,7 @@
 #include "regions/RegionLabels.h"
 #include "regions/SpreadRegions.h"
 
+#include <array>
 #include <map>
 #include <utility>
 
@@ -18,10 +19,15 @@ struct Patch {
     std::uint32_t shell = 0;
     std::size_t seeds = 0;
     std::vector<std::uint32_t> vertices;
+    std::array<double, 3> place{}; ///< z, y and x of the vertex that is first by those
 
+    /// Where two weigh the same, their places tell, which do not depend on the order of a file, and
+    /// are alike on a body's left and right.
     bool outweighs(const Patch& other) const {
         if (seeds != other.seeds) return seeds > other.seeds;
-        return vertices.size() > other.vertices.size();
+        if (vertices.size() != other.vertices.size())
+            return vertices.size() > other.vertices.size();
+        return place < other.place;
     }
 };
 
@@ -39,6 +45,9 @@ std::vector<Patch> findPatches(const WeldedMesh& mesh, const std::vector<bool>& 
         for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
             const std::uint32_t v = patch.vertices[k];
             if (isSeed[v]) ++patch.seeds;
+            const glm::dvec3& p = mesh.positions[v];
+            const std::array<double, 3> place{p.z, p.y, p.x};
+            if (k == 0 || place < patch.place) patch.place = place;
             for (std::uint32_t i = mesh.firstNeighbour[v]; i < mesh.firstNeighbour[v + 1]; ++i) {
                 const std::uint32_t next = mesh.neighbours[i];
                 if (visited[next] || jointOf[next] != patch.joint) continue;

@@ -10,8 +10,8 @@
 namespace osgSkin {
 
 /// Joins each region's islands to the regions around them: of a region's connected patches on one
-/// shell the one with most seeds (then most vertices) stays. On a shell without seeds larger ones
-/// stay, too: the inside and the outside of a cloth are islands to each other.
+/// shell the one with most seeds (then most vertices, then by its place) stays. On a shell without
+/// seeds larger ones stay, too: the inside and the outside of a cloth are islands to each other.
 void removeIslands(const WeldedMesh& mesh, const std::vector<bool>& isSeed,
                    std::vector<std::uint32_t>& jointOf);
 
