@@ -241,6 +241,7 @@ void DeformableSkin::poseChanged(const osg::BoundingBox& bounds) {
         buffer->getBound(); // now: several cull threads may ask for it at once
     }
     dirtyBound();
+    getBound(); // as the buffers'
     if (_drawer) _drawer->poseChanged(*this);
     if (_eager) deform();
 }
