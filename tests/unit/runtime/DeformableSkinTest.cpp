@@ -32,6 +32,10 @@ struct Count {
     }
 };
 
+struct OpenSkin : osgSkin::DeformableSkin {
+    bool isBounded() const { return _boundingSphereComputed; }
+};
+
 } // namespace
 
 TEST(DeformableSkin, DefaultIsEmptyAndHarmless) {
@@ -112,6 +116,16 @@ TEST(DeformableSkin, BoundsFollowThePose) {
     bend(*skin, osg::PI_2);
     EXPECT_FALSE(skin->getBoundingBox().contains({0, 5.9f, 0}));
     EXPECT_TRUE(skin->getBoundingBox().contains({0, 2, 3.9f}));
+}
+
+/// Or cull threads that begin at once would work it out at once.
+TEST(DeformableSkin, KnowsItsBoundAsSoonAsItIsPosed) {
+    const osg::ref_ptr<osgSkin::DeformableSkin> of = makeSkin();
+    const osg::ref_ptr<OpenSkin> skin = new OpenSkin;
+    skin->setSkin(new osg::Geometry(*of->getRestGeometry()), of->getModel());
+    EXPECT_TRUE(skin->isBounded());
+    bend(*skin, 0.7);
+    EXPECT_TRUE(skin->isBounded());
 }
 
 TEST(DeformableSkin, CopiesShareTheModelAndOwnTheirPose) {
