@@ -114,10 +114,31 @@ std::vector<glm::dmat4> Body::turned(std::size_t joint, const glm::dvec3& axis,
     return skinning;
 }
 
+namespace {
+
+/// Dual quaternions turn and move: of scale and shear there is left where they put joints.
+std::vector<glm::dmat4> turnsAndMoves(const std::vector<osgSkin::BoundJoint>& joints,
+                                      const std::vector<glm::dmat4>& skinning) {
+    std::vector<glm::dmat4> result;
+    for (std::size_t j = 0; j < skinning.size(); ++j) {
+        const glm::dmat4& from = skinning[j];
+        const glm::dvec3 x = glm::normalize(glm::dvec3(from[0])), y(from[1]);
+        const glm::dvec3 across = glm::normalize(glm::cross(x, y));
+        const glm::dmat3 turn(x, glm::cross(across, x), across);
+        const glm::dvec3& centre = joints[j].centre;
+        glm::dmat4& to = result.emplace_back(turn);
+        to[3] = glm::dvec4(glm::dvec3(from * glm::dvec4(centre, 1.0)) - turn * centre, 1.0);
+    }
+    return result;
+}
+
+} // namespace
+
 std::vector<glm::dvec3> Body::deform(Method method, const std::vector<glm::dmat4>& skinning) const {
     if (method == Method::Linear) return compare::linearBlend(rest(), _weights, skinning);
     if (method == Method::DualQuaternion)
-        return compare::dualQuaternionBlend(rest(), _weights, skinning);
+        return compare::dualQuaternionBlend(rest(), _weights,
+                                            turnsAndMoves(character.binding.joints, skinning));
     osgSkin::Pose pose(character.binding.joints, character.binding.correctives.inputs.size());
     for (std::size_t i = 0; i < character.binding.correctives.inputs.size(); ++i)
         pose.setInput(i, tension);

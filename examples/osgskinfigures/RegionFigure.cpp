@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <stdexcept>
 
 namespace figures {
 namespace {
@@ -80,6 +81,9 @@ Tile picture(const Body& body, const std::function<osg::Vec4(std::size_t)>& colo
 Tile regionFigure(const Body& body) {
     const auto& regions = body.character.binding.regions;
     const osgSkin::BindReport& report = body.character.bindReport;
+    if (regions.empty() || report.seeds.empty())
+        throw std::runtime_error(body.character.file +
+                                 ": follows painted weights, expected a body that is bound");
     std::size_t seeds = 0;
     std::size_t count = 0;
     for (const auto& region : report.regions) {
