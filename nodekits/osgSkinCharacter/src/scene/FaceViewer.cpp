@@ -43,20 +43,27 @@ private:
     const JointCentres& _centres;
 };
 
-/// Brings the axis along which the legs stand to +Z.
-osg::Matrixd standUp(const Figure& figure) {
-    osg::Vec3d up =
-        figure.way("LeftLowerLeg", "LeftUpperLeg") + figure.way("RightLowerLeg", "RightUpperLeg");
-    up.normalize();
+/// The axis that a direction lies along; zero where it lies between them.
+osg::Vec3d axisOf(osg::Vec3d way) {
+    way.normalize();
+    osg::Vec3d result;
     for (int axis = 0; axis < 3; ++axis)
-        if (std::abs(up[axis]) > kAlong) {
-            osg::Vec3d along;
-            along[axis] = up[axis] > 0.0 ? 1.0 : -1.0;
-            osg::Quat turn;
-            turn.makeRotate(along, osg::Vec3d(0, 0, 1));
-            return axis == 2 && up.z() > 0.0 ? osg::Matrixd() : osg::Matrixd::rotate(turn);
-        }
-    return {};
+        if (std::abs(way[axis]) > kAlong) result[axis] = way[axis] > 0.0 ? 1.0 : -1.0;
+    return result;
+}
+
+/// Brings the axis along which the legs stand to +Z; of one that sits, trunk and shins stand.
+osg::Matrixd standUp(const Figure& figure) {
+    const osg::Vec3d trunk = axisOf(figure.way("Hips", "Head"));
+    const osg::Vec3d shins =
+        axisOf(figure.way("LeftFoot", "LeftLowerLeg") + figure.way("RightFoot", "RightLowerLeg"));
+    osg::Vec3d up = axisOf(figure.way("LeftLowerLeg", "LeftUpperLeg") +
+                           figure.way("RightLowerLeg", "RightUpperLeg"));
+    if (trunk == shins && trunk != osg::Vec3d()) up = trunk;
+    if (up == osg::Vec3d() || up.z() > 0.0) return {};
+    osg::Quat turn;
+    turn.makeRotate(up, osg::Vec3d(0, 0, 1));
+    return osg::Matrixd::rotate(turn);
 }
 
 /// Brings the left side of a figure that stands to +X.
