@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -151,6 +152,34 @@ TEST(View, CharactersOfASkinFileFaceTheViewer) {
     expectFacesViewer(standing);
     EXPECT_TRUE(standing.isZUp());
     expectFacesViewer(turnedThrower(turnAbout({1, 0, 0}, 90.0) * turnAbout({0, 0, 1}, 180.0)));
+}
+
+/// Thighs of one that sits lie ahead, trunk and shins stand.
+TEST(View, WhoSitsAtRestIsNotTipped) {
+    const std::string folder = test::makeTestFolder(), file = folder + "/sitting.skin";
+    std::ifstream in(OSGSKIN_DATA "/thrower.bvh");
+    std::ofstream out(folder + "/rig.bvh");
+    bool isKnee = false;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::string word;
+        osg::Vec3d p;
+        words >> word;
+        if (isKnee && word == "OFFSET" && words >> p.x() >> p.y() >> p.z()) {
+            line = "OFFSET " + std::to_string(p.x()) + " 0 " + std::to_string(-p.y());
+            isKnee = false;
+        }
+        isKnee |=
+            line.find("JOINT LeftLeg") != line.npos || line.find("JOINT RightLeg") != line.npos;
+        out << line << '\n';
+    }
+    out.close();
+    std::ofstream(file) << R"({ "osgskin": 1, "mesh": ")" OSGSKIN_DATA
+                           R"(/thrower.obj", "skeleton": "rig.bvh" })";
+    const Character character = loadCharacter(file);
+    const osg::Vec3d thigh = jointOf(character, "LeftLeg") - jointOf(character, "LeftUpLeg");
+    EXPECT_GT(std::abs(thigh.y()), 0.9 * thigh.length());
+    EXPECT_GT(jointOf(character, "Head").z(), jointOf(character, "Hips").z());
 }
 
 TEST(View, WhatFacesTheViewerIsNotTurned) {
