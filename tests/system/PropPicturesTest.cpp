@@ -99,3 +99,13 @@ TEST(PropPictures, OfACharacterCountTogether) {
     EXPECT_EQ(propsOf(file, pixels - 1).textured, 1u);
     EXPECT_TRUE(notices.say("beside those before it (option maxPixels)")) << notices.text();
 }
+
+/// An armature above a thing: the thing follows the armature alone.
+TEST(PropPictures, ComeWithAWordWhereTheirMotionHasMoreJoints) {
+    const std::string folder = test::makeTestFolder();
+    const std::size_t pixels = saveProp(folder, "ball");
+    const test::Notices notices;
+    EXPECT_EQ(propsOf(saveWithProps(folder, {"ball.obj"}), pixels).count, 1u);
+    EXPECT_TRUE(notices.say("move.bvh: has 2 joints, of which a prop follows the first alone"))
+        << notices.text();
+}

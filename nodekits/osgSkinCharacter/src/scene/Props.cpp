@@ -3,11 +3,15 @@
 
 #include "report/NamingFile.h"
 
+#include <osgSkin/Error>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinRig/Motion>
 #include <osgSkinRig/Prop>
 
+#include <osg/Notify>
+
 #include <cmath>
+#include <string>
 
 namespace osgSkin {
 namespace {
@@ -36,6 +40,11 @@ void addProps(CharacterSource& source, const CharacterMotion& motion, osg::Group
         const std::string name = "prop:" + prop.motion + ":" + std::to_string(i);
         const ImportedMesh& mesh = meshes.of(prop.mesh);
         const Motion path = importMotion(prop.file, skip, {}, options);
+        if (path.skeleton.joints.size() > 1)
+            OSG_NOTICE << onOneLine(prop.file + ": has " +
+                                    std::to_string(path.skeleton.joints.size()) +
+                                    " joints, of which a prop follows the first alone")
+                       << std::endl;
         namingFile(prop.file, [&] {
             source.samples.add(prop.file, path.frames + skip, path.skeleton.joints.size(),
                                source.limits);
