@@ -45,17 +45,18 @@ void PolygonCutter::project(const std::uint32_t* corners, std::uint32_t size) {
     _flat.clear();
     // One that is bent: along its normal, so that it is cut alike however it stands.
     const double length = glm::length(_normal);
-    std::uint32_t farthest = 0;
-    double off = 0.0;
+    const glm::dvec3 normal = length > 0.0 ? _normal / length : glm::dvec3(0.0);
+    glm::dvec3 across(0.0);
+    double off = 0.0, extent = 0.0;
     for (std::uint32_t k = 1; k < size; ++k) {
-        if (glm::length(way(k)) > glm::length(way(farthest))) farthest = k;
-        off = std::max(off, std::abs(glm::dot(way(k), _normal)));
+        const double height = glm::dot(way(k), normal);
+        const glm::dvec3 level = way(k) - normal * height;
+        off = std::max(off, std::abs(height));
+        extent = std::max(extent, glm::length(way(k)));
+        if (glm::length(level) > glm::length(across)) across = level;
     }
-    const double extent = glm::length(way(farthest));
-    if (length > 0.0 && off > kBent * extent * length) {
-        const glm::dvec3 normal = _normal / length;
-        const glm::dvec3 across =
-            glm::normalize(way(farthest) - normal * glm::dot(normal, way(farthest)));
+    if (off > kBent * extent && across != glm::dvec3(0.0)) {
+        across = glm::normalize(across);
         const glm::dvec3 up = glm::cross(normal, across);
         for (std::uint32_t k = 0; k < size; ++k)
             _flat.emplace_back(glm::dot(way(k), across), glm::dot(way(k), up));
