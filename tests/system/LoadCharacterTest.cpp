@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // loadCharacter() as an application calls it: what it takes, what it gives, what it refuses.
+#include "Command.h"
 #include "DrawnSkin.h"
 #include "FindNodes.h"
 #include "QuadRig.h"
@@ -9,6 +10,7 @@
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
 
+#include <osg/Math>
 #include <osg/MatrixTransform>
 #include <osg/Notify>
 #include <osgAnimation/Bone>
@@ -17,6 +19,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -110,6 +113,37 @@ TEST(LoadCharacter, PropsGoWithTheirMotions) {
         ASSERT_EQ(found.size(), 1u) << name;
         EXPECT_NEAR(found[0].getTrans().x(), x, 1e-6) << name;
     }
+}
+
+/// A prop that stays where it is has one sample; one that is filmed at another rate begins between
+/// two of them.
+TEST(LoadCharacter, PropsOfOtherRatesGoOnBesideTheirMotion) {
+    const std::string folder = test::makeTestFolder(), file = folder + "/props.skin";
+    const std::string data = OSGSKIN_TEST_DATA "/character/";
+    const auto place = [&](const char* name, const char* samples) {
+        std::ofstream(folder + "/" + name)
+            << "HIERARCHY\nROOT thing\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition "
+               "Zrotation Yrotation Xrotation\n"
+               "End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\n"
+            << samples;
+        return "{\"mesh\": \"" + data + "body.obj\", \"motion\": \"later\", \"file\": \"" + name +
+               "\"}";
+    };
+    const std::string still = place("still.bvh", "Frames: 1\nFrame Time: 0.1\n0.7 0 0 0 0 0\n");
+    const std::string slow =
+        place("slow.bvh", "Frames: 4\nFrame Time: 0.15\n0 0 0 0 0 0\n0.15 0 0 30 0 0\n"
+                          "0.3 0 0 60 0 0\n0.45 0 0 90 0 0\n");
+    std::ofstream(file) << "{\"osgskin\": 1, \"mesh\": \"" << data << "body.obj\", \"skeleton\": \""
+                        << data << "rig.bvh\", \"motions\": [{\"file\": \"" << kMove
+                        << "\", \"name\": \"later\", \"skipFrames\": 2}], \"props\": [" << still
+                        << ", " << slow << "]}";
+    const Character character = loadCharacter(file);
+    const osg::Matrix stays = placesOf(*character.root, "prop:later:0").at(0);
+    EXPECT_NEAR(stays.getTrans().x(), 0.7, 1e-6);
+    const osg::Matrix goes = placesOf(*character.root, "prop:later:1").at(0); // 0.2 s after its own
+    EXPECT_NEAR(goes.getTrans().x(), 0.2, 1e-6);
+    const osg::Vec3d x = osg::Matrix::transform3x3(osg::Vec3d(1, 0, 0), goes);
+    EXPECT_NEAR(std::atan2(x.y(), x.x()), osg::DegreesToRadians(40.0), 1e-5);
 }
 
 /// JSON does not tell 1 from 1.0.

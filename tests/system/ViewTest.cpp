@@ -16,6 +16,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace {
@@ -134,6 +135,47 @@ struct GltfPerson : test::GltfBuilder {
     }
 };
 
+enum class Seat { Chair, Floor };
+
+/// The thrower's rig with thighs that lie ahead and on the floor the shins too, turned about z; and
+/// a motion of a sample that may turn it.
+Character sittingThrower(Seat seat, double turned, std::optional<double> played = std::nullopt) {
+    const std::string folder = test::makeTestFolder(), file = folder + "/sitting.skin";
+    const osg::Matrixd map = turnAbout({0, 0, 1}, turned);
+    std::ifstream in(OSGSKIN_DATA "/thrower.bvh");
+    std::ofstream rig(folder + "/rig.bvh"), motion(folder + "/motion.bvh");
+    std::string joint;
+    bool isLastLine = false;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::string word, moved;
+        osg::Vec3d p;
+        words >> word;
+        if (word == "JOINT") words >> joint;
+        const bool isAhead = joint == "LeftLeg" || joint == "RightLeg" ||
+                             (seat == Seat::Floor && (joint == "LeftFoot" || joint == "RightFoot"));
+        if (word == "OFFSET" && words >> p.x() >> p.y() >> p.z()) {
+            if (isAhead) p.set(p.x(), 0.0, -p.y());
+            p = osg::Matrixd::transform3x3(p, map);
+            std::ostringstream text;
+            text << "OFFSET " << p.x() << ' ' << p.y() << ' ' << p.z();
+            line = text.str();
+        }
+        moved = line;
+        if (isLastLine && played) // the root's first channel turns about z
+            moved = std::to_string(*played) + line.substr(line.find(' '));
+        isLastLine = word == "Frame";
+        rig << line << '\n';
+        motion << moved << '\n';
+    }
+    rig.close();
+    motion.close();
+    std::ofstream(file) << R"({ "osgskin": 1, "mesh": ")" OSGSKIN_DATA
+                           R"(/thrower.obj", "skeleton": "rig.bvh")"
+                        << (played ? R"(, "motions": [ { "file": "motion.bvh" } ] })" : " }");
+    return loadCharacter(file);
+}
+
 /// Where a scene's bones are drawn.
 std::map<std::string, osg::Vec3d> bonesOf(Character& character) {
     std::map<std::string, osg::Vec3d> result;
@@ -156,30 +198,19 @@ TEST(View, CharactersOfASkinFileFaceTheViewer) {
 
 /// Thighs of one that sits lie ahead, trunk and shins stand.
 TEST(View, WhoSitsAtRestIsNotTipped) {
-    const std::string folder = test::makeTestFolder(), file = folder + "/sitting.skin";
-    std::ifstream in(OSGSKIN_DATA "/thrower.bvh");
-    std::ofstream out(folder + "/rig.bvh");
-    bool isKnee = false;
-    for (std::string line; std::getline(in, line);) {
-        std::istringstream words(line);
-        std::string word;
-        osg::Vec3d p;
-        words >> word;
-        if (isKnee && word == "OFFSET" && words >> p.x() >> p.y() >> p.z()) {
-            line = "OFFSET " + std::to_string(p.x()) + " 0 " + std::to_string(-p.y());
-            isKnee = false;
-        }
-        isKnee |=
-            line.find("JOINT LeftLeg") != line.npos || line.find("JOINT RightLeg") != line.npos;
-        out << line << '\n';
+    for (const Seat seat : {Seat::Chair, Seat::Floor}) {
+        const Character character = sittingThrower(seat, 0.0);
+        const osg::Vec3d thigh = jointOf(character, "LeftLeg") - jointOf(character, "LeftUpLeg");
+        EXPECT_GT(std::abs(thigh.y()), 0.9 * thigh.length());
+        EXPECT_GT(jointOf(character, "Head").z(), jointOf(character, "Hips").z());
     }
-    out.close();
-    std::ofstream(file) << R"({ "osgskin": 1, "mesh": ")" OSGSKIN_DATA
-                           R"(/thrower.obj", "skeleton": "rig.bvh" })";
-    const Character character = loadCharacter(file);
-    const osg::Vec3d thigh = jointOf(character, "LeftLeg") - jointOf(character, "LeftUpLeg");
-    EXPECT_GT(std::abs(thigh.y()), 0.9 * thigh.length());
-    EXPECT_GT(jointOf(character, "Head").z(), jointOf(character, "Hips").z());
+}
+
+/// Of one that sits on the floor and is laid on the side at rest, the motion tells.
+TEST(View, OfWhoIsNotStraightAtRestTheMotionTells) {
+    const osg::Matrixd fromY = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
+    EXPECT_EQ(sittingThrower(Seat::Floor, -90.0, 90.0).toWorld.compare(fromY), 0);
+    EXPECT_NE(sittingThrower(Seat::Floor, -90.0).toWorld.compare(fromY), 0);
 }
 
 TEST(View, WhatFacesTheViewerIsNotTurned) {

@@ -63,15 +63,22 @@ void play(Character& character) {
     character.manager->playAnimation(character.motions.front().animation);
 }
 
+/// A rig that is not straight at rest, sitting or curled up, may tell by its motion.
+osg::Matrixd turnOfRig(const Character& character, const JointRoles& roles) {
+    const JointCentres atRest = restCentres(character.rest, character.toWorld);
+    if (character.motions.empty() || isStraight(roles, atRest)) return turnToViewer(roles, atRest);
+    return turnToViewer(
+        roles, atRest,
+        clipCentres(character.rest, character.motions.front().clip, character.toWorld));
+}
+
 } // namespace
 
 void buildScene(CharacterSource& source, const LoadOptions& options, Character& character) {
     if (options.showRegions) showRegions(character.body.parts, character.binding);
     attach(source, character);
     const JointRoles roles = recogniseJoints(character.rest, source.bind.names);
-    if (!source.skeleton)
-        character.toWorld =
-            character.toWorld * turnToViewer(roles, restCentres(character.rest, character.toWorld));
+    if (!source.skeleton) character.toWorld = character.toWorld * turnOfRig(character, roles);
     const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character.toWorld);
     upright->addChild(character.skeleton);
     PropMeshes propMeshes(source.meshOptions.get());

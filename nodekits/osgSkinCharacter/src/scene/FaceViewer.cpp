@@ -2,6 +2,7 @@
 #include "scene/FaceViewer.h"
 
 #include <osgSkin/GlmOsg>
+#include <osgSkinRig/ForwardKinematics>
 
 #include <osg/Math>
 #include <osg/NodeVisitor>
@@ -52,14 +53,32 @@ osg::Vec3d axisOf(osg::Vec3d way) {
     return result;
 }
 
-/// Brings the axis along which the legs stand to +Z; of one that sits, trunk and shins stand.
+/// The axes along which a figure's parts stand, upwards.
+struct Stance {
+    osg::Vec3d trunk, thighs, shins;
+
+    explicit Stance(const Figure& figure)
+        : trunk(axisOf(figure.way("Hips", "Head"))),
+          thighs(axisOf(figure.way("LeftLowerLeg", "LeftUpperLeg") +
+                        figure.way("RightLowerLeg", "RightUpperLeg"))),
+          shins(axisOf(figure.way("LeftFoot", "LeftLowerLeg") +
+                       figure.way("RightFoot", "RightLowerLeg"))) {}
+
+    bool isStraight() const { return trunk == thighs && thighs == shins; }
+
+    /// Zero where the parts do not tell.
+    osg::Vec3d up() const {
+        const osg::Vec3d none;
+        if (trunk.z() > 0.0) return trunk; // also where the legs lie on the floor
+        if (trunk != none && trunk == shins) return trunk;
+        const bool isCurled = trunk != none && shins != none && thighs != trunk && thighs != shins;
+        return isCurled ? none : thighs;
+    }
+};
+
+/// Brings the axis along which a figure stands to +Z.
 osg::Matrixd standUp(const Figure& figure) {
-    const osg::Vec3d trunk = axisOf(figure.way("Hips", "Head"));
-    const osg::Vec3d shins =
-        axisOf(figure.way("LeftFoot", "LeftLowerLeg") + figure.way("RightFoot", "RightLowerLeg"));
-    osg::Vec3d up = axisOf(figure.way("LeftLowerLeg", "LeftUpperLeg") +
-                           figure.way("RightLowerLeg", "RightUpperLeg"));
-    if (trunk == shins && trunk != osg::Vec3d()) up = trunk;
+    const osg::Vec3d up = Stance(figure).up();
     if (up == osg::Vec3d() || up.z() > 0.0) return {};
     osg::Quat turn;
     turn.makeRotate(up, osg::Vec3d(0, 0, 1));
@@ -105,9 +124,23 @@ osg::Matrixd turnToViewer(const JointRoles& roles, const JointCentres& centres,
     return stand * faceAhead(resting, stand);
 }
 
+bool isStraight(const JointRoles& roles, const JointCentres& centres) {
+    return Stance(Figure(roles, centres)).isStraight();
+}
+
 JointCentres restCentres(const RestSkeleton& rest, const osg::Matrixd& toWorld) {
     JointCentres result;
     for (const RestJoint& joint : rest.joints) result.emplace_back(toOsg(joint.centre) * toWorld);
+    return result;
+}
+
+JointCentres clipCentres(const RestSkeleton& rest, const Clip& clip, const osg::Matrixd& toWorld) {
+    std::vector<glm::dquat> rotations;
+    std::vector<glm::dvec3> centres;
+    worldRotations(rest, clip.rotations.data(), rotations);
+    worldPositions(rest, rotations, clip.rootPositions.front(), centres);
+    JointCentres result;
+    for (const glm::dvec3& centre : centres) result.emplace_back(toOsg(centre) * toWorld);
     return result;
 }
 

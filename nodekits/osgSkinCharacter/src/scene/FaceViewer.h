@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <osgSkinRig/Clip>
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/RestSkeleton>
 
@@ -28,10 +29,24 @@ using JointCentres = std::vector<std::optional<osg::Vec3d>>;
 osg::Matrixd turnToViewer(const JointRoles& roles, const JointCentres& centres,
                           const JointCentres& played = {});
 
+/// Whether trunk, thighs and shins lie along one axis: such a pose tells which way is up, also
+/// where a motion begins on the floor.
+///
+/// \param roles what the joints are
+/// \param centres [joint], world
+bool isStraight(const JointRoles& roles, const JointCentres& centres);
+
 /// The joints of a rest pose, put into the world.
 /// \param rest the skeleton
 /// \param toWorld from rest space
 JointCentres restCentres(const RestSkeleton& rest, const osg::Matrixd& toWorld);
+
+/// The joints as a clip begins.
+///
+/// \param rest the skeleton
+/// \param clip of this skeleton, with a sample at least
+/// \param toWorld from the skeleton's space
+JointCentres clipCentres(const RestSkeleton& rest, const Clip& clip, const osg::Matrixd& toWorld);
 
 /// The joints as a scene's bones of these names stand, as no animation has moved them yet.
 /// \param rest whose joints are looked for

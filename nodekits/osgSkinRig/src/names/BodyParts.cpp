@@ -85,6 +85,15 @@ std::vector<bool> knownLegs(const SkeletonTree& tree, const JointRoles& roles) {
     return isLeg;
 }
 
+/// Whether a joint is above a foot that is recognised: of who sits on the floor these lie as low.
+bool isAboveFoot(const SkeletonTree& tree, const JointRoles& roles, int j) {
+    for (const char* foot : {"LeftFoot", "RightFoot"}) {
+        const int end = jointOf(roles, foot);
+        if (end >= 0 && end != j && tree.rest().isInSubtree(end, j)) return true;
+    }
+    return false;
+}
+
 /// The height of the joints that names tell, which helpers have no part in.
 double knownTop(const SkeletonTree& tree, const JointRoles& roles) {
     double highest = -std::numeric_limits<double>::infinity();
@@ -119,7 +128,8 @@ BodyParts findBodyParts(const SkeletonTree& tree, const JointRoles& roles) {
     // Hands hang to the thigh at most, ankles lie within a tenth of the body above the floor.
     const double ankle = result.lowest + 0.1 * (highest - result.lowest);
     for (int j = 0; j < tree.size() && result.stands; ++j)
-        if (isLeg[static_cast<std::size_t>(j)] && bottom(tree.joint(j)) <= ankle)
+        if (isLeg[static_cast<std::size_t>(j)] && bottom(tree.joint(j)) <= ankle &&
+            !isAboveFoot(tree, roles, j))
             result.feet.push_back(j);
     for (const int j : result.feet)
         if (std::count(result.feet.begin(), result.feet.end(), tree.joint(j).parent) == 0)

@@ -46,7 +46,8 @@ private:
 };
 
 /// Up, as nearAxis() has it: along the thighs, or where trunk and shins stand along one axis along
-/// that, since who sits holds the thighs before him.
+/// that, since who sits holds the thighs before him. On the floor the legs may lie, and the trunk
+/// alone stand.
 int upOf(const Body& body) {
     glm::dvec3 thighs(0.0), shins(0.0), trunk(0.0);
     for (const std::string side : {"Left", "Right"}) {
@@ -58,6 +59,7 @@ int upOf(const Body& body) {
         trunk += top;
     }
     const int byTrunk = nearAxis(trunk);
+    if (byTrunk == 2) return byTrunk;
     return byTrunk == nearAxis(shins) && byTrunk != 0 ? byTrunk : nearAxis(thighs);
 }
 
