@@ -230,7 +230,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     const bool other = rest->count() > 0 || !arguments.binding.empty() || !arguments.pose.empty();
     if (arguments.out.empty() && !other) arguments.out = kDefaultOut;
     const std::string kind = extensionOf(arguments.rest);
-    if (kind == "ply" || kind == "glb" || kind == "gltf" || kind == "pc2")
+    if (kind == "ply" || kind == "glb" || kind == "gltf" || kind == "pc2" || kind == "mtl")
         throw UsageError{"--rest: expected a file whose name ends in .obj, found \"" +
                          arguments.rest + "\""};
     requireDifferentFiles(arguments);

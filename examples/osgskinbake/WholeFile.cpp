@@ -52,6 +52,14 @@ std::FILE* openNew(const std::string& file) {
     return stream;
 }
 
+/// A name beside a file, for what is not finished; no longer than names may be.
+std::string besides(const std::string& file) {
+    constexpr std::size_t kMost = 230; // of 255 bytes
+    const fs::path path(file);
+    const std::string name = path.filename().string().substr(0, kMost);
+    return (path.parent_path() / (name + ".part" + std::to_string(::getpid()))).string();
+}
+
 extern "C" void removeAndGo(int signal) {
     if (hasUnfinished != 0) ::unlink(unfinished);
     std::signal(signal, SIG_DFL);
@@ -77,7 +85,7 @@ WholeFile::WholeFile(const std::string& file) : _file(file), _target(file) {
     if (fs::exists(file, failure)) _target = fs::canonical(file, failure).string();
     if (failure) _target = file;
     if (!fs::exists(_target, failure) || fs::is_regular_file(_target, failure))
-        _written = _target + ".part" + std::to_string(::getpid());
+        _written = besides(_target);
     if (isKept(_target))
         throw osgSkin::Error(_file + ": a part of the character, expected another file");
     // A file that may not be written is not replaced either.

@@ -191,6 +191,7 @@ TEST(Bake, UsageErrorsExitWithTwo) {
                                   "--binding b.json --motion nobody",
                                   "--binding ''",
                                   "--rest ''",
+                                  "--rest r.mtl",
                                   "--pose ''",
                                   "--frames ''",
                                   "--motion ''",

@@ -172,6 +172,17 @@ TEST(Faults, NamesMayBeOdd) {
     EXPECT_TRUE(fs::exists(folder / "-r \xc3\xbc.obj"));
 }
 
+TEST(Faults, NamesMayBeAsLongAsFilesMayHaveThem) {
+    const fs::path folder = test::makeTestFolder();
+    for (const std::size_t length : {251u, 246u, 200u}) {
+        const std::string name = std::string(length, 'n') + ".obj";
+        const auto baked =
+            test::runBake("'" + kParts + "good.skin' --quiet --rest " + name, folder.string());
+        EXPECT_EQ(baked.status, 0) << baked.err;
+        EXPECT_TRUE(fs::exists(folder / name));
+    }
+}
+
 TEST(Faults, NumbersAreOfNamesNotOfFolders) {
     const fs::path folder = test::makeTestFolder();
     fs::create_directory(folder / "100%d");

@@ -65,6 +65,18 @@ TEST_F(GuardedTime, NamesOfJointsMayBeLong) {
     EXPECT_EQ(osgSkin::recogniseJoints(skeleton).roles.at(1), "");
 }
 
+TEST_F(GuardedTime, NamesOfJointsMayBeManyWords) {
+    osgSkin::RestSkeleton skeleton;
+    skeleton.add("Hips", -1, glm::dvec3(0.0));
+    for (const std::string word : {"a_", "aA", "Left", "b1"})
+        for (int j = 0; j < 2'000; ++j) {
+            std::string name = std::to_string(j) + "_";
+            while (name.size() < 900) name += word;
+            skeleton.add(name, 0, glm::dvec3(0.0, j, 0.0));
+        }
+    osgSkin::recogniseJoints(skeleton);
+}
+
 TEST_F(GuardedTime, PrefixesOfNamesMayBeMany) {
     osgSkin::RestSkeleton skeleton;
     skeleton.add("Hips", -1, glm::dvec3(0.0));

@@ -65,6 +65,14 @@ TEST(ObjDialects, LinesGoOnBehindBackslashes) {
         EXPECT_EQ(mesh.mesh.positions.size(), 4u);
         EXPECT_EQ(mesh.mesh.faceSizes, std::vector<std::uint32_t>{4});
     }
+    // Right behind the keyword, too.
+    for (const std::string end : {"\n", "\r\n"}) {
+        const ImportedMesh mesh =
+            readMesh("words.obj", "v\\" + end + " 0 0 0\nv 1 0 0\nv 1 1 0\nv " + "0 1 0\nf\\" +
+                                      end + "1 2 3 4\n");
+        EXPECT_EQ(mesh.mesh.positions.size(), 4u);
+        EXPECT_EQ(mesh.mesh.faceSizes, std::vector<std::uint32_t>{4});
+    }
     expectError([] { readMesh("end.obj", kSquare + "f 1 2 \\\n9 \\\n3\n"); },
                 "end.obj: line 5: \"9\" in a face");
     expectError([] { readMesh("last.obj", kSquare + "f 1 2 \\\n3\nf 1 2 9\n"); }, "line 7: \"9\"");
@@ -107,6 +115,25 @@ TEST(ObjDialects, FourthNumbersOfVerticesAreToldOf) {
     const test::Notices before;
     readMesh("both.obj", "v 0 0 0 0.5 1 0 0\nv 1 0 0 1 0 1 0\nv 0 1 0 1 0 0 1\nf 1 2 3\n");
     EXPECT_TRUE(before.say("1 of 3 vertices have a fourth number that is not 1")) << before.text();
+}
+
+/// Lines that a person would take for a face or a vertex are not passed over.
+TEST(ObjDialects, KeywordsToTheEyeAloneAreRefused) {
+    for (const std::string line : {"F 1 2 3", "f\v1 2 3", "\ff 1 2 3",
+                                   "\xc2\xa0"
+                                   "f 1 2 3",
+                                   "\xef\xbb\xbf"
+                                   "f 1 2 3",
+                                   "f\xc2\xa0"
+                                   "1 2 3",
+                                   "V 0 0 1", "VN 0 0 1"})
+        expectError([&] { readMesh("eye.obj", kSquare + "f 1 2 3\n" + line + "\n"); },
+                    "eye.obj: line 6: \"");
+    // What is something else is passed over, as ever.
+    EXPECT_EQ(readMesh("else.obj", kSquare + "Fine 1 2\n\xc3\xa9 1\nvp 1 2\nl 1 2\nf 1 2 3\n")
+                  .mesh.triangles()
+                  .size(),
+              3u);
 }
 
 /// "fo", a face's outline, is the format's first name for a face.

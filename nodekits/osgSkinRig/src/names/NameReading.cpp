@@ -39,6 +39,17 @@ bool isSuffix(const std::string& word) {
     return words.count(word) != 0;
 }
 
+/// The letters of the longest part. Several words are one with sides at both its ends at most.
+std::size_t longestPart() {
+    static const std::size_t longest = [] {
+        std::size_t most = 0;
+        for (const auto& [text, word] : bodyWords()) most = std::max(most, text.size());
+        return most;
+    }();
+    return longest;
+}
+constexpr std::size_t kTwoSides = 10;
+
 /// A name while it is being read: the words up to `end` are still unread.
 class Reader {
 public:
@@ -58,6 +69,7 @@ public:
         std::string run;
         for (std::size_t first = end; first > 0 && !isNumber(_words[first - 1]); --first) {
             run.insert(0, _words[first - 1]);
+            if (first < end && run.size() > longestPart() + kTwoSides) break;
             for (const char* side : {"", "left", "right", "l", "r"}) {
                 _result = ended;
                 _rest.clear();
@@ -142,7 +154,8 @@ private:
             return false;
         const std::size_t end = run.size() - side.size();
         for (const auto& [text, word] : bodyWords()) {
-            if (end < text.size() || run.compare(end - text.size(), text.size(), text) != 0)
+            if (end < text.size() || run[end - 1] != text.back() ||
+                run.compare(end - text.size(), text.size(), text) != 0)
                 continue;
             _result.word = word;
             _partSize = text.size();

@@ -57,6 +57,19 @@ bool isBroken(std::string_view word, double value) {
            std::abs(value) >= 1e300;
 }
 
+/// Whether a word is a vertex's or a face's keyword to the eye alone: in capitals, or with signs
+/// that no one sees, as a byte order mark that joined files leave.
+bool looksLikeKeyword(std::string_view word) {
+    std::string seen;
+    for (const char c : word) {
+        if (c > ' ' && c < 0x7f)
+            seen += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        else if (!seen.empty())
+            break;
+    }
+    return seen != word && (kindOf(seen) >= 0 || seen == "f" || seen == "fo");
+}
+
 class Checker {
 public:
     Checker(const std::string& path, const Counts& total) : _path(path), _total(total) {}
@@ -79,6 +92,10 @@ public:
                          "one more material library, expected at most " +
                              std::to_string(kMostLibraries));
             keep(keyword, ' ' + libraryNames(rest, osgDB::getFilePath(_path)));
+        } else if (looksLikeKeyword(keyword)) {
+            failLine(_path, _line,
+                     inQuotes(keyword) +
+                         " begins a line, expected \"v\", \"vt\", \"vn\" or \"f\", and a blank");
         }
     }
 

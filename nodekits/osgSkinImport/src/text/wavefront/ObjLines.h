@@ -36,6 +36,11 @@ constexpr int kindOf(std::string_view keyword) {
     return keyword == "v" ? 0 : keyword == "vt" ? 1 : keyword == "vn" ? 2 : -1;
 }
 
+/// Whether a backslash at the end of a line with this keyword goes on with the next.
+constexpr bool isContinued(std::string_view keyword) {
+    return keyword == "f" || kindOf(keyword) >= 0;
+}
+
 /// Calls `use(keyword, rest of the line, line number)` for each line that has a keyword. A
 /// backslash at its end, of numbers or corners, goes on with the next.
 template <typename Use>
@@ -46,8 +51,13 @@ void forEachLine(std::string_view text, const Use& use) {
     for (std::size_t number = 1; !text.empty(); number += lines) {
         std::string_view line = takeLine(text);
         lines = 1;
-        const std::string_view keyword = takeWord(line);
-        const bool mayGoOn = keyword == "f" || kindOf(keyword) >= 0;
+        std::string_view keyword = takeWord(line);
+        const std::size_t last = keyword.empty() ? 0 : keyword.size() - 1;
+        if (line.empty() && keyword.substr(last) == "\\" && isContinued(keyword.substr(0, last))) {
+            line = keyword.substr(last); // right behind it
+            keyword.remove_suffix(1);
+        }
+        const bool mayGoOn = isContinued(keyword);
         if (mayGoOn && !line.empty() && line.back() == '\\') {
             joined.clear();
             for (; !line.empty() && line.back() == '\\'; ++lines) {
