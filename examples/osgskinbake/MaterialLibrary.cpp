@@ -72,7 +72,9 @@ void writeLibrary(const std::string& file, const std::vector<Surface>& surfaces,
         const SurfaceMaterial material = SurfaceMaterial::of(surfaces[s]);
         out << "newmtl " << materialName(s) << "\nKd " << material.diffuse << "\nKs "
             << material.specular << "\nKe " << material.emission << "\nNs " << material.shininess
-            << "\nd " << material.diffuse.a() << "\nillum 2\n";
+            << "\nd "
+            << (material.alpha == SurfaceMaterial::Alpha::Opaque ? 1.0f : material.diffuse.a())
+            << "\nillum 2\n";
         if (!material.image) continue;
         const std::string name = images.nameOf(*material.image);
         if (!name.empty()) out << "map_Kd " << name << "\n";

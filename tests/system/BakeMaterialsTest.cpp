@@ -293,6 +293,21 @@ TEST(BakeMaterials, ObjSequenceNamesItsTextures) {
     expectSamePixels(*textureOf(after.parts[0])->getImage(), *smallImage());
 }
 
+/// glTF's opacity counts where a material says that it blends.
+TEST(BakeMaterials, OpaqueSurfacesAreOpaqueInObj) {
+    const std::string folder = test::makeTestFolder();
+    for (const bool blends : {false, true}) {
+        nlohmann::json gltf = test::readJson(OSGSKIN_TEST_DATA "/rig/tube.gltf");
+        gltf["materials"][0] = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.25}}}}};
+        if (blends) gltf["materials"][0]["alphaMode"] = "BLEND";
+        std::ofstream(folder + "/clear.gltf") << gltf;
+        bake("clear.gltf --rest rest.obj", folder);
+        const osgSkin::ImportedMesh mesh = osgSkin::importMesh(folder + "/rest.obj");
+        EXPECT_EQ(materialOf(mesh.parts.at(0)).getDiffuse(osg::Material::FRONT).a(),
+                  blends ? 0.25f : 1.0f);
+    }
+}
+
 TEST(BakeMaterials, VertexColoursGoAlong) {
     const std::string folder = test::makeTestFolder();
     const std::string skin = texturedCharacter(folder, true);

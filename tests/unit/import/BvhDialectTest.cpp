@@ -2,6 +2,7 @@
 // What exporters write that differs in form from the plain file must be read like it, or refused
 // with a reason.
 #include "ExpectError.h"
+#include "Figure.h"
 #include "Notices.h"
 #include "Paths.h"
 
@@ -154,9 +155,8 @@ const Refused kRefused[] = {
     {"HugeOffset", "OFFSET 0 5 1", "OFFSET 0 5e38 1",
      "line 8: joint \"Spine\"'s OFFSET y is \"5e38\", expected a number from -1e18"},
     {"Hexadecimal", " 40 50 60", " 0x40 50 60", "line 20: frame 1, joint \"Spine\" has \"0x40\""},
-    {"PositionsWithTwoRotations",
-     "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation",
-     "CHANNELS 5 Xposition Yposition Zposition Zrotation Yrotation",
+    {"FourRotations", "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation",
+     "CHANNELS 6 Xposition Yposition Zrotation Yrotation Xrotation Zrotation",
      "line 5: joint \"Hips\" has CHANNELS of another kind than supported"},
     {"PositionTwice", "Xposition Yposition Zposition", "Xposition Xposition Zposition",
      "line 5: joint \"Hips\" has CHANNELS of another kind than supported"},
@@ -212,6 +212,22 @@ TEST(BvhDialect, ARootMayMoveAndNotTurn) {
         EXPECT_EQ(motion.rotation(f, 0), glm::dquat(1, 0, 0, 0));
         EXPECT_EQ(motion.rotation(f, 1), plain.rotation(f, 1));
     }
+}
+
+/// Props and cameras turn about one axis; some figures rise and sink alone.
+TEST(BvhDialect, ARootMayMoveAndTurnInPart) {
+    const auto motionOf = [](const std::string& channels, const std::string& numbers) {
+        const TemporaryBvh file("HIERARCHY\nROOT base\n{\nOFFSET 7 8 9\nCHANNELS " + channels +
+                                "\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\n" +
+                                "Frame Time: 0.1\n" + numbers + "\n");
+        return osgSkin::importMotion(file.path);
+    };
+    const osgSkin::Motion turns = motionOf("4 Xposition Yposition Zposition Yrotation", "1 2 3 90");
+    EXPECT_EQ(turns.rootPositions[0], glm::dvec3(1, 2, 3));
+    EXPECT_LT(angleBetween(turns.rotation(0, 0), turnDegrees(90, {0, 1, 0})), 1e-9);
+    const osgSkin::Motion rises = motionOf("2 Zrotation Yposition", "30 2");
+    EXPECT_EQ(rises.rootPositions[0], glm::dvec3(7, 2, 9));
+    EXPECT_LT(angleBetween(rises.rotation(0, 0), turnDegrees(30, {0, 0, 1})), 1e-9);
 }
 
 TEST(BvhDialect, NamesMayHaveBlanks) {

@@ -88,6 +88,42 @@ TEST(GltfLooks, TexturesAreMovedAsTheirMaterialsSay) {
     EXPECT_EQ(columns.size(), 2u);
 }
 
+/// Eyes that glow by a texture are not drawn; without it the whole figure would.
+TEST(GltfLooks, TexturesOfEmissionAreToldOf) {
+    const auto read = [](const json& pbr, bool hasTexture) {
+        GltfColumn column;
+        addTexture(column);
+        column.attributes()["TEXCOORD_0"] = column.accessor("VEC2", std::vector<double>(48, 0.5));
+        json material = {{"emissiveFactor", {1, 1, 1}}, {"pbrMetallicRoughness", pbr}};
+        if (hasTexture) material["emissiveTexture"] = {{"index", 0}};
+        paint(column, material);
+        return osgSkin::importMesh(column.save("glows.gltf"));
+    };
+    const auto emission = [](const ImportedMesh& mesh) {
+        return stateOf<osg::Material>(mesh, 0, osg::StateAttribute::MATERIAL)
+            .getEmission(osg::Material::FRONT);
+    };
+    const json grey = {{"baseColorFactor", {0.5, 0.5, 0.5, 1.0}}};
+    const json black = {{"baseColorFactor", {0.0, 0.0, 0.0, 1.0}}};
+    const test::Notices notices;
+    EXPECT_GT(emission(read(grey, false)).r(), 0.99f);
+    EXPECT_EQ(notices.text(), "");
+    EXPECT_EQ(emission(read(grey, true)), osg::Vec4(0, 0, 0, 1));
+    EXPECT_EQ(emission(read(json::object(), true)), osg::Vec4(0, 0, 0, 1));
+    EXPECT_TRUE(notices.say("textures of emission: 1, left out")) << notices.text();
+    // Of what is black without, it is the picture.
+    const test::Notices none;
+    const ImportedMesh lamp = read(black, true);
+    EXPECT_EQ(none.text(), "");
+    EXPECT_NE(
+        lamp.parts[0].geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE),
+        nullptr);
+    EXPECT_GT(stateOf<osg::Material>(lamp, 0, osg::StateAttribute::MATERIAL)
+                  .getDiffuse(osg::Material::FRONT)
+                  .r(),
+              0.9f);
+}
+
 TEST(GltfLooks, ColoursWithoutOpacityAreOpaque) {
     for (const int component : {5126, 5121}) {
         GltfColumn column;

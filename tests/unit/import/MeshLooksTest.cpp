@@ -181,3 +181,22 @@ TEST(MeshLooks, ColoursOfMaterialsAreOnes) {
     EXPECT_EQ(material.getDiffuse(osg::Material::FRONT), osg::Vec4(1.0f, 0.2f, 0.0f, 1.0f));
     EXPECT_EQ(material.getSpecular(osg::Material::FRONT), osg::Vec4(1.0f, 0.0f, 0.5f, 1.0f));
 }
+
+TEST(MeshLooks, TexturesOfEmissionAreToldOf) {
+    const std::string path = testing::TempDir() + "glow.obj";
+    std::ofstream(path) << "mtllib glow.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"
+                           "usemtl n\nf 3 2 1\n";
+    std::ofstream(testing::TempDir() + "glow.mtl")
+        << "newmtl m\nmap_Ke eyes.png\nKd 1 0 0\nKe 1 1 1\nnewmtl n\nKd 1 0 0\nKe 0 1 0\n";
+    const test::Notices notices;
+    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
+    EXPECT_TRUE(notices.say("textures of emission (map_Ke): 1, left out")) << notices.text();
+    const auto emission = [&](std::size_t part) {
+        return dynamic_cast<const osg::Material&>(
+                   *mesh.parts.at(part).geometry->getStateSet()->getAttribute(
+                       osg::StateAttribute::MATERIAL))
+            .getEmission(osg::Material::FRONT);
+    };
+    EXPECT_EQ(emission(0), osg::Vec4(0, 0, 0, 1));
+    EXPECT_EQ(emission(1), osg::Vec4(0, 1, 0, 1));
+}

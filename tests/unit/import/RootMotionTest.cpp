@@ -49,6 +49,26 @@ TEST(RootMotion, NodesMayCountInUnitsOfTheirOwn) {
     }
 }
 
+/// Of a figure that crouches in place below a root that stays.
+TEST(RootMotion, FiguresOfBvhFilesMayBeSmall) {
+    for (const double unit : {0.002, 0.01, 1.0, 100.0}) {
+        const auto vector = [&](double y) { return "0 " + std::to_string(unit * y) + " 0"; };
+        const std::string path = testing::TempDir() + "small_figure.bvh";
+        std::ofstream(path)
+            << "HIERARCHY\nROOT reference\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation "
+               "Yrotation\nJOINT hips\n{\nOFFSET "
+            << vector(1.0)
+            << "\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\nJOINT "
+               "spine\n{\nOFFSET "
+            << vector(0.5) << "\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET "
+            << vector(0.3) << "\n}\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0 "
+            << vector(1.0) << " 0 0 0 0 0 0\n0 0 0 " << vector(0.92) << " 0 0 0 0 0 0\n";
+        const osgSkin::Motion motion = osgSkin::importMotion(path);
+        EXPECT_EQ(motion.skeleton.joints.front().name, "hips") << unit;
+        EXPECT_NEAR(wayOf(motion), 0.08 * unit, 0.01 * unit);
+    }
+}
+
 TEST(RootMotion, AnEndCarriesNothing) {
     GltfColumn column;
     column.bend();

@@ -345,6 +345,27 @@ TEST_F(StandingPose, AnActorWhoLiesStaysLying) {
     EXPECT_TRUE(saysOf(report, "he lies, or the zero pose does"));
 }
 
+/// An actor who never straightens the legs does not show whether a zero pose along z lies.
+TEST_F(StandingPose, AZeroPoseThatNoSampleStandsAlongIsToldOf) {
+    Motion crouches = actor;
+    for (std::size_t f = 0; f < crouches.frames; ++f)
+        for (std::size_t j = 0; j < joints; ++j) {
+            const std::string& name = rig.joints[j].name;
+            const double bend = name == "LeftUpLeg" || name == "RightUpLeg" ? -60.0
+                                : name == "LeftLeg" || name == "RightLeg"   ? 100.0
+                                                                            : 0.0;
+            crouches.rotations[f * joints + j] = turnDegrees(bend, {1, 0, 0});
+        }
+    RestSkeleton broad = rig; // another body
+    for (RestJoint& joint : broad.joints) joint.centre.x *= 1.3;
+    const std::vector<glm::dquat> lying(joints, turnDegrees(90, {1, 0, 0}));
+    for (const bool lies : {false, true}) {
+        RetargetReport report;
+        retarget(lies ? countedFrom(crouches, lying) : crouches, broad, {}, &report);
+        EXPECT_EQ(saysOf(report, "he lies, or the zero pose does"), lies) << report.text();
+    }
+}
+
 /// A clip alone rests as its first sample has the actor. glTF says which axis is up; elsewhere who
 /// lies half of the time may as well be an actor who stands along another one.
 TEST_F(StandingPose, WhoGetsUpDoesSoWhereYIsUp) {

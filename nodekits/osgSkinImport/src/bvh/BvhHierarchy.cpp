@@ -115,13 +115,9 @@ private:
                 positions.insert(channel.axis);
             joint().channels.push_back(channel);
         }
-        const bool fits = positions.empty()
-                              ? count <= 3
-                              : positions.size() == 3 && (count == 3 || rotations == 3);
-        if (!fits)
-            _words.fail(owner() +
-                        " has CHANNELS of another kind than supported, expected up to "
-                        "three rotations, or three positions with three rotations or none");
+        if (rotations > 3 || positions.size() + rotations != count)
+            _words.fail(owner() + " has CHANNELS of another kind than supported, expected up to "
+                                  "three rotations, and each position once at most");
     }
 
     BvhTokens& _words;

@@ -3,6 +3,7 @@
 
 #include "motion/RootMotion.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
@@ -39,27 +40,50 @@ glm::dvec3 localPosition(const BvhJoint& joint, const double* frame) {
     return result;
 }
 
+/// What makes a figure that is smaller than a unit one unit large: others are told as they are.
+double toFigure(const BvhFile& file) {
+    glm::dvec3 low(0.0), high(0.0);
+    std::vector<glm::dvec3> centres;
+    for (const BvhJoint& joint : file.joints) {
+        const bool isHeldByFrames = joint.offset == glm::dvec3(0.0) && file.frames > 0;
+        glm::dvec3 centre = isHeldByFrames ? localPosition(joint, file.frame(0)) : joint.offset;
+        if (joint.parent < 0) centre = glm::dvec3(0.0);
+        if (joint.parent >= 0) centre += centres[static_cast<std::size_t>(joint.parent)];
+        centres.push_back(centre);
+        low = glm::min(low, centre);
+        high = glm::max(high, centre);
+    }
+    const double size = glm::distance(low, high);
+    return size > 0.0 && size < 1.0 ? 1.0 / size : 1.0;
+}
+
+bool movesFrom(const BvhFile& file, std::size_t frame, const BvhJoint& joint,
+               const glm::dvec3& atRest, double figure) {
+    return isMoved(figure * localPosition(joint, file.frame(frame)), figure * atRest);
+}
+
 /// A joint's offset from its parent. Some exporters leave OFFSET zero and repeat the offset in the
 /// position channels of every frame.
-glm::dvec3 offsetOf(const BvhFile& file, const BvhJoint& joint) {
+glm::dvec3 offsetOf(const BvhFile& file, const BvhJoint& joint, double figure) {
     if (joint.parent < 0 || !joint.hasPosition() || file.frames == 0 ||
         joint.offset != glm::dvec3(0.0))
         return joint.offset;
     const glm::dvec3 first = localPosition(joint, file.frame(0));
     for (std::size_t f = 1; f < file.frames; ++f)
-        if (isMoved(localPosition(joint, file.frame(f)), first)) return joint.offset;
+        if (movesFrom(file, f, joint, first, figure)) return joint.offset;
     return first;
 }
 
 /// For each joint, whether its position channels move it from its offset.
 std::vector<bool> findMovedJoints(const BvhFile& file) {
     std::vector<bool> result(file.joints.size(), false);
+    const double figure = toFigure(file);
     for (std::size_t j = 0; j < result.size(); ++j) {
         const BvhJoint& joint = file.joints[j];
         if (!joint.hasPosition()) continue;
-        const glm::dvec3 offset = offsetOf(file, joint);
+        const glm::dvec3 offset = offsetOf(file, joint, figure);
         for (std::size_t f = 0; f < file.frames && !result[j]; ++f)
-            result[j] = isMoved(localPosition(joint, file.frame(f)), offset);
+            result[j] = movesFrom(file, f, joint, offset, figure);
     }
     return result;
 }
@@ -68,9 +92,10 @@ std::vector<bool> findMovedJoints(const BvhFile& file) {
 
 RestSkeleton makeRestSkeleton(const BvhFile& file) {
     RestSkeleton result;
+    const double figure = toFigure(file);
     std::vector<bool> isLeaf(file.joints.size(), true);
     for (const BvhJoint& joint : file.joints) {
-        glm::dvec3 centre = offsetOf(file, joint);
+        glm::dvec3 centre = offsetOf(file, joint, figure);
         if (joint.parent >= 0) {
             const auto parent = static_cast<std::size_t>(joint.parent);
             isLeaf[parent] = false;

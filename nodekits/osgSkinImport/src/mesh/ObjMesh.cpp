@@ -109,6 +109,10 @@ public:
             if (checked.opacityTextures > 0)
                 tellOf(path, "textures of opacity (map_d): " +
                                  std::to_string(checked.opacityTextures) + ", left out");
+            if (checked.glowTextures > 0)
+                tellOf(path,
+                       "textures of emission (map_Ke): " + std::to_string(checked.glowTextures) +
+                           ", left out, and that surfaces glow with them (Ke)");
             std::istringstream lines(checked.text);
             tinyobj::LoadMtl(numbers, materials, &lines, warning, error);
             return true;

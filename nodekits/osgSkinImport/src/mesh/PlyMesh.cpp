@@ -48,6 +48,8 @@ public:
                 if (element.find({"red", "diffuse_red"}))
                     tellOf(path, "colours of faces are left out");
             }
+            if (element.name == "multi_texture_vertex")
+                tellOf(path, "texture coordinates of \"multi_texture_vertex\" are left out");
             if (element.name == "tristrips")
                 _strips = element.find({"vertex_indices", "vertex_index"});
         }

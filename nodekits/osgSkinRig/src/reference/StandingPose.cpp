@@ -27,6 +27,10 @@ constexpr double kNearlyStands = 5.0;
 
 constexpr int kPlusY = 2; ///< as nearAxis() has it
 
+constexpr const char* kNeverAlong =
+    "the actor's legs are never along the axis of the motion's zero pose: he lies, or the zero "
+    "pose does";
+
 std::vector<glm::dvec3> centresOf(const RestSkeleton& skeleton) {
     std::vector<glm::dvec3> result;
     for (const RestJoint& joint : skeleton.joints) result.push_back(joint.centre);
@@ -37,6 +41,7 @@ std::vector<glm::dvec3> centresOf(const RestSkeleton& skeleton) {
 struct Samples {
     std::map<int, std::size_t> standing; ///< axis -> samples that stand along it
     std::map<int, std::size_t> grounded; ///< of them, with the feet on a floor through the origin
+    std::map<int, std::size_t> along;    ///< axis -> samples with the legs along it, however bent
     std::size_t all = 0;
 
     int axis = 0;         ///< along which most stand; +y where that is up and some do
@@ -61,6 +66,7 @@ public:
             if (!stance) continue;
             stances.emplace_back(f, *stance);
             const int axis = nearAxis(stance->up);
+            if (axis != 0) ++result.along[axis];
             if (!stance->stands() || axis == 0) continue;
             ++result.standing[axis];
             const double height = glm::dot(stance->hips, stance->up) / stance->leg;
@@ -202,6 +208,9 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
 
     if (zeroStands) {
         const int own = nearAxis(zero->up);
+        if (samples.axis == 0 && own != 0 && !samples.along.empty() &&
+            samples.along.count(own) == 0)
+            result.notes.emplace_back(kNeverAlong);
         if (samples.axis == 0 || own == 0 || samples.axis == own) return result;
         const auto countOf = [](const std::map<int, std::size_t>& counts, int axis) {
             const auto found = counts.find(axis);
@@ -214,10 +223,7 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
                           10 * countOf(samples.grounded, samples.axis) >= 8 * across;
         const bool staysLying = !samples.isKnown && 10 * countOf(samples.standing, own) > across;
         if (!isUp || staysLying) {
-            if (countOf(samples.standing, own) == 0)
-                result.notes.push_back(
-                    "the actor's legs are never along the axis of the motion's zero pose: he lies, "
-                    "or the zero pose does");
+            if (countOf(samples.standing, own) == 0) result.notes.emplace_back(kNeverAlong);
             return result;
         }
     }

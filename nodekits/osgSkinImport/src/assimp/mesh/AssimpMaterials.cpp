@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/mesh/AssimpMaterials.h"
+#include "text/FileText.h"
 
 #include <osgDB/Registry>
 
@@ -95,12 +96,19 @@ void addGltf(const aiMaterial& source, Material& material) {
     if (roughness >= 1.0f) material.specular = {0.0f, 0.0f, 0.0f, 1.0f};
 }
 
+/// Of a texture of emission the colour alone would make all of the surface glow.
+bool glowsByTexture(const aiMaterial& source) {
+    return source.GetTextureCount(aiTextureType_EMISSIVE) > 0 ||
+           source.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
+}
+
 Material readMaterial(const aiScene& scene, const aiMaterial& source, const std::string& path,
                       const osgDB::Options* options, TextureReads& reads) {
     Material material;
     material.diffuse = colour(source, AI_MATKEY_COLOR_DIFFUSE, material.diffuse);
     material.specular = colour(source, AI_MATKEY_COLOR_SPECULAR, material.specular);
-    material.emission = colour(source, AI_MATKEY_COLOR_EMISSIVE, material.emission);
+    if (!glowsByTexture(source))
+        material.emission = colour(source, AI_MATKEY_COLOR_EMISSIVE, material.emission);
     float opacity = 1.0f;
     if (source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) material.diffuse.a() = opacity;
     source.Get(AI_MATKEY_SHININESS, material.shininess);
@@ -127,13 +135,18 @@ AssimpMaterials::AssimpMaterials(const aiScene& scene, const std::string& path,
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         _hasColours = _hasColours || scene.mMeshes[m]->HasVertexColors(0);
     TextureReads reads(path, options);
+    std::size_t glowing = 0;
     for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
+        if (glowsByTexture(*scene.mMaterials[m])) ++glowing;
         _materials.push_back(readMaterial(scene, *scene.mMaterials[m], path, options, reads));
         _isLinear.push_back(isLinear(*scene.mMaterials[m]));
         int set = 0;
         scene.mMaterials[m]->Get(AI_MATKEY_UVWSRC_DIFFUSE(0), set);
         _texCoords.push_back(static_cast<unsigned>(std::max(set, 0)));
     }
+    if (glowing > 0)
+        tellOf(path, "textures of emission: " + std::to_string(glowing) +
+                         ", left out, and that surfaces glow with them");
     _materials.emplace_back();
     _isLinear.push_back(false);
     _texCoords.push_back(0);

@@ -3,6 +3,7 @@
 
 #include "gltf/Uri.h"
 #include "text/Base64.h"
+#include "text/FileText.h"
 
 #include <osgSkin/Error>
 
@@ -95,7 +96,10 @@ json GltfLooks::material(const json& from, const std::string& where) const {
         if (pbr.contains("baseColorTexture"))
             to["baseColorTexture"] = textureInfo(pbr.at("baseColorTexture"), where);
     }
-    _parts.copyNumbers(from, "emissiveFactor", 3, where, result);
+    if (from.contains("emissiveTexture"))
+        glow(from, where, result);
+    else
+        _parts.copyNumbers(from, "emissiveFactor", 3, where, result);
     if (from.contains("alphaMode") && isWord(osgDB::convertToLowerCase(from.at("alphaMode"))))
         result["alphaMode"] = from.at("alphaMode");
     _parts.copyNumber(from, "alphaCutoff", where, result);
@@ -118,6 +122,20 @@ json GltfLooks::material(const json& from, const std::string& where) const {
     if (extensions.contains("KHR_materials_unlit"))
         result["extensions"]["KHR_materials_unlit"] = json::object();
     return result;
+}
+
+void GltfLooks::glow(const json& from, const std::string& where, json& result) const {
+    const json info = textureInfo(from.at("emissiveTexture"), where);
+    json checked = json::object();
+    _parts.copyNumbers(from, "emissiveFactor", 3, where, checked);
+    if (!result.contains("pbrMetallicRoughness")) return;
+    json& pbr = result.at("pbrMetallicRoughness");
+    const json base = pbr.value("baseColorFactor", json::array({1.0, 1.0, 1.0, 1.0}));
+    const bool isBlack = base.at(0) == 0.0 && base.at(1) == 0.0 && base.at(2) == 0.0;
+    if (!isBlack || pbr.contains("baseColorTexture") || !checked.contains("emissiveFactor")) return;
+    pbr["baseColorTexture"] = info;
+    for (std::size_t k = 0; k < 3; ++k)
+        pbr["baseColorFactor"][k] = checked.at("emissiveFactor").at(k);
 }
 
 std::vector<std::size_t> GltfLooks::addImages(json& result) const {
@@ -174,9 +192,21 @@ void GltfLooks::check(json& result) const {
             texture["sampler"] = _parts.indexOf(from.at("sampler"), "samplers", where);
         result["textures"].push_back(texture);
     });
+    std::size_t glowing = 0;
     _parts.forEach("materials", [&](const json& from, const std::string& where) {
         result["materials"].push_back(material(from, where));
+        const json none = json::object();
+        const bool isColour =
+            result["materials"]
+                .back()
+                .value("pbrMetallicRoughness", none)
+                .contains("baseColorTexture") &&
+            !from.value("pbrMetallicRoughness", none).contains("baseColorTexture");
+        if (from.contains("emissiveTexture") && !isColour) ++glowing;
     });
+    if (glowing > 0)
+        tellOf(_parts.path(), "textures of emission: " + std::to_string(glowing) +
+                                  ", left out, and that surfaces glow with them");
 }
 
 } // namespace osgSkin

@@ -26,6 +26,8 @@ private:
     /// \return for each image of the file its place among them
     std::vector<std::size_t> addImages(nlohmann::json& result) const;
     nlohmann::json textureInfo(const nlohmann::json& from, const std::string& where) const;
+    /// A texture of emission: not drawn, but as the colour of a surface that is black without.
+    void glow(const nlohmann::json& from, const std::string& where, nlohmann::json& result) const;
     nlohmann::json material(const nlohmann::json& from, const std::string& where) const;
 
     const GltfParts& _parts;

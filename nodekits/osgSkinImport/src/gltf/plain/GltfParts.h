@@ -22,6 +22,7 @@ public:
     explicit GltfParts(const GltfFile& file);
 
     const ReadLimits& limits() const { return _file.limits; }
+    const std::string& path() const { return _file.path; }
     /// Of the file and its buffers.
     std::size_t bytes() const { return _bytes; }
     bool has(const char* key) const { return _file.json.contains(key); }

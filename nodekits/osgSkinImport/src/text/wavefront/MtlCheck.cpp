@@ -54,10 +54,12 @@ constexpr const char* kUnknownColour = "Kd 0.8 0.74 0.68\n";
 CheckedMtl checkMtl(std::string_view text, std::set<std::string>& wanted) {
     CheckedMtl result;
     std::string& checked = result.text;
-    bool isWanted = false, hasColour = true;
+    bool isWanted = false, hasColour = true, glows = false;
     const auto finish = [&] { // tinyobjloader's own default is black
         if (!hasColour) checked += kUnknownColour;
+        if (glows) checked += "Ke 0 0 0\n";
         hasColour = true;
+        glows = false;
     };
     forEachLine(text, [&](std::string_view given, std::string_view rest, std::size_t) {
         const std::string keyword(given.substr(0, kLongestKeyword)); // some write small letters
@@ -68,6 +70,10 @@ CheckedMtl checkMtl(std::string_view text, std::set<std::string>& wanted) {
         }
         if (!isWanted) return;
         if (osgDB::equalCaseInsensitive(keyword, "map_d")) ++result.opacityTextures;
+        if (osgDB::equalCaseInsensitive(keyword, "map_Ke")) {
+            ++result.glowTextures;
+            glows = true;
+        }
         for (const MtlKeyword& known : kMtlKeywords) {
             if (!osgDB::equalCaseInsensitive(keyword, known.name)) continue;
             std::string line(known.name);

@@ -14,6 +14,7 @@ struct CheckedMtl {
     std::string text;                ///< the lines that were checked, in their order
     std::size_t placedTextures = 0;  ///< that are moved or scaled (-o, -s), which nothing here does
     std::size_t opacityTextures = 0; ///< map_d, which is left out
+    std::size_t glowTextures = 0;    ///< map_Ke, which is left out with the colour that it shades
 };
 
 /// Checks a library of materials before tinyobjloader parses it. Nothing is refused: lines are kept
