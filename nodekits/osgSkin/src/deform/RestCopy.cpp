@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "deform/RestCopy.h"
 
+#include "model/CorrectiveBlocks.h"
 #include "model/SkinModelAccess.h"
 
 #include <osgSkin/GlmTypes>
