@@ -17,6 +17,7 @@
 #include "ratios/BendFields.h"
 #include "ratios/PackInfluences.h"
 #include "ratios/TwistFields.h"
+#include "regions/Extremities.h"
 #include "regions/Regions.h"
 
 #include <osgSkin/Error>
@@ -137,9 +138,10 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     tell("welding", 0.0);
     const WeldedMesh skin(mesh);
     requireSurface(skin);
-    const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
+    std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
+    if (options.method == BindOptions::Method::Smooth) findExtremities(skin, joints);
     for (const PlannedJoint& joint : joints) {
-        found.jointsInside += joint.seeds ? 1 : 0;
+        found.jointsInside += joint.holdsRegion && joint.inside ? 1 : 0;
         found.jointsOutside += joint.outside ? 1 : 0;
     }
     Regions regions = findRegions(

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "joints/JointPlan.h"
 
+#include "joints/BoneSamples.h"
 #include "joints/JointAxes.h"
 #include "joints/RigidJoints.h"
 #include "joints/TrunkJoints.h"
-#include "mesh/InsideSkin.h"
 
 #include <glm/geometric.hpp>
 
@@ -80,32 +80,6 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
     }
 }
 
-/// Joints inside the skin seed their regions. Outside, a joint in the middle of a chain claims the
-/// skin around it; a last joint gets none. Where all are outside, all keep theirs.
-void findSeeding(const RestSkeleton& skeleton, const WeldedMesh& mesh,
-                 std::vector<PlannedJoint>& joints, std::vector<std::string>& notes) {
-    bool anyInside = false;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        PlannedJoint& joint = joints[j];
-        joint.seeds = joint.holdsRegion && isInsideSkin(mesh, joint.centre);
-        joint.outside = joint.holdsRegion && !joint.seeds && !joint.belowRigid(static_cast<int>(j));
-        anyInside = anyInside || joint.seeds;
-    }
-    if (!anyInside) {
-        notes.emplace_back("no joint lies inside the skin: regions by the nearest bone");
-        return;
-    }
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        PlannedJoint& joint = joints[j];
-        if (!joint.holdsRegion || joint.seeds) continue;
-        joint.claims = j > 0 && joint.child >= 0 && !joint.belowRigid(static_cast<int>(j));
-        joint.holdsRegion = joint.claims;
-        if (!joint.belowRigid(static_cast<int>(j)))
-            notes.push_back("joint \"" + skeleton.joints[j].name + "\" lies outside the skin" +
-                            (joint.claims ? ", its region is the skin nearest to it" : ""));
-    }
-}
-
 /// A rigid joint owns what its descendants seed, so it has a region although it may seed none.
 void giveRegionsToRigidJoints(std::vector<PlannedJoint>& joints) {
     for (std::size_t j = 0; j < joints.size(); ++j)
@@ -165,7 +139,7 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     markTrunk(joints);
 
     giveRegions(skeleton, roles, tolerance, joints, notes);
-    findSeeding(skeleton, mesh, joints, notes);
+    setSamples(skeleton, mesh, roles, options.method, joints, notes);
     giveRegionsToRigidJoints(joints);
     for (std::size_t j = 1; j < joints.size(); ++j)
         joints[j].topmost = roles.roles[j] == "Hips" && !joints[regionAbove(joints, j)].holdsRegion;

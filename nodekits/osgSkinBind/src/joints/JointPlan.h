@@ -8,6 +8,7 @@
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/RestSkeleton>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,16 @@ struct PlannedJoint {
     bool topmost = false;     ///< the hips, with no region above them: a root on the floor
     bool trunk = false;       ///< of the trunk: spine, hips, collar bones
     bool collarBone = false;  ///< between the spine and an upper arm
-    bool seeds = false;       ///< its centre takes part in the Delaunay step
-    bool outside = false;     ///< the skin, and not a part of a hand or a head
+    bool inside = false;      ///< the centre is inside the skin
+    bool outside = false;     ///< the centre is not, and the joint is no part of a hand or a head
     bool claims = false;      ///< outside the skin: takes the skin nearest to it
     bool holdsRegion = false; ///< has a region, so its field is its own; else its children's
+
+    /// The points that stand for the joint in the Delaunay step, inside the skin.
+    std::vector<glm::dvec3> samples;
+    /// Sorted welded vertices beyond the joint, which follow it wholly: of a head, hand or foot, see
+    /// findExtremities(). Empty where its region has no such border.
+    std::vector<std::uint32_t> beyond;
 
     JointBindOptions options; ///< what the author said about it
 

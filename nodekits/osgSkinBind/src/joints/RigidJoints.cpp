@@ -21,10 +21,20 @@ std::vector<std::size_t> extremities(const RestSkeleton& skeleton, const JointRo
 }
 
 std::vector<std::string> automaticRigidJoints(const RestSkeleton& skeleton,
-                                              const std::vector<JointNames>& names) {
+                                              const std::vector<JointNames>& names,
+                                              const std::vector<bool>& isMoved) {
+    const JointRoles roles = recogniseJoints(skeleton, names);
     std::vector<std::string> result;
-    for (const std::size_t joint : extremities(skeleton, recogniseJoints(skeleton, names)))
-        result.push_back(skeleton.joints[joint].name);
+    for (const std::size_t joint : extremities(skeleton, roles)) {
+        bool bends = false;
+        for (std::size_t j = joint + 1; j < skeleton.joints.size() && !bends; ++j) {
+            if (!skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(joint))) continue;
+            const bool isEnd = !skeleton.joints[j].tip && roles.roles[j].empty() &&
+                               skeleton.children(static_cast<int>(j)).empty();
+            bends = !isEnd && (isMoved.empty() || isMoved[j]);
+        }
+        if (!bends) result.push_back(skeleton.joints[joint].name);
+    }
     return result;
 }
 

@@ -19,7 +19,8 @@ std::vector<double> BinaryField::subtree(std::size_t joint) const {
 std::vector<double> BinaryField::divided(std::size_t joint, double shift) const {
     const PlannedJoint& planned = joints[joint];
     std::vector<double> field = subtree(joint);
-    if (planned.topmost || (planned.rigid >= 0 && planned.lengthAbove < planned.boneLength))
+    if (planned.topmost || !planned.beyond.empty() ||
+        (planned.rigid >= 0 && planned.lengthAbove < planned.boneLength))
         return field;
     const glm::dvec3 normal = planeNormal(planned);
     const std::size_t above = regionAbove(joints, joint);

@@ -60,14 +60,19 @@ std::vector<std::uint32_t> whereItChanges(const HeatGraph& skin, const std::vect
 }
 
 /// Smooths a field on the very skin that it is given on.
-void spread(const HeatGraph& skin, std::vector<double>& field, const std::vector<double>& widths) {
-    const std::vector<std::uint32_t> patch = whereItChanges(skin, field, widths);
+void spread(const HeatGraph& skin, std::vector<double>& field, const std::vector<double>& widths,
+            const std::vector<bool>& isHeld) {
+    std::vector<std::uint32_t> patch = whereItChanges(skin, field, widths);
+    if (!isHeld.empty())
+        patch.erase(std::remove_if(patch.begin(), patch.end(),
+                                   [&isHeld](std::uint32_t v) { return isHeld[v]; }),
+                    patch.end());
     if (patch.empty()) return;
     std::vector<int> row(field.size(), -1);
     for (std::size_t i = 0; i < patch.size(); ++i) row[patch[i]] = static_cast<int>(i);
 
     const auto count = static_cast<Eigen::Index>(patch.size());
-    Vector mass(count), values(count);
+    Vector mass(count), values(count), inflow = Vector::Zero(count);
     std::vector<Eigen::Triplet<double>> entries; // of M + tau L
     for (Eigen::Index i = 0; i < count; ++i) {
         const std::uint32_t v = patch[static_cast<std::size_t>(i)];
@@ -76,10 +81,14 @@ void spread(const HeatGraph& skin, std::vector<double>& field, const std::vector
         double diagonal = mass[i];
         for (std::uint32_t k = skin.firstNeighbour[v]; k < skin.firstNeighbour[v + 1]; ++k) {
             const std::uint32_t next = skin.neighbours[k];
-            if (row[next] < 0) continue;
+            const bool isSource = !isHeld.empty() && isHeld[next];
+            if (row[next] < 0 && !isSource) continue;
             const double weight = skin.weights[k] * (widths[v] + widths[next]) / (2.0 * kSteps);
-            entries.emplace_back(static_cast<int>(i), row[next], -weight);
             diagonal += weight;
+            if (isSource)
+                inflow[i] += weight * field[next];
+            else
+                entries.emplace_back(static_cast<int>(i), row[next], -weight);
         }
         entries.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal);
     }
@@ -88,7 +97,7 @@ void spread(const HeatGraph& skin, std::vector<double>& field, const std::vector
     const Eigen::SimplicialLDLT<Matrix> solver(heatStep);
     if (solver.info() != Eigen::Success) return; // leaves the field as it was
     for (int step = 0; step < kSteps; ++step)
-        values = solver.solve(mass.cwiseProduct(values)).eval();
+        values = solver.solve(mass.cwiseProduct(values) + inflow).eval();
     for (Eigen::Index i = 0; i < count; ++i) field[patch[static_cast<std::size_t>(i)]] = values[i];
 }
 
@@ -108,22 +117,33 @@ void SkinSmoother::smooth(std::vector<double>& field, double width) const {
     if (width > 0.0) smooth(field, std::vector<double>(field.size(), width));
 }
 
-void SkinSmoother::smooth(std::vector<double>& field, const std::vector<double>& widths) const {
-    smooth(field, widths, 0);
+void SkinSmoother::smooth(std::vector<double>& field, const std::vector<double>& widths,
+                          const std::vector<bool>& isHeld) const {
+    smooth(field, widths, isHeld, 0);
 }
 
 void SkinSmoother::smooth(std::vector<double>& field, const std::vector<double>& widths,
-                          std::size_t level) const {
+                          const std::vector<bool>& isHeld, std::size_t level) const {
     const HeatGraph& skin = level > 0 ? _coarser[level - 1]->graph() : _skin;
     const double narrowest = *std::min_element(widths.begin(), widths.end());
     if (level == _coarser.size() || narrowest < kFinest * skin.meanEdge) {
-        spread(skin, field, widths);
+        spread(skin, field, widths, isHeld);
         return;
     }
     const CoarseGraph& coarser = *_coarser[level];
     std::vector<double> coarse = coarser.restricted(field);
-    smooth(coarse, coarser.restricted(widths), level + 1);
-    field = coarser.interpolated(coarse);
+    if (isHeld.empty()) {
+        smooth(coarse, coarser.restricted(widths), {}, level + 1);
+        field = coarser.interpolated(coarse);
+        return;
+    }
+    std::vector<bool> isCoarseHeld;
+    for (const double share : coarser.restricted({isHeld.begin(), isHeld.end()}))
+        isCoarseHeld.push_back(share > 0.5);
+    smooth(coarse, coarser.restricted(widths), isCoarseHeld, level + 1);
+    const std::vector<double> spreadOut = coarser.interpolated(coarse);
+    for (std::size_t v = 0; v < field.size(); ++v)
+        if (!isHeld[v]) field[v] = spreadOut[v];
 }
 
 void SkinSmoother::change(std::vector<double>& field, const std::vector<bool>& isFree, double width,

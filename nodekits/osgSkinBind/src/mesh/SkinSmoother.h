@@ -42,7 +42,9 @@ public:
     ///
     /// \param field one value for each vertex
     /// \param widths one for each vertex, above 0
-    void smooth(std::vector<double>& field, const std::vector<double>& widths) const;
+    /// \param isHeld the vertices that keep their values while heat flows from them; empty: none
+    void smooth(std::vector<double>& field, const std::vector<double>& widths,
+                const std::vector<bool>& isHeld = {}) const;
 
     /// What changes a field where it may.
     using Change = std::function<void(const HeatGraph& skin, std::vector<double>& field,
@@ -62,7 +64,7 @@ private:
     void change(std::vector<double>& field, const std::vector<bool>& isFree, double width,
                 const Change& change, std::size_t level) const;
     void smooth(std::vector<double>& field, const std::vector<double>& widths,
-                std::size_t level) const;
+                const std::vector<bool>& isHeld, std::size_t level) const;
 
     HeatGraph _skin;
     std::vector<std::unique_ptr<CoarseGraph>> _coarser; ///< each of the one before

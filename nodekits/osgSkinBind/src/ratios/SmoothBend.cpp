@@ -2,6 +2,7 @@
 #include "ratios/SmoothBend.h"
 
 #include "limbs/ArmSwings.h"
+#include "limbs/HermiteRatio.h"
 #include "limbs/LimbRadius.h"
 #include "limbs/MiddleThird.h"
 #include "ratios/EvenStretch.h"
@@ -63,6 +64,18 @@ std::vector<double> spread(const SkinSmoother& smoother, const std::vector<doubl
     return field;
 }
 
+/// The field of a head, hand or foot: 1 on all that is its own, and from there on falling to 0 over
+/// the limb above, flat at both ends.
+std::vector<double> fromBorder(const SkinSmoother& smoother, const std::vector<double>& own,
+                               double width, double cutOff) {
+    std::vector<bool> isOwn(own.size());
+    for (std::size_t v = 0; v < own.size(); ++v) isOwn[v] = own[v] > 0.5;
+    std::vector<double> field = own;
+    smoother.smooth(field, std::vector<double>(own.size(), width), isOwn);
+    for (double& a : field) a = hermiteRatio((a - cutOff) / (1.0 - cutOff));
+    return field;
+}
+
 /// Narrows a width, down to `least`, where `excess`, what the middle third has too much, is above
 /// `most`. What a field has left a distance away goes about with the fifth power of its width.
 bool narrow(double& width, double least, double excess, double most) {
@@ -102,6 +115,9 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     const double radius = radii[joint];
     std::vector<double> start = binary.divided(joint, planned.trunk ? -kTrunkLift * radius : 0.0);
     if (!(radius > 0.0)) return start;
+    if (!planned.beyond.empty())
+        return fromBorder(smoother, start, kAboveRigidWidth * options.smoothing * radius,
+                          options.cutOff);
 
     const std::size_t above = regionAbove(binary.joints, joint);
     const bool limb = isLimb(planned, radius);

@@ -25,7 +25,7 @@ Kernel::Point_3 point(const glm::dvec3& p) {
 } // namespace
 
 std::vector<DelaunayLink> delaunayLinks(const std::vector<glm::dvec3>& vertices,
-                                        const std::vector<glm::dvec3>& centres) {
+                                        const std::vector<glm::dvec3>& samples) {
     std::vector<std::pair<Kernel::Point_3, std::uint32_t>> points;
     points.reserve(vertices.size());
     for (std::size_t v = 0; v < vertices.size(); ++v)
@@ -34,9 +34,9 @@ std::vector<DelaunayLink> delaunayLinks(const std::vector<glm::dvec3>& vertices,
 
     const auto vertexCount = static_cast<std::uint32_t>(vertices.size());
     std::vector<Handle> handles;
-    for (std::size_t c = 0; c < centres.size(); ++c) {
+    for (std::size_t c = 0; c < samples.size(); ++c) {
         const std::size_t before = triangulation.number_of_vertices();
-        const Handle handle = triangulation.insert(point(centres[c]));
+        const Handle handle = triangulation.insert(point(samples[c]));
         if (triangulation.number_of_vertices() != before)
             handle->info() = vertexCount + static_cast<std::uint32_t>(c);
         handles.push_back(handle);
@@ -44,10 +44,10 @@ std::vector<DelaunayLink> delaunayLinks(const std::vector<glm::dvec3>& vertices,
     if (triangulation.dimension() < 3) return {};
 
     std::vector<DelaunayLink> links;
-    for (std::size_t c = 0; c < centres.size(); ++c) {
+    for (std::size_t c = 0; c < samples.size(); ++c) {
         std::vector<Handle> adjacent;
         triangulation.finite_adjacent_vertices(handles[c], std::back_inserter(adjacent));
-        adjacent.push_back(handles[c]); // itself a vertex of the skin where the centre lies on one
+        adjacent.push_back(handles[c]); // itself a vertex of the skin where the sample lies on one
         const std::size_t first = links.size();
         for (const Handle handle : adjacent)
             if (handle->info() < vertexCount)

@@ -15,6 +15,21 @@ namespace {
 constexpr double kFloodingBegins = 0.3;
 constexpr double kBordersBegin = 0.9;
 
+/// Gives joints the skin beyond them, and no other: what else they have goes to the region above.
+void giveBeyond(const std::vector<PlannedJoint>& joints, std::vector<std::uint32_t>& jointOf) {
+    for (std::uint32_t j = 0; j < joints.size(); ++j) {
+        if (joints[j].beyond.empty()) continue;
+        const std::vector<bool> isBelow = subtreeOf(joints, j);
+        const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
+        std::vector<bool> isBeyond(jointOf.size(), false);
+        for (const std::uint32_t v : joints[j].beyond) isBeyond[v] = true;
+        for (std::size_t v = 0; v < jointOf.size(); ++v) {
+            if (isBeyond[v] && !isBelow[jointOf[v]]) jointOf[v] = j;
+            if (!isBeyond[v] && isBelow[jointOf[v]]) jointOf[v] = above;
+        }
+    }
+}
+
 } // namespace
 
 Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
@@ -39,6 +54,7 @@ Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
         if (joints[joint].rigid >= 0) joint = static_cast<std::uint32_t>(joints[joint].rigid);
     trimRegions(mesh, joints, regions.jointOf);
     removeIslands(mesh, isSeed, regions.jointOf);
+    giveBeyond(joints, regions.jointOf);
     return regions;
 }
 

@@ -17,8 +17,8 @@ constexpr double kInwardCosine = 0.7;
 
 /// Normal filtering, after Amenta, Bern & Kamvysselis (1998): the edge from the skin to a joint
 /// that the skin belongs to runs inwards.
-bool runsInwards(const WeldedMesh& mesh, std::uint32_t vertex, const glm::dvec3& centre) {
-    const glm::dvec3 edge = centre - mesh.positions[vertex];
+bool runsInwards(const WeldedMesh& mesh, std::uint32_t vertex, const glm::dvec3& sample) {
+    const glm::dvec3 edge = sample - mesh.positions[vertex];
     const glm::dvec3& normal = mesh.normals[vertex];
     if (normal == glm::dvec3(0.0)) return true; // degenerate faces only: nothing to tell
     return -glm::dot(edge, normal) >= kInwardCosine * glm::length(edge);
@@ -27,29 +27,29 @@ bool runsInwards(const WeldedMesh& mesh, std::uint32_t vertex, const glm::dvec3&
 } // namespace
 
 Regions seedRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints) {
-    std::vector<glm::dvec3> centres;
-    std::vector<std::uint32_t> jointOfCentre;
+    std::vector<glm::dvec3> samples;
+    std::vector<std::uint32_t> jointOf;
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (joints[j].seeds) {
-            centres.push_back(joints[j].centre);
-            jointOfCentre.push_back(static_cast<std::uint32_t>(j));
+        for (const glm::dvec3& sample : joints[j].samples) {
+            samples.push_back(sample);
+            jointOf.push_back(static_cast<std::uint32_t>(j));
         }
 
     Regions regions;
     regions.jointOf.assign(mesh.vertexCount(), Regions::kNone);
     regions.seeds.assign(joints.size(), 0);
     std::vector<double> nearest(mesh.vertexCount(), std::numeric_limits<double>::infinity());
-    for (const DelaunayLink& link : delaunayLinks(mesh.positions, centres)) {
+    for (const DelaunayLink& link : delaunayLinks(mesh.positions, samples)) {
         if (mesh.shellOf[link.vertex] == WeldedMesh::kNoShell) continue; // has no normal, no edge
-        const glm::dvec3& centre = centres[link.centre];
-        if (!runsInwards(mesh, link.vertex, centre)) {
+        const glm::dvec3& sample = samples[link.sample];
+        if (!runsInwards(mesh, link.vertex, sample)) {
             ++regions.rejectedEdges;
             continue;
         }
-        const double distance = glm::distance(centre, mesh.positions[link.vertex]);
+        const double distance = glm::distance(sample, mesh.positions[link.vertex]);
         if (distance < nearest[link.vertex]) {
             nearest[link.vertex] = distance;
-            regions.jointOf[link.vertex] = jointOfCentre[link.centre];
+            regions.jointOf[link.vertex] = jointOf[link.sample];
         }
     }
     for (const std::uint32_t joint : regions.jointOf)

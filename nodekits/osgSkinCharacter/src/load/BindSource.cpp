@@ -102,6 +102,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
         return byWeights ? bindWeights(source.body.mesh, source.rest, weights, options, &report)
                          : bind(source.body.mesh, source.rest, options, &report);
     });
+    if (!source.rigidNote.empty()) report.notes.push_back(source.rigidNote);
     if (source.painted == Painted::Yes) {
         tellGaps(source, weights);
         tellMisfit(source, weights);

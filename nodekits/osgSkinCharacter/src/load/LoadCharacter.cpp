@@ -5,6 +5,7 @@
 #include "load/ConvertScene.h"
 #include "load/OpenFile.h"
 #include "load/RetargetMotions.h"
+#include "load/RigidParts.h"
 #include "report/NamingFile.h"
 #include "scene/BuildScene.h"
 #include "source/ReadRig.h"
@@ -24,10 +25,11 @@ namespace {
 /// What is the same for a `.skin` file and a rigged model: everything after their files are read.
 Character makeCharacter(CharacterSource source, const LoadOptions& options, LoadStages& stages) {
     Character character;
+    character.motions = retargetMotions(source, options.readOptions.get(), stages);
+    setRigidParts(source, character.motions);
     const Progress binding = stages.begin("binding", source.bindingSize());
     character.binding = bindSource(source, binding, character.bindReport);
-    character.motions =
-        retargetMotions(source, character.binding, options.readOptions.get(), stages);
+    animateMotions(source, character.binding, character.motions);
     stages.begin("scene", source.sceneSize());
     character.file = source.file;
     character.meshFile = source.meshFile;

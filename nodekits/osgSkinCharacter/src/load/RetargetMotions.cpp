@@ -22,7 +22,7 @@ void checkSize(CharacterSource& source, const SkinFile::MotionEntry& entry, cons
 
 } // namespace
 
-std::vector<CharacterMotion> retargetMotions(CharacterSource& source, const Binding& binding,
+std::vector<CharacterMotion> retargetMotions(CharacterSource& source,
                                              const osgDB::Options* readOptions,
                                              LoadStages& stages) {
     std::vector<CharacterMotion> motions;
@@ -37,18 +37,28 @@ std::vector<CharacterMotion> retargetMotions(CharacterSource& source, const Bind
             options.joints = entry.joints;
             options.names = source.bind.names;
             made.clip = retarget(motion, source.rest, options, &made.report);
-            if (source.clearHands)
-                made.cleared = clearHands(made.clip, source.rest,
-                                          recogniseJoints(source.rest, source.bind.names),
-                                          source.body.mesh, binding);
-            made.animation = makeAnimation(made.clip, source.rest);
         });
         OSG_INFO << entry.file << ":\n" << made.report.text();
-        if (source.clearHands) OSG_INFO << entry.file << ": " << made.cleared.text() << "\n";
         for (const std::string& note : made.report.notes)
             takeNote(source.notes, entry.file + ": " + note);
     }
     return motions;
+}
+
+void animateMotions(const CharacterSource& source, const Binding& binding,
+                    std::vector<CharacterMotion>& motions) {
+    for (std::size_t m = 0; m < motions.size(); ++m) {
+        CharacterMotion& motion = motions[m];
+        const std::string& file = source.motions[m].file;
+        namingFile(file, [&] {
+            if (source.clearHands)
+                motion.cleared = clearHands(motion.clip, source.rest,
+                                            recogniseJoints(source.rest, source.bind.names),
+                                            source.body.mesh, binding);
+            motion.animation = makeAnimation(motion.clip, source.rest);
+        });
+        if (source.clearHands) OSG_INFO << file << ": " << motion.cleared.text() << "\n";
+    }
 }
 
 } // namespace osgSkin

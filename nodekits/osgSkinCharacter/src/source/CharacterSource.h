@@ -60,6 +60,7 @@ struct CharacterSource {
     MotionSamples samples; ///< of the motions read so far
 
     std::vector<std::string> notes; ///< what was unusual so far
+    std::string rigidNote;          ///< for the report of binding; may be empty
 
     /// Sizes of the stages that follow the reading, see LoadStages.
     double bindingSize() const {

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "joints/BoneSamples.h"
+
+#include "mesh/InsideSkin.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+/// Distance between samples along a bone, over the mesh's size; a finer one changes little. Short
+/// bones have a few all the same.
+constexpr double kSpacing = 0.05;
+constexpr int kMinSamples = 2;
+
+/// A bone is inside the skin where at least this share of its samples is.
+constexpr double kInside = 0.5;
+
+/// How far a last joint's bone may go on beyond it, in lengths of the bone above.
+constexpr double kMaxExtension = 2.0;
+
+std::size_t at(int index) {
+    return static_cast<std::size_t>(index);
+}
+
+class BoneSampler {
+public:
+    BoneSampler(const RestSkeleton& skeleton, const WeldedMesh& mesh, const JointRoles& roles)
+        : _skeleton(skeleton), _mesh(mesh), _roles(roles) {}
+
+    /// For each joint, the samples along its bones that are inside the skin. Nothing for controls,
+    /// and for bones that run outside.
+    std::vector<std::vector<glm::dvec3>> sample(const std::vector<PlannedJoint>& joints) const {
+        const std::size_t count = joints.size();
+        std::vector<bool> isBody(count, false); // a joint that is no control, or leads to one
+        for (std::size_t j = count; j-- > 0;) {
+            const bool isLeaf = _skeleton.children(static_cast<int>(j)).empty();
+            if (isLeaf && !isControl(joints, j)) isBody[j] = true;
+            if (isBody[j] && joints[j].parent >= 0) isBody[at(joints[j].parent)] = true;
+        }
+        std::vector<std::vector<glm::dvec3>> result(count);
+        for (std::size_t j = 0; j < count; ++j)
+            if (isBody[j]) result[j] = samplesOf(joints, j, isBody);
+        return result;
+    }
+
+private:
+    bool isInside(const glm::dvec3& point) const { return isInsideSkin(_mesh, point); }
+
+    std::vector<glm::dvec3> along(const glm::dvec3& from, const glm::dvec3& to) const {
+        const double length = glm::distance(from, to);
+        const int count =
+            std::max(kMinSamples, static_cast<int>(std::ceil(length / (kSpacing * _mesh.size))));
+        std::vector<glm::dvec3> result;
+        for (int i = 0; i < count; ++i) result.push_back(from + (i + 0.5) / count * (to - from));
+        return result;
+    }
+
+    bool isControl(const std::vector<PlannedJoint>& joints, std::size_t j) const {
+        const PlannedJoint& joint = joints[j];
+        if (joint.options.skip) return true;
+        if (joint.parent < 0 || joint.boneLength > 0.0 || !_roles.roles[j].empty() ||
+            joint.part != JointPart::Other)
+            return false;
+        const std::vector<glm::dvec3> above = along(joints[at(joint.parent)].centre, joint.centre);
+        return share(above) < kInside;
+    }
+
+    double share(const std::vector<glm::dvec3>& points) const {
+        const auto inside = std::count_if(points.begin(), points.end(),
+                                          [this](const glm::dvec3& p) { return isInside(p); });
+        return static_cast<double>(inside) / static_cast<double>(points.size());
+    }
+
+    std::vector<glm::dvec3> samplesOf(const std::vector<PlannedJoint>& joints, std::size_t j,
+                                      const std::vector<bool>& isBody) const {
+        const PlannedJoint& joint = joints[j];
+        std::vector<glm::dvec3> bones;
+        for (const int child : _skeleton.children(static_cast<int>(j)))
+            if (isBody[at(child)]) append(along(joint.centre, joints[at(child)].centre), bones);
+        if (_skeleton.joints[j].tip) append(along(joint.centre, joint.boneEnd), bones);
+
+        std::vector<glm::dvec3> inside;
+        for (const glm::dvec3& point : bones)
+            if (isInside(point)) inside.push_back(point);
+        if (bones.empty()) inside = beyondLast(joint);
+        if (!joint.inside && static_cast<double>(inside.size()) <
+                                 kInside * static_cast<double>(bones.size()))
+            inside.clear();
+        return inside;
+    }
+
+    /// From a last joint on, to where the skin ends.
+    std::vector<glm::dvec3> beyondLast(const PlannedJoint& joint) const {
+        std::vector<glm::dvec3> result;
+        const double step = 0.5 * kSpacing * _mesh.size;
+        const int count = static_cast<int>(kMaxExtension * joint.lengthAbove / step);
+        glm::dvec3 point = joint.centre;
+        for (int i = 0; i <= count && isInside(point); ++i) {
+            result.push_back(point);
+            point += step * joint.comingFrom;
+        }
+        return result;
+    }
+
+    static void append(const std::vector<glm::dvec3>& more, std::vector<glm::dvec3>& all) {
+        all.insert(all.end(), more.begin(), more.end());
+    }
+
+    const RestSkeleton& _skeleton;
+    const WeldedMesh& _mesh;
+    const JointRoles& _roles;
+};
+
+/// The nearest joint at or above that may have a region, -1 where there is none.
+int ownerOf(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    int owner = static_cast<int>(joint);
+    while (owner >= 0 && !joints[at(owner)].holdsRegion) owner = joints[at(owner)].parent;
+    return owner;
+}
+
+} // namespace
+
+void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const JointRoles& roles,
+                BindOptions::Method method, std::vector<PlannedJoint>& joints,
+                std::vector<std::string>& notes) {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        PlannedJoint& joint = joints[j];
+        joint.inside = isInsideSkin(mesh, joint.centre);
+        joint.outside = joint.holdsRegion && !joint.inside && !joint.belowRigid(static_cast<int>(j));
+        if (method == BindOptions::Method::Paper && joint.holdsRegion && joint.inside)
+            joint.samples = {joint.centre};
+    }
+    if (method != BindOptions::Method::Paper) {
+        const std::vector<std::vector<glm::dvec3>> samples =
+            BoneSampler(skeleton, mesh, roles).sample(joints);
+        for (std::size_t j = 0; j < joints.size(); ++j) {
+            const int owner = ownerOf(joints, j);
+            if (owner < 0) continue;
+            std::vector<glm::dvec3>& all = joints[at(owner)].samples;
+            all.insert(all.end(), samples[j].begin(), samples[j].end());
+        }
+    }
+    if (std::all_of(joints.begin(), joints.end(),
+                    [](const PlannedJoint& joint) { return joint.samples.empty(); })) {
+        notes.emplace_back("no joint lies inside the skin: regions by the nearest bone");
+        return;
+    }
+    std::vector<bool> isBelowBody(joints.size(), false); // below a joint with samples
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        PlannedJoint& joint = joints[j];
+        if (joint.parent >= 0)
+            isBelowBody[j] =
+                isBelowBody[at(joint.parent)] || !joints[at(joint.parent)].samples.empty();
+        if (!joint.holdsRegion || !joint.samples.empty()) continue;
+        joint.claims =
+            isBelowBody[j] && joint.child >= 0 && !joint.belowRigid(static_cast<int>(j));
+        joint.holdsRegion = joint.claims;
+        if (joint.outside)
+            notes.push_back("joint \"" + skeleton.joints[j].name + "\" lies outside the skin" +
+                            (joint.claims ? ", its region is the skin nearest to it" : ""));
+    }
+}
+
+} // namespace osgSkin

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "regions/Extremities.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace osgSkin {
+namespace {
+
+/// How far a section may lean from the joint's plane, in degrees: the one below a chin and behind a
+/// skull leans by 30 to 50.
+constexpr double kMaxLean = 50.0;
+constexpr int kLeans = 5;
+constexpr int kDirections = 12;
+
+/// How far below its joint a head may end, in lengths of the head: its jaw hangs there.
+constexpr double kMaxDrop = 0.4;
+constexpr int kDrops = 5;
+
+/// A head, hand or foot has fewer of the skin's vertices than this share of what is not beyond its
+/// border.
+constexpr double kMaxShare = 2.0;
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>; // lower index first
+
+struct Plane {
+    glm::dvec3 point, normal;
+
+    double height(const glm::dvec3& p) const { return glm::dot(p - point, normal); }
+};
+
+/// A loop in which a plane cuts the skin.
+struct Section {
+    Plane plane;
+    std::vector<Edge> edges; ///< those that it crosses
+    double length = std::numeric_limits<double>::infinity();
+};
+
+class SectionFinder {
+public:
+    explicit SectionFinder(const WeldedMesh& mesh) : _mesh(mesh), _heights(mesh.vertexCount()) {}
+
+    /// The shortest loop around the plane's point; none where there is no closed one.
+    std::optional<Section> find(const Plane& plane) {
+        for (std::size_t v = 0; v < _heights.size(); ++v)
+            _heights[v] = plane.height(_mesh.positions[v]);
+        std::map<Edge, std::vector<Edge>> next; // a triangle joins two crossed edges
+        for (const auto& t : _mesh.triangles) {
+            const bool above[3] = {_heights[t[0]] > 0.0, _heights[t[1]] > 0.0,
+                                   _heights[t[2]] > 0.0};
+            if (above[0] == above[1] && above[1] == above[2]) continue;
+            std::vector<Edge> crossed;
+            for (std::size_t k = 0; k < 3; ++k)
+                if (above[k] != above[(k + 1) % 3])
+                    crossed.push_back(std::minmax(t[k], t[(k + 1) % 3]));
+            next[crossed[0]].push_back(crossed[1]);
+            next[crossed[1]].push_back(crossed[0]);
+        }
+        std::optional<Section> shortest;
+        while (!next.empty()) {
+            std::vector<Edge> loop = takeLoop(next);
+            const double length = lengthAround(loop, plane);
+            if (length > 0.0 && (!shortest || length < shortest->length))
+                shortest = Section{plane, std::move(loop), length};
+        }
+        return shortest;
+    }
+
+    /// All that hangs together beyond a section; empty where it does not part the skin.
+    std::vector<std::uint32_t> beyond(const Section& section) const {
+        std::vector<bool> isReached(_mesh.vertexCount(), false);
+        std::vector<std::uint32_t> reached, below;
+        for (const Edge& edge : section.edges) {
+            const bool isFirst = section.plane.height(_mesh.positions[edge.first]) > 0.0;
+            reach(isFirst ? edge.first : edge.second, isReached, reached);
+            below.push_back(isFirst ? edge.second : edge.first);
+        }
+        const auto isCut = [&section](std::uint32_t a, std::uint32_t b) {
+            return std::binary_search(section.edges.begin(), section.edges.end(),
+                                      Edge(std::minmax(a, b)));
+        };
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            const std::uint32_t v = reached[i];
+            for (std::uint32_t k = _mesh.firstNeighbour[v]; k < _mesh.firstNeighbour[v + 1]; ++k)
+                if (!isReached[_mesh.neighbours[k]] && !isCut(v, _mesh.neighbours[k]))
+                    reach(_mesh.neighbours[k], isReached, reached);
+        }
+        for (const std::uint32_t v : below)
+            if (isReached[v]) return {};
+        std::sort(reached.begin(), reached.end());
+        return reached;
+    }
+
+private:
+    static void reach(std::uint32_t v, std::vector<bool>& isReached,
+                      std::vector<std::uint32_t>& reached) {
+        if (isReached[v]) return;
+        isReached[v] = true;
+        reached.push_back(v);
+    }
+
+    /// Takes one loop out of the crossed edges, in its order; empty where it is not closed.
+    static std::vector<Edge> takeLoop(std::map<Edge, std::vector<Edge>>& next) {
+        std::vector<Edge> loop;
+        Edge edge = next.begin()->first;
+        bool isClosed = true;
+        while (true) {
+            const auto found = next.find(edge);
+            if (found == next.end()) break; // back at the first one
+            const std::vector<Edge> ways = std::move(found->second);
+            next.erase(found);
+            loop.push_back(edge);
+            if (ways.size() != 2) isClosed = false;
+            const auto on = std::find_if(ways.begin(), ways.end(), [&next](const Edge& way) {
+                return next.find(way) != next.end();
+            });
+            if (on == ways.end()) break;
+            edge = *on;
+        }
+        return isClosed && loop.size() > 2 ? loop : std::vector<Edge>();
+    }
+
+    /// Its length where it runs around the plane's point, else 0.
+    double lengthAround(const std::vector<Edge>& loop, const Plane& plane) const {
+        double length = 0.0, angle = 0.0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const glm::dvec3 a = crossing(loop[i]), b = crossing(loop[(i + 1) % loop.size()]);
+            length += glm::distance(a, b);
+            const glm::dvec3 u = a - plane.point, v = b - plane.point;
+            angle += std::atan2(glm::dot(glm::cross(u, v), plane.normal), glm::dot(u, v));
+        }
+        return std::abs(angle) > glm::pi<double>() ? length : 0.0;
+    }
+
+    glm::dvec3 crossing(const Edge& edge) const {
+        const double a = _heights[edge.first], b = _heights[edge.second];
+        return glm::mix(_mesh.positions[edge.first], _mesh.positions[edge.second], a / (a - b));
+    }
+
+    const WeldedMesh& _mesh;
+    std::vector<double> _heights; ///< of the vertices above the plane
+};
+
+/// Unit directions around `axis`, evenly over a cone.
+std::vector<glm::dvec3> leaning(const glm::dvec3& axis) {
+    const glm::dvec3 u = anyPerpendicular(axis), v = glm::cross(axis, u);
+    std::vector<glm::dvec3> result{axis};
+    for (int i = 1; i <= kLeans; ++i)
+        for (int k = 0; k < kDirections; ++k) {
+            const double lean = glm::radians(kMaxLean * i / kLeans);
+            const double around = 2.0 * glm::pi<double>() * k / kDirections;
+            result.push_back(std::cos(lean) * axis +
+                             std::sin(lean) * (std::cos(around) * u + std::sin(around) * v));
+        }
+    return result;
+}
+
+/// How far skin reaches beyond a joint, near the line that its bone is on.
+double reachBeyond(const WeldedMesh& mesh, const PlannedJoint& joint) {
+    double reach = joint.boneLength;
+    for (const glm::dvec3& sample : joint.samples)
+        reach = std::max(reach, glm::distance(sample, joint.centre));
+    return std::min(reach, mesh.size);
+}
+
+std::vector<std::uint32_t> beyondJoint(SectionFinder& finder, const WeldedMesh& mesh,
+                                       const PlannedJoint& joint) {
+    const bool isHead = joint.part == JointPart::Head;
+    const double maxDrop = isHead ? kMaxDrop * reachBeyond(mesh, joint) : 0.0;
+    std::optional<Section> narrowest;
+    for (int i = 0; i <= (isHead ? kDrops : 0); ++i)
+        for (const glm::dvec3& normal : leaning(planeNormal(joint))) {
+            const glm::dvec3 point =
+                joint.centre - (maxDrop * i / kDrops) * joint.comingFrom;
+            std::optional<Section> section = finder.find({point, normal});
+            if (section && (!narrowest || section->length < narrowest->length))
+                narrowest = std::move(section);
+        }
+    if (!narrowest) return {};
+    std::sort(narrowest->edges.begin(), narrowest->edges.end());
+    std::vector<std::uint32_t> beyond = finder.beyond(*narrowest);
+    const double rest = static_cast<double>(mesh.vertexCount() - beyond.size());
+    if (static_cast<double>(beyond.size()) > kMaxShare * rest) beyond.clear();
+    return beyond;
+}
+
+} // namespace
+
+void findExtremities(const WeldedMesh& mesh, std::vector<PlannedJoint>& joints) {
+    SectionFinder finder(mesh);
+    for (PlannedJoint& joint : joints)
+        if (joint.extremity && joint.holdsRegion && joint.lengthAbove > 0.0)
+            joint.beyond = beyondJoint(finder, mesh, joint);
+}
+
+} // namespace osgSkin

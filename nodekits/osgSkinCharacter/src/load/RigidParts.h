@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "source/CharacterSource.h"
+
+#include <osgSkinCharacter/CharacterMotion>
+
+#include <vector>
+
+namespace osgSkin {
+
+/// Sets the joints of rigid parts where nobody has named them: heads, hands and feet whose fingers,
+/// toes and the like no motion moves. Without any motion, whatever has joints of its own may bend.
+/// A note names the rigid parts that could bend.
+///
+/// \param source its BindOptions::rigid is set
+/// \param motions retargeted to its skeleton
+void setRigidParts(CharacterSource& source, const std::vector<CharacterMotion>& motions);
+
+} // namespace osgSkin
