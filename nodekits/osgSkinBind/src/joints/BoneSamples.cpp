@@ -19,7 +19,8 @@ constexpr int kMinSamples = 2;
 /// A bone is inside the skin where at least this share of its samples is.
 constexpr double kInside = 0.5;
 
-/// How far a last joint's bone may go on beyond it, in lengths of the bone above.
+/// How far a last bone may go on beyond its end, in its own lengths; one without a length in those of
+/// the bone above.
 constexpr double kMaxExtension = 2.0;
 
 std::size_t at(int index) {
@@ -82,26 +83,30 @@ private:
         for (const int child : _skeleton.children(static_cast<int>(j)))
             if (isBody[at(child)]) append(along(joint.centre, joints[at(child)].centre), bones);
         if (_skeleton.joints[j].tip) append(along(joint.centre, joint.boneEnd), bones);
+        const bool isLast = _skeleton.children(static_cast<int>(j)).empty();
 
         std::vector<glm::dvec3> inside;
         for (const glm::dvec3& point : bones)
             if (isInside(point)) inside.push_back(point);
-        if (bones.empty()) inside = beyondLast(joint);
+        if (isLast) append(beyondLast(joint), inside);
         if (!joint.inside && static_cast<double>(inside.size()) <
                                  kInside * static_cast<double>(bones.size()))
             inside.clear();
         return inside;
     }
 
-    /// From a last joint on, to where the skin ends.
+    /// From a last joint, or its tip, on to where the skin ends.
     std::vector<glm::dvec3> beyondLast(const PlannedJoint& joint) const {
         std::vector<glm::dvec3> result;
-        const double step = 0.5 * kSpacing * _mesh.size;
-        const int count = static_cast<int>(kMaxExtension * joint.lengthAbove / step);
-        glm::dvec3 point = joint.centre;
-        for (int i = 0; i <= count && isInside(point); ++i) {
+        const bool hasBone = joint.boneLength > 0.0;
+        const glm::dvec3& direction = hasBone ? joint.boneAxis : joint.comingFrom;
+        const double length = hasBone ? joint.boneLength : joint.lengthAbove;
+        const double step = std::min(0.5 * kSpacing * _mesh.size, 0.5 * length);
+        const int count = step > 0.0 ? static_cast<int>(kMaxExtension * length / step) : 0;
+        for (int i = 0; i <= count; ++i) {
+            const glm::dvec3 point = joint.boneEnd + i * step * direction;
+            if (!isInside(point)) break;
             result.push_back(point);
-            point += step * joint.comingFrom;
         }
         return result;
     }

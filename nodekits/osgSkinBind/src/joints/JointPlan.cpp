@@ -41,11 +41,19 @@ int standing(const RestSkeleton& skeleton, const JointRoles& roles, std::size_t 
            (skeleton.children(static_cast<int>(joint)).empty() ? 0 : 1);
 }
 
+/// Whether two joints in one point have bones that end apart.
+bool haveOwnBones(const PlannedJoint& a, const PlannedJoint& b, double tolerance) {
+    return a.boneLength > tolerance && b.boneLength > tolerance &&
+           glm::distance(a.boneEnd, b.boneEnd) > tolerance;
+}
+
 /// Every joint that is not skipped and has a centre of its own gets a region. Of joints in one
 /// point the topmost gets it. Where they stand beside each other, the one that is more of a joint;
-/// none where they are alike (two hips in the middle).
+/// where they are alike, each whose bone tells it apart, else none.
+///
+/// \param tellsBonesApart whether regions are found by samples along bones
 void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double tolerance,
-                 std::vector<PlannedJoint>& joints, std::vector<std::string>& notes) {
+                 bool tellsBonesApart, std::vector<PlannedJoint>& joints, std::vector<std::string>& notes) {
     std::vector<std::size_t> rivals;
     std::string note;                              // of the first ones
     std::vector<bool> helps(joints.size(), false); // beside a joint that is more of one
@@ -57,6 +65,7 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
             continue;
         const int more = standing(skeleton, roles, j) - standing(skeleton, roles, other);
         if (more == 0) {
+            if (tellsBonesApart && haveOwnBones(joints[other], joints[j], tolerance)) continue;
             if (rivals.empty())
                 note = "joints \"" + skeleton.joints[other].name + "\" and \"" +
                        skeleton.joints[j].name +
@@ -92,9 +101,13 @@ void giveRegionsToRigidJoints(std::vector<PlannedJoint>& joints) {
 } // namespace
 
 glm::dvec3 planeNormal(const PlannedJoint& joint) {
-    const glm::dvec3 sum = joint.comingFrom + joint.boneAxis;
+    const bool isSpine = joint.isSpine() && joint.lengthAbove > 0.0 &&
+                         joint.boneLength > 0.0;
+    const glm::dvec3 sum =
+        isSpine ? joint.lengthAbove * joint.comingFrom + joint.boneLength * joint.boneAxis
+                : joint.comingFrom + joint.boneAxis;
     const double length = glm::length(sum);
-    return length > 1e-6 ? sum / length : joint.boneAxis; // a bone that folds straight back
+    return length > 1e-6 * (joint.lengthAbove + joint.boneLength) ? sum / length : joint.boneAxis; // a bone that folds straight back
 }
 
 double distanceToBone(const PlannedJoint& joint, const glm::dvec3& point) {
@@ -135,10 +148,15 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
             skeleton.joints[j].parent >= 0 && hasParentPole(joints[j].options, joints[j].part);
     }
     for (const std::size_t joint : extremities(skeleton, roles)) joints[joint].extremity = true;
+    for (std::size_t j = 1; j < joints.size(); ++j) {
+        const PlannedJoint& above = joints[static_cast<std::size_t>(skeleton.joints[j].parent)];
+        joints[j].digit = joints[j].rigid < 0 && (above.extremity || above.digit);
+    }
     setJointAxes(skeleton, tolerance, joints);
     markTrunk(joints);
 
-    giveRegions(skeleton, roles, tolerance, joints, notes);
+    giveRegions(skeleton, roles, tolerance, options.method == BindOptions::Method::Smooth, joints,
+                notes);
     setSamples(skeleton, mesh, roles, options.method, joints, notes);
     giveRegionsToRigidJoints(joints);
     for (std::size_t j = 1; j < joints.size(); ++j)

@@ -31,9 +31,11 @@ struct PlannedJoint {
     int child = -1;           ///< the child that continues the chain, -1 for a leaf
     int rigid = -1;           ///< the rigid joint at or above, -1 where there is none
     bool extremity = false;   ///< a topmost head, hand or foot
+    bool digit = false;       ///< below an extremity that is not rigid: of a finger or a toe
     bool topmost = false;     ///< the hips, with no region above them: a root on the floor
     bool trunk = false;       ///< of the trunk: spine, hips, collar bones
     bool collarBone = false;  ///< between the spine and an upper arm
+    double armDistance = 0.0; ///< of a collar bone's joint from the upper arm's
     bool inside = false;      ///< the centre is inside the skin
     bool outside = false;     ///< the centre is not, and the joint is no part of a hand or a head
     bool claims = false;      ///< outside the skin: takes the skin nearest to it
@@ -47,10 +49,13 @@ struct PlannedJoint {
 
     JointBindOptions options; ///< what the author said about it
 
+    /// Of the trunk, and no collar bone.
+    bool isSpine() const { return trunk && !collarBone; }
     bool belowRigid(int index) const { return rigid >= 0 && rigid != index; }
 };
 
-/// Unit normal of the joint's plane, which bisects the bone above and its own, towards the child.
+/// Unit normal of the joint's plane, towards the child. It bisects the bone above and its own; along
+/// the trunk, whose bones go to and fro, the longer of the two counts more.
 glm::dvec3 planeNormal(const PlannedJoint& joint);
 
 /// Distance of a point, rest space, to the joint's bone, which may have no length.

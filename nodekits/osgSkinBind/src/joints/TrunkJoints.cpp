@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "joints/TrunkJoints.h"
 
+#include "joints/BodyAxes.h"
+
+#include <glm/geometric.hpp>
+
 namespace osgSkin {
 namespace {
 
@@ -18,15 +22,25 @@ bool isUpperArm(const std::vector<PlannedJoint>& joints, const PlannedJoint& joi
     return end >= 0 && joints[static_cast<std::size_t>(end)].part == JointPart::Hand;
 }
 
-bool isCollarBone(const std::vector<PlannedJoint>& joints, const PlannedJoint& joint) {
+bool isCollarBone(const std::vector<PlannedJoint>& joints, std::size_t index) {
+    const PlannedJoint& joint = joints[index];
     if (joint.trunk || joint.parent < 0 || joint.child < 0 || joint.rigid >= 0) return false;
     const PlannedJoint& next = joints[static_cast<std::size_t>(joint.child)];
     const PlannedJoint& above = joints[static_cast<std::size_t>(joint.parent)];
-    if (!above.trunk || next.rigid >= 0) return false;
+    if (!above.trunk || next.rigid >= 0 || !carries(joints, index, JointPart::Hand)) return false;
+    if (joint.part == JointPart::Collar) return true;
     // An upper arm behind its collar bone is none, however long its forearm is.
     if (above.collarBone && isUpperArm(joints, joint)) return false;
     const double most = isUpperArm(joints, next) ? kCollarLengthBeforeArm : kCollarLength;
     return joint.boneLength < most * next.boneLength;
+}
+
+/// From a collar bone's joint to the first upper arm below it, else to its bone's end.
+double distanceToArm(const std::vector<PlannedJoint>& joints, const PlannedJoint& collar) {
+    for (int j = collar.child; j >= 0; j = joints[static_cast<std::size_t>(j)].child)
+        if (joints[static_cast<std::size_t>(j)].part == JointPart::UpperArm)
+            return glm::distance(collar.centre, joints[static_cast<std::size_t>(j)].centre);
+    return collar.boneLength;
 }
 
 } // namespace
@@ -38,7 +52,10 @@ void markTrunk(std::vector<PlannedJoint>& joints) {
         ends[static_cast<std::size_t>(joints[j].parent)] += ends[j];
     for (std::size_t j = 0; j < joints.size(); ++j) joints[j].trunk = ends[j] > 1;
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (isCollarBone(joints, joints[j])) joints[j].trunk = joints[j].collarBone = true;
+        if (isCollarBone(joints, j)) {
+            joints[j].trunk = joints[j].collarBone = true;
+            joints[j].armDistance = distanceToArm(joints, joints[j]);
+        }
 }
 
 } // namespace osgSkin

@@ -23,9 +23,12 @@ std::vector<double> BinaryField::divided(std::size_t joint, double shift) const 
         (planned.rigid >= 0 && planned.lengthAbove < planned.boneLength))
         return field;
     const glm::dvec3 normal = planeNormal(planned);
-    const std::size_t above = regionAbove(joints, joint);
+    std::vector<bool> isDivided(joints.size(), false);
+    isDivided[joint] = true;
+    if (planned.isSpine())
+        for (std::size_t j = 0; j < joints.size(); ++j) isDivided[j] = joints[j].isSpine() || j == 0;
     for (std::size_t v = 0; v < field.size(); ++v) {
-        if (regions[v] != joint && (shift >= 0.0 || regions[v] != above)) continue;
+        if (!isDivided[regions[v]]) continue;
         const double along = glm::dot(mesh.positions[v] - planned.centre, normal);
         field[v] = along > shift ? 1.0 : 0.0;
     }

@@ -32,6 +32,11 @@ std::vector<double> boundedField(const BinaryField& binary, const SkinSmoother& 
     return field;
 }
 
+/// Lowers a field to another: a finger moves nothing that its hand leaves behind.
+void lower(std::vector<double>& field, const std::vector<double>& most) {
+    for (std::size_t v = 0; v < field.size(); ++v) field[v] = std::min(field[v], most[v]);
+}
+
 } // namespace
 
 JointFields bendFields(const BinaryField& binary, const std::vector<double>& radii,
@@ -44,9 +49,12 @@ JointFields bendFields(const BinaryField& binary, const std::vector<double>& rad
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!joints[j].holdsRegion) continue;
         begin(j);
-        fields.set(j, hasBoundaries(joints[j])
-                          ? boundedField(binary, smoother, j, radii[j], options.smoothing)
-                          : smoothBend(binary, smoother, j, radii, options));
+        std::vector<double> field =
+            hasBoundaries(joints[j])
+                ? boundedField(binary, smoother, j, radii[j], options.smoothing)
+                : smoothBend(binary, smoother, j, radii, options);
+        if (joints[j].digit) lower(field, fields.values(regionAbove(joints, j)));
+        fields.set(j, field);
     }
     raiseParents(joints, fields);
     return fields;

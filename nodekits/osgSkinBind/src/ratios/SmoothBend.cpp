@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ratios/SmoothBend.h"
 
+#include "joints/BodyAxes.h"
 #include "limbs/ArmSwings.h"
 #include "limbs/HermiteRatio.h"
 #include "limbs/LimbRadius.h"
@@ -11,19 +12,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace osgSkin {
 namespace {
 
 /// Widths beside that of a limb. The trunk's joints stand so close that their fields overlap. A
 /// rigid part starts close behind its joint, and the skin above takes up more of the rotation.
-constexpr double kTrunkWidth = 0.75;
+static double knob(const char*n,double d){return getenv(n)?atof(getenv(n)):d;}
+const double kTrunkWidth = knob("K_TW",0.6);
+const double kBetween=knob("K_BA",1.4), kBetweenBelow=knob("K_BB",0.7), kCollarShift=knob("K_CS",0.0), kCollarW=knob("K_CW",0.7);
 constexpr double kAboveRigidWidth = 1.5;
 constexpr double kRigidWidth = 0.6;
 
+/// The same of a head, hand or foot above its border.
+constexpr double kBorderWidth = 1.1;
+
+/// The same of a finger's or toe's joint, in lengths of its bone on that side, and above a last one.
+constexpr double kDigitWidth = 0.5;
+constexpr double kTipWidth = 0.3;
+
 /// A spine runs behind the belly. A plane this much below the joint, in radii, loses less of the
 /// belly's volume.
-constexpr double kTrunkLift = 0.2;
+const double kTrunkLift = knob("K_TL",0.2);
 
 /// What of a joint's rotation the middle third of its own bone must take, and that of the bone
 /// above may.
@@ -47,33 +59,57 @@ Widths firstWidths(const PlannedJoint& joint, double radius, double smoothing) {
     const double width = smoothing * radius;
     if (joint.rigid >= 0) return {kAboveRigidWidth * width, kRigidWidth * width};
     if (joint.trunk) return {kTrunkWidth * width, kTrunkWidth * width};
+    if (joint.digit)
+        return {std::min(width, kDigitWidth * joint.lengthAbove),
+                std::min(width, kDigitWidth * joint.boneLength)};
     return {width, width};
 }
 
 /// \param share of the width that a vertex takes, for each; none where all take 1
 std::vector<double> spread(const SkinSmoother& smoother, const std::vector<double>& binary,
-                           const Widths& widths, const std::vector<double>& share, double cutOff) {
+                           const Widths& widths, const std::vector<double>& share,
+                           const std::vector<bool>& isHeld, double cutOff) {
     std::vector<double> width(binary.size());
     for (std::size_t v = 0; v < width.size(); ++v) {
         width[v] = binary[v] < 0.5 ? widths.above : widths.below;
         if (!share.empty()) width[v] *= share[v];
     }
     std::vector<double> field = binary;
-    smoother.smooth(field, width);
+    smoother.smooth(field, width, isHeld);
     stretch(field, cutOff);
     return field;
 }
 
-/// The field of a head, hand or foot: 1 on all that is its own, and from there on falling to 0 over
-/// the limb above, flat at both ends.
+/// The field of a head, hand or foot, or a finger's tip: 1 on all that is its own, and from there on
+/// falling to 0 over the limb above.
 std::vector<double> fromBorder(const SkinSmoother& smoother, const std::vector<double>& own,
                                double width, double cutOff) {
     std::vector<bool> isOwn(own.size());
     for (std::size_t v = 0; v < own.size(); ++v) isOwn[v] = own[v] > 0.5;
     std::vector<double> field = own;
     smoother.smooth(field, std::vector<double>(own.size(), width), isOwn);
-    for (double& a : field) a = hermiteRatio((a - cutOff) / (1.0 - cutOff));
+    for (double& a : field) a = std::max(0.0, (a - cutOff) / (1.0 - cutOff));
     return field;
+}
+
+/// The skin of arms and legs that a joint does not move: nothing of its field gets there. Empty where
+/// there is none.
+std::vector<bool> otherLimbs(const BinaryField& binary, std::size_t joint) {
+    const std::vector<PlannedJoint>& joints = binary.joints;
+    const std::vector<bool> inside = subtreeOf(joints, joint);
+    std::vector<bool> isOther(joints.size(), false);
+    bool any = false;
+    for (std::size_t j = 1; j < joints.size(); ++j) {
+        isOther[j] = !inside[j] && !joints[j].isSpine() &&
+                     (isOther[static_cast<std::size_t>(joints[j].parent)] ||
+                      carries(joints, j, JointPart::Hand) || carries(joints, j, JointPart::Foot)) &&
+                     !subtreeOf(joints, j)[joint];
+        any = any || isOther[j];
+    }
+    if (!any) return {};
+    std::vector<bool> isHeld(binary.regions.size());
+    for (std::size_t v = 0; v < isHeld.size(); ++v) isHeld[v] = isOther[binary.regions[v]];
+    return isHeld;
 }
 
 /// Narrows a width, down to `least`, where `excess`, what the middle third has too much, is above
@@ -113,10 +149,16 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
                                const BindOptions& options) {
     const PlannedJoint& planned = binary.joints[joint];
     const double radius = radii[joint];
-    std::vector<double> start = binary.divided(joint, planned.trunk ? -kTrunkLift * radius : 0.0);
+    if(getenv("K_DBG")) fprintf(stderr,"joint %zu trunk %d collar %d topmost %d radius %.2f normal %.2f %.2f %.2f above %zu La %.2f Lb %.2f part %d ext %d hold %d\n",joint,planned.trunk,planned.collarBone,planned.topmost,radius,planeNormal(planned).x,planeNormal(planned).y,planeNormal(planned).z,regionAbove(binary.joints,joint),planned.lengthAbove,planned.boneLength,int(planned.part),planned.extremity,planned.holdsRegion);
+    double shift = planned.trunk ? -kTrunkLift * radius : 0.0;
+    if (planned.collarBone) shift = kCollarShift * planned.armDistance;
+    std::vector<double> start = binary.divided(joint, shift);
     if (!(radius > 0.0)) return start;
     if (!planned.beyond.empty())
-        return fromBorder(smoother, start, kAboveRigidWidth * options.smoothing * radius,
+        return fromBorder(smoother, start, kBorderWidth * options.smoothing * radius,
+                          options.cutOff);
+    if (planned.digit && planned.child < 0)
+        return fromBorder(smoother, start, std::min(options.smoothing * radius, kTipWidth * planned.lengthAbove),
                           options.cutOff);
 
     const std::size_t above = regionAbove(binary.joints, joint);
@@ -124,14 +166,24 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     const bool onLimb = above > 0 && isLimb(binary.joints[above], radii[above]);
     const MiddleThird own = limb ? MiddleThird(binary, joint) : MiddleThird();
     const MiddleThird previous = onLimb ? MiddleThird(binary, above) : MiddleThird();
-    Widths widths = firstWidths(planned, radius, options.smoothing);
+    double wr = radius;
+    if (planned.isSpine())
+        for (std::size_t j = 1; j < radii.size(); ++j)
+            if (binary.joints[j].isSpine() && radii[j] > 0.0) wr = std::min(wr, radii[j]);
+    Widths widths = firstWidths(planned, wr, options.smoothing);
+    if (onLimb && limb) { widths.above *= kBetween; widths.below *= kBetweenBelow; }
+    if (limb && !onLimb) { widths.above *= knob("K_HA",1); widths.below *= knob("K_HB",1); }
+    if (!planned.trunk && !carries(binary.joints, joint, JointPart::Head)) { const double cap=knob("K_CAP",.6); if (onLimb) widths.above=std::min(widths.above,cap*planned.lengthAbove); if (planned.boneLength>0) widths.below=std::min(widths.below,cap*planned.boneLength); }
+    if (planned.collarBone) { widths.above *= kCollarW; widths.below *= kCollarW; }
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
+    std::vector<bool> isHeld;
+    if (getenv("K_HOLD")) isHeld = otherLimbs(binary, joint);
     std::vector<double> share;
     if (limb && binary.joints[above].trunk)
-        share = slopeShare(binary.mesh, spread(smoother, start, widths, {}, options.cutOff));
+        share = slopeShare(binary.mesh, spread(smoother, start, widths, {}, isHeld, options.cutOff));
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
-        field = spread(smoother, start, widths, share, options.cutOff);
+        field = spread(smoother, start, widths, share, isHeld, options.cutOff);
         bool narrower = false;
         if (!own.empty())
             narrower = narrow(widths.below, least.below, 1.0 - own.mean(field), 1.0 - kOwnRigidity);

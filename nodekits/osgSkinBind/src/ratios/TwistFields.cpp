@@ -37,7 +37,7 @@ BoundarySpan twistBoundaries(const PlannedJoint& joint, double radius) {
 /// True where the twist has a region of its own; elsewhere it goes with the bend. It builds up
 /// along limbs, to the next joint or to a last bone's tip.
 bool buildsUp(const PlannedJoint& joint, double radius) {
-    if (!(joint.poleLength > 0.0) || joint.topmost) return false;
+    if (!(joint.poleLength > 0.0) || joint.topmost || joint.digit) return false;
     if (joint.options.twistUpper || joint.options.twistLower || joint.poleIsParent) return true;
     return isLimb(joint, radius);
 }

@@ -22,8 +22,11 @@ constexpr int kLeans = 5;
 constexpr int kDirections = 12;
 
 /// How far below its joint a head may end, in lengths of the head: its jaw hangs there.
-constexpr double kMaxDrop = 0.4;
-constexpr int kDrops = 5;
+constexpr double kMaxDrop = 0.5;
+constexpr int kDrops = 10;
+
+/// A section of a neck is narrow up to so many times the length of the narrowest.
+constexpr double kNarrow = 1.2;
 
 /// A head, hand or foot has fewer of the skin's vertices than this share of what is not beyond its
 /// border.
@@ -128,16 +131,18 @@ private:
         return isClosed && loop.size() > 2 ? loop : std::vector<Edge>();
     }
 
-    /// Its length where it runs around the plane's point, else 0.
+    /// Its length where it runs around the plane's point and is the limb's outside, else 0: a throat
+    /// has an inside, too.
     double lengthAround(const std::vector<Edge>& loop, const Plane& plane) const {
-        double length = 0.0, angle = 0.0;
+        double length = 0.0, angle = 0.0, outwards = 0.0;
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const glm::dvec3 a = crossing(loop[i]), b = crossing(loop[(i + 1) % loop.size()]);
             length += glm::distance(a, b);
             const glm::dvec3 u = a - plane.point, v = b - plane.point;
             angle += std::atan2(glm::dot(glm::cross(u, v), plane.normal), glm::dot(u, v));
+            outwards += glm::distance(a, b) * glm::dot(_mesh.normals[loop[i].first], u);
         }
-        return std::abs(angle) > glm::pi<double>() ? length : 0.0;
+        return std::abs(angle) > glm::pi<double>() && outwards > 0.0 ? length : 0.0;
     }
 
     glm::dvec3 crossing(const Edge& edge) const {
@@ -171,22 +176,46 @@ double reachBeyond(const WeldedMesh& mesh, const PlannedJoint& joint) {
     return std::min(reach, mesh.size);
 }
 
+/// The shortest section around a point of a limb, of all that lean no farther than they may.
+std::optional<Section> narrowestAt(SectionFinder& finder, const glm::dvec3& point,
+                                   const glm::dvec3& along) {
+    std::optional<Section> narrowest;
+    for (const glm::dvec3& normal : leaning(along)) {
+        std::optional<Section> section = finder.find({point, normal});
+        if (section && (!narrowest || section->length < narrowest->length))
+            narrowest = std::move(section);
+    }
+    return narrowest;
+}
+
+/// Where the limb ends and the extremity begins: at the joint. A head begins at or below its joint,
+/// as high as the neck is narrow.
+std::optional<Section> borderOf(SectionFinder& finder, const WeldedMesh& mesh,
+                                const PlannedJoint& joint) {
+    const glm::dvec3 along = planeNormal(joint);
+    if (joint.part != JointPart::Head) return narrowestAt(finder, joint.centre, along);
+    const double maxDrop = kMaxDrop * reachBeyond(mesh, joint);
+    std::vector<Section> sections;
+    double narrowest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= kDrops; ++i)
+        if (std::optional<Section> section = narrowestAt(
+                finder, joint.centre - (maxDrop * i / kDrops) * joint.comingFrom, along)) {
+            narrowest = std::min(narrowest, section->length);
+            sections.push_back(std::move(*section));
+        }
+    const auto first = std::find_if(sections.begin(), sections.end(), [&](const Section& section) {
+        return section.length <= kNarrow * narrowest;
+    });
+    if (first == sections.end()) return std::nullopt;
+    return std::move(*first);
+}
+
 std::vector<std::uint32_t> beyondJoint(SectionFinder& finder, const WeldedMesh& mesh,
                                        const PlannedJoint& joint) {
-    const bool isHead = joint.part == JointPart::Head;
-    const double maxDrop = isHead ? kMaxDrop * reachBeyond(mesh, joint) : 0.0;
-    std::optional<Section> narrowest;
-    for (int i = 0; i <= (isHead ? kDrops : 0); ++i)
-        for (const glm::dvec3& normal : leaning(planeNormal(joint))) {
-            const glm::dvec3 point =
-                joint.centre - (maxDrop * i / kDrops) * joint.comingFrom;
-            std::optional<Section> section = finder.find({point, normal});
-            if (section && (!narrowest || section->length < narrowest->length))
-                narrowest = std::move(section);
-        }
-    if (!narrowest) return {};
-    std::sort(narrowest->edges.begin(), narrowest->edges.end());
-    std::vector<std::uint32_t> beyond = finder.beyond(*narrowest);
+    std::optional<Section> border = borderOf(finder, mesh, joint);
+    if (!border) return {};
+    std::sort(border->edges.begin(), border->edges.end());
+    std::vector<std::uint32_t> beyond = finder.beyond(*border);
     const double rest = static_cast<double>(mesh.vertexCount() - beyond.size());
     if (static_cast<double>(beyond.size()) > kMaxShare * rest) beyond.clear();
     return beyond;

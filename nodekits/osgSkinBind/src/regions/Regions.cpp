@@ -8,12 +8,50 @@
 #include "regions/SeedRegions.h"
 #include "regions/TrimRegions.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
 namespace osgSkin {
 namespace {
 
 /// Fractions of the time that have passed when the steps begin, measured at 280,000 vertices.
 constexpr double kFloodingBegins = 0.3;
 constexpr double kBordersBegin = 0.9;
+
+/// Distance of a point to a bone; a last bone goes on for ever.
+double distanceToDigit(const PlannedJoint& joint, const glm::dvec3& point) {
+    if (joint.child >= 0) return distanceToBone(joint, point);
+    const glm::dvec3 d = point - joint.centre;
+    const double along = std::max(0.0, glm::dot(d, joint.boneAxis));
+    return glm::length(d - along * joint.boneAxis);
+}
+
+/// Gives the joints of fingers and toes the skin beyond them that is of joints above, and farther
+/// from the bones of these. A rig may have one finger for four.
+void extendDigits(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                  std::vector<std::uint32_t>& jointOf) {
+    std::vector<std::vector<std::uint32_t>> digitsBelow(joints.size());
+    for (std::uint32_t j = 0; j < joints.size(); ++j) {
+        if (!joints[j].digit || !joints[j].holdsRegion) continue;
+        for (std::size_t above = j; joints[above].digit;) {
+            above = static_cast<std::size_t>(joints[above].parent);
+            digitsBelow[above].push_back(j);
+        }
+    }
+    for (std::size_t v = 0; v < jointOf.size(); ++v) {
+        const glm::dvec3& p = mesh.positions[v];
+        const std::uint32_t owner = jointOf[v];
+        double nearest = distanceToBone(joints[owner], p);
+        for (const std::uint32_t j : digitsBelow[owner]) {
+            if (glm::dot(p - joints[j].centre, planeNormal(joints[j])) <= 0.0) continue;
+            const double distance = distanceToDigit(joints[j], p);
+            if (distance >= nearest) continue;
+            nearest = distance;
+            jointOf[v] = j;
+        }
+    }
+}
 
 /// Gives joints the skin beyond them, and no other: what else they have goes to the region above.
 void giveBeyond(const std::vector<PlannedJoint>& joints, std::vector<std::uint32_t>& jointOf) {
@@ -54,6 +92,7 @@ Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
         if (joints[joint].rigid >= 0) joint = static_cast<std::uint32_t>(joints[joint].rigid);
     trimRegions(mesh, joints, regions.jointOf);
     removeIslands(mesh, isSeed, regions.jointOf);
+    extendDigits(mesh, joints, regions.jointOf);
     giveBeyond(joints, regions.jointOf);
     return regions;
 }

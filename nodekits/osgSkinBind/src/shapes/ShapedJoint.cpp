@@ -153,7 +153,9 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
     std::vector<double> bend(mesh.vertexCount());
     for (std::uint32_t j = 1; j < joints.size(); ++j) {
         const PlannedJoint& planned = joints[j];
-        if (trunk[j] || planned.extremity || planned.rigid >= 0 || !planned.holdsRegion) continue;
+        if (trunk[j] || planned.extremity || planned.digit || planned.rigid >= 0 ||
+            !planned.holdsRegion)
+            continue;
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
         const bool atTrunk = trunk[above];
         for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
