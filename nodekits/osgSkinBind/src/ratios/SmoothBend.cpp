@@ -22,7 +22,7 @@ namespace {
 /// rigid part starts close behind its joint, and the skin above takes up more of the rotation.
 static double knob(const char*n,double d){return getenv(n)?atof(getenv(n)):d;}
 const double kTrunkWidth = knob("K_TW",0.6);
-const double kBetween=knob("K_BA",1.4), kBetweenBelow=knob("K_BB",0.7), kCollarShift=knob("K_CS",0.0), kCollarW=knob("K_CW",0.7);
+const double kBetween=knob("K_BA",1.5), kBetweenBelow=knob("K_BB",0.75), kCollarShift=knob("K_CS",0.0), kCollarW=knob("K_CW",1.2);
 constexpr double kAboveRigidWidth = 1.5;
 constexpr double kRigidWidth = 0.6;
 
@@ -35,7 +35,7 @@ constexpr double kTipWidth = 0.3;
 
 /// A spine runs behind the belly. A plane this much below the joint, in radii, loses less of the
 /// belly's volume.
-const double kTrunkLift = knob("K_TL",0.2);
+const double kTrunkLift = knob("K_TL",0.15);
 
 /// What of a joint's rotation the middle third of its own bone must take, and that of the bone
 /// above may.
@@ -178,6 +178,12 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
     std::vector<bool> isHeld;
     if (getenv("K_HOLD")) isHeld = otherLimbs(binary, joint);
+    if (planned.collarBone) {
+        const auto in = subtreeOf(binary.joints, planned.child);
+        isHeld.assign(start.size(), false);
+        const auto arm = false ? binary.divided(planned.child) : std::vector<double>();
+        for (std::size_t v = 0; v < start.size(); ++v) isHeld[v] = arm.empty() ? in[binary.regions[v]] : arm[v] > .5;
+    }
     std::vector<double> share;
     if (limb && binary.joints[above].trunk)
         share = slopeShare(binary.mesh, spread(smoother, start, widths, {}, isHeld, options.cutOff));
