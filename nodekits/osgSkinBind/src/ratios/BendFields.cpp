@@ -53,7 +53,8 @@ JointFields bendFields(const BinaryField& binary, const std::vector<double>& rad
             hasBoundaries(joints[j])
                 ? boundedField(binary, smoother, j, radii[j], options.smoothing)
                 : smoothBend(binary, smoother, j, radii, options);
-        if (joints[j].digit) lower(field, fields.values(regionAbove(joints, j)));
+        if (joints[j].digit && joints[regionAbove(joints, j)].extremity)
+            lower(field, fields.values(regionAbove(joints, j)));
         fields.set(j, field);
     }
     raiseParents(joints, fields);

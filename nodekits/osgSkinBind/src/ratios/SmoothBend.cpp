@@ -157,7 +157,8 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     if (!planned.beyond.empty())
         return fromBorder(smoother, start, kBorderWidth * options.smoothing * radius,
                           options.cutOff);
-    if (planned.digit && planned.child < 0)
+    if (planned.digit && planned.child < 0 &&
+        binary.joints[static_cast<std::size_t>(planned.parent)].digit)
         return fromBorder(smoother, start, std::min(options.smoothing * radius, kTipWidth * planned.lengthAbove),
                           options.cutOff);
 

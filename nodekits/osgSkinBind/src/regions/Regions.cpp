@@ -19,12 +19,13 @@ namespace {
 constexpr double kFloodingBegins = 0.3;
 constexpr double kBordersBegin = 0.9;
 
-/// Distance of a point to a bone; a last bone goes on for ever.
+/// Distance of a point to a bone; a last bone goes on to its last sample.
 double distanceToDigit(const PlannedJoint& joint, const glm::dvec3& point) {
-    if (joint.child >= 0) return distanceToBone(joint, point);
-    const glm::dvec3 d = point - joint.centre;
-    const double along = std::max(0.0, glm::dot(d, joint.boneAxis));
-    return glm::length(d - along * joint.boneAxis);
+    PlannedJoint bone = joint;
+    if (bone.child < 0 && !bone.samples.empty())
+        bone.boneLength =
+            std::max(bone.boneLength, glm::distance(bone.centre, bone.samples.back()));
+    return distanceToBone(bone, point);
 }
 
 /// Gives the joints of fingers and toes the skin beyond them that is of joints above, and farther
@@ -92,7 +93,7 @@ Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
         if (joints[joint].rigid >= 0) joint = static_cast<std::uint32_t>(joints[joint].rigid);
     trimRegions(mesh, joints, regions.jointOf);
     removeIslands(mesh, isSeed, regions.jointOf);
-    extendDigits(mesh, joints, regions.jointOf);
+    extendDigits(mesh, joints, regions.jointOf); // whose regions may have several parts
     giveBeyond(joints, regions.jointOf);
     return regions;
 }
