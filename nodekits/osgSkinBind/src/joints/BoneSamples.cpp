@@ -19,6 +19,9 @@ constexpr int kMinSamples = 2;
 /// A bone is inside the skin where at least this share of its samples is.
 constexpr double kInside = 0.5;
 
+/// Joint centres closer than this fraction of the mesh's size are one point.
+constexpr double kCentreTolerance = 1e-6;
+
 /// How far a last bone may go on beyond its end, in its own lengths; one without a length in those of
 /// the bone above.
 constexpr double kMaxExtension = 2.0;
@@ -120,9 +123,15 @@ private:
     const JointRoles& _roles;
 };
 
-/// The nearest joint at or above that may have a region, -1 where there is none.
-int ownerOf(const std::vector<PlannedJoint>& joints, std::size_t joint) {
-    int owner = static_cast<int>(joint);
+/// The joint whose region a joint's samples belong to: itself, the one in the same point, or the
+/// nearest above; -1 where there is none.
+int ownerOf(const std::vector<PlannedJoint>& joints, std::size_t joint, double tolerance) {
+    if (joints[joint].holdsRegion) return static_cast<int>(joint);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (joints[j].holdsRegion &&
+            glm::distance(joints[j].centre, joints[joint].centre) <= tolerance)
+            return static_cast<int>(j);
+    int owner = joints[joint].parent;
     while (owner >= 0 && !joints[at(owner)].holdsRegion) owner = joints[at(owner)].parent;
     return owner;
 }
@@ -143,7 +152,7 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
         const std::vector<std::vector<glm::dvec3>> samples =
             BoneSampler(skeleton, mesh, roles).sample(joints);
         for (std::size_t j = 0; j < joints.size(); ++j) {
-            const int owner = ownerOf(joints, j);
+            const int owner = ownerOf(joints, j, kCentreTolerance * mesh.size);
             if (owner < 0) continue;
             std::vector<glm::dvec3>& all = joints[at(owner)].samples;
             all.insert(all.end(), samples[j].begin(), samples[j].end());

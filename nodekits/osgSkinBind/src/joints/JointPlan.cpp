@@ -48,7 +48,7 @@ bool haveOwnBones(const PlannedJoint& a, const PlannedJoint& b, double tolerance
 }
 
 /// Every joint that is not skipped and has a centre of its own gets a region. Of joints in one
-/// point the topmost gets it. Where they stand beside each other, the one that is more of a joint;
+/// point the topmost gets it, unless it has no role and the other one has. Where they stand beside each other, the one that is more of a joint;
 /// where they are alike, each whose bone tells it apart, else none.
 ///
 /// \param tellsBonesApart whether regions are found by samples along bones
@@ -61,8 +61,13 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
         if (joints[j].options.skip) continue;
         const std::size_t other = coincident(joints, j, tolerance);
         joints[j].holdsRegion = other == kNone;
-        if (other == kNone || skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(other)))
+        if (other == kNone) continue;
+        if (skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(other))) {
+            // A foot below its IK target.
+            joints[j].holdsRegion = roles.roles[other].empty() && !roles.roles[j].empty();
+            joints[other].holdsRegion = !joints[j].holdsRegion;
             continue;
+        }
         const int more = standing(skeleton, roles, j) - standing(skeleton, roles, other);
         if (more == 0) {
             if (tellsBonesApart && haveOwnBones(joints[other], joints[j], tolerance)) continue;

@@ -6,6 +6,7 @@
 #include "regions/FloodRegions.h"
 #include "regions/RemoveIslands.h"
 #include "regions/SeedRegions.h"
+#include "regions/SpreadRegions.h"
 #include "regions/TrimRegions.h"
 
 #include <glm/geometric.hpp>
@@ -54,19 +55,29 @@ void extendDigits(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joint
     }
 }
 
-/// Gives joints the skin beyond them, and no other: what else they have goes to the region above.
-void giveBeyond(const std::vector<PlannedJoint>& joints, std::vector<std::uint32_t>& jointOf) {
+/// Gives joints the skin beyond them, and no other: what else they have goes to the regions beside
+/// it.
+void giveBeyond(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                std::vector<std::uint32_t>& jointOf) {
     for (std::uint32_t j = 0; j < joints.size(); ++j) {
         if (joints[j].beyond.empty()) continue;
         const std::vector<bool> isBelow = subtreeOf(joints, j);
-        const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
         std::vector<bool> isBeyond(jointOf.size(), false);
         for (const std::uint32_t v : joints[j].beyond) isBeyond[v] = true;
         for (std::size_t v = 0; v < jointOf.size(); ++v) {
-            if (isBeyond[v] && !isBelow[jointOf[v]]) jointOf[v] = j;
-            if (!isBeyond[v] && isBelow[jointOf[v]]) jointOf[v] = above;
+            if (isBeyond[v] && !isBelow[jointOf[v]])
+                jointOf[v] = j;
+            else if (!isBeyond[v] && isBelow[jointOf[v]])
+                jointOf[v] = Regions::kNone;
         }
+        // Not from the extremity's side: it is unlabelled for that long.
+        std::vector<std::uint32_t> others = jointOf;
+        for (const std::uint32_t v : joints[j].beyond) others[v] = Regions::kNone;
+        spreadRegions(mesh, others);
+        for (std::size_t v = 0; v < jointOf.size(); ++v)
+            if (jointOf[v] == Regions::kNone) jointOf[v] = others[v];
     }
+    assignUnreached(mesh, joints, jointOf);
 }
 
 } // namespace
@@ -94,7 +105,7 @@ Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
     trimRegions(mesh, joints, regions.jointOf);
     removeIslands(mesh, isSeed, regions.jointOf);
     extendDigits(mesh, joints, regions.jointOf); // whose regions may have several parts
-    giveBeyond(joints, regions.jointOf);
+    giveBeyond(mesh, joints, regions.jointOf);
     return regions;
 }
 

@@ -75,6 +75,23 @@ void tellUnused(CharacterSource& source, const VertexWeights& weights) {
                                "\"weights\" keeps to them)");
 }
 
+/// Lets joints own nothing that a well-painted file's own weights never use: IK targets, controls,
+/// ends of chains. Twins of joints that are used (the "D" bones of MMD) stay: either may own skin.
+void skipUnused(const RestSkeleton& rest, const VertexWeights& weights, BindOptions& options) {
+    std::vector<bool> isUsed(rest.joints.size(), false);
+    for (const std::vector<JointWeight>& entries : weights)
+        for (const JointWeight& entry : entries)
+            if (entry.weight > 0.0) isUsed[entry.joint] = true;
+    for (std::size_t j = 0; j < rest.joints.size(); ++j) {
+        const bool hasTwin = std::any_of(
+            rest.joints.begin(), rest.joints.end(), [&](const RestJoint& other) {
+                return isUsed[static_cast<std::size_t>(&other - rest.joints.data())] &&
+                       other.centre == rest.joints[j].centre;
+            });
+        if (!isUsed[j] && !hasTwin) options.joints[rest.joints[j].name].skip = true;
+    }
+}
+
 /// Throws osgSkin::Error where binding would take a minute.
 void checkSize(const CharacterSource& source) {
     const std::size_t joints = source.rest.joints.size();
@@ -98,6 +115,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
     if (source.painted != Painted::No || carriesWeights(source)) weights = paintedWeights(source);
     const bool byWeights = source.painted == Painted::Yes ||
                            (source.painted == Painted::WhereGood && isWellPainted(weights));
+    if (!byWeights && isWellPainted(weights)) skipUnused(source.rest, weights, options);
     Binding binding = namingFile(source.file, [&] {
         return byWeights ? bindWeights(source.body.mesh, source.rest, weights, options, &report)
                          : bind(source.body.mesh, source.rest, options, &report);
