@@ -76,8 +76,8 @@ void giveBeyond(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
         spreadRegions(mesh, others);
         for (std::size_t v = 0; v < jointOf.size(); ++v)
             if (jointOf[v] == Regions::kNone) jointOf[v] = others[v];
+        assignUnreached(mesh, joints, jointOf);
     }
-    assignUnreached(mesh, joints, jointOf);
 }
 
 } // namespace
