@@ -23,6 +23,9 @@ constexpr double kBeyondReach = 1.1;
 /// Of bend ratios: mean over the vertices, and of each.
 constexpr double kSameRatio = 0.01, kMaxRatioError = 0.2;
 
+/// A corner with less of a point need not be known.
+constexpr double kNoShare = 1e-6;
+
 double reachOf(const ElasticJoint& joint) {
     return joint.radius * (joint.hinge ? ElasticJoint::kHingeReach : ElasticJoint::kBallReach);
 }
@@ -140,7 +143,13 @@ ElasticShapes MirroredJoint::shapes(const ElasticShapes& solved) const {
     std::vector<Place> places; // their corners as indices of the solved vertices
     for (Place place : _places) {
         bool known = true;
-        for (std::uint32_t& corner : place.corners) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint32_t& corner = place.corners[k];
+            if (place.shares[k] < kNoShare) {
+                corner = 0;
+                place.shares[k] = 0.0;
+                continue;
+            }
             const auto found =
                 std::lower_bound(solved.vertices.begin(), solved.vertices.end(), corner);
             known = known && found != solved.vertices.end() && *found == corner;
