@@ -30,11 +30,11 @@ double reachOf(const ElasticJoint& joint) {
     return joint.radius * (joint.hinge ? ElasticJoint::kHingeReach : ElasticJoint::kBallReach);
 }
 
-Point eigen(const glm::dvec3& p) {
+Point toEigen(const glm::dvec3& p) {
     return {p.x, p.y, p.z};
 }
 
-glm::dvec3 vector(const Point& p) {
+glm::dvec3 toGlm(const Point& p) {
     return {p.x(), p.y(), p.z()};
 }
 
@@ -106,11 +106,11 @@ std::optional<MirroredJoint> MirroredJoint::find(const RestSkin& skin, const Ela
 
     double error = 0.0;
     for (std::uint32_t v = 0; v < vertices; ++v) {
-        const glm::dvec3 rest = vector(skin.positions().col(v));
+        const glm::dvec3 rest = toGlm(skin.positions().col(v));
         const double away = glm::distance(rest, joint.centre) / reachOf(joint);
         const bool within = away < 1.0 || glm::distance(rest, solved.centre) < reachOf(solved);
         if (!within && away > kBeyondReach) continue;
-        const RestSkin::Nearest nearest = skin.nearest(eigen(plane.mirrored(rest)));
+        const RestSkin::Nearest nearest = skin.nearest(toEigen(plane.mirrored(rest)));
         if (nearest.distance > kSameSkin * joint.radius) {
             if (within) return std::nullopt;
             continue;
