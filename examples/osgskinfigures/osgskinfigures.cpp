@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     app.add_option("--weights", weights,
                    "painted weights (JSON) for the peers; without: from our ratios");
     app.add_flag("--elastic", elastic,
-                 "a column with elastic shapes, too; solving them takes a minute or two, once");
+                 "a column with elastic shapes, too; solving them takes half a minute, once");
     app.add_option("CHARACTER", file, "a .skin file with the joint names of the CMU skeletons");
     if (!example::hasNoEmptyWord("osgskinfigures", argc, argv)) return 2;
     try {

@@ -7,6 +7,8 @@
 #include "osgSkinImportBuild.h"
 #include "osgSkinRigBuild.h"
 
+#include <osg/Notify>
+#include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinCharacter/OptionString>
 #include <osgSkinImport/FindNamedFile>
@@ -15,8 +17,30 @@
 #include <osgDB/ReaderWriter>
 #include <osgDB/Registry>
 
+#include <chrono>
 #include <exception>
 #include <memory>
+#include <string>
+
+namespace {
+
+/// Shorter loads say nothing, and longer ones a line so often.
+constexpr std::chrono::seconds kBetweenLines(3);
+
+/// Progress as OSG's notices, for hosts without any of their own, such as osgconv: elastic shapes
+/// take a while.
+osgSkin::Progress noticesOf(const std::string& file) {
+    using Clock = std::chrono::steady_clock;
+    const std::string name = osgDB::getSimpleFileName(file);
+    return [name, due = Clock::now() + kBetweenLines](const osgSkin::ProgressStep& step) mutable {
+        if (Clock::now() < due) return;
+        due = Clock::now() + kBetweenLines;
+        OSG_NOTICE << osgSkin::onOneLine(name + ": " + step.what) << ", "
+                   << static_cast<int>(100.0 * step.fraction) << " %" << std::endl;
+    };
+}
+
+} // namespace
 
 /// Reads `.skin` files: a body, its skeleton and its motions, bound and playing. As a pseudo-loader
 /// it re-skins any rigged model: `model.glb.skin`. All of it is osgSkin::loadCharacter().
@@ -43,7 +67,9 @@ public:
         if (!namesAModel && osgSkin::findNamedFile(file, options).empty())
             return ReadResult::FILE_NOT_FOUND;
         try {
-            return osgSkin::loadCharacter(file, osgSkin::toLoadOptions(options)).root.get();
+            osgSkin::LoadOptions load = osgSkin::toLoadOptions(options);
+            if (!load.progress) load.progress = noticesOf(file);
+            return osgSkin::loadCharacter(file, load).root.get();
         } catch (const std::exception& error) {
             return ReadResult(error.what());
         }

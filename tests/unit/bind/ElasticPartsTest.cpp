@@ -5,6 +5,7 @@
 #include <elastic/ElasticSamples.h>
 #include <elastic/energy/BoneCores.h>
 #include <elastic/energy/Fascia.h>
+#include <elastic/energy/FoldSkin.h>
 #include <elastic/energy/OuterSkin.h>
 #include <elastic/lattice/DeformedCells.h>
 #include <elastic/lattice/Unsolvable.h>
@@ -112,6 +113,35 @@ TEST(VoxelLattice, KnowsMostSidesWithoutAskingTheSkin) {
     EXPECT_FALSE(lattice.isInside({0, 7, 0})) << "beyond the ball nothing is known";
 }
 
+TEST(FoldSkin, TellsSidesByTheNearestTriangle) {
+    // Open below, and with a hood over its upper end: two shells.
+    ElasticTube tube(1.0, glm::dvec3(0.0), false);
+    const ElasticTube hood(1.3, glm::dvec3(0.0, 4.0, 0.0));
+    const auto count = static_cast<std::uint32_t>(tube.positions.size());
+    for (const auto& [a, b, c] : hood.triangles)
+        tube.triangles.push_back({c + count, b + count, a + count}); // winds the other way
+    tube.positions.insert(tube.positions.end(), hood.positions.begin(), hood.positions.end());
+    const RestSkin skin(pointsOf(tube), tube.triangles);
+    const VoxelLattice lattice(skin, 1.0 / 3.0, 4.0);
+    const SkinPatch patch(lattice, skin, std::vector<double>(tube.positions.size(), 0.5));
+    const Eigen::VectorXd ratios = Eigen::VectorXd::Constant(lattice.rest().cols(), 0.5);
+    const FoldSkin fold(lattice, skin, patch, ratios, ContactSizes());
+    std::mt19937 random(4);
+    int inside = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Point p = randomPoint(random, 1.8);
+        const RestSkin::Nearest nearest = skin.nearest(p);
+        const auto& [a, b, c] = tube.triangles[nearest.triangle];
+        const Points& at = skin.positions();
+        const Point there = nearest.shares[0] * at.col(a) + nearest.shares[1] * at.col(b) +
+                            nearest.shares[2] * at.col(c);
+        EXPECT_EQ(fold.isInside(p, nearest, there), skin.inside(p)) << p.transpose();
+        inside += skin.inside(p) ? 1 : 0;
+    }
+    EXPECT_GT(inside, 400);
+    EXPECT_LT(inside, 3000);
+}
+
 TEST(DeformedCells, LookOnlyWhereItMatters) {
     const ElasticTube tube;
     const RestSkin skin(pointsOf(tube), tube.triangles);
@@ -119,10 +149,13 @@ TEST(DeformedCells, LookOnlyWhereItMatters) {
     const Points moved = lattice.rest().colwise() + Point(10.0, 0.0, 0.0);
     const DeformedCells cells(lattice, moved);
     const Point place(0.2, 0.3, 0.1);
+    EXPECT_EQ(cells.binOf(place), DeformedCells::kNoBin) << "nothing is left there";
+    const Point now = place + Point(10.0, 0.0, 0.0);
+    ASSERT_LT(cells.binOf(now), cells.bins());
     const auto foundBy = [&](bool matters) {
         int found = 0;
         cells.find(
-            place + Point(10.0, 0.0, 0.0), [&](std::uint32_t) { return matters; },
+            cells.binOf(now), now, [&](std::uint32_t) { return matters; },
             [&](std::uint32_t cell, const Point& local) {
                 ++found;
                 const Point at = lattice.cells()[cell].low + lattice.shape().edge * local;

@@ -73,7 +73,7 @@ double shareWithoutShapes(const BindOptions& options) {
     case Shapes::Fast:
         return 0.99;
     case Shapes::Elastic:
-        return 0.01;
+        return 0.03;
     }
     return 1.0;
 }

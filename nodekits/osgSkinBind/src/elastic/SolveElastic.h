@@ -26,7 +26,9 @@ namespace osgSkin {
 ElasticShapes solveElasticJoint(const ElasticSkin& skin, const ElasticJoint& joint,
                                 const Progress& progress = {});
 
-/// The same for several joints, at once on all processors where oneTBB is built in.
+/// The same for several joints, at once on all processors where oneTBB is built in. Of two joints
+/// that are each other's mirror image, skin and bones included, one is solved and the other gets
+/// its shapes mirrored, and no progress of its own.
 std::vector<ElasticShapes> solveElasticJoints(const ElasticSkin& skin,
                                               const std::vector<ElasticJoint>& joints,
                                               const Progress& progress = {});

@@ -26,7 +26,7 @@ public:
 
     /// What is to be added to the binding.
     static constexpr double shapesSize(std::optional<BindOptions::Shapes> shapes) {
-        return shapes == BindOptions::Shapes::Elastic ? 10000.0 : 0.0;
+        return shapes == BindOptions::Shapes::Elastic ? 2500.0 : 0.0;
     }
 
     /// \param progress told; may be empty

@@ -13,24 +13,25 @@ struct Flesh {
     double barrierBegins = 0.8; ///< J below which the barrier acts
 };
 
-/// One cell's numbers, corner by corner: a structure of arrays, so that Gauss points fill SIMD
-/// lanes.
-struct CellState {
-    double corner[3][8];   ///< positions
-    double gradient[3][8]; ///< of the energy by them
-    double volume = 0.0;   ///< of each Gauss point at rest
+/// Several cells' numbers side by side, so that cells fill SIMD lanes. All lanes must be set:
+/// unused ones to a copy of another.
+struct CellBatch {
+    static constexpr std::size_t kCells = 8;
+    static constexpr std::size_t kAlignment = 64;
+
+    alignas(kAlignment) double corner[3][CellShape::kCorners][kCells];   ///< positions
+    alignas(kAlignment) double gradient[3][CellShape::kCorners][kCells]; ///< of each cell's energy
+    alignas(kAlignment) double energy[kCells];
 };
 
-/// Elastic energy of a cell and its gradient: as-rigid-as-possible |F - R|^2 at the Gauss points,
-/// one volume term kappa / 2 (mean J - 1)^2 for the cell, so that trilinear cells do not lock, and
-/// a barrier -(J - J0)^2 ln(J / J0) below J0 (Li et al. 2020), infinite at 0.
+/// Elastic energies of cells and their gradients: as-rigid-as-possible |F - R|^2 at the Gauss
+/// points, one volume term kappa / 2 (mean J - 1)^2 for the cell, so that trilinear cells do not
+/// lock, and a barrier -(J - J0)^2 ln(J / J0) below J0 (Li et al. 2020), infinite at 0.
 /// \param shape of all cells
-/// \param flesh what it is made of
-/// \param cell its positions and volume; gets the gradient
-/// \param leastJacobian gets the smallest J of the Gauss points
-/// \return infinity, and no gradient, where some J is not above 0
-double cellEnergy(const CellShape& shape, const Flesh& flesh, CellState& cell,
-                  double& leastJacobian);
+/// \param flesh what they are made of
+/// \param batch positions; gets energies and gradients
+/// \return false where some J is not above 0: the energy is infinite
+bool cellEnergies(const CellShape& shape, const Flesh& flesh, CellBatch& batch);
 
 } // namespace osgSkin::elastic
 

@@ -10,21 +10,27 @@
 namespace osgSkin::elastic {
 
 double ElasticBody::value(const Points& nodes, Points& gradient) const {
-    const double pointVolume = _lattice.shape().volumeOfPoint();
+    const std::vector<VoxelLattice::Cell>& cells = _lattice.cells();
     double energy = 0.0;
-    CellState state;
-    state.volume = pointVolume;
-    for (const VoxelLattice::Cell& cell : _lattice.cells()) {
-        for (std::size_t c = 0; c < 8; ++c) {
-            const double* corner = nodes.data() + std::size_t{3} * cell.nodes[c];
-            for (std::size_t i = 0; i < 3; ++i) state.corner[i][c] = corner[i];
+    CellBatch batch;
+    for (std::size_t first = 0; first < cells.size(); first += CellBatch::kCells) {
+        const std::size_t count = std::min(CellBatch::kCells, cells.size() - first);
+        for (std::size_t lane = 0; lane < CellBatch::kCells; ++lane) {
+            const auto& of = cells[first + std::min(lane, count - 1)].nodes;
+            for (std::size_t c = 0; c < CellShape::kCorners; ++c) {
+                const double* node = nodes.data() + std::size_t{3} * of[c];
+                for (std::size_t i = 0; i < 3; ++i) batch.corner[i][c][lane] = node[i];
+            }
         }
-        double least = 0.0;
-        energy += cellEnergy(_lattice.shape(), _flesh, state, least);
-        if (!std::isfinite(energy)) return energy;
-        for (std::size_t c = 0; c < 8; ++c) {
-            double* corner = gradient.data() + std::size_t{3} * cell.nodes[c];
-            for (std::size_t i = 0; i < 3; ++i) corner[i] += state.gradient[i][c];
+        if (!cellEnergies(_lattice.shape(), _flesh, batch))
+            return std::numeric_limits<double>::infinity();
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            energy += batch.energy[lane];
+            const auto& of = cells[first + lane].nodes;
+            for (std::size_t c = 0; c < CellShape::kCorners; ++c) {
+                double* node = gradient.data() + std::size_t{3} * of[c];
+                for (std::size_t i = 0; i < 3; ++i) node[i] += batch.gradient[i][c][lane];
+            }
         }
     }
     return energy;

@@ -2,25 +2,13 @@
 #ifndef OSGSKINBIND_ELASTIC_FOLDCONTACT_H
 #define OSGSKINBIND_ELASTIC_FOLDCONTACT_H
 
+#include "elastic/energy/FoldSkin.h"
 #include "elastic/lattice/DeformedCells.h"
-#include "elastic/lattice/RatioField.h"
-#include "elastic/lattice/SkinPatch.h"
 
+#include <array>
 #include <vector>
 
 namespace osgSkin::elastic {
-
-struct ContactSizes {
-    double stiffness = 200.0; ///< mu / r an area
-    double gap = 0.12;        ///< that stays between the sides
-    double margin = 0.2;      ///< beyond the gap, in which probes are watched
-    double spacing = 0.12;    ///< of the probes on the skin
-    double sides = 0.15;      ///< ratios differ by this between a fold's two sides
-    double apart = 0.15;      ///< pairs this near at rest are one fold's edge, no contact
-    double ramp = 0.7;        ///< beyond that, over which the gap grows to its whole
-    int fresh = 6;            ///< so many detections forget the ones before
-    double leastShare = 0.1;  ///< that a later one has in the touches
-};
 
 /// Contact between the two sides of a joint's fold, found in material space (McAdams et al. 2011):
 /// a probe on one side's skin, or a little ahead of it, that has come to lie in the other side's
@@ -31,8 +19,8 @@ struct ContactSizes {
 /// all since. One object for each thread.
 class FoldContact {
 public:
-    FoldContact(const VoxelLattice& lattice, const RestSkin& skin, const SkinPatch& patch,
-                const Eigen::VectorXd& nodeRatios, const ContactSizes& sizes);
+    /// \param skin outlives this
+    explicit FoldContact(const FoldSkin& skin) : _skin(skin) {}
 
     /// Forgets all touches and detections: for another bend.
     void restart();
@@ -46,39 +34,30 @@ public:
     std::size_t touches() const { return _touches.size(); }
 
 private:
-    struct Probe {
-        std::uint32_t triangle = 0; ///< of the patch
-        Point shares;               ///< of its corners
-        Point rest;
-        double area = 0.0;
-        double ratio = 0.0;
-    };
-    /// Of a cell's nodes.
-    struct RatioSpan {
-        double low = 1.0, high = 0.0;
-    };
+    using Probe = FoldSkin::Probe;
+
     struct Touch {
-        std::uint32_t probe = 0, triangle = 0; ///< triangle: of the other side
-        Point shares, normal;                  ///< where it is touched, and outwards from there
+        std::array<std::uint32_t, 6>
+            corners{};                  ///< of the patch: the probe's, then the other side's
+        std::array<double, 6> shares{}; ///< whose sum is the way between the two
+        Point normal;                   ///< outwards from the other side
         double gap = 0.0;
-        double weight = 1.0; ///< falls with each detection since
+        double stiffness = 0.0; ///< falls with each detection since
+        double weight = 1.0;    ///< as the stiffness
     };
 
-    bool look(std::uint32_t probe, const Point& at, const DeformedCells& cells,
-              const Points& normals, Touch& result) const;
-    /// False where look() would find nothing in the cell.
-    bool mayTouch(const Probe& probe, std::uint32_t cell) const;
-    bool touch(std::uint32_t probe, const Point& rest, const Points& normals, Touch& result) const;
-    double ratioAt(std::uint32_t triangle, const Point& shares) const;
+    /// The deformed flesh.
+    struct Flesh {
+        DeformedCells cells;
+        std::vector<FoldSkin::RatioSpan> ratios; ///< of each bin
+        Points normals;                          ///< of the patch
+    };
+
+    bool look(const Probe& probe, const Point& at, const Flesh& flesh, Touch& result) const;
+    bool touch(const Probe& probe, const Point& rest, const Points& normals, Touch& result) const;
     Point on(std::uint32_t triangle, const Point& shares, const Points& vertices) const;
 
-    const VoxelLattice& _lattice;
-    const RestSkin& _skin;
-    const SkinPatch& _patch;
-    ContactSizes _sizes;
-    Eigen::VectorXd _nodeRatios;
-    std::vector<RatioSpan> _ratiosOf; ///< of each cell
-    std::vector<Probe> _probes;
+    const FoldSkin& _skin;
     std::vector<Touch> _touches;
     int _detections = 0;
 };

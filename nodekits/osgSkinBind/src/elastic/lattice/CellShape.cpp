@@ -4,9 +4,6 @@
 namespace osgSkin::elastic {
 namespace {
 
-/// Of the two Gauss points along an edge of length 1.
-constexpr double kLow = 0.21132486540518708, kHigh = 0.7886751345948129;
-
 bool bit(std::size_t number, Eigen::Index axis) {
     return (number >> axis & 1u) != 0;
 }

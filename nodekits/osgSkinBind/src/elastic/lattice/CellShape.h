@@ -14,6 +14,9 @@ namespace osgSkin::elastic {
 struct CellShape {
     static constexpr std::size_t kCorners = 8, kPoints = 8;
 
+    /// Of the two Gauss points along an edge of length 1.
+    static constexpr double kLow = 0.21132486540518708, kHigh = 0.7886751345948129;
+
     double edge = 0.0;
     double value[kCorners][kPoints];    ///< N_c at each point
     double slope[3][kCorners][kPoints]; ///< dN_c / dX at each point

@@ -1,23 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "elastic/lattice/DeformedCells.h"
 
-#include <Eigen/LU>
-
 namespace osgSkin::elastic {
 namespace {
 
-constexpr double kBinEdges = 1.5; ///< a bin's size in cells' edges
+constexpr double kBinEdges = 1.0; ///< a bin's size in cells' edges
 constexpr int kNewtonSteps = 6;
 constexpr double kWithin = 1e-6;
+
+/// A point that is so many edges off a cell's middle lies elsewhere.
+constexpr double kFar = 3.5;
 
 } // namespace
 
 DeformedCells::DeformedCells(const VoxelLattice& lattice, const Points& nodes)
-    : _lattice(lattice), _nodes(nodes), _binSize(kBinEdges * lattice.shape().edge) {
+    : _binSize(kBinEdges * lattice.shape().edge) {
+    _boxes.reserve(lattice.cells().size());
+    _maps.reserve(lattice.cells().size());
     for (const VoxelLattice::Cell& cell : lattice.cells()) {
         Eigen::AlignedBox3d& box = _boxes.emplace_back();
         for (const std::uint32_t node : cell.nodes) box.extend(nodes.col(node));
         _bounds.extend(box);
+        const auto corner = [&](std::size_t c) { return nodes.col(cell.nodes[c]); };
+        Map& map = _maps.emplace_back();
+        map.at = corner(0);
+        map.x = corner(1) - corner(0);
+        map.y = corner(2) - corner(0);
+        map.z = corner(4) - corner(0);
+        map.xy = corner(3) - corner(2) - map.x;
+        map.yz = corner(6) - corner(4) - map.y;
+        map.zx = corner(5) - corner(4) - map.x;
+        map.xyz = corner(7) - corner(6) - corner(5) + corner(4) - map.xy;
     }
     _bins = (_bounds.sizes() / _binSize).array().floor().cast<int>() + 1;
     _first.assign(index(_bins - Eigen::Vector3i::Ones()) + 2, 0);
@@ -48,17 +61,23 @@ std::size_t DeformedCells::index(const Eigen::Vector3i& bin) const {
 
 /// Newton's method on the trilinear map.
 bool DeformedCells::locate(std::uint32_t index, const Point& point, Point& local) const {
-    Eigen::Matrix<double, 3, 8> corners;
-    for (std::size_t c = 0; c < 8; ++c)
-        corners.col(static_cast<Eigen::Index>(c)) = _nodes.col(_lattice.cells()[index].nodes[c]);
+    const Map& map = _maps[index];
+    const Point target = point - map.at;
     local.setConstant(0.5);
     for (int step = 0; step < kNewtonSteps; ++step) {
-        const auto values = CellShape::values(local);
-        const Point off = corners * Eigen::Map<const Eigen::Matrix<double, 8, 1>>(values.data());
-        const Eigen::Matrix3d slope = corners * CellShape::slopes(local).transpose();
-        const Point change = slope.inverse() * (point - off);
+        const double x = local.x(), y = local.y(), z = local.z();
+        const Point byZ = map.z + x * map.zx + y * map.yz + x * y * map.xyz;
+        const Point byX = map.x + y * map.xy + z * (map.zx + y * map.xyz);
+        const Point byY = map.y + x * map.xy + z * (map.yz + x * map.xyz);
+        const Point left = target - x * map.x - y * (map.y + x * map.xy) - z * byZ;
+        // Cramer's rule.
+        const Point across = byY.cross(byZ);
+        const double scale = 1.0 / byX.dot(across);
+        const Point change(scale * left.dot(across), scale * left.dot(byZ.cross(byX)),
+                           scale * left.dot(byX.cross(byY)));
         local += change;
-        if (!(local.cwiseAbs().maxCoeff() < 4.0)) return false; // it lies elsewhere
+        const double off = (local.array() - 0.5).abs().maxCoeff();
+        if (!(off < kFar)) return false;
         if (change.cwiseAbs().maxCoeff() < 0.1 * kWithin) break;
     }
     return local.minCoeff() >= -kWithin && local.maxCoeff() <= 1.0 + kWithin;

@@ -23,7 +23,8 @@ JointSolid::JointSolid(Points skin, RestSkin::Triangles triangles,
       _ratios(ratioField(_lattice, _patch)), _body(_lattice, options.flesh),
       _cores(_lattice, _skin, bones, hinge, options.cores), _fascia(_lattice, options.fascia),
       _outer(_patch, _skin.positions(), bones, hinge, options.outer),
-      _preconditioner(_lattice, _cores) {}
+      _fold(_lattice, _skin, _patch, _ratios, _options.contact), _preconditioner(_lattice, _cores) {
+}
 
 JointSolid::State JointSolid::rest() const {
     State state;
@@ -45,8 +46,8 @@ Points JointSolid::guess(const State& from, const Eigen::Quaterniond& to) const 
 }
 
 JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& to,
-                                   const std::function<void()>& tick) const {
-    FoldContact contact(_lattice, _skin, _patch, _ratios, _options.contact);
+                                   const std::function<bool(const State&)>& goOn) const {
+    FoldContact contact(_fold);
     State state = from;
     state.steps = 0;
     double left = state.turn.angularDistance(to);
@@ -85,7 +86,8 @@ JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& 
         state.converged = result.converged;
         state.steps += result.steps;
         left = state.turn.angularDistance(to);
-        tick();
+        state.stopped = !goOn(state) && left > kThere;
+        if (state.stopped) break;
     }
     return state;
 }

@@ -47,6 +47,7 @@ public:
         Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
         Points nodes;
         bool tangled = false; ///< no way on from here without inverting a cell
+        bool stopped = false; ///< the caller of bend() wanted no more
         bool converged = true;
         int steps = 0; ///< of the minimiser, on the way here
     };
@@ -54,9 +55,9 @@ public:
     State rest() const;
 
     /// Bends on to another rotation, in small steps.
-    /// \param tick called after each step; may throw
+    /// \param goOn called after each step; stops the bend where it returns false; may throw
     State bend(const State& from, const Eigen::Quaterniond& to,
-               const std::function<void()>& tick) const;
+               const std::function<bool(const State&)>& goOn) const;
 
     const VoxelLattice& lattice() const { return _lattice; }
     const SkinPatch& patch() const { return _patch; }
@@ -75,6 +76,7 @@ private:
     BoneCores _cores;
     Fascia _fascia;
     OuterSkin _outer;
+    FoldSkin _fold;
     Preconditioner _preconditioner;
 };
 

@@ -21,12 +21,20 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kFewCrossings = 8;
 constexpr double kCrossingsShare = 0.25;
 
+/// With more than this, and more than the plain skin has, a shape is hopeless: deeper bends will
+/// not mend it.
+constexpr std::size_t kManyCrossings = 32;
+
 /// Bends that are tried between a bad one and the good one before it, each halfway to where the
 /// last one did not do.
 constexpr int kHalvings = 2;
 
 double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool areHopeless(std::size_t crossings, std::size_t plainCrossings) {
+    return crossings > kManyCrossings && crossings > plainCrossings;
 }
 
 std::vector<Eigen::Quaterniond> rotationsOf(const ElasticJoint& joint) {
@@ -111,8 +119,24 @@ void JointSolving::follow(std::size_t from, const JointSolid::State& state,
         const JointSolid::State there = bend(state, rotation, solved.sample);
         if (good && !solved.sample.reason.empty()) solved.before = approach(state, rotation);
         _progress.done(_joint.name);
-        follow(next[i], there, samples);
+        if (there.tangled || there.stopped ||
+            areHopeless(solved.sample.crossings, solved.sample.plainCrossings))
+            leaveOut(next[i], samples);
+        else
+            follow(next[i], there, samples);
     });
+}
+
+/// Bends beyond a hopeless one are hopeless, too, and the dearest of all: their flesh never comes
+/// to rest.
+void JointSolving::leaveOut(std::size_t from, std::vector<Solved>& samples) const {
+    for (const std::size_t next : _tree.startingFrom(from)) {
+        ElasticSample& sample = samples[next].sample;
+        sample.rotation = _joint.samples[next];
+        sample.reason = samples[from].sample.reason;
+        _progress.done(_joint.name);
+        leaveOut(next, samples);
+    }
 }
 
 /// How far towards a bad bend the solid can be bent: what functions are fitted to there is its own
@@ -139,7 +163,10 @@ std::vector<ElasticSample> JointSolving::approach(JointSolid::State from,
 JointSolid::State JointSolving::bend(const JointSolid::State& from, const Eigen::Quaterniond& to,
                                      ElasticSample& sample) const {
     const auto start = Clock::now();
-    JointSolid::State there = _solid->bend(from, to, [this] { _progress.check(); });
+    JointSolid::State there = _solid->bend(from, to, [this](const JointSolid::State& state) {
+        _progress.check();
+        return state.converged || !isHopeless(state);
+    });
     sample = sampleOf(there, to);
     sample.seconds = since(start);
     return there;
@@ -149,10 +176,14 @@ ElasticSample JointSolving::sampleOf(const JointSolid::State& state,
                                      const Eigen::Quaterniond& rotation) const {
     ElasticSample sample;
     sample.rotation = {rotation.w(), rotation.x(), rotation.y(), rotation.z()};
-    sample.converged = state.converged && !state.tangled;
+    sample.converged = state.converged && !state.tangled && !state.stopped;
     sample.steps = state.steps;
     if (state.tangled) {
         sample.reason = "the solid tangles on the way";
+        return sample;
+    }
+    if (state.stopped) {
+        sample.reason = "the solid penetrates itself on the way";
         return sample;
     }
     const SkinPatch& patch = _solid->patch();
@@ -163,20 +194,29 @@ ElasticSample JointSolving::sampleOf(const JointSolid::State& state,
     sample.leastJacobian = volumes.least;
     sample.volumeRatio = volumes.whole;
 
-    const Points rest = patch.positions(_solid->rest().nodes);
-    const Eigen::Map<const Eigen::VectorXd> ratios(
-        patch.ratios().data(), static_cast<Eigen::Index>(patch.ratios().size()));
-    sample.crossings = crossingsBeyondRest(posed);
-    sample.plainCrossings = crossingsBeyondRest(turned(rest, ratios, rotation));
+    sample.crossings = crossings(posed);
+    sample.plainCrossings = plainCrossings(rotation);
     const double share = kCrossingsShare * static_cast<double>(sample.plainCrossings);
     if (sample.crossings > kFewCrossings && static_cast<double>(sample.crossings) > share)
         sample.reason = std::to_string(sample.crossings) + " pairs of triangles cut each other";
     return sample;
 }
 
-std::size_t JointSolving::crossingsBeyondRest(const Points& posed) const {
-    const std::size_t crossings = countCrossings(_solid->patch().triangles(), posed);
-    return crossings > _crossingsAtRest ? crossings - _crossingsAtRest : 0;
+std::size_t JointSolving::crossings(const Points& posed) const {
+    const std::size_t all = countCrossings(_solid->patch().triangles(), posed);
+    return all > _crossingsAtRest ? all - _crossingsAtRest : 0;
+}
+
+std::size_t JointSolving::plainCrossings(const Eigen::Quaterniond& rotation) const {
+    const SkinPatch& patch = _solid->patch();
+    const Eigen::Map<const Eigen::VectorXd> ratios(
+        patch.ratios().data(), static_cast<Eigen::Index>(patch.ratios().size()));
+    return crossings(turned(patch.positions(_solid->rest().nodes), ratios, rotation));
+}
+
+bool JointSolving::isHopeless(const JointSolid::State& state) const {
+    const std::size_t own = crossings(_solid->patch().positions(state.nodes));
+    return areHopeless(own, plainCrossings(state.turn));
 }
 
 } // namespace osgSkin::elastic

@@ -33,13 +33,17 @@ private:
     };
     void follow(std::size_t from, const JointSolid::State& state,
                 std::vector<Solved>& samples) const;
+    void leaveOut(std::size_t from, std::vector<Solved>& samples) const;
     std::vector<ElasticSample> approach(JointSolid::State from,
                                         const Eigen::Quaterniond& bad) const;
     JointSolid::State bend(const JointSolid::State& from, const Eigen::Quaterniond& to,
                            ElasticSample& sample) const;
     ElasticSample sampleOf(const JointSolid::State& state,
                            const Eigen::Quaterniond& rotation) const;
-    std::size_t crossingsBeyondRest(const Points& posed) const;
+    /// Pairs of triangles that cut each other, beyond rest.
+    std::size_t crossings(const Points& posed) const;
+    std::size_t plainCrossings(const Eigen::Quaterniond& rotation) const;
+    bool isHopeless(const JointSolid::State& state) const;
 
     const ElasticSkin& _skin;
     const ElasticJoint& _joint;

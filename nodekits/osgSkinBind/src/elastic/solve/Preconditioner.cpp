@@ -4,6 +4,9 @@
 #include "elastic/lattice/Unsolvable.h"
 
 #include <Eigen/SparseCholesky>
+#include <hwy/aligned_allocator.h>
+
+#include <algorithm>
 
 namespace osgSkin::elastic {
 namespace {
@@ -44,34 +47,23 @@ Preconditioner::Preconditioner(const VoxelLattice& lattice, const BoneCores& cor
     system.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLLT<Matrix> decomposed(system);
     if (decomposed.info() != Eigen::Success) throw Unsolvable("its lattice hangs together badly");
-    _factor = decomposed.matrixL();
+    _factor = BlockedFactor(decomposed.matrixL());
     const auto& order = decomposed.permutationP().indices();
     _place.assign(order.data(), order.data() + order.size());
 }
 
-/// Eigen solves column by column; the three coordinates at once read the factor once.
 Points Preconditioner::solve(const Points& gradient) const {
-    Points x(3, _free);
-    for (Eigen::Index i = 0; i < _free; ++i)
-        x.col(_place[static_cast<std::size_t>(i)]) = gradient.col(i);
-    const int* starts = _factor.outerIndexPtr();
-    const int* rows = _factor.innerIndexPtr();
-    const double* values = _factor.valuePtr();
-    for (Eigen::Index column = 0; column < _free; ++column) {
-        const int begin = starts[column], end = starts[column + 1];
-        const Point own = x.col(column) / values[begin]; // the diagonal comes first
-        x.col(column) = own;
-        for (int k = begin + 1; k < end; ++k) x.col(rows[k]) -= values[k] * own;
+    constexpr std::size_t kStride = BlockedFactor::kStride;
+    const auto x = hwy::AllocateAligned<double>(kStride * _place.size());
+    for (std::size_t i = 0; i < _place.size(); ++i) {
+        double* const to = &x[kStride * static_cast<std::size_t>(_place[i])];
+        std::copy_n(gradient.data() + 3 * i, 3, to);
+        to[3] = 0.0;
     }
-    for (Eigen::Index column = _free; column-- > 0;) {
-        const int begin = starts[column], end = starts[column + 1];
-        Point own = x.col(column);
-        for (int k = begin + 1; k < end; ++k) own -= values[k] * x.col(rows[k]);
-        x.col(column) = own / values[begin];
-    }
+    _factor.solve(x.get());
     Points result = Points::Zero(3, gradient.cols());
-    for (Eigen::Index i = 0; i < _free; ++i)
-        result.col(i) = x.col(_place[static_cast<std::size_t>(i)]);
+    for (std::size_t i = 0; i < _place.size(); ++i)
+        std::copy_n(&x[kStride * static_cast<std::size_t>(_place[i])], 3, result.data() + 3 * i);
     return result;
 }
 

@@ -4,8 +4,7 @@
 
 #include "elastic/energy/BoneCores.h"
 #include "elastic/lattice/VoxelLattice.h"
-
-#include <Eigen/SparseCore>
+#include "elastic/solve/BlockedFactor.h"
 
 #include <vector>
 
@@ -22,8 +21,8 @@ public:
 
 private:
     Eigen::Index _free = 0;
-    Eigen::SparseMatrix<double> _factor; ///< lower triangle of the Cholesky decomposition
-    std::vector<int> _place;             ///< of each free node in the factor's order
+    BlockedFactor _factor;
+    std::vector<int> _place; ///< of each free node in the factor's order
 };
 
 } // namespace osgSkin::elastic
