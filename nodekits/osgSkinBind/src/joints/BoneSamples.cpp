@@ -22,8 +22,8 @@ constexpr double kInside = 0.5;
 /// Joint centres closer than this fraction of the mesh's size are one point.
 constexpr double kCentreTolerance = 1e-6;
 
-/// How far a last bone may go on beyond its end, in its own lengths; one without a length in those of
-/// the bone above.
+/// How far a last bone may go on beyond its end, in its own lengths; one without a length in those
+/// of the bone above.
 constexpr double kMaxExtension = 2.0;
 
 std::size_t at(int index) {
@@ -92,8 +92,8 @@ private:
         for (const glm::dvec3& point : bones)
             if (isInside(point)) inside.push_back(point);
         if (isLast) append(beyondLast(joint), inside);
-        if (!joint.inside && static_cast<double>(inside.size()) <
-                                 kInside * static_cast<double>(bones.size()))
+        if (!joint.inside &&
+            static_cast<double>(inside.size()) < kInside * static_cast<double>(bones.size()))
             inside.clear();
         return inside;
     }
@@ -144,7 +144,8 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
     for (std::size_t j = 0; j < joints.size(); ++j) {
         PlannedJoint& joint = joints[j];
         joint.inside = isInsideSkin(mesh, joint.centre);
-        joint.outside = joint.holdsRegion && !joint.inside && !joint.belowRigid(static_cast<int>(j));
+        joint.outside =
+            joint.holdsRegion && !joint.inside && !joint.belowRigid(static_cast<int>(j));
         if (method == BindOptions::Method::Paper && joint.holdsRegion && joint.inside)
             joint.samples = {joint.centre};
     }
@@ -170,8 +171,7 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
             isBelowBody[j] =
                 isBelowBody[at(joint.parent)] || !joints[at(joint.parent)].samples.empty();
         if (!joint.holdsRegion || !joint.samples.empty()) continue;
-        joint.claims =
-            isBelowBody[j] && joint.child >= 0 && !joint.belowRigid(static_cast<int>(j));
+        joint.claims = isBelowBody[j] && joint.child >= 0 && !joint.belowRigid(static_cast<int>(j));
         joint.holdsRegion = joint.claims;
         if (joint.outside)
             notes.push_back("joint \"" + skeleton.joints[j].name + "\" lies outside the skin" +

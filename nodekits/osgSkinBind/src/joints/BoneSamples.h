@@ -18,9 +18,9 @@ namespace osgSkin {
 /// centre.
 ///
 /// A joint owns nothing where its bone runs outside the skin (a root on the floor), or where it is
-/// a control: a last joint without a tip or a known name, to which no bone leads inside the skin (an
-/// IK target). A joint in the middle of a chain that lies outside claims the skin around it. Where
-/// all are outside, all keep their regions.
+/// a control: a last joint without a tip or a known name, to which no bone leads inside the skin
+/// (an IK target). A joint in the middle of a chain that lies outside claims the skin around it.
+/// Where all are outside, all keep their regions.
 ///
 /// \param joints with axes, and `holdsRegion` where nothing but the skin speaks against it
 void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const JointRoles& roles,

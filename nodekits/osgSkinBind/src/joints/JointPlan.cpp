@@ -48,12 +48,14 @@ bool haveOwnBones(const PlannedJoint& a, const PlannedJoint& b, double tolerance
 }
 
 /// Every joint that is not skipped and has a centre of its own gets a region. Of joints in one
-/// point the topmost gets it, unless it has no role and the other one has. Where they stand beside each other, the one that is more of a joint;
-/// where they are alike, each whose bone tells it apart, else none.
+/// point the topmost gets it, unless it has no role and the other one has. Where they stand beside
+/// each other, the one that is more of a joint; where they are alike, each whose bone tells it
+/// apart, else none.
 ///
 /// \param tellsBonesApart whether regions are found by samples along bones
 void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double tolerance,
-                 bool tellsBonesApart, std::vector<PlannedJoint>& joints, std::vector<std::string>& notes) {
+                 bool tellsBonesApart, std::vector<PlannedJoint>& joints,
+                 std::vector<std::string>& notes) {
     std::vector<std::size_t> rivals;
     std::string note;                              // of the first ones
     std::vector<bool> helps(joints.size(), false); // beside a joint that is more of one
@@ -106,13 +108,14 @@ void giveRegionsToRigidJoints(std::vector<PlannedJoint>& joints) {
 } // namespace
 
 glm::dvec3 planeNormal(const PlannedJoint& joint) {
-    const bool isSpine = joint.isSpine() && joint.lengthAbove > 0.0 &&
-                         joint.boneLength > 0.0;
+    const bool isSpine = joint.isSpine() && joint.lengthAbove > 0.0 && joint.boneLength > 0.0;
     const glm::dvec3 sum =
         isSpine ? joint.lengthAbove * joint.comingFrom + joint.boneLength * joint.boneAxis
                 : joint.comingFrom + joint.boneAxis;
     const double length = glm::length(sum);
-    return length > 1e-6 * (joint.lengthAbove + joint.boneLength) ? sum / length : joint.boneAxis; // a bone that folds straight back
+    return length > 1e-6 * (joint.lengthAbove + joint.boneLength)
+               ? sum / length
+               : joint.boneAxis; // a bone that folds straight back
 }
 
 double distanceToBone(const PlannedJoint& joint, const glm::dvec3& point) {

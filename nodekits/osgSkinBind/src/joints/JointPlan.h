@@ -43,8 +43,8 @@ struct PlannedJoint {
 
     /// The points that stand for the joint in the Delaunay step, inside the skin.
     std::vector<glm::dvec3> samples;
-    /// Sorted welded vertices beyond the joint, which follow it wholly: of a head, hand or foot, see
-    /// findExtremities(). Empty where its region has no such border.
+    /// Sorted welded vertices beyond the joint, which follow it wholly: of a head, hand or foot,
+    /// see findExtremities(). Empty where its region has no such border.
     std::vector<std::uint32_t> beyond;
 
     JointBindOptions options; ///< what the author said about it
@@ -54,8 +54,8 @@ struct PlannedJoint {
     bool belowRigid(int index) const { return rigid >= 0 && rigid != index; }
 };
 
-/// Unit normal of the joint's plane, towards the child. It bisects the bone above and its own; along
-/// the trunk, whose bones go to and fro, the longer of the two counts more.
+/// Unit normal of the joint's plane, towards the child. It bisects the bone above and its own;
+/// along the trunk, whose bones go to and fro, the longer of the two counts more.
 glm::dvec3 planeNormal(const PlannedJoint& joint);
 
 /// Distance of a point, rest space, to the joint's bone, which may have no length.

@@ -26,7 +26,8 @@ std::vector<double> BinaryField::divided(std::size_t joint, double shift) const 
     std::vector<bool> isDivided(joints.size(), false);
     isDivided[joint] = true;
     if (planned.isSpine())
-        for (std::size_t j = 0; j < joints.size(); ++j) isDivided[j] = joints[j].isSpine() || j == 0;
+        for (std::size_t j = 0; j < joints.size(); ++j)
+            isDivided[j] = joints[j].isSpine() || j == 0;
     for (std::size_t v = 0; v < field.size(); ++v) {
         if (!isDivided[regions[v]]) continue;
         const double along = glm::dot(mesh.positions[v] - planned.centre, normal);

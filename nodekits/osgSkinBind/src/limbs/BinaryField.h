@@ -21,13 +21,12 @@ struct BinaryField {
     /// 1 over the subtree's regions and, in the joint's own region, below the joint's plane, which
     /// bisects the bone above and its own; else 0.
     ///
-    /// A rigid part behind a bone that is shorter than its own (a head on its neck) takes its whole
-    /// region: there the region's border, along the jaw, is as near to the joint as the plane is,
-    /// and follows the body better.
+    /// A spine's joint divides the regions of the whole spine, whose skin is near to several
+    /// joints. A joint with a border of its own (PlannedJoint::beyond) takes its whole region, and
+    /// so does a rigid part behind a bone that is shorter than its own.
     ///
     /// \param joint index in `joints`
-    /// \param shift of the plane, towards the child; a plane that is shifted towards the parent
-    ///        divides the region above, too
+    /// \param shift of the plane, towards the child
     /// \return one value for each welded vertex
     std::vector<double> divided(std::size_t joint, double shift = 0.0) const;
 

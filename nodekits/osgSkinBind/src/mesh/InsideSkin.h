@@ -4,11 +4,17 @@
 
 #include "mesh/WeldedMesh.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace osgSkin {
 
 /// True where the skin winds around the point: the generalised winding number (Jacobson, Kavan &
 /// Sorkine-Hornung 2013) is above one half. Needs no closed mesh, and takes either winding.
 bool isInsideSkin(const WeldedMesh& mesh, const glm::dvec3& point);
+
+/// The closed shells that a point is inside.
+std::vector<std::uint32_t> shellsAround(const WeldedMesh& mesh, const glm::dvec3& point);
 
 } // namespace osgSkin
 

@@ -8,11 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 namespace osgSkin {
 namespace {
+
+/// An edge with more triangles is no edge along which a few closed pieces touch.
+constexpr std::ptrdiff_t kMaxTouching = 16;
 
 struct Cell {
     std::int64_t x, y, z;
@@ -62,10 +68,81 @@ private:
     std::unordered_map<Cell, std::uint32_t, CellHash> _cells;
 };
 
+/// Numbers that are joined, each time two of them, to sets.
+class JoinedSets {
+public:
+    explicit JoinedSets(std::size_t count) : _above(count) {
+        std::iota(_above.begin(), _above.end(), std::size_t{0});
+    }
+
+    /// The number that stands for the set of another.
+    std::size_t find(std::size_t i) {
+        while (_above[i] != i) i = _above[i] = _above[_above[i]];
+        return i;
+    }
+    void join(std::size_t a, std::size_t b) { _above[find(a)] = find(b); }
+
+private:
+    std::vector<std::size_t> _above;
+};
+
+/// A triangle's side between two welded vertices, the lower one first.
+struct Side {
+    std::uint32_t low, high;
+    bool isForward; ///< the triangle goes from the lower to the higher
+    std::size_t triangle;
+
+    bool isAlong(const Side& other) const { return low == other.low && high == other.high; }
+};
+
+/// All sides of triangles, those along the same edge one after the other, in the triangles' order.
+std::vector<Side> sidesOf(const std::vector<std::uint32_t>& corners,
+                          const std::vector<std::uint32_t>& weldedOf) {
+    std::vector<Side> sides;
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = weldedOf[corners[i + k]],
+                                to = weldedOf[corners[i + (k + 1) % 3]];
+            if (from != to)
+                sides.push_back({std::min(from, to), std::max(from, to), from < to, i / 3});
+        }
+    std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return std::pair(a.low, a.high) < std::pair(b.low, b.high);
+    });
+    return sides;
+}
+
+/// Joins the triangles on both sides of an edge. Where several pieces touch there are more than
+/// two: each goes with the one of the other direction that is nearest in the file, since a piece's
+/// faces follow each other there.
+/// \param first,end the sides along one edge
+/// \param isOpen is set for triangles that are left alone
+void joinAcross(std::vector<Side>::const_iterator first, std::vector<Side>::const_iterator end,
+                JoinedSets& pieces, std::vector<bool>& isOpen) {
+    std::vector<Side> left(first, end);
+    while (!left.empty()) {
+        std::size_t a = 0, b = 0, nearest = std::numeric_limits<std::size_t>::max();
+        for (std::size_t i = 0; i < left.size(); ++i)
+            for (std::size_t j = i + 1; j < left.size(); ++j) {
+                const std::size_t away = left[j].triangle - left[i].triangle;
+                if (left[i].isForward == left[j].isForward || away >= nearest) continue;
+                a = i;
+                b = j;
+                nearest = away;
+            }
+        if (b == 0) break;
+        pieces.join(left[a].triangle, left[b].triangle);
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(b));
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(a));
+    }
+    for (const Side& side : left) isOpen[side.triangle] = true;
+}
+
 } // namespace
 
 WeldedMesh::WeldedMesh(const SkinMesh& mesh, double same) : size(mesh.size()) {
     weld(mesh, std::max(same * size, std::numeric_limits<double>::min()));
+    partClosedPieces(mesh);
     addTriangles(mesh);
     connect();
     findShells();
@@ -79,6 +156,51 @@ void WeldedMesh::weld(const SkinMesh& mesh, double tolerance) {
         const std::uint32_t welded = finder.findOrAdd(p, positions);
         if (welded == positions.size()) positions.push_back(p);
         weldedOf.push_back(welded);
+    }
+}
+
+/// Gives each piece that is closed by itself vertices of its own where it touches others.
+void WeldedMesh::partClosedPieces(const SkinMesh& mesh) {
+    const std::vector<std::uint32_t> corners = mesh.triangles();
+    const std::vector<Side> sides = sidesOf(corners, weldedOf);
+    bool touch = false; // more than two triangles share an edge
+    for (std::size_t i = 0; i + 2 < sides.size() && !touch; ++i)
+        touch = sides[i].isAlong(sides[i + 2]);
+    if (!touch) return;
+    const std::size_t triangleCount = corners.size() / 3;
+    JoinedSets pieces(triangleCount);
+    std::vector<bool> isOpen(triangleCount, false);
+    for (auto first = sides.begin(); first != sides.end();) {
+        const auto end = std::find_if(first, sides.end(),
+                                      [&first](const Side& side) { return !side.isAlong(*first); });
+        // Among very many, nobody can tell which belong together.
+        if (end - first <= kMaxTouching) joinAcross(first, end, pieces, isOpen);
+        first = end;
+    }
+    constexpr std::size_t kNoTriangle = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> triangleAt(mesh.positions.size(), kNoTriangle);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        std::size_t& first = triangleAt[corners[i]];
+        if (first == kNoTriangle) first = i / 3;
+        pieces.join(first, i / 3);
+    }
+    std::vector<bool> isPieceOpen(triangleCount, false);
+    for (std::size_t t = 0; t < triangleCount; ++t)
+        if (isOpen[t]) isPieceOpen[pieces.find(t)] = true;
+    // Whoever comes first to a vertex keeps it; open pieces share theirs.
+    std::map<std::pair<std::uint32_t, std::size_t>, std::uint32_t> ownCopies;
+    std::vector<std::size_t> keeper(positions.size(), kNoTriangle);
+    for (std::size_t v = 0; v < weldedOf.size(); ++v) {
+        if (triangleAt[v] == kNoTriangle) continue;
+        const std::size_t found = pieces.find(triangleAt[v]);
+        const std::size_t piece = isPieceOpen[found] ? triangleCount : found;
+        const std::uint32_t welded = weldedOf[v];
+        if (keeper[welded] == kNoTriangle) keeper[welded] = piece;
+        if (keeper[welded] == piece) continue;
+        const auto [copy, isNew] = ownCopies.emplace(std::pair(welded, piece),
+                                                     static_cast<std::uint32_t>(positions.size()));
+        if (isNew) positions.push_back(glm::dvec3(positions[welded]));
+        weldedOf[v] = copy->second;
     }
 }
 

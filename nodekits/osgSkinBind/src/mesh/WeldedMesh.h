@@ -14,6 +14,8 @@ namespace osgSkin {
 /// The skin as binding sees it: vertices that share a position are one, faces are triangles.
 ///
 /// OSG splits vertices at texture and normal seams; walking such a mesh's edges would stop there.
+/// Pieces that are closed by themselves stay apart where they touch, as the boxes of a blocky
+/// figure do, unless they share vertices in the mesh as given.
 struct WeldedMesh {
     static constexpr std::uint32_t kNoShell = 0xffffffffu;
 
@@ -42,6 +44,7 @@ struct WeldedMesh {
 
 private:
     void weld(const SkinMesh& mesh, double tolerance);
+    void partClosedPieces(const SkinMesh& mesh);
     void addTriangles(const SkinMesh& mesh);
     void connect();
     void findShells();

@@ -12,30 +12,42 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace osgSkin {
 namespace {
 
-/// Widths beside that of a limb. The trunk's joints stand so close that their fields overlap. A
-/// rigid part starts close behind its joint, and the skin above takes up more of the rotation.
-static double knob(const char*n,double d){return getenv(n)?atof(getenv(n)):d;}
-const double kTrunkWidth = knob("K_TW",0.6);
-const double kBetween=knob("K_BA",1.5), kBetweenBelow=knob("K_BB",0.75), kCollarShift=knob("K_CS",0.0), kCollarW=knob("K_CW",1.2);
-constexpr double kAboveRigidWidth = 1.5;
-constexpr double kRigidWidth = 0.6;
+/// Widths of a field above and below its joint, in limb radii, times BindOptions::smoothing.
+struct Widths {
+    double above, below;
+};
 
-/// The same of a head, hand or foot above its border.
-constexpr double kBorderWidth = 1.1;
+/// A limb's joint bends its skin mostly above the joint: the forearm and the calf keep their shape.
+constexpr Widths kBetweenLimbs{1.5, 0.75};
+constexpr Widths kLimbAtTrunk{1.15, 1.15};
+constexpr Widths kOther{1.0, 1.0};
 
-/// The same of a finger's or toe's joint, in lengths of its bone on that side, and above a last one.
-constexpr double kDigitWidth = 0.5;
-constexpr double kTipWidth = 0.3;
+/// The trunk's joints stand so close that their fields would overlap. Their radius is that of the
+/// waist: the chest's is measured with the shoulders.
+constexpr Widths kSpine{0.6, 0.6};
+constexpr Widths kCollar{0.72, 0.72};
+
+/// A rigid part starts close behind its joint, and the skin above takes up more of the rotation.
+constexpr Widths kRigid{1.5, 0.6};
+
+/// Above the border of a head, hand or foot.
+constexpr double kAboveBorder = 1.1;
+
+/// A field reaches along a limb no farther than this share of the bone: limbs of game figures may
+/// be as short as they are thick.
+constexpr double kMaxShareOfBone = 0.6;
+
+/// Widths at a finger's or toe's joint, in lengths of its bone on that side, and above a last one.
+constexpr double kDigit = 0.5;
+constexpr double kTip = 0.3;
 
 /// A spine runs behind the belly. A plane this much below the joint, in radii, loses less of the
 /// belly's volume.
-const double kTrunkLift = knob("K_TL",0.15);
+constexpr double kTrunkLift = 0.15;
 
 /// What of a joint's rotation the middle third of its own bone must take, and that of the bone
 /// above may.
@@ -49,21 +61,6 @@ constexpr int kTries = 6;
 /// The least that a width may be narrowed to. Where an arm hangs so low that the armpit reaches
 /// into its middle third, no width leaves that third rigid, and a narrow one tears the armpit.
 constexpr double kNarrowest = 0.4;
-
-/// Width of a field on the two sides of its joint's plane.
-struct Widths {
-    double above, below;
-};
-
-Widths firstWidths(const PlannedJoint& joint, double radius, double smoothing) {
-    const double width = smoothing * radius;
-    if (joint.rigid >= 0) return {kAboveRigidWidth * width, kRigidWidth * width};
-    if (joint.trunk) return {kTrunkWidth * width, kTrunkWidth * width};
-    if (joint.digit)
-        return {std::min(width, kDigitWidth * joint.lengthAbove),
-                std::min(width, kDigitWidth * joint.boneLength)};
-    return {width, width};
-}
 
 /// \param share of the width that a vertex takes, for each; none where all take 1
 std::vector<double> spread(const SkinSmoother& smoother, const std::vector<double>& binary,
@@ -80,8 +77,8 @@ std::vector<double> spread(const SkinSmoother& smoother, const std::vector<doubl
     return field;
 }
 
-/// The field of a head, hand or foot, or a finger's tip: 1 on all that is its own, and from there on
-/// falling to 0 over the limb above.
+/// The field of a head, hand or foot, or a finger's tip: 1 on all that is its own, and from there
+/// on falling to 0 over the limb above.
 std::vector<double> fromBorder(const SkinSmoother& smoother, const std::vector<double>& own,
                                double width, double cutOff) {
     std::vector<bool> isOwn(own.size());
@@ -92,24 +89,50 @@ std::vector<double> fromBorder(const SkinSmoother& smoother, const std::vector<d
     return field;
 }
 
-/// The skin of arms and legs that a joint does not move: nothing of its field gets there. Empty where
-/// there is none.
-std::vector<bool> otherLimbs(const BinaryField& binary, std::size_t joint) {
-    const std::vector<PlannedJoint>& joints = binary.joints;
-    const std::vector<bool> inside = subtreeOf(joints, joint);
-    std::vector<bool> isOther(joints.size(), false);
-    bool any = false;
-    for (std::size_t j = 1; j < joints.size(); ++j) {
-        isOther[j] = !inside[j] && !joints[j].isSpine() &&
-                     (isOther[static_cast<std::size_t>(joints[j].parent)] ||
-                      carries(joints, j, JointPart::Hand) || carries(joints, j, JointPart::Foot)) &&
-                     !subtreeOf(joints, j)[joint];
-        any = any || isOther[j];
+/// The radius of the waist, the least of the spine's; `radius` where that is less.
+double waistRadius(const std::vector<PlannedJoint>& joints, const std::vector<double>& radii,
+                   double radius) {
+    for (std::size_t j = 1; j < joints.size(); ++j)
+        if (joints[j].isSpine() && radii[j] > 0.0) radius = std::min(radius, radii[j]);
+    return radius;
+}
+
+/// Widths to start with, in rest units.
+/// \param limb,onLimb whether the joint is a limb's, and the one above
+Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, bool limb,
+                   bool onLimb, const std::vector<double>& radii, double smoothing) {
+    const PlannedJoint& joint = joints[index];
+    const double radius = joint.isSpine() ? waistRadius(joints, radii, radii[index]) : radii[index];
+    const auto times = [&](const Widths& widths) {
+        return Widths{widths.above * smoothing * radius, widths.below * smoothing * radius};
+    };
+    if (joint.rigid >= 0) return times(kRigid);
+    if (joint.trunk) return times(joint.collarBone ? kCollar : kSpine);
+    if (joint.digit) {
+        const Widths widths = times(kOther);
+        return {std::min(widths.above, kDigit * joint.lengthAbove),
+                std::min(widths.below, kDigit * joint.boneLength)};
     }
-    if (!any) return {};
-    std::vector<bool> isHeld(binary.regions.size());
-    for (std::size_t v = 0; v < isHeld.size(); ++v) isHeld[v] = isOther[binary.regions[v]];
-    return isHeld;
+    Widths widths = times(!limb ? kOther : onLimb ? kBetweenLimbs : kLimbAtTrunk);
+    if (carries(joints, index, JointPart::Head))
+        return widths; // necks bend over their whole length
+    if (onLimb) widths.above = std::min(widths.above, kMaxShareOfBone * joint.lengthAbove);
+    if (joint.boneLength > 0.0)
+        widths.below = std::min(widths.below, kMaxShareOfBone * joint.boneLength);
+    return widths;
+}
+
+/// The last joint of a finger or toe with several: all beyond it is its own.
+bool isLastDigit(const std::vector<PlannedJoint>& joints, const PlannedJoint& joint) {
+    return joint.digit && joint.child < 0 && joints[static_cast<std::size_t>(joint.parent)].digit;
+}
+
+/// The skin of a joint and all below it: an arm follows its collar bone wholly.
+std::vector<bool> skinOf(const BinaryField& binary, int joint) {
+    const std::vector<bool> isBelow = subtreeOf(binary.joints, static_cast<std::size_t>(joint));
+    std::vector<bool> result(binary.regions.size());
+    for (std::size_t v = 0; v < result.size(); ++v) result[v] = isBelow[binary.regions[v]];
+    return result;
 }
 
 /// Narrows a width, down to `least`, where `excess`, what the middle third has too much, is above
@@ -149,17 +172,15 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
                                const BindOptions& options) {
     const PlannedJoint& planned = binary.joints[joint];
     const double radius = radii[joint];
-    if(getenv("K_DBG")) fprintf(stderr,"joint %zu trunk %d collar %d topmost %d radius %.2f normal %.2f %.2f %.2f above %zu La %.2f Lb %.2f part %d ext %d hold %d\n",joint,planned.trunk,planned.collarBone,planned.topmost,radius,planeNormal(planned).x,planeNormal(planned).y,planeNormal(planned).z,regionAbove(binary.joints,joint),planned.lengthAbove,planned.boneLength,int(planned.part),planned.extremity,planned.holdsRegion);
-    double shift = planned.trunk ? -kTrunkLift * radius : 0.0;
-    if (planned.collarBone) shift = kCollarShift * planned.armDistance;
-    std::vector<double> start = binary.divided(joint, shift);
+    const bool isLifted = planned.isSpine();
+    std::vector<double> start = binary.divided(joint, isLifted ? -kTrunkLift * radius : 0.0);
     if (!(radius > 0.0)) return start;
     if (!planned.beyond.empty())
-        return fromBorder(smoother, start, kBorderWidth * options.smoothing * radius,
+        return fromBorder(smoother, start, kAboveBorder * options.smoothing * radius,
                           options.cutOff);
-    if (planned.digit && planned.child < 0 &&
-        binary.joints[static_cast<std::size_t>(planned.parent)].digit)
-        return fromBorder(smoother, start, std::min(options.smoothing * radius, kTipWidth * planned.lengthAbove),
+    if (isLastDigit(binary.joints, planned))
+        return fromBorder(smoother, start,
+                          std::min(options.smoothing * radius, kTip * planned.lengthAbove),
                           options.cutOff);
 
     const std::size_t above = regionAbove(binary.joints, joint);
@@ -167,27 +188,14 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     const bool onLimb = above > 0 && isLimb(binary.joints[above], radii[above]);
     const MiddleThird own = limb ? MiddleThird(binary, joint) : MiddleThird();
     const MiddleThird previous = onLimb ? MiddleThird(binary, above) : MiddleThird();
-    double wr = radius;
-    if (planned.isSpine())
-        for (std::size_t j = 1; j < radii.size(); ++j)
-            if (binary.joints[j].isSpine() && radii[j] > 0.0) wr = std::min(wr, radii[j]);
-    Widths widths = firstWidths(planned, wr, options.smoothing);
-    if (onLimb && limb) { widths.above *= kBetween; widths.below *= kBetweenBelow; }
-    if (limb && !onLimb) { widths.above *= knob("K_HA",1); widths.below *= knob("K_HB",1); }
-    if (!planned.trunk && !carries(binary.joints, joint, JointPart::Head)) { const double cap=knob("K_CAP",.6); if (onLimb) widths.above=std::min(widths.above,cap*planned.lengthAbove); if (planned.boneLength>0) widths.below=std::min(widths.below,cap*planned.boneLength); }
-    if (planned.collarBone) { widths.above *= kCollarW; widths.below *= kCollarW; }
+    Widths widths = firstWidths(binary.joints, joint, limb, onLimb, radii, options.smoothing);
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
-    std::vector<bool> isHeld;
-    if (getenv("K_HOLD")) isHeld = otherLimbs(binary, joint);
-    if (planned.collarBone) {
-        const auto in = subtreeOf(binary.joints, planned.child);
-        isHeld.assign(start.size(), false);
-        const auto arm = false ? binary.divided(planned.child) : std::vector<double>();
-        for (std::size_t v = 0; v < start.size(); ++v) isHeld[v] = arm.empty() ? in[binary.regions[v]] : arm[v] > .5;
-    }
+    const std::vector<bool> isHeld =
+        planned.collarBone ? skinOf(binary, planned.child) : std::vector<bool>();
     std::vector<double> share;
     if (limb && binary.joints[above].trunk)
-        share = slopeShare(binary.mesh, spread(smoother, start, widths, {}, isHeld, options.cutOff));
+        share =
+            slopeShare(binary.mesh, spread(smoother, start, widths, {}, isHeld, options.cutOff));
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
         field = spread(smoother, start, widths, share, isHeld, options.cutOff);

@@ -15,8 +15,8 @@ struct DelaunayLink {
     std::uint32_t sample = 0;
 };
 
-/// Triangulates vertices and samples of the skeleton together (paper, section 1, Delaunay step) and returns
-/// the edges that join one of each kind, sorted by sample, then vertex.
+/// Triangulates vertices and samples of the skeleton together (paper, section 1, Delaunay step) and
+/// returns the edges that join one of each kind, sorted by sample, then vertex.
 ///
 /// Empty where the points do not span space (all in one plane). A sample that lies exactly on a
 /// vertex is linked to it and to that vertex's neighbours.

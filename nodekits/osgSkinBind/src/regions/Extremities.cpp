@@ -131,8 +131,8 @@ private:
         return isClosed && loop.size() > 2 ? loop : std::vector<Edge>();
     }
 
-    /// Its length where it runs around the plane's point and is the limb's outside, else 0: a throat
-    /// has an inside, too.
+    /// Its length where it runs around the plane's point and is the limb's outside, else 0: a
+    /// throat has an inside, too.
     double lengthAround(const std::vector<Edge>& loop, const Plane& plane) const {
         double length = 0.0, angle = 0.0, outwards = 0.0;
         for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -9,8 +9,8 @@
 
 namespace osgSkin {
 
-/// Sets `beyond` of heads, hands and feet: all skin beyond the narrowest section of the limb through
-/// the joint.
+/// Sets `beyond` of heads, hands and feet: all skin beyond the narrowest section of the limb
+/// through the joint.
 ///
 /// A section is the loop in which a plane cuts the skin around the limb. The skin is parted along
 /// it, and all that hangs together beyond it belongs to the extremity, whichever way it hangs: a

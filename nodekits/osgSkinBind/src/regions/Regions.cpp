@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "regions/Regions.h"
 
+#include "mesh/InsideSkin.h"
 #include "regions/AssignUnreached.h"
 #include "regions/ClaimRegions.h"
 #include "regions/FloodRegions.h"
@@ -12,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace osgSkin {
 namespace {
@@ -19,6 +21,44 @@ namespace {
 /// Fractions of the time that have passed when the steps begin, measured at 280,000 vertices.
 constexpr double kFloodingBegins = 0.3;
 constexpr double kBordersBegin = 0.9;
+
+/// Of the samples in a shell, the share that a joint must have for the shell to be its own: the
+/// bone that leads to it may end there.
+constexpr double kOwnShare = 0.7;
+
+/// Gives a closed shell to the joint that nearly all samples in it are of: a box of a blocky
+/// figure, an eye. A joint with all its samples in such shells has no other skin.
+void giveShells(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints, Regions& regions) {
+    if (mesh.shells < 2) return;
+    std::vector<std::map<std::uint32_t, std::size_t>> samplesIn(mesh.shells); // of each joint
+    for (std::uint32_t j = 0; j < joints.size(); ++j) {
+        const std::uint32_t joint =
+            joints[j].rigid >= 0 ? static_cast<std::uint32_t>(joints[j].rigid) : j;
+        for (const glm::dvec3& sample : joints[j].samples)
+            for (const std::uint32_t shell : shellsAround(mesh, sample)) ++samplesIn[shell][joint];
+    }
+    std::vector<std::uint32_t> owner(mesh.shells, Regions::kNone);
+    std::vector<bool> hasShell(joints.size(), false), hasOther(joints.size(), false);
+    for (std::uint32_t shell = 0; shell < mesh.shells; ++shell) {
+        std::size_t all = 0;
+        for (const auto& [joint, count] : samplesIn[shell]) all += count;
+        for (const auto& [joint, count] : samplesIn[shell]) {
+            const bool isOwn = double(count) >= kOwnShare * double(all);
+            if (isOwn) owner[shell] = joint;
+            (isOwn ? hasShell : hasOther)[joint] = true;
+        }
+    }
+    for (std::size_t v = 0; v < regions.jointOf.size(); ++v) {
+        if (mesh.shellOf[v] == WeldedMesh::kNoShell) continue;
+        const std::uint32_t joint = owner[mesh.shellOf[v]], now = regions.jointOf[v];
+        if (joint != Regions::kNone)
+            regions.jointOf[v] = regions.seedOf[v] = joint;
+        else if (hasShell[now] && !hasOther[now])
+            regions.jointOf[v] = regions.seedOf[v] = Regions::kNone;
+    }
+    spreadRegions(mesh, regions.jointOf);
+    assignUnreached(mesh, joints, regions.jointOf);
+}
 
 /// Distance of a point to a bone; a last bone goes on to its last sample.
 double distanceToDigit(const PlannedJoint& joint, const glm::dvec3& point) {
@@ -55,29 +95,32 @@ void extendDigits(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joint
     }
 }
 
-/// Gives joints the skin beyond them, and no other: what else they have goes to the regions beside
-/// it.
+/// Gives a joint the skin beyond it, and no other of that shell: what else it has there goes to the
+/// regions beside it. Nothing changes on a shell that is all its own, or has nothing of its own.
 void giveBeyond(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
-                std::vector<std::uint32_t>& jointOf) {
-    for (std::uint32_t j = 0; j < joints.size(); ++j) {
-        if (joints[j].beyond.empty()) continue;
-        const std::vector<bool> isBelow = subtreeOf(joints, j);
-        std::vector<bool> isBeyond(jointOf.size(), false);
-        for (const std::uint32_t v : joints[j].beyond) isBeyond[v] = true;
-        for (std::size_t v = 0; v < jointOf.size(); ++v) {
-            if (isBeyond[v] && !isBelow[jointOf[v]])
-                jointOf[v] = j;
-            else if (!isBeyond[v] && isBelow[jointOf[v]])
-                jointOf[v] = Regions::kNone;
-        }
-        // Not from the extremity's side: it is unlabelled for that long.
-        std::vector<std::uint32_t> others = jointOf;
-        for (const std::uint32_t v : joints[j].beyond) others[v] = Regions::kNone;
-        spreadRegions(mesh, others);
-        for (std::size_t v = 0; v < jointOf.size(); ++v)
-            if (jointOf[v] == Regions::kNone) jointOf[v] = others[v];
-        assignUnreached(mesh, joints, jointOf);
+                std::uint32_t joint, std::vector<std::uint32_t>& jointOf) {
+    const std::vector<std::uint32_t>& beyond = joints[joint].beyond;
+    const std::vector<bool> isBelow = subtreeOf(joints, joint);
+    const std::uint32_t shell = mesh.shellOf[beyond.front()];
+    bool hasOwn = false, hasOther = false;
+    for (std::size_t v = 0; v < jointOf.size(); ++v)
+        if (mesh.shellOf[v] == shell) (isBelow[jointOf[v]] ? hasOwn : hasOther) = true;
+    if (!hasOwn || !hasOther) return;
+
+    std::vector<std::uint32_t> others = jointOf; // without the extremity's side
+    for (const std::uint32_t v : beyond) {
+        others[v] = Regions::kNone;
+        if (!isBelow[jointOf[v]]) jointOf[v] = joint;
     }
+    const auto isToGo = [&](std::size_t v) {
+        return mesh.shellOf[v] == shell && isBelow[jointOf[v]] &&
+               !std::binary_search(beyond.begin(), beyond.end(), v);
+    };
+    for (std::size_t v = 0; v < jointOf.size(); ++v)
+        if (isToGo(v)) others[v] = Regions::kNone;
+    spreadRegions(mesh, others);
+    for (std::size_t v = 0; v < jointOf.size(); ++v)
+        if (isToGo(v) && others[v] != Regions::kNone) jointOf[v] = others[v];
 }
 
 } // namespace
@@ -105,7 +148,9 @@ Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
     trimRegions(mesh, joints, regions.jointOf);
     removeIslands(mesh, isSeed, regions.jointOf);
     extendDigits(mesh, joints, regions.jointOf); // whose regions may have several parts
-    giveBeyond(mesh, joints, regions.jointOf);
+    giveShells(mesh, joints, regions);
+    for (std::uint32_t j = 0; j < joints.size(); ++j)
+        if (!joints[j].beyond.empty()) giveBeyond(mesh, joints, j, regions.jointOf);
     return regions;
 }
 

@@ -83,8 +83,8 @@ void skipUnused(const RestSkeleton& rest, const VertexWeights& weights, BindOpti
         for (const JointWeight& entry : entries)
             if (entry.weight > 0.0) isUsed[entry.joint] = true;
     for (std::size_t j = 0; j < rest.joints.size(); ++j) {
-        const bool hasTwin = std::any_of(
-            rest.joints.begin(), rest.joints.end(), [&](const RestJoint& other) {
+        const bool hasTwin =
+            std::any_of(rest.joints.begin(), rest.joints.end(), [&](const RestJoint& other) {
                 return isUsed[static_cast<std::size_t>(&other - rest.joints.data())] &&
                        other.centre == rest.joints[j].centre;
             });

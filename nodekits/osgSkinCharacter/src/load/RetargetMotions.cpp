@@ -22,9 +22,8 @@ void checkSize(CharacterSource& source, const SkinFile::MotionEntry& entry, cons
 
 } // namespace
 
-std::vector<CharacterMotion> retargetMotions(CharacterSource& source,
-                                             const osgDB::Options* readOptions,
-                                             LoadStages& stages) {
+std::vector<CharacterMotion>
+retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, LoadStages& stages) {
     std::vector<CharacterMotion> motions;
     for (const SkinFile::MotionEntry& entry : source.motions) {
         stages.begin("motion " + entry.name, LoadStages::kMotion);

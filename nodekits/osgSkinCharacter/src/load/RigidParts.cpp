@@ -59,7 +59,8 @@ void setRigidParts(CharacterSource& source, const std::vector<CharacterMotion>& 
         if (std::find(stiff.begin(), stiff.end(), name) == stiff.end())
             names += (names.empty() ? "\"" : ", \"") + name + '"';
     if (!names.empty())
-        source.rigidNote = "rigid parts that could bend, but no motion moves the joints below them: " + names;
+        source.rigidNote =
+            "rigid parts that could bend, but no motion moves the joints below them: " + names;
 }
 
 } // namespace osgSkin
