@@ -68,8 +68,11 @@ void addRatios(const WeldedMesh& mesh, const Regions& regions, JointFields&& ben
         static_cast<double>(partial) / static_cast<double>(mesh.weldedOf.size());
 }
 
+/// A bone is of a limb's size from this share of the mesh's on.
+constexpr double kLimbSize = 0.08;
+
 void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
-                   const Regions& regions, BindReport& report) {
+                   const Regions& regions, double size, BindReport& report) {
     std::vector<BindReport::Region> all(joints.size());
     for (std::size_t j = 0; j < joints.size(); ++j) {
         // A rigid joint's region takes in what its descendants seed.
@@ -82,8 +85,10 @@ void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>
         if (!joints[j].holdsRegion && all[j].vertices == 0) continue;
         all[j].joint = skeleton.joints[j].name;
         report.regions.push_back(all[j]);
-        if (all[j].vertices == 0)
-            report.notes.push_back("region of joint \"" + all[j].joint + "\" is empty");
+        if (all[j].vertices > 0) continue;
+        report.notes.push_back("region of joint \"" + all[j].joint + "\" is empty");
+        if (j > 0 && !joints[j].samples.empty() && joints[j].boneLength > kLimbSize * size)
+            report.bareJoints.push_back(all[j].joint);
     }
     report.rejectedEdges = regions.rejectedEdges;
 }
@@ -187,7 +192,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     found.openEdges = skin.openEdges;
     found.seeds = seedsOf(skin, regions);
     found.boundaries = boundariesOf(joints, radii, options.method == BindOptions::Method::Paper);
-    reportRegions(skeleton, joints, regions, found);
+    reportRegions(skeleton, joints, regions, skin.size, found);
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (report) *report = found;
     if (options.progress) options.progress({"done", 1.0});

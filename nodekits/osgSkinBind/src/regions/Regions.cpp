@@ -2,8 +2,7 @@
 #include "regions/Regions.h"
 
 #include "mesh/InsideSkin.h"
-#include "regions/AssignUnreached.h"
-#include "regions/ClaimRegions.h"
+#include "mesh/NearestPoints.h"
 #include "regions/FloodRegions.h"
 #include "regions/RemoveIslands.h"
 #include "regions/SeedRegions.h"
@@ -13,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace osgSkin {
@@ -21,6 +21,59 @@ namespace {
 /// Fractions of the time that have passed when the steps begin, measured at 280,000 vertices.
 constexpr double kFloodingBegins = 0.3;
 constexpr double kBordersBegin = 0.9;
+
+struct NearBone {
+    std::uint32_t joint = 0; ///< the root, where no joint may hold a region
+    double distance = std::numeric_limits<double>::infinity();
+};
+
+NearBone nearestBone(const glm::dvec3& p, const std::vector<PlannedJoint>& joints) {
+    NearBone best;
+    for (std::uint32_t j = 0; j < joints.size(); ++j) {
+        if (!joints[j].holdsRegion) continue;
+        const double distance = distanceToBone(joints[j], p);
+        if (distance < best.distance) best = {j, distance};
+    }
+    return best;
+}
+
+/// Labels what flooding cannot reach: vertices like the nearest labelled vertex or the nearest
+/// bone, whichever is nearer. So a button goes with the skin below it, and a lined coat that has no
+/// body in it with the bones.
+void assignUnreached(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                     std::vector<std::uint32_t>& jointOf) {
+    std::vector<std::uint32_t> labelled, unreached;
+    for (std::uint32_t v = 0; v < jointOf.size(); ++v)
+        (jointOf[v] == Regions::kNone ? unreached : labelled).push_back(v);
+    if (unreached.empty()) return;
+
+    std::vector<std::uint32_t> nearest;
+    if (!labelled.empty()) nearest = nearestPoints(mesh.positions, labelled, unreached);
+    for (std::size_t i = 0; i < unreached.size(); ++i) {
+        const glm::dvec3& p = mesh.positions[unreached[i]];
+        const NearBone bone = nearestBone(p, joints);
+        const bool isSkinNearer =
+            !nearest.empty() && glm::distance(p, mesh.positions[nearest[i]]) < bone.distance;
+        jointOf[unreached[i]] = isSkinNearer ? jointOf[nearest[i]] : bone.joint;
+    }
+}
+
+/// Gives joints that claim a region the vertices nearer to them than to the neighbouring joint of
+/// the chain whose label they have.
+void claimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+                  std::vector<std::uint32_t>& jointOf) {
+    for (std::uint32_t j = 0; j < joints.size(); ++j) {
+        if (!joints[j].claims) continue;
+        const std::size_t above = regionAbove(joints, j);
+        for (std::size_t v = 0; v < jointOf.size(); ++v) {
+            const std::uint32_t owner = jointOf[v];
+            if (owner != above && (owner == j || regionAbove(joints, owner) != j)) continue;
+            if (glm::distance(mesh.positions[v], joints[j].centre) <
+                glm::distance(mesh.positions[v], joints[owner].centre))
+                jointOf[v] = j;
+        }
+    }
+}
 
 /// Of the samples in a shell, the share that a joint must have for the shell to be its own: the
 /// bone that leads to it may end there.

@@ -120,6 +120,9 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
         return byWeights ? bindWeights(source.body.mesh, source.rest, weights, options, &report)
                          : bind(source.body.mesh, source.rest, options, &report);
     });
+    for (const std::string& joint : report.bareJoints)
+        takeNote(source.notes, source.file + ": no skin belongs to joint \"" + joint +
+                                   "\", whose bone is as long as a limb's");
     if (!source.rigidNote.empty()) report.notes.push_back(source.rigidNote);
     if (source.painted == Painted::Yes) {
         tellGaps(source, weights);
