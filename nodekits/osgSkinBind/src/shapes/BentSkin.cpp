@@ -16,13 +16,16 @@ namespace {
 
 using Points = std::vector<glm::dvec3>;
 
-/// By how much a limb swells at most to keep its volume.
-constexpr double kMostSwelling = 0.036;
+/// Sections are widened until they have this share of their area at rest.
+constexpr double kAreaKept = 0.97;
 
-/// How far from the joint it does so, in radii: fully, and at all. Further up a thigh there is
-/// another one beside it.
-constexpr double kSwellsFully = 2.0;
-constexpr double kSwellsNoMore = 4.0;
+/// Shares of the distance from the bone that sections are tried to be widened by.
+constexpr double kWidths[] = {0.1, 0.2, 0.4, 0.7, 1.0};
+
+/// How far widened skin may get from its bone, over its distance at rest: at a bend, in degrees,
+/// and at a deeper one.
+constexpr double kMostOut = 1.10, kMostOutAt = 120.0;
+constexpr double kMostOutDeep = 1.27, kMostOutDeepAt = 140.0;
 
 /// How deep inside a fold at the trunk bulges are still clamped, in radii of the limb.
 constexpr double kTrunkDepth = 0.3;
@@ -48,13 +51,52 @@ FoldShape foldAt(const ShapedJoint& joint, const glm::dquat& turn) {
             bone,
             joint.radius,
             degreesBetween(joint.above, bone),
-            degreesBetween(joint.above, joint.bone)};
+            degreesBetween(joint.above, joint.bone),
+            turn};
 }
 
 Points between(Points from, const Points& to, double share) {
     for (std::size_t i = 0; i < from.size(); ++i) from[i] += share * (to[i] - from[i]);
     return from;
 }
+
+double mostOutAt(double angle) {
+    return glm::mix(kMostOut, kMostOutDeep,
+                    hermiteRatio((angle - kMostOutAt) / (kMostOutDeepAt - kMostOutAt)));
+}
+
+/// Shares by which sections of one bone are widened, searched among growing ones.
+class WidthSearch {
+public:
+    WidthSearch(const LimbSections::Values& atRest, const LimbSections::Values& areas)
+        : _areas(areas) {
+        for (std::size_t k = 0; k < atRest.size(); ++k) {
+            _missing[k] = kAreaKept * atRest[k] - areas[k];
+            _found[k] = !(_missing[k] > 0.0);
+        }
+    }
+
+    /// \param areas of all sections widened by `share`
+    void add(double share, const LimbSections::Values& areas) {
+        for (std::size_t k = 0; k < areas.size(); ++k) {
+            if (_found[k]) continue;
+            const double gained = areas[k] - _areas[k];
+            const double part = gained > 0.0 ? std::min(1.0, _missing[k] / gained) : 1.0;
+            shares[k] = glm::mix(_last, share, part);
+            _found[k] = part < 1.0;
+            _missing[k] -= gained;
+            _areas[k] = areas[k];
+        }
+        _last = share;
+    }
+
+    LimbSections::Values shares{};
+
+private:
+    LimbSections::Values _areas, _missing{};
+    std::array<bool, LimbSections::kCount> _found{};
+    double _last = 0.0;
+};
 
 } // namespace
 
@@ -71,32 +113,54 @@ double BentSkin::volumeOf(const ShapedJoint& joint, const Points& points) {
     return volume;
 }
 
-Points BentSkin::targets(double volumeAtRest) const {
-    return _joint.isAtTrunk() ? trunkTargets(volumeAtRest) : filledLimb(volumeAtRest);
+Points BentSkin::targets(double volumeAtRest, const LimbSections* sections) const {
+    return sections ? limbTargets(*sections) : trunkTargets(volumeAtRest);
 }
 
-Points BentSkin::limbTargets(double swelling) const {
-    Points targets;
+/// Moves the points sideways by shares of their distance from the bone.
+Points BentSkin::widened(const Points& points, const LimbSections::Sides& shares) const {
+    Points result;
+    const double r = _joint.radius, most = mostOutAt(_fold.angle);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec3 &x = points[i], &rest = _joint.vertices[i].from;
+        const double parents = LimbSections::valueAt(shares.parent, -glm::dot(_fold.above, x) / r);
+        const double childs = LimbSections::valueAt(shares.child, glm::dot(_fold.bone, x) / r);
+        const double side = childShare(_fold, rest);
+        result.push_back(widen(_fold, rest, x, glm::mix(parents, childs, side), most));
+    }
+    return result;
+}
+
+/// Shares by which sections are to be widened to keep their areas.
+LimbSections::Sides BentSkin::sharesFor(const Points& shaped, const LimbSections& sections) const {
+    const LimbSections::Sides areas = sections.areasOf(_fold, shaped);
+    WidthSearch parent(sections.atRest().parent, areas.parent),
+        child(sections.atRest().child, areas.child);
+    for (const double width : kWidths) {
+        LimbSections::Sides all;
+        all.parent.fill(width);
+        all.child.fill(width);
+        const LimbSections::Sides wide = sections.areasOf(_fold, widened(shaped, all));
+        parent.add(width, wide.parent);
+        child.add(width, wide.child);
+    }
+    return {parent.shares, child.shares};
+}
+
+Points BentSkin::limbTargets(const LimbSections& sections) const {
+    Points shaped;
+    for (std::size_t i = 0; i < _posed.size(); ++i) {
+        const glm::dvec3& rest = _joint.vertices[i].from;
+        glm::dvec3 target = restoreSection(_fold, rest, clampBulge(_fold, rest, _posed[i]));
+        shaped.push_back(pressFold(_fold, rest, target));
+    }
+    // The fold takes area from the sections beside it: flesh moves to their flanks.
+    Points targets = widened(shaped, sharesFor(shaped, sections));
     for (std::size_t i = 0; i < _posed.size(); ++i) {
         const ShapedJoint::Vertex& vertex = _joint.vertices[i];
-        glm::dvec3 target = clampBulge(_fold, vertex.from, _posed[i]);
-        const double r = glm::length(vertex.from) / _joint.radius;
-        const double near = 1.0 - hermiteRatio((r - kSwellsFully) / (kSwellsNoMore - kSwellsFully));
-        target = pressFold(_fold, vertex.from, swell(_fold, target, swelling * near));
-        targets.push_back(_posed[i] + vertex.limb * vertex.fade * (target - _posed[i]));
+        targets[i] = _posed[i] + vertex.limb * vertex.fade * (targets[i] - _posed[i]);
     }
     return targets;
-}
-
-/// What the clamp and the press take from the limb, and the bend itself, comes back as far as
-/// swelling can give it: flesh does not vanish.
-Points BentSkin::filledLimb(double volumeAtRest) const {
-    Points lean = limbTargets(0.0);
-    const double missing = volumeAtRest - volumeOf(_joint, lean);
-    if (!(missing > 0.0)) return lean;
-    const Points full = limbTargets(kMostSwelling);
-    const double gained = volumeOf(_joint, full) - volumeOf(_joint, lean);
-    return gained > 0.0 ? between(std::move(lean), full, std::min(1.0, missing / gained)) : lean;
 }
 
 /// No bulge outside; where that would cost volume that the bend has not given, less of it.

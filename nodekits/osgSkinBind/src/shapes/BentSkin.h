@@ -3,6 +3,7 @@
 #define OSGSKINBIND_BENTSKIN_H
 
 #include "shapes/FastTargets.h"
+#include "shapes/LimbSections.h"
 #include "shapes/ShapedJoint.h"
 
 #include <vector>
@@ -19,14 +20,18 @@ public:
     static double volumeOf(const ShapedJoint& joint, const std::vector<glm::dvec3>& points);
 
     /// Where the vertices are to be.
-    std::vector<glm::dvec3> targets(double volumeAtRest) const;
+    /// \param sections of the joint between limbs; null at the trunk
+    std::vector<glm::dvec3> targets(double volumeAtRest, const LimbSections* sections) const;
 
     /// What it counts that a vertex gets there (see JointShapes).
     std::vector<double> weights() const;
 
 private:
-    std::vector<glm::dvec3> limbTargets(double swelling) const;
-    std::vector<glm::dvec3> filledLimb(double volumeAtRest) const;
+    std::vector<glm::dvec3> limbTargets(const LimbSections& sections) const;
+    std::vector<glm::dvec3> widened(const std::vector<glm::dvec3>& points,
+                                    const LimbSections::Sides& shares) const;
+    LimbSections::Sides sharesFor(const std::vector<glm::dvec3>& shaped,
+                                  const LimbSections& sections) const;
     std::vector<glm::dvec3> trunkTargets(double volumeAtRest) const;
 
     const ShapedJoint& _joint;

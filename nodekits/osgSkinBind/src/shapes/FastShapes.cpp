@@ -8,6 +8,8 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include <optional>
+
 namespace osgSkin {
 namespace {
 
@@ -16,7 +18,7 @@ namespace {
 /// would pay for. A joint between limbs that may bend in any direction has as many shapes as
 /// directions.
 std::size_t modesOf(CorrectiveJoint::Basis basis) {
-    return basis == CorrectiveJoint::Basis::Hinge  ? 3
+    return basis == CorrectiveJoint::Basis::TurnedHinge ? (getenv("MODES") ? atoi(getenv("MODES")) : 3)
            : basis == CorrectiveJoint::Basis::Ball ? 1
                                                    : CorrectiveJoint::kMostModes;
 }
@@ -25,6 +27,13 @@ std::size_t modesOf(CorrectiveJoint::Basis basis) {
 /// to a vertex, where they are not as many as directions.
 constexpr double kFitTolerance = 1e-2;
 constexpr double kVertexTolerance = 2e-2;
+
+std::vector<BendTwist> bendsOf(const ShapedJoint& joint) {
+    if (joint.functions.basis == CorrectiveJoint::Basis::TurnedHinge) return turnedBends(joint);
+    std::vector<BendTwist> bends;
+    for (const glm::dvec2& sample : bendSamples(joint)) bends.push_back(joint.bendAt(sample));
+    return bends;
+}
 
 JointShapes shapesOf(const ShapedJoint& joint) {
     JointShapes shapes;
@@ -35,14 +44,16 @@ JointShapes shapesOf(const ShapedJoint& joint) {
         atRest.push_back(vertex.from);
     }
     const double volumeAtRest = BentSkin::volumeOf(joint, atRest);
-    shapes.samples = bendSamples(joint);
-    for (const glm::dvec2& sample : shapes.samples) {
-        const BendTwist bend = joint.bendAt(sample);
+    std::optional<LimbSections> sections;
+    if (!joint.isAtTrunk()) sections.emplace(joint);
+    for (const BendTwist& bend : bendsOf(joint)) {
+        shapes.samples.push_back(
+            joint.functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis));
         const BentSkin skin(joint, bend);
         // A hinge's splines meet all of its shapes.
-        if (joint.functions.basis != CorrectiveJoint::Basis::Hinge)
+        if (joint.functions.basis != CorrectiveJoint::Basis::TurnedHinge)
             shapes.weights.push_back(skin.weights());
-        const std::vector<glm::dvec3> targets = skin.targets(volumeAtRest);
+        const std::vector<glm::dvec3> targets = skin.targets(volumeAtRest, sections ? &*sections : nullptr);
         std::vector<glm::dvec3>& offsets = shapes.offsets.emplace_back();
         for (std::size_t i = 0; i < targets.size(); ++i) {
             const ShapedJoint::Vertex& vertex = joint.vertices[i];
@@ -55,7 +66,9 @@ JointShapes shapesOf(const ShapedJoint& joint) {
 
 } // namespace
 
-FittedShapes fastShapesOf(const ShapedJoint& joint) {
+FittedShapes fastShapesOf(const ShapedJoint& given) {
+    ShapedJoint joint = given;
+    if (joint.functions.basis == CorrectiveJoint::Basis::Hinge) setTurnedHinge(joint);
     const CorrectiveJoint::Basis basis = joint.functions.basis;
     FittedShapes shapes =
         fitShapes(shapesOf(joint), {modesOf(basis), kFitTolerance * joint.radius});

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shapes/LimbSections.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+using Points = std::vector<glm::dvec3>;
+
+/// One bone with the skin of its side of the joint.
+struct Bone {
+    glm::dvec3 along;    ///< unit, away from the joint
+    glm::dvec3 boundary; ///< direction, across `along`, towards the plane that bisects the joint
+    double slope;        ///< distance of that plane from the bone, for each unit along the bone
+};
+
+Bone boneAt(const glm::dvec3& along, const glm::dvec3& other) {
+    const glm::dvec3 across = other - glm::dot(along, other) * along;
+    const double sine = glm::length(across);
+    // A straight limb has no fold: any origin serves its sections, which are closed curves.
+    if (sine < 0.1) return {along, glm::dvec3(0.0), 0.0};
+    const double cosine = glm::dot(along, other);
+    return {along, across / sine, sine / (1.0 + cosine)};
+}
+
+/// Adds the triangle's part of each section's area: half the cross product of the edge in which it
+/// meets the section. The origin lies in the bisecting plane, where sections near the joint are
+/// open: the missing edge adds nothing.
+void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, double step,
+                 LimbSections::Values& areas) {
+    std::array<double, 3> z{};
+    for (int i = 0; i < 3; ++i) z[i] = glm::dot(corners[i], bone.along);
+    const auto [least, most] = std::minmax_element(z.begin(), z.end());
+    const double from = std::ceil(std::max(*least, 0.0) / step);
+    if (!(from < LimbSections::kCount + 1)) return;
+    for (auto k = std::max<std::size_t>(1, static_cast<std::size_t>(from));
+         k <= LimbSections::kCount && double(k) * step < *most; ++k) {
+        const double at = double(k) * step;
+        const glm::dvec3 origin = at * (bone.along + bone.slope * bone.boundary);
+        glm::dvec3 enter(0.0), leave(0.0);
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            if ((z[i] < at) == (z[j] < at)) continue;
+            const glm::dvec3 x =
+                corners[i] + (at - z[i]) / (z[j] - z[i]) * (corners[j] - corners[i]) - origin;
+            (z[i] < at ? enter : leave) = x;
+        }
+        areas[k - 1] += 0.5 * glm::dot(bone.along, glm::cross(leave, enter));
+    }
+}
+
+LimbSections::Sides areasAcross(const ShapedJoint& joint, const std::vector<bool>& isChilds,
+                                const Bone& parent, const Bone& child, const Points& points) {
+    LimbSections::Sides areas;
+    for (std::size_t t = 0; t < joint.triangles.size(); ++t) {
+        const auto& triangle = joint.triangles[t];
+        addTriangle({points[triangle[0]], points[triangle[1]], points[triangle[2]]},
+                    isChilds[t] ? child : parent, LimbSections::kStep * joint.radius,
+                    isChilds[t] ? areas.child : areas.parent);
+    }
+    return areas;
+}
+
+} // namespace
+
+LimbSections::LimbSections(const ShapedJoint& joint) : _joint(joint) {
+    Points points;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) points.push_back(vertex.from);
+    const glm::dvec3 normal = joint.above + joint.bone;
+    for (const auto& t : joint.triangles)
+        _isChilds.push_back(glm::dot(points[t[0]] + points[t[1]] + points[t[2]], normal) > 0.0);
+    _atRest = areasAcross(joint, _isChilds, boneAt(-joint.above, joint.bone),
+                          boneAt(joint.bone, -joint.above), points);
+}
+
+LimbSections::Sides LimbSections::areasOf(const FoldShape& fold, const Points& posed) const {
+    return areasAcross(_joint, _isChilds, boneAt(-fold.above, fold.bone),
+                       boneAt(fold.bone, -fold.above), posed);
+}
+
+double LimbSections::valueAt(const Values& values, double radii) {
+    // Quadratic B-splines: continuous slopes.
+    const double t = radii / kStep - 1.0;
+    const auto middle = static_cast<std::ptrdiff_t>(std::floor(std::clamp(t, -2.0, 100.0) + 0.5));
+    const double f = std::clamp(t, -2.0, 100.0) - double(middle);
+    const auto at = [&](std::ptrdiff_t i) {
+        if (i >= static_cast<std::ptrdiff_t>(kCount)) return 0.0;
+        return values[static_cast<std::size_t>(std::max<std::ptrdiff_t>(i, 0))];
+    };
+    return 0.5 * (0.5 - f) * (0.5 - f) * at(middle - 1) + (0.75 - f * f) * at(middle) +
+           0.5 * (0.5 + f) * (0.5 + f) * at(middle + 1);
+}
+
+} // namespace osgSkin

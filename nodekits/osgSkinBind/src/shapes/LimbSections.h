@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_LIMBSECTIONS_H
+#define OSGSKINBIND_LIMBSECTIONS_H
+
+#include "shapes/FastTargets.h"
+#include "shapes/ShapedJoint.h"
+
+#include <array>
+#include <vector>
+
+namespace osgSkin {
+
+/// Areas of the sections across both bones of a bent limb, at fixed distances from the joint.
+/// All points relative to the joint's centre, one for each of the joint's vertices.
+class LimbSections {
+public:
+    static constexpr std::size_t kCount = 11; ///< of each bone
+    static constexpr double kStep = 0.4;      ///< distance between sections, in radii
+
+    /// One value for each section, the nearest to the joint first.
+    using Values = std::array<double, kCount>;
+    struct Sides {
+        Values parent{}, child{};
+    };
+
+    /// \param joint outlives this; a joint between limbs
+    explicit LimbSections(const ShapedJoint& joint);
+
+    /// Areas at rest.
+    const Sides& atRest() const { return _atRest; }
+
+    /// Areas of posed skin across the posed bones.
+    Sides areasOf(const FoldShape& fold, const std::vector<glm::dvec3>& posed) const;
+
+    /// A value for each section, interpolated smoothly at a distance along a bone, in radii. It
+    /// falls to 0 behind the last section.
+    static double valueAt(const Values& values, double radii);
+
+private:
+    const ShapedJoint& _joint;
+    std::vector<bool> _isChilds; ///< for each triangle
+    Sides _atRest;
+};
+
+} // namespace osgSkin
+
+#endif
