@@ -21,6 +21,7 @@ namespace {
 /// Samples of a joint's bends: along its main axis and across, or around and outwards.
 constexpr int kAlong = 40;
 constexpr int kAcross = 3;
+constexpr int kAcrossTurned = 5;
 constexpr int kAround = 12;
 constexpr int kOutwards = 12;
 
@@ -36,6 +37,11 @@ constexpr double kLeastCosine = 0.15;
 /// what leaves this much of its area, and tilts make good the rest.
 constexpr double kLeastArea = 0.1;
 
+bool isHinge(const CorrectiveJoint& joint) {
+    return joint.basis == CorrectiveJoint::Basis::Hinge ||
+           joint.basis == CorrectiveJoint::Basis::TurnedHinge;
+}
+
 std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& joint) {
     std::vector<glm::dvec2> samples;
     if (joint.basis == CorrectiveJoint::Basis::Input)
@@ -46,11 +52,13 @@ std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& joint) {
     const auto add = [&](const glm::dvec2& xy) {
         if (glm::length(xy) > 1e-3 && glm::length(xy) < 1.0) samples.push_back(xy);
     };
-    if (joint.basis == CorrectiveJoint::Basis::Hinge) {
+    if (isHinge(joint)) {
+        const int across =
+            joint.basis == CorrectiveJoint::Basis::TurnedHinge ? kAcrossTurned : kAcross;
         for (int i = 0; i <= kAlong; ++i)
-            for (int j = 0; j < kAcross; ++j)
+            for (int j = 0; j < across; ++j)
                 add(joint.low + (joint.high - joint.low) *
-                                    glm::dvec2(double(i) / kAlong, (j + 1.0) / (kAcross + 1.0)));
+                                    glm::dvec2(double(i) / kAlong, (j + 1.0) / (across + 1.0)));
         return samples;
     }
     for (int i = 0; i < kAround; ++i)
@@ -272,7 +280,7 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
             });
         const std::vector<glm::dvec2> samples = samplesOf(joint);
         // Splines follow a hinge closely enough to do without part of the gradients.
-        if (joint.basis == CorrectiveJoint::Basis::Hinge) skin.limitGradients(samples);
+        if (isHinge(joint)) skin.limitGradients(samples);
         const auto rows = Eigen::Index(samples.size());
         Eigen::MatrixXd weights(rows, Eigen::Index(joint.modes));
         Eigen::MatrixXd tilts(rows, Eigen::Index(3 * skin.vertices().size()));

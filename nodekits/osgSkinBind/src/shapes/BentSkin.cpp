@@ -5,11 +5,13 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace osgSkin {
 namespace {
@@ -24,8 +26,8 @@ constexpr double kWidths[] = {0.1, 0.2, 0.4, 0.7, 1.0};
 
 /// How far widened skin may get from its bone, over its distance at rest: at a bend, in degrees,
 /// and at a deeper one.
-constexpr double kMostOut = 1.10, kMostOutAt = 120.0;
-constexpr double kMostOutDeep = 1.27, kMostOutDeepAt = 140.0;
+const double kMostOut = getenv("MO") ? atof(getenv("MO")) : 1.0, kMostOutAt = getenv("MOA") ? atof(getenv("MOA")) : 110.0;
+const double kMostOutDeep = getenv("MOD") ? atof(getenv("MOD")) : 1.33, kMostOutDeepAt = getenv("MODA") ? atof(getenv("MODA")) : 155.0;
 
 /// How deep inside a fold at the trunk bulges are still clamped, in radii of the limb.
 constexpr double kTrunkDepth = 0.3;
@@ -44,7 +46,18 @@ double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-FoldShape foldAt(const ShapedJoint& joint, const glm::dquat& turn) {
+/// Unit normal of a plane between the bones, at a share of the angle between them from the child's.
+glm::dvec3 planeBetween(const glm::dvec3& above, const glm::dvec3& bone, double childShare) {
+    const glm::dvec3 sum = above + bone, inwards = bone - above;
+    if (glm::length(sum) < 1e-3) return bone;
+    const glm::dvec3 normal = glm::normalize(sum);
+    if (glm::length(inwards) < 1e-3) return normal;
+    const double angle = glm::pi<double>() - glm::radians(degreesBetween(above, bone));
+    const double lean = (childShare - 0.5) * angle;
+    return std::cos(lean) * normal + std::sin(lean) * glm::normalize(inwards);
+}
+
+FoldShape foldAt(const ShapedJoint& joint, const glm::dquat& turn, double childShare) {
     const glm::dvec3 bone = turn * joint.bone;
     return {joint.above,
             joint.bone,
@@ -52,7 +65,8 @@ FoldShape foldAt(const ShapedJoint& joint, const glm::dquat& turn) {
             joint.radius,
             degreesBetween(joint.above, bone),
             degreesBetween(joint.above, joint.bone),
-            turn};
+            turn,
+            planeBetween(joint.above, bone, childShare)};
 }
 
 Points between(Points from, const Points& to, double share) {
@@ -100,8 +114,9 @@ private:
 
 } // namespace
 
-BentSkin::BentSkin(const ShapedJoint& joint, const BendTwist& bend)
-    : _joint(joint), _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0))) {
+BentSkin::BentSkin(const ShapedJoint& joint, const BendTwist& bend, double childShare)
+    : _joint(joint),
+      _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0), childShare)) {
     for (const ShapedJoint::Vertex& vertex : joint.vertices)
         _posed.push_back(joint.turnOf(vertex, bend) * vertex.from);
 }

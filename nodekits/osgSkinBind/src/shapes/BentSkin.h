@@ -14,7 +14,8 @@ namespace osgSkin {
 /// for each of the joint's vertices.
 class BentSkin {
 public:
-    BentSkin(const ShapedJoint& joint, const BendTwist& bend);
+    /// \param childShare of the angle between both bones that the child's flesh takes, 1/2 for half
+    BentSkin(const ShapedJoint& joint, const BendTwist& bend, double childShare = 0.5);
 
     /// Six times what lies between the skin and the joint's centre.
     static double volumeOf(const ShapedJoint& joint, const std::vector<glm::dvec3>& points);

@@ -35,6 +35,11 @@ std::vector<BendTwist> bendsOf(const ShapedJoint& joint) {
     return bends;
 }
 
+ShapedJoint turnedWherePossible(ShapedJoint joint) {
+    if (joint.functions.basis == CorrectiveJoint::Basis::Hinge) setTurnedHinge(joint);
+    return joint;
+}
+
 JointShapes shapesOf(const ShapedJoint& joint) {
     JointShapes shapes;
     shapes.functions = joint.functions;
@@ -49,7 +54,7 @@ JointShapes shapesOf(const ShapedJoint& joint) {
     for (const BendTwist& bend : bendsOf(joint)) {
         shapes.samples.push_back(
             joint.functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis));
-        const BentSkin skin(joint, bend);
+        const BentSkin skin(joint, bend, sections ? sections->childDepth() : 0.5);
         // A hinge's splines meet all of its shapes.
         if (joint.functions.basis != CorrectiveJoint::Basis::TurnedHinge)
             shapes.weights.push_back(skin.weights());
@@ -66,22 +71,20 @@ JointShapes shapesOf(const ShapedJoint& joint) {
 
 } // namespace
 
-FittedShapes fastShapesOf(const ShapedJoint& given) {
-    ShapedJoint joint = given;
-    if (joint.functions.basis == CorrectiveJoint::Basis::Hinge) setTurnedHinge(joint);
-    const CorrectiveJoint::Basis basis = joint.functions.basis;
-    FittedShapes shapes =
-        fitShapes(shapesOf(joint), {modesOf(basis), kFitTolerance * joint.radius});
-    if (basis != CorrectiveJoint::Basis::Round) shapes.tolerance = kVertexTolerance * joint.radius;
-    return shapes;
+FittedShapes fastShapesOf(const ShapedJoint& joint) {
+    const JointShapes shapes = shapesOf(turnedWherePossible(joint));
+    const CorrectiveJoint::Basis basis = shapes.functions.basis;
+    FittedShapes result = fitShapes(shapes, {modesOf(basis), kFitTolerance * joint.radius});
+    if (basis != CorrectiveJoint::Basis::Round) result.tolerance = kVertexTolerance * joint.radius;
+    return result;
 }
 
 Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                            const WeldedMesh& mesh, const Binding& binding) {
-    std::vector<FittedShapes> fitted;
+    std::vector<FittedShapes> all;
     for (const ShapedJoint& joint : findShapedJoints(skeleton, joints, mesh, binding))
-        fitted.push_back(fastShapesOf(joint));
-    return packShapes(fitted, mesh.weldedOf);
+        all.push_back(fastShapesOf(joint));
+    return packShapes(all, mesh.weldedOf);
 }
 
 } // namespace osgSkin

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace osgSkin {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 constexpr double kBulgeLeft = 0.005;
 
 /// Distance along the bone, in radii, from which on sections are restored wholly.
-constexpr double kRestoreFull = 1.0;
+const double kRestoreFull = getenv("RF") ? atof(getenv("RF")) : 2.0;
 
 /// Depths inside the fold between which widening sets in, in radii from the bone.
 constexpr double kWidenFrom = -0.8;
@@ -30,8 +31,8 @@ constexpr double kLeastFold = 0.1;
 
 /// Gap between the skins on both sides of a fold, far from the joint, and how softly they meet; in
 /// radii.
-constexpr double kGap = 0.1;
-constexpr double kSoftness = 0.08;
+const double kGap = getenv("GAP") ? atof(getenv("GAP")) : 0.2;
+const double kSoftness = getenv("SOFT") ? atof(getenv("SOFT")) : 0.15;
 
 /// Angles between which the press sets in, in degrees.
 constexpr double kPressFrom = 45.0;
@@ -111,7 +112,7 @@ glm::dvec3 restoringMove(const FoldShape& fold, const RestoringBone& bone, const
     const double wish = glm::dot(inner, move);
     if (!(wish > 0.0)) return move;
     // Where the plane's normal leans towards the bone, `inner` leads to the plane.
-    const glm::dvec3 normal = bone.side * glm::normalize(fold.above + fold.bone);
+    const glm::dvec3 normal = bone.side * fold.normal;
     const double room = (glm::dot(normal, clamped) - bone.side * limitOf(fold, rest)) /
                         std::max(-glm::dot(normal, inner), 1e-3);
     return move + (within(wish, room) - wish) * inner;
@@ -183,7 +184,7 @@ glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::d
     const double onset = since(fold, kPressFrom, kPressFull);
     const glm::dvec3 sum = fold.above + fold.bone, inwards = fold.bone - fold.above;
     if (!(onset > 0.0) || glm::length(sum) < 1e-3 || glm::length(inwards) < 1e-3) return posed;
-    const glm::dvec3 n = glm::normalize(sum);
+    const glm::dvec3& n = fold.normal;
     const double r = fold.radius;
     const double h0 = heightAtRest(fold, rest);
     const double h = glm::dot(posed, n);

@@ -17,6 +17,9 @@ struct FoldShape {
     double angle;        ///< between a and b, degrees: 0 is straight
     double angleAtRest;  ///< between a and b0
     glm::dquat turn;     ///< the bend: takes b0 to b
+    /// Unit normal of the plane in which both sides meet, towards the child's: the bisecting plane,
+    /// or one that leaves more room to the side with more flesh.
+    glm::dvec3 normal;
 };
 
 /// No balloon: takes a vertex back to the distance from its posed bone that it had at rest, and
@@ -26,7 +29,7 @@ glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::
 /// Moves a vertex across its bone to where it would be if it followed that bone rigidly; it keeps
 /// its place along the bone. Plain skin lags behind the bone: it leaves the inner side and balloons
 /// on the outer one, so this restores the sections beside the joint. Skin of the inner side stops
-/// short of the plane that bisects the joint.
+/// short of the plane in which both sides meet.
 /// \param clamped of clampBulge()
 glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& clamped);
 
@@ -43,7 +46,7 @@ glm::dvec3 widen(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3
 /// How much a vertex belongs to the child's side of the joint, 0 to 1.
 double childShare(const FoldShape& fold, const glm::dvec3& rest);
 
-/// No fold through itself: keeps a vertex on its own side of the plane that bisects the joint, the
+/// No fold through itself: keeps a vertex on its own side of the plane in which both meet, the
 /// skin of both sides pressed flat against it.
 glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed);
 

@@ -5,30 +5,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace osgSkin {
 namespace {
 
 using Points = std::vector<glm::dvec3>;
 
+/// Distances along a bone, in radii, between which the depth of flesh is measured.
+constexpr double kDepthFrom = 1.0, kDepthTo = 2.5;
+
+/// How far the child's share of the depth is followed, from one half.
+const double kMaxUneven = getenv("UN") ? atof(getenv("UN")) : 0.08;
+
 /// One bone with the skin of its side of the joint.
 struct Bone {
     glm::dvec3 along;    ///< unit, away from the joint
-    glm::dvec3 boundary; ///< direction, across `along`, towards the plane that bisects the joint
+    glm::dvec3 boundary; ///< direction, across `along`, towards the plane in which both sides meet
     double slope;        ///< distance of that plane from the bone, for each unit along the bone
 };
 
-Bone boneAt(const glm::dvec3& along, const glm::dvec3& other) {
+/// \param share of the angle between both bones that this one's side takes
+Bone boneAt(const glm::dvec3& along, const glm::dvec3& other, double share) {
     const glm::dvec3 across = other - glm::dot(along, other) * along;
     const double sine = glm::length(across);
     // A straight limb has no fold: any origin serves its sections, which are closed curves.
     if (sine < 0.1) return {along, glm::dvec3(0.0), 0.0};
-    const double cosine = glm::dot(along, other);
-    return {along, across / sine, sine / (1.0 + cosine)};
+    const double angle = std::atan2(sine, glm::dot(along, other));
+    return {along, across / sine, std::tan(share * angle)};
 }
 
 /// Adds the triangle's part of each section's area: half the cross product of the edge in which it
-/// meets the section. The origin lies in the bisecting plane, where sections near the joint are
+/// meets the section. The origin lies in the plane in which both sides meet, where sections near the joint are
 /// open: the missing edge adds nothing.
 void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, double step,
                  LimbSections::Values& areas) {
@@ -65,21 +73,43 @@ LimbSections::Sides areasAcross(const ShapedJoint& joint, const std::vector<bool
     return areas;
 }
 
+/// 90 % of the flesh beside the joint reach no farther from the bone inwards; 0 where it is not
+/// known.
+double depthOf(const ShapedJoint& joint, const glm::dvec3& along) {
+    if (!(glm::length(joint.hinge) > 0.0)) return 0.0;
+    const glm::dvec3 inwards =
+        glm::normalize(glm::cross(joint.hinge, glm::dot(along, joint.bone) > 0.0 ? along : -along));
+    std::vector<double> depths;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) {
+        const double z = glm::dot(along, vertex.from) / joint.radius;
+        if (z > kDepthFrom && z < kDepthTo && vertex.limb > 0.5)
+            depths.push_back(glm::dot(inwards, vertex.from));
+    }
+    if (depths.size() < 8) return 0.0;
+    const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
+    std::nth_element(depths.begin(), at, depths.end());
+    return std::max(*at, 0.0);
+}
+
 } // namespace
 
 LimbSections::LimbSections(const ShapedJoint& joint) : _joint(joint) {
+    const double child = depthOf(joint, joint.bone), parent = depthOf(joint, -joint.above);
+    if (child > 0.0 && parent > 0.0)
+        _childDepth =
+            std::clamp(child / (child + parent), 0.5, 0.5 + kMaxUneven);
     Points points;
     for (const ShapedJoint::Vertex& vertex : joint.vertices) points.push_back(vertex.from);
     const glm::dvec3 normal = joint.above + joint.bone;
     for (const auto& t : joint.triangles)
         _isChilds.push_back(glm::dot(points[t[0]] + points[t[1]] + points[t[2]], normal) > 0.0);
-    _atRest = areasAcross(joint, _isChilds, boneAt(-joint.above, joint.bone),
-                          boneAt(joint.bone, -joint.above), points);
+    _atRest = areasAcross(joint, _isChilds, boneAt(-joint.above, joint.bone, 1.0 - _childDepth),
+                          boneAt(joint.bone, -joint.above, _childDepth), points);
 }
 
 LimbSections::Sides LimbSections::areasOf(const FoldShape& fold, const Points& posed) const {
-    return areasAcross(_joint, _isChilds, boneAt(-fold.above, fold.bone),
-                       boneAt(fold.bone, -fold.above), posed);
+    return areasAcross(_joint, _isChilds, boneAt(-fold.above, fold.bone, 1.0 - _childDepth),
+                       boneAt(fold.bone, -fold.above, _childDepth), posed);
 }
 
 double LimbSections::valueAt(const Values& values, double radii) {

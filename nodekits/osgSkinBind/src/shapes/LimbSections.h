@@ -29,6 +29,10 @@ public:
     /// Areas at rest.
     const Sides& atRest() const { return _atRest; }
 
+    /// How far the flesh of the child's inner side reaches from the bone beside the joint, over the
+    /// sum of the child's and the parent's.
+    double childDepth() const { return _childDepth; }
+
     /// Areas of posed skin across the posed bones.
     Sides areasOf(const FoldShape& fold, const std::vector<glm::dvec3>& posed) const;
 
@@ -40,6 +44,7 @@ private:
     const ShapedJoint& _joint;
     std::vector<bool> _isChilds; ///< for each triangle
     Sides _atRest;
+    double _childDepth = 0.5;
 };
 
 } // namespace osgSkin
