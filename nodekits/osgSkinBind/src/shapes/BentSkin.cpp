@@ -24,10 +24,14 @@ constexpr double kAreaKept = 0.97;
 /// Shares of the distance from the bone that sections are tried to be widened by.
 constexpr double kWidths[] = {0.1, 0.2, 0.4, 0.7, 1.0};
 
+/// Distance along the bone, in radii, from which on sections are widened wholly: the joint itself
+/// keeps its shape.
+const double kWidensFully = getenv("WF") ? atof(getenv("WF")) : 1.2;
+
 /// How far widened skin may get from its bone, over its distance at rest: at a bend, in degrees,
 /// and at a deeper one.
-const double kMostOut = getenv("MO") ? atof(getenv("MO")) : 1.0, kMostOutAt = getenv("MOA") ? atof(getenv("MOA")) : 110.0;
-const double kMostOutDeep = getenv("MOD") ? atof(getenv("MOD")) : 1.33, kMostOutDeepAt = getenv("MODA") ? atof(getenv("MODA")) : 155.0;
+const double kMostOut = getenv("MO") ? atof(getenv("MO")) : 1.0, kMostOutAt = getenv("MOA") ? atof(getenv("MOA")) : 117.0;
+const double kMostOutDeep = getenv("MOD") ? atof(getenv("MOD")) : 1.28, kMostOutDeepAt = getenv("MODA") ? atof(getenv("MODA")) : 147.0;
 
 /// How deep inside a fold at the trunk bulges are still clamped, in radii of the limb.
 constexpr double kTrunkDepth = 0.3;
@@ -77,6 +81,11 @@ Points between(Points from, const Points& to, double share) {
 double mostOutAt(double angle) {
     return glm::mix(kMostOut, kMostOutDeep,
                     hermiteRatio((angle - kMostOutAt) / (kMostOutDeepAt - kMostOutAt)));
+}
+
+/// \param radii along the bone
+double shareAt(const LimbSections::Values& shares, double radii) {
+    return hermiteRatio(radii / kWidensFully) * LimbSections::valueAt(shares, radii);
 }
 
 /// Shares by which sections of one bone are widened, searched among growing ones.
@@ -138,8 +147,8 @@ Points BentSkin::widened(const Points& points, const LimbSections::Sides& shares
     const double r = _joint.radius, most = mostOutAt(_fold.angle);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::dvec3 &x = points[i], &rest = _joint.vertices[i].from;
-        const double parents = LimbSections::valueAt(shares.parent, -glm::dot(_fold.above, x) / r);
-        const double childs = LimbSections::valueAt(shares.child, glm::dot(_fold.bone, x) / r);
+        const double parents = shareAt(shares.parent, -glm::dot(_fold.above, x) / r);
+        const double childs = shareAt(shares.child, glm::dot(_fold.bone, x) / r);
         const double side = childShare(_fold, rest);
         result.push_back(widen(_fold, rest, x, glm::mix(parents, childs, side), most));
     }
