@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace osgSkin {
 namespace {
@@ -26,12 +25,12 @@ constexpr double kWidths[] = {0.1, 0.2, 0.4, 0.7, 1.0};
 
 /// Distance along the bone, in radii, from which on sections are widened wholly: the joint itself
 /// keeps its shape.
-const double kWidensFully = getenv("WF") ? atof(getenv("WF")) : 1.2;
+constexpr double kWidensFully = 1.2;
 
 /// How far widened skin may get from its bone, over its distance at rest: at a bend, in degrees,
 /// and at a deeper one.
-const double kMostOut = getenv("MO") ? atof(getenv("MO")) : 1.0, kMostOutAt = getenv("MOA") ? atof(getenv("MOA")) : 117.0;
-const double kMostOutDeep = getenv("MOD") ? atof(getenv("MOD")) : 1.28, kMostOutDeepAt = getenv("MODA") ? atof(getenv("MODA")) : 147.0;
+constexpr double kMostOut = 1.0, kMostOutAt = 117.0;
+constexpr double kMostOutDeep = 1.28, kMostOutDeepAt = 147.0;
 
 /// How deep inside a fold at the trunk bulges are still clamped, in radii of the limb.
 constexpr double kTrunkDepth = 0.3;

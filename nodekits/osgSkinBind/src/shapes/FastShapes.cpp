@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/FastShapes.h"
 
+#include "limbs/HermiteRatio.h"
 #include "shapes/BendRange.h"
 #include "shapes/BentSkin.h"
 #include "shapes/PackShapes.h"
 #include "shapes/ShapedJoint.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
 #include <optional>
 
 namespace osgSkin {
@@ -18,7 +21,7 @@ namespace {
 /// would pay for. A joint between limbs that may bend in any direction has as many shapes as
 /// directions.
 std::size_t modesOf(CorrectiveJoint::Basis basis) {
-    return basis == CorrectiveJoint::Basis::TurnedHinge ? (getenv("MODES") ? atoi(getenv("MODES")) : 3)
+    return basis == CorrectiveJoint::Basis::TurnedHinge ? 3
            : basis == CorrectiveJoint::Basis::Ball ? 1
                                                    : CorrectiveJoint::kMostModes;
 }
@@ -27,6 +30,11 @@ std::size_t modesOf(CorrectiveJoint::Basis basis) {
 /// to a vertex, where they are not as many as directions.
 constexpr double kFitTolerance = 1e-2;
 constexpr double kVertexTolerance = 2e-2;
+
+/// Vertices between limbs whose largest offset is less are not touched; those with more are touched
+/// fully from the second value on. Radii of the limb.
+constexpr double kUntouched = 0.04;
+constexpr double kTouched = 0.1;
 
 std::vector<BendTwist> bendsOf(const ShapedJoint& joint) {
     if (joint.functions.basis == CorrectiveJoint::Basis::TurnedHinge) return turnedBends(joint);
@@ -69,11 +77,24 @@ JointShapes shapesOf(const ShapedJoint& joint) {
     return shapes;
 }
 
+/// Leaves alone vertices that hardly move: each of them would cost as much as the others.
+void fadeSmallOffsets(double radius, JointShapes& shapes) {
+    for (std::size_t v = 0; v < shapes.vertices.size(); ++v) {
+        double largest = 0.0;
+        for (const std::vector<glm::dvec3>& offsets : shapes.offsets)
+            largest = std::max(largest, glm::length(offsets[v]));
+        const double share =
+            hermiteRatio((largest / radius - kUntouched) / (kTouched - kUntouched));
+        for (std::vector<glm::dvec3>& offsets : shapes.offsets) offsets[v] *= share;
+    }
+}
+
 } // namespace
 
 FittedShapes fastShapesOf(const ShapedJoint& joint) {
-    const JointShapes shapes = shapesOf(turnedWherePossible(joint));
+    JointShapes shapes = shapesOf(turnedWherePossible(joint));
     const CorrectiveJoint::Basis basis = shapes.functions.basis;
+    if (basis == CorrectiveJoint::Basis::TurnedHinge) fadeSmallOffsets(joint.radius, shapes);
     FittedShapes result = fitShapes(shapes, {modesOf(basis), kFitTolerance * joint.radius});
     if (basis != CorrectiveJoint::Basis::Round) result.tolerance = kVertexTolerance * joint.radius;
     return result;

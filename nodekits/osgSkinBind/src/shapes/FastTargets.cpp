@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace osgSkin {
 namespace {
@@ -17,11 +16,11 @@ namespace {
 constexpr double kBulgeLeft = 0.005;
 
 /// Distance along the bone, in radii, from which on sections are restored wholly.
-const double kRestoreFull = getenv("RF") ? atof(getenv("RF")) : 2.0;
+constexpr double kRestoreFull = 2.0;
 
 /// Depths inside the fold between which widening sets in, in radii from the bone.
-const double kWidenFrom = getenv("W0") ? atof(getenv("W0")) : -1.5;
-const double kWidenFull = getenv("W1") ? atof(getenv("W1")) : -0.5;
+constexpr double kWidenFrom = -1.5;
+constexpr double kWidenFull = -0.5;
 
 /// Half the width of the transition from the parent's to the child's side, in radii.
 constexpr double kSideWidth = 0.25;
@@ -31,8 +30,8 @@ constexpr double kLeastFold = 0.1;
 
 /// Gap between the skins on both sides of a fold, far from the joint, and how softly they meet; in
 /// radii.
-const double kGap = getenv("GAP") ? atof(getenv("GAP")) : 0.2;
-const double kSoftness = getenv("SOFT") ? atof(getenv("SOFT")) : 0.2;
+constexpr double kGap = 0.2;
+constexpr double kSoftness = 0.2;
 
 /// Angles between which the press sets in, in degrees.
 constexpr double kPressFrom = 45.0;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace osgSkin {
 namespace {
@@ -16,7 +15,7 @@ using Points = std::vector<glm::dvec3>;
 constexpr double kDepthFrom = 1.0, kDepthTo = 2.5;
 
 /// How far the child's share of the depth is followed, from one half.
-const double kMaxUneven = getenv("UN") ? atof(getenv("UN")) : 0.08;
+constexpr double kMaxUneven = 0.08;
 
 /// One bone with the skin of its side of the joint.
 struct Bone {

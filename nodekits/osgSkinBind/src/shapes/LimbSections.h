@@ -14,7 +14,7 @@ namespace osgSkin {
 /// All points relative to the joint's centre, one for each of the joint's vertices.
 class LimbSections {
 public:
-    static constexpr std::size_t kCount = 11; ///< of each bone
+    static constexpr std::size_t kCount = 8;  ///< of each bone
     static constexpr double kStep = 0.4;      ///< distance between sections, in radii
 
     /// One value for each section, the nearest to the joint first.
