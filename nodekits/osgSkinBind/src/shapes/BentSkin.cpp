@@ -83,7 +83,7 @@ double mostOutAt(double angle) {
 }
 
 /// \param radii along the bone
-double shareAt(const LimbSections::Values& shares, double radii) {
+double widthAt(const LimbSections::Values& shares, double radii) {
     return hermiteRatio(radii / kWidensFully) * LimbSections::valueAt(shares, radii);
 }
 
@@ -146,8 +146,8 @@ Points BentSkin::widened(const Points& points, const LimbSections::Sides& shares
     const double r = _joint.radius, most = mostOutAt(_fold.angle);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::dvec3 &x = points[i], &rest = _joint.vertices[i].from;
-        const double parents = shareAt(shares.parent, -glm::dot(_fold.above, x) / r);
-        const double childs = shareAt(shares.child, glm::dot(_fold.bone, x) / r);
+        const double parents = widthAt(shares.parent, -glm::dot(_fold.above, x) / r);
+        const double childs = widthAt(shares.child, glm::dot(_fold.bone, x) / r);
         const double side = childShare(_fold, rest);
         result.push_back(widen(_fold, rest, x, glm::mix(parents, childs, side), most));
     }

@@ -71,7 +71,7 @@ double limitOf(const FoldShape& fold, const glm::dvec3& rest) {
 }
 
 /// About the smaller of `wish` and `room`, never more than either; both at least 0.
-double within(double wish, double room) {
+double limitedTo(double wish, double room) {
     if (!(room > 0.0)) return 0.0;
     const double t = wish / room, square = t * t;
     return wish / std::sqrt(std::sqrt(1.0 + square * square));
@@ -114,7 +114,7 @@ glm::dvec3 restoringMove(const FoldShape& fold, const RestoringBone& bone, const
     const glm::dvec3 normal = bone.side * fold.normal;
     const double room = (glm::dot(normal, clamped) - bone.side * limitOf(fold, rest)) /
                         std::max(-glm::dot(normal, inner), 1e-3);
-    return move + (within(wish, room) - wish) * inner;
+    return move + (limitedTo(wish, room) - wish) * inner;
 }
 
 } // namespace
@@ -175,7 +175,7 @@ glm::dvec3 widen(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3
         std::sqrt(std::max(mostAcross * mostAcross - across, 0.0)) - std::abs(at);
     const double inside =
         hermiteRatio((depthIn(fold, posed) - kWidenFrom) / (kWidenFull - kWidenFrom));
-    const double move = within(share * inside * std::abs(at), room);
+    const double move = limitedTo(share * inside * std::abs(at), room);
     return posed + std::copysign(move, at) * sideways;
 }
 
