@@ -29,8 +29,8 @@ constexpr double kWidensFully = 1.2;
 
 /// How far widened skin may get from its bone, over its distance at rest: at a bend, in degrees,
 /// and at a deeper one.
-constexpr double kMostOut = 1.0, kMostOutAt = 117.0;
-constexpr double kMostOutDeep = 1.28, kMostOutDeepAt = 147.0;
+constexpr double kMaxOut = 1.0, kMaxOutAt = 117.0;
+constexpr double kMaxOutDeep = 1.28, kMaxOutDeepAt = 147.0;
 
 /// How deep inside a fold at the trunk bulges are still clamped, in radii of the limb.
 constexpr double kTrunkDepth = 0.3;
@@ -68,7 +68,6 @@ FoldShape foldAt(const ShapedJoint& joint, const glm::dquat& turn, double childS
             joint.radius,
             degreesBetween(joint.above, bone),
             degreesBetween(joint.above, joint.bone),
-            turn,
             planeBetween(joint.above, bone, childShare)};
 }
 
@@ -77,9 +76,9 @@ Points between(Points from, const Points& to, double share) {
     return from;
 }
 
-double mostOutAt(double angle) {
-    return glm::mix(kMostOut, kMostOutDeep,
-                    hermiteRatio((angle - kMostOutAt) / (kMostOutDeepAt - kMostOutAt)));
+double maxOutAt(double angle) {
+    return glm::mix(kMaxOut, kMaxOutDeep,
+                    hermiteRatio((angle - kMaxOutAt) / (kMaxOutDeepAt - kMaxOutAt)));
 }
 
 /// \param radii along the bone
@@ -123,7 +122,7 @@ private:
 } // namespace
 
 BentSkin::BentSkin(const ShapedJoint& joint, const BendTwist& bend, double childShare)
-    : _joint(joint),
+    : _joint(joint), _bend(bend),
       _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0), childShare)) {
     for (const ShapedJoint::Vertex& vertex : joint.vertices)
         _posed.push_back(joint.turnOf(vertex, bend) * vertex.from);
@@ -143,7 +142,7 @@ Points BentSkin::targets(double volumeAtRest, const LimbSections* sections) cons
 /// Moves the points sideways by shares of their distance from the bone.
 Points BentSkin::widened(const Points& points, const LimbSections::Sides& shares) const {
     Points result;
-    const double r = _joint.radius, most = mostOutAt(_fold.angle);
+    const double r = _joint.radius, most = maxOutAt(_fold.angle);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::dvec3 &x = points[i], &rest = _joint.vertices[i].from;
         const double parents = widthAt(shares.parent, -glm::dot(_fold.above, x) / r);
@@ -173,9 +172,11 @@ LimbSections::Sides BentSkin::sharesFor(const Points& shaped, const LimbSections
 Points BentSkin::limbTargets(const LimbSections& sections) const {
     Points shaped;
     for (std::size_t i = 0; i < _posed.size(); ++i) {
-        const glm::dvec3& rest = _joint.vertices[i].from;
-        glm::dvec3 target = restoreSection(_fold, rest, clampBulge(_fold, rest, _posed[i]));
-        shaped.push_back(pressFold(_fold, rest, target));
+        const ShapedJoint::Vertex& vertex = _joint.vertices[i];
+        const glm::dquat turn = partialRotation(_bend, _joint.twistAxis, 1.0, vertex.twist);
+        const glm::dvec3 clamped = clampBulge(_fold, vertex.from, _posed[i]);
+        shaped.push_back(
+            pressFold(_fold, vertex.from, restoreSection(_fold, vertex.from, clamped, turn)));
     }
     // The fold takes area from the sections beside it: flesh moves to their flanks.
     Points targets = widened(shaped, sharesFor(shaped, sections));

@@ -36,6 +36,7 @@ private:
     std::vector<glm::dvec3> trunkTargets(double volumeAtRest) const;
 
     const ShapedJoint& _joint;
+    BendTwist _bend;
     FoldShape _fold;
     std::vector<glm::dvec3> _posed;
 };

@@ -133,14 +133,14 @@ glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::
     return (1.0 - k) * posed + k * z * m;
 }
 
-glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest,
-                          const glm::dvec3& clamped) {
+glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& clamped,
+                          const glm::dquat& turn) {
     const double childs = childShare(fold, rest);
     const glm::dquat unit(1.0, 0.0, 0.0, 0.0);
     glm::dvec3 moved(0.0);
     if (childs > 0.0)
-        moved += childs * restoringMove(fold, {fold.boneRest, fold.bone, fold.turn, 1.0}, rest,
-                                        clamped);
+        moved +=
+            childs * restoringMove(fold, {fold.boneRest, fold.bone, turn, 1.0}, rest, clamped);
     if (childs < 1.0)
         moved += (1.0 - childs) *
                  restoringMove(fold, {-fold.above, -fold.above, unit, -1.0}, rest, clamped);

@@ -16,7 +16,6 @@ struct FoldShape {
     double radius;       ///< of the limb
     double angle;        ///< between a and b, degrees: 0 is straight
     double angleAtRest;  ///< between a and b0
-    glm::dquat turn;     ///< the bend: takes b0 to b
     /// Unit normal of the plane in which both sides meet, towards the child's: the bisecting plane,
     /// or one that leaves more room to the side with more flesh.
     glm::dvec3 normal;
@@ -26,12 +25,14 @@ struct FoldShape {
 /// leaves one that has come nearer.
 glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed);
 
-/// Moves a vertex across its bone to where it would be if it followed that bone rigidly; it keeps
-/// its place along the bone. Plain skin lags behind the bone: it leaves the inner side and balloons
-/// on the outer one, so this restores the sections beside the joint. Skin of the inner side stops
-/// short of the plane in which both sides meet.
+/// Moves a vertex across its bone to where it would be if the bone's bend took it along rigidly; it
+/// keeps its position along the bone. Plain skin lags behind the bone: it leaves the inner side and
+/// balloons on the outer one, so this restores the sections beside the joint. Skin of the inner side
+/// stops short of the plane in which both sides meet.
 /// \param clamped of clampBulge()
-glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& clamped);
+/// \param turn the whole bend, with the vertex's own share of the twist
+glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& clamped,
+                          const glm::dquat& turn);
 
 /// How far a vertex lies on the inner side of its bone, in radii.
 double depthIn(const FoldShape& fold, const glm::dvec3& posed);
