@@ -20,8 +20,8 @@ constexpr double kSideways = 30.0;
 /// Between the angles that a hinge is bent sideways at, too; between knots; between samples.
 constexpr double kSidewaysStep = 30.0;
 /// How far a hinge turns about the limb, and between samples of that.
-constexpr double kTurn = 24.0;
-constexpr double kTurnStep = 12.0;
+constexpr double kTurn = 32.0;
+constexpr double kTurnStep = 16.0;
 /// Share of the range of a coordinate in which it is not clamped.
 constexpr double kNotClamped = 0.9;
 constexpr double kRoundKnotStep = 20.0;

@@ -58,7 +58,8 @@ glm::dvec3 findHinge(const RestSkeleton& skeleton, const std::vector<PlannedJoin
     if (!body || endOf(skeleton, joints, joint) != End::Foot) return mainAxis;
     const glm::dvec3 across = glm::cross(body->up, body->front);
     const double along = glm::dot(across, mainAxis);
-    return std::abs(along) < kLeastAlong ? mainAxis : std::copysign(1.0, along) * across;
+    if (std::abs(along) < kLeastAlong) return mainAxis;
+    return glm::normalize(mainAxis + std::copysign(1.0, along) * across);
 }
 
 } // namespace osgSkin
