@@ -29,8 +29,8 @@ constexpr double kWidensFully = 1.2;
 
 /// How far widened skin may get from its bone, over its distance at rest: at a bend, in degrees,
 /// and at a deeper one.
-constexpr double kMaxOut = 1.0, kMaxOutAt = 117.0;
-constexpr double kMaxOutDeep = 1.28, kMaxOutDeepAt = 147.0;
+constexpr double kMaxOut = 1.0, kMaxOutAt = 120.0;
+constexpr double kMaxOutDeep = 1.26, kMaxOutDeepAt = 142.0;
 
 /// How deep inside a fold at the trunk bulges are still clamped, in radii of the limb.
 constexpr double kTrunkDepth = 0.3;

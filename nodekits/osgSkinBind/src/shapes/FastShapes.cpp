@@ -33,8 +33,8 @@ constexpr double kVertexTolerance = 2e-2;
 
 /// Vertices between limbs whose largest offset is less are not touched; those with more are touched
 /// fully from the second value on. Radii of the limb.
-constexpr double kUntouched = 0.08;
-constexpr double kTouched = 0.18;
+constexpr double kUntouched = 0.07;
+constexpr double kTouched = 0.15;
 
 std::vector<BendTwist> bendsOf(const ShapedJoint& joint) {
     if (joint.functions.basis == CorrectiveJoint::Basis::TurnedHinge) return turnedBends(joint);
