@@ -109,8 +109,7 @@ double sectionOf(const SkinMesh& mesh, const std::vector<glm::dvec3>& posed,
             const double za = glm::dot(a, along), zb = glm::dot(b, along);
             if ((za < 0.0) != (zb < 0.0)) ends.push_back(a + za / (za - zb) * (b - a));
         }
-        if (ends.size() == 2)
-            area += 0.5 * std::abs(glm::dot(along, glm::cross(ends[0], ends[1])));
+        if (ends.size() == 2) area += 0.5 * std::abs(glm::dot(along, glm::cross(ends[0], ends[1])));
     }
     return area / glm::pi<double>();
 }
@@ -134,8 +133,8 @@ double pastOf(const KnownBody& body, const Binding& binding, std::size_t joint, 
     const glm::dvec3 centre = binding.joints[joint].centre, bone = binding.joints[joint].boneAxis;
     const auto limb = static_cast<std::size_t>(body.truth.joints[joint].parent);
     const glm::dvec3 above = glm::normalize(centre - body.truth.joints[limb].centre);
-    const glm::dvec3 axis = glm::dvec3(
-        glm::rotate(glm::dmat4(1.0), glm::radians(turn), above) * glm::dvec4(functions->axis, 0.0));
+    const glm::dvec3 axis = glm::dvec3(glm::rotate(glm::dmat4(1.0), glm::radians(turn), above) *
+                                       glm::dvec4(functions->axis, 0.0));
     const double degrees = 130.0 - glm::degrees(std::acos(glm::dot(above, bone)));
     const auto posed = turned(body.mesh, body.truth, binding, joint, axis, degrees);
     const glm::dvec3 bent = glm::dvec3(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), axis) *
@@ -271,11 +270,14 @@ TEST(FastShapes, FindLimbsByName) {
     std::map<std::string, Basis> found;
     for (const CorrectiveJoint& joint : binding.correctives.joints)
         found[binding.joints[joint.joint].name] = joint.basis;
-    const std::map<std::string, Basis> expected = {
-        {"LeftForeArm", Basis::TurnedHinge}, {"RightForeArm", Basis::TurnedHinge},
-        {"LeftLeg", Basis::TurnedHinge},     {"RightLeg", Basis::TurnedHinge},
-        {"LeftArm", Basis::Ball},            {"RightArm", Basis::Ball},
-        {"LeftUpLeg", Basis::Ball},          {"RightUpLeg", Basis::Ball}};
+    const std::map<std::string, Basis> expected = {{"LeftForeArm", Basis::TurnedHinge},
+                                                   {"RightForeArm", Basis::TurnedHinge},
+                                                   {"LeftLeg", Basis::TurnedHinge},
+                                                   {"RightLeg", Basis::TurnedHinge},
+                                                   {"LeftArm", Basis::Ball},
+                                                   {"RightArm", Basis::Ball},
+                                                   {"LeftUpLeg", Basis::Ball},
+                                                   {"RightUpLeg", Basis::Ball}};
     EXPECT_EQ(found, expected);
 }
 

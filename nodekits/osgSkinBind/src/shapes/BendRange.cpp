@@ -4,8 +4,8 @@
 #include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -99,8 +99,7 @@ void setTurnedHinge(ShapedJoint& joint) {
     functions.basis = CorrectiveJoint::Basis::TurnedHinge;
     double low = functions.low.y, high = functions.high.y;
     for (const BendTwist& bend : turnedBends(joint)) {
-        const double y =
-            functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis).y;
+        const double y = functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis).y;
         low = std::min(low, y / kNotClamped);
         high = std::max(high, y / kNotClamped);
     }
@@ -116,10 +115,9 @@ std::vector<BendTwist> turnedBends(const ShapedJoint& joint) {
         if (std::abs(angle) < 1.0) continue;
         const glm::dquat bent = glm::angleAxis(glm::radians(angle), joint.hinge);
         for (const double turn : steps(-kTurn, kTurn, kTurnStep))
-            bends.push_back(
-                splitBendTwist(glm::angleAxis(glm::radians(turn), joint.above) * bent *
-                                   glm::angleAxis(glm::radians(-turn), joint.bone),
-                               joint.twistAxis));
+            bends.push_back(splitBendTwist(glm::angleAxis(glm::radians(turn), joint.above) * bent *
+                                               glm::angleAxis(glm::radians(-turn), joint.bone),
+                                           joint.twistAxis));
     }
     return bends;
 }

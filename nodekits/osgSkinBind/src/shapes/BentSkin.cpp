@@ -45,6 +45,85 @@ constexpr double kGainKept = 0.5;
 constexpr double kInsideLimbs = 0.1;
 constexpr double kInsideTrunk = 20.0;
 
+/// Distances along a bone, in radii, between which the depth of flesh is measured.
+constexpr double kDepthFrom = 1.0, kDepthTo = 2.5;
+
+/// How far the child's share of the depth is followed, from one half.
+constexpr double kMaxUneven = 0.08;
+
+/// One bone with the skin of its side of the joint.
+struct Bone {
+    glm::dvec3 along;    ///< unit, away from the joint
+    glm::dvec3 boundary; ///< direction, across `along`, towards the plane in which both sides meet
+    double slope;        ///< distance of that plane from the bone, for each unit along the bone
+};
+
+/// \param share of the angle between both bones that this one's side takes
+Bone boneAt(const glm::dvec3& along, const glm::dvec3& other, double share) {
+    const glm::dvec3 across = other - glm::dot(along, other) * along;
+    const double sine = glm::length(across);
+    // A straight limb has no fold: any origin serves its sections, which are closed curves.
+    if (sine < 0.1) return {along, glm::dvec3(0.0), 0.0};
+    const double angle = std::atan2(sine, glm::dot(along, other));
+    return {along, across / sine, std::tan(share * angle)};
+}
+
+/// Adds the triangle's part of each section's area: half the cross product of the edge in which it
+/// meets the section. The origin lies in the plane in which both sides meet, where sections near
+/// the joint are open: the missing edge adds nothing.
+void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, double step,
+                 JointSections::Values& areas) {
+    std::array<double, 3> z{};
+    for (int i = 0; i < 3; ++i) z[i] = glm::dot(corners[i], bone.along);
+    const auto [least, most] = std::minmax_element(z.begin(), z.end());
+    const double from = std::ceil(std::max(*least, 0.0) / step);
+    if (!(from < JointSections::kCount + 1)) return;
+    for (auto k = std::max<std::size_t>(1, static_cast<std::size_t>(from));
+         k <= JointSections::kCount && double(k) * step < *most; ++k) {
+        const double at = double(k) * step;
+        const glm::dvec3 origin = at * (bone.along + bone.slope * bone.boundary);
+        glm::dvec3 enter(0.0), leave(0.0);
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            if ((z[i] < at) == (z[j] < at)) continue;
+            const glm::dvec3 x =
+                corners[i] + (at - z[i]) / (z[j] - z[i]) * (corners[j] - corners[i]) - origin;
+            (z[i] < at ? enter : leave) = x;
+        }
+        areas[k - 1] += 0.5 * glm::dot(bone.along, glm::cross(leave, enter));
+    }
+}
+
+JointSections::Sides areasAcross(const ShapedJoint& joint, const std::vector<bool>& isChilds,
+                                 const Bone& parent, const Bone& child, const Points& points) {
+    JointSections::Sides areas;
+    for (std::size_t t = 0; t < joint.triangles.size(); ++t) {
+        const auto& triangle = joint.triangles[t];
+        addTriangle({points[triangle[0]], points[triangle[1]], points[triangle[2]]},
+                    isChilds[t] ? child : parent, JointSections::kStep * joint.radius,
+                    isChilds[t] ? areas.child : areas.parent);
+    }
+    return areas;
+}
+
+/// 90 % of the flesh beside the joint reach no farther from the bone inwards; 0 where it is not
+/// known.
+double depthOf(const ShapedJoint& joint, const glm::dvec3& along) {
+    if (!(glm::length(joint.hinge) > 0.0)) return 0.0;
+    const glm::dvec3 inwards =
+        glm::normalize(glm::cross(joint.hinge, glm::dot(along, joint.bone) > 0.0 ? along : -along));
+    std::vector<double> depths;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) {
+        const double z = glm::dot(along, vertex.from) / joint.radius;
+        if (z > kDepthFrom && z < kDepthTo && vertex.limb > 0.5)
+            depths.push_back(glm::dot(inwards, vertex.from));
+    }
+    if (depths.size() < 8) return 0.0;
+    const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
+    std::nth_element(depths.begin(), at, depths.end());
+    return std::max(*at, 0.0);
+}
+
 double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
@@ -82,14 +161,14 @@ double maxOutAt(double angle) {
 }
 
 /// \param radii along the bone
-double widthAt(const LimbSections::Values& shares, double radii) {
-    return hermiteRatio(radii / kWidensFully) * LimbSections::valueAt(shares, radii);
+double widthAt(const JointSections::Values& shares, double radii) {
+    return hermiteRatio(radii / kWidensFully) * JointSections::valueAt(shares, radii);
 }
 
 /// Shares by which sections of one bone are widened, searched among growing ones.
 class WidthSearch {
 public:
-    WidthSearch(const LimbSections::Values& atRest, const LimbSections::Values& areas)
+    WidthSearch(const JointSections::Values& atRest, const JointSections::Values& areas)
         : _areas(areas) {
         for (std::size_t k = 0; k < atRest.size(); ++k) {
             _missing[k] = kAreaKept * atRest[k] - areas[k];
@@ -98,7 +177,7 @@ public:
     }
 
     /// \param areas of all sections widened by `share`
-    void add(double share, const LimbSections::Values& areas) {
+    void add(double share, const JointSections::Values& areas) {
         for (std::size_t k = 0; k < areas.size(); ++k) {
             if (_found[k]) continue;
             const double gained = areas[k] - _areas[k];
@@ -111,15 +190,46 @@ public:
         _last = share;
     }
 
-    LimbSections::Values shares{};
+    JointSections::Values shares{};
 
 private:
-    LimbSections::Values _areas, _missing{};
-    std::array<bool, LimbSections::kCount> _found{};
+    JointSections::Values _areas, _missing{};
+    std::array<bool, JointSections::kCount> _found{};
     double _last = 0.0;
 };
 
 } // namespace
+
+JointSections::JointSections(const ShapedJoint& joint) : _joint(joint) {
+    const double child = depthOf(joint, joint.bone), parent = depthOf(joint, -joint.above);
+    if (child > 0.0 && parent > 0.0)
+        _childDepth = std::clamp(child / (child + parent), 0.5, 0.5 + kMaxUneven);
+    Points points;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) points.push_back(vertex.from);
+    const glm::dvec3 normal = joint.above + joint.bone;
+    for (const auto& t : joint.triangles)
+        _isChilds.push_back(glm::dot(points[t[0]] + points[t[1]] + points[t[2]], normal) > 0.0);
+    _atRest = areasAcross(joint, _isChilds, boneAt(-joint.above, joint.bone, 1.0 - _childDepth),
+                          boneAt(joint.bone, -joint.above, _childDepth), points);
+}
+
+JointSections::Sides JointSections::areasOf(const FoldShape& fold, const Points& posed) const {
+    return areasAcross(_joint, _isChilds, boneAt(-fold.above, fold.bone, 1.0 - _childDepth),
+                       boneAt(fold.bone, -fold.above, _childDepth), posed);
+}
+
+double JointSections::valueAt(const Values& values, double radii) {
+    // Quadratic B-splines: continuous slopes.
+    const double t = radii / kStep - 1.0;
+    const auto middle = static_cast<std::ptrdiff_t>(std::floor(std::clamp(t, -2.0, 100.0) + 0.5));
+    const double f = std::clamp(t, -2.0, 100.0) - double(middle);
+    const auto at = [&](std::ptrdiff_t i) {
+        if (i >= static_cast<std::ptrdiff_t>(kCount)) return 0.0;
+        return values[static_cast<std::size_t>(std::max<std::ptrdiff_t>(i, 0))];
+    };
+    return 0.5 * (0.5 - f) * (0.5 - f) * at(middle - 1) + (0.75 - f * f) * at(middle) +
+           0.5 * (0.5 + f) * (0.5 + f) * at(middle + 1);
+}
 
 BentSkin::BentSkin(const ShapedJoint& joint, const BendTwist& bend, double childShare)
     : _joint(joint), _bend(bend),
@@ -135,12 +245,12 @@ double BentSkin::volumeOf(const ShapedJoint& joint, const Points& points) {
     return volume;
 }
 
-Points BentSkin::targets(double volumeAtRest, const LimbSections* sections) const {
+Points BentSkin::targets(double volumeAtRest, const JointSections* sections) const {
     return sections ? limbTargets(*sections) : trunkTargets(volumeAtRest);
 }
 
 /// Moves the points sideways by shares of their distance from the bone.
-Points BentSkin::widened(const Points& points, const LimbSections::Sides& shares) const {
+Points BentSkin::widened(const Points& points, const JointSections::Sides& shares) const {
     Points result;
     const double r = _joint.radius, most = maxOutAt(_fold.angle);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -154,22 +264,23 @@ Points BentSkin::widened(const Points& points, const LimbSections::Sides& shares
 }
 
 /// Shares by which sections are to be widened to keep their areas.
-LimbSections::Sides BentSkin::sharesFor(const Points& shaped, const LimbSections& sections) const {
-    const LimbSections::Sides areas = sections.areasOf(_fold, shaped);
+JointSections::Sides BentSkin::sharesFor(const Points& shaped,
+                                         const JointSections& sections) const {
+    const JointSections::Sides areas = sections.areasOf(_fold, shaped);
     WidthSearch parent(sections.atRest().parent, areas.parent),
         child(sections.atRest().child, areas.child);
     for (const double width : kWidths) {
-        LimbSections::Sides all;
+        JointSections::Sides all;
         all.parent.fill(width);
         all.child.fill(width);
-        const LimbSections::Sides wide = sections.areasOf(_fold, widened(shaped, all));
+        const JointSections::Sides wide = sections.areasOf(_fold, widened(shaped, all));
         parent.add(width, wide.parent);
         child.add(width, wide.child);
     }
     return {parent.shares, child.shares};
 }
 
-Points BentSkin::limbTargets(const LimbSections& sections) const {
+Points BentSkin::limbTargets(const JointSections& sections) const {
     Points shaped;
     for (std::size_t i = 0; i < _posed.size(); ++i) {
         const ShapedJoint::Vertex& vertex = _joint.vertices[i];

@@ -22,8 +22,8 @@ namespace {
 /// directions.
 std::size_t modesOf(CorrectiveJoint::Basis basis) {
     return basis == CorrectiveJoint::Basis::TurnedHinge ? 3
-           : basis == CorrectiveJoint::Basis::Ball ? 1
-                                                   : CorrectiveJoint::kMostModes;
+           : basis == CorrectiveJoint::Basis::Ball      ? 1
+                                                        : CorrectiveJoint::kMostModes;
 }
 
 /// What makes no difference, in radii of the limb: of a mode to all vertices, and of its last modes
@@ -57,7 +57,7 @@ JointShapes shapesOf(const ShapedJoint& joint) {
         atRest.push_back(vertex.from);
     }
     const double volumeAtRest = BentSkin::volumeOf(joint, atRest);
-    std::optional<LimbSections> sections;
+    std::optional<JointSections> sections;
     if (!joint.isAtTrunk()) sections.emplace(joint);
     for (const BendTwist& bend : bendsOf(joint)) {
         shapes.samples.push_back(
@@ -66,7 +66,8 @@ JointShapes shapesOf(const ShapedJoint& joint) {
         // A hinge's splines meet all of its shapes.
         if (joint.functions.basis != CorrectiveJoint::Basis::TurnedHinge)
             shapes.weights.push_back(skin.weights());
-        const std::vector<glm::dvec3> targets = skin.targets(volumeAtRest, sections ? &*sections : nullptr);
+        const std::vector<glm::dvec3> targets =
+            skin.targets(volumeAtRest, sections ? &*sections : nullptr);
         std::vector<glm::dvec3>& offsets = shapes.offsets.emplace_back();
         for (std::size_t i = 0; i < targets.size(); ++i) {
             const ShapedJoint::Vertex& vertex = joint.vertices[i];

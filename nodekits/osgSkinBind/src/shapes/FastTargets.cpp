@@ -139,8 +139,7 @@ glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const g
     const glm::dquat unit(1.0, 0.0, 0.0, 0.0);
     glm::dvec3 moved(0.0);
     if (childs > 0.0)
-        moved +=
-            childs * restoringMove(fold, {fold.boneRest, fold.bone, turn, 1.0}, rest, clamped);
+        moved += childs * restoringMove(fold, {fold.boneRest, fold.bone, turn, 1.0}, rest, clamped);
     if (childs < 1.0)
         moved += (1.0 - childs) *
                  restoringMove(fold, {-fold.above, -fold.above, unit, -1.0}, rest, clamped);
@@ -171,8 +170,7 @@ glm::dvec3 widen(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3
     const double z = std::max(glm::dot(boneOf(fold, posed), posed), 0.0);
     const double across = glm::dot(posed, posed) - z * z - at * at; // squared
     const double mostAcross = most * distanceAtRest(fold, rest);
-    const double room =
-        std::sqrt(std::max(mostAcross * mostAcross - across, 0.0)) - std::abs(at);
+    const double room = std::sqrt(std::max(mostAcross * mostAcross - across, 0.0)) - std::abs(at);
     const double inside =
         hermiteRatio((depthIn(fold, posed) - kWidenFrom) / (kWidenFull - kWidenFrom));
     const double move = limitedTo(share * inside * std::abs(at), room);

@@ -27,8 +27,8 @@ glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::
 
 /// Moves a vertex across its bone to where it would be if the bone's bend took it along rigidly; it
 /// keeps its position along the bone. Plain skin lags behind the bone: it leaves the inner side and
-/// balloons on the outer one, so this restores the sections beside the joint. Skin of the inner side
-/// stops short of the plane in which both sides meet.
+/// balloons on the outer one, so this restores the sections beside the joint. Skin of the inner
+/// side stops short of the plane in which both sides meet.
 /// \param clamped of clampBulge()
 /// \param turn the whole bend, with the vertex's own share of the twist
 glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& clamped,
