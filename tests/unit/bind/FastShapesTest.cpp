@@ -281,6 +281,18 @@ TEST(FastShapes, FindLimbsByName) {
     EXPECT_EQ(found, expected);
 }
 
+TEST(FastShapes, LeaveHandsAndFeetAlone) {
+    const KnownBody body = KnownBody::thrower();
+    BindOptions options;
+    options.rigid.emplace(); // none: fingers and toes bend
+    const Binding binding = bind(body.mesh, body.truth, options);
+    for (const CorrectiveJoint& joint : binding.correctives.joints)
+        for (const char* name : {"LeftHand", "RightHand", "LeftFoot", "RightFoot", "Head"})
+            EXPECT_FALSE(
+                body.truth.isInSubtree(static_cast<int>(joint.joint), body.truth.find(name)))
+                << binding.joints[joint.joint].name;
+}
+
 TEST(FastShapes, ShouldersAndHipsSwellLess) {
     const KnownBody body = KnownBody::thrower();
     const Binding plain = bound(body.mesh, body.truth, BindOptions::Shapes::None);
