@@ -24,6 +24,9 @@ constexpr int kAcross = 3;
 constexpr int kAcrossTurned = 5;
 constexpr int kAround = 12;
 constexpr int kOutwards = 12;
+/// The same of a joint that folds in any direction: its shapes change faster.
+constexpr int kAroundRound = 12;
+constexpr int kOutwardsRound = 24;
 
 constexpr double kRidge = 1e-6;
 
@@ -61,11 +64,14 @@ std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& joint) {
                                     glm::dvec2(double(i) / kAlong, (j + 1.0) / (across + 1.0)));
         return samples;
     }
-    for (int i = 0; i < kAround; ++i)
-        for (int j = 1; j <= kOutwards; ++j) {
-            const double angle = glm::two_pi<double>() * i / kAround;
+    const bool isRound = joint.basis == CorrectiveJoint::Basis::Round;
+    const int around = isRound ? kAroundRound : kAround;
+    const int outwards = isRound ? kOutwardsRound : kOutwards;
+    for (int i = 0; i < around; ++i)
+        for (int j = 1; j <= outwards; ++j) {
+            const double angle = glm::two_pi<double>() * i / around;
             const glm::dvec2 way(std::cos(angle), std::sin(angle));
-            add(double(j) / kOutwards * way *
+            add(double(j) / outwards * way *
                 glm::dvec2(way.x < 0.0 ? -joint.low.x : joint.high.x,
                            way.y < 0.0 ? -joint.low.y : joint.high.y));
         }
@@ -279,8 +285,9 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
                            (joint.basis == CorrectiveJoint::Basis::Input);
             });
         const std::vector<glm::dvec2> samples = samplesOf(joint);
-        // Splines follow a hinge closely enough to do without part of the gradients.
-        if (isHinge(joint)) skin.limitGradients(samples);
+        // Splines follow a bend closely enough to do without part of the gradients.
+        if (isHinge(joint) || joint.basis == CorrectiveJoint::Basis::Round)
+            skin.limitGradients(samples);
         const auto rows = Eigen::Index(samples.size());
         Eigen::MatrixXd weights(rows, Eigen::Index(joint.modes));
         Eigen::MatrixXd tilts(rows, Eigen::Index(3 * skin.vertices().size()));
