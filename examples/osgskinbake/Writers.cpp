@@ -17,6 +17,8 @@ const char* nameOf(osgSkin::CorrectiveJoint::Basis basis) {
     switch (basis) {
     case osgSkin::CorrectiveJoint::Basis::Hinge:
         return "hinge";
+    case osgSkin::CorrectiveJoint::Basis::TurnedHinge:
+        return "turned_hinge";
     case osgSkin::CorrectiveJoint::Basis::Ball:
         return "ball";
     case osgSkin::CorrectiveJoint::Basis::Round:

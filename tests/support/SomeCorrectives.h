@@ -25,9 +25,10 @@ inline osgSkin::CorrectiveJoint someFunctions(const osgSkin::Binding& binding, s
     result.axis = glm::normalize(glm::cross(other, w));
     result.low = {-0.5, -0.8};
     result.high = {0.9, 0.7};
-    if (basis == Basis::Hinge) result.knots = {-0.5, -0.1, 0.3, 0.6, 0.9};
+    const bool isHinge = basis == Basis::Hinge || basis == Basis::TurnedHinge;
+    if (isHinge) result.knots = {-0.5, -0.1, 0.3, 0.6, 0.9};
     if (basis == Basis::Round) result.knots = {0.0, 0.2, 0.5, 0.9};
-    result.modes = basis == Basis::Hinge ? 3 : basis == Basis::Ball ? 5 : roundModes;
+    result.modes = isHinge ? 3 : basis == Basis::Ball ? 5 : roundModes;
     for (std::size_t i = 0; i < result.modes * result.functionCount(); ++i)
         result.coefficients.push_back(number(random));
     return result;
@@ -44,8 +45,9 @@ inline osgSkin::Correctives someCorrectives(const osgSkin::Binding& binding, dou
                                              osgSkin::Correctives::kUnit);
     osgSkin::Correctives result;
     for (std::uint32_t joint = 1; joint < binding.joints.size() && joint < 7; ++joint) {
+        constexpr Basis kBases[] = {Basis::Hinge, Basis::Ball, Basis::Round, Basis::TurnedHinge};
         result.joints.push_back(
-            someFunctions(binding, joint, static_cast<Basis>(joint % 3), size, random, roundModes));
+            someFunctions(binding, joint, kBases[joint % 4], size, random, roundModes));
         if (withNormals) result.joints.back().normalScales.assign(result.joints.back().modes, 2.0);
     }
     const auto input = static_cast<std::uint32_t>(result.joints.size());

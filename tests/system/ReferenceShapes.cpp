@@ -57,6 +57,14 @@ std::vector<double> ReferenceShapes::functions(double x, double y) const {
         for (const double more : {y, x * y, y * y}) values.push_back(more);
         return values;
     }
+    if (_basis == "turned_hinge") {
+        const std::vector<double> now = splines(_knots, x), atRest = splines(_knots, 0.0);
+        std::vector<double> values;
+        for (std::size_t i = 0; i < now.size(); ++i)
+            for (const double each : {now[i] - atRest[i], now[i] * y, now[i] * y * y})
+                values.push_back(each);
+        return values;
+    }
     const std::vector<double> now = splines(_knots, x * x + y * y), atRest = splines(_knots, 0.0);
     std::vector<double> values;
     for (std::size_t i = 0; i < now.size(); ++i) {
@@ -75,7 +83,7 @@ std::vector<double> ReferenceShapes::weights(const glm::dvec3& v, double psi,
     double x = std::sin(psi / 2) * glm::dot(v, _axis);
     double y = std::sin(psi / 2) * glm::dot(v, glm::cross(w, _axis));
     const double endX = x > 0 ? _high.x : _low.x, endY = y > 0 ? _high.y : _low.y;
-    if (_basis == "hinge") {
+    if (_basis == "hinge" || _basis == "turned_hinge") {
         x = softly(x / endX) * endX;
         y = softly(y / endY) * endY;
     } else if (const double r = std::hypot(x / endX, y / endY); r > 0) {

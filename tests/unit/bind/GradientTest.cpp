@@ -107,7 +107,9 @@ TEST(SurfaceNormals, OfABentLimbAreThoseOfItsTriangles) {
 TEST(RatioGradients, SayHowRatiosGrowAlongEdges) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
-    const Binding binding = bind(mesh, skeleton, withNormals());
+    BindOptions options = withNormals();
+    options.shapes = BindOptions::Shapes::None; // shapes shorten gradients where they open folds
+    const Binding binding = bind(mesh, skeleton, options);
     ASSERT_EQ(binding.gradients.size(), binding.influences.size());
     const std::vector<std::uint32_t> corners = mesh.triangles();
     double worst = 0.0, steepest = 0.0;

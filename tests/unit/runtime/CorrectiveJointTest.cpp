@@ -37,7 +37,7 @@ TEST(CorrectiveJoint, CoordinatesAreTheBendQuaternions) {
 }
 
 TEST(CorrectiveJoint, ClampIsTheIdentityAroundRestAndEndsAtTheRange) {
-    for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round}) {
+    for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round, Basis::TurnedHinge}) {
         const CorrectiveJoint joint = functionsOf(basis);
         EXPECT_EQ(joint.clamped({0.3, -0.2}), glm::dvec2(0.3, -0.2));
         EXPECT_NEAR(joint.clamped({0.9, 0.0}).x, 0.9 * (0.9 + 0.1 * std::tanh(1.0)), 1e-14);
@@ -58,7 +58,7 @@ TEST(CorrectiveJoint, ClampIsTheIdentityAroundRestAndEndsAtTheRange) {
 }
 
 TEST(CorrectiveJoint, EveryFunctionIsNothingAtRestAndSmooth) {
-    for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round}) {
+    for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round, Basis::TurnedHinge}) {
         const CorrectiveJoint joint = functionsOf(basis);
         CorrectiveJoint::Functions phi{}, before{}, behind{};
         joint.evaluate({0.0, 0.0}, phi);

@@ -90,7 +90,7 @@ void checkJoint(const CorrectiveJoint& joint, const Correctives& correctives,
                               (input ? "input \"" + correctives.inputs[joint.joint]
                                      : "joint \"" + bound[joint.joint].name) +
                               "\"";
-    if (joint.basis > Basis::Input) throw Error(place + " have functions of no known kind");
+    if (joint.basis > Basis::TurnedHinge) throw Error(place + " have functions of no known kind");
     if (input)
         checkInput(joint, place);
     else
@@ -112,6 +112,8 @@ std::size_t CorrectiveJoint::functionCount() const noexcept {
     switch (basis) {
     case Basis::Hinge:
         return splineCount(knots) + 3;
+    case Basis::TurnedHinge:
+        return 3 * splineCount(knots);
     case Basis::Ball:
         return 9;
     case Basis::Round:
@@ -130,7 +132,7 @@ glm::dvec2 CorrectiveJoint::coordinates(const glm::dvec3& v, double psi,
 
 glm::dvec2 CorrectiveJoint::clamped(glm::dvec2 xy) const noexcept {
     if (basis == Basis::Input) return {glm::clamp(xy.x, low.x, high.x), 0.0};
-    if (basis == Basis::Hinge)
+    if (basis == Basis::Hinge || basis == Basis::TurnedHinge)
         return {clampedAlone(xy.x, low.x, high.x), clampedAlone(xy.y, low.y, high.y)};
     const double r =
         glm::length(glm::dvec2(shareOf(xy.x, low.x, high.x), shareOf(xy.y, low.y, high.y)));
@@ -149,6 +151,17 @@ void CorrectiveJoint::evaluate(glm::dvec2 clampedXy, Functions& phi) const noexc
         phi[splines] = y;
         phi[splines + 1] = x * y;
         phi[splines + 2] = y * y;
+        return;
+    }
+    case Basis::TurnedHinge: {
+        double now[kMostKnots + 1], atRest[kMostKnots + 1];
+        evaluateSplines(knots, x, now);
+        evaluateSplines(knots, 0.0, atRest);
+        for (std::size_t i = 0; i < splines; ++i) {
+            phi[3 * i] = now[i] - atRest[i];
+            phi[3 * i + 1] = now[i] * y;
+            phi[3 * i + 2] = now[i] * y * y;
+        }
         return;
     }
     case Basis::Ball: {

@@ -69,6 +69,17 @@ WeightTerms::WeightTerms(const CorrectiveJoint& joint, const CorrectiveTable& ta
         add(y * y, table.row(table.restRow - 1));
         return;
     }
+    case CorrectiveJoint::Basis::TurnedHinge: {
+        const std::size_t first = splinesAt(joint.knots, x, splines);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t row = 3 * (first + i);
+            add(splines[i], table.row(row));
+            add(splines[i] * y, table.row(row + 1));
+            add(splines[i] * y * y, table.row(row + 2));
+        }
+        add(-1.0, table.row(table.restRow));
+        return;
+    }
     case CorrectiveJoint::Basis::Ball: {
         const double all[] = {x,         y,         x * x,     x * y,    y * y,
                               x * x * x, x * x * y, x * y * y, y * y * y};

@@ -65,7 +65,9 @@ CorrectiveTable::CorrectiveTable(const CorrectiveJoint& joint, const std::vector
     toAxes = {{glm::dot(frame[0], joint.axis), glm::dot(frame[0], second)},
               {glm::dot(frame[1], joint.axis), glm::dot(frame[1], second)}};
     if (joint.basis == CorrectiveJoint::Basis::Ball) return;
-    const std::size_t next = joint.basis == CorrectiveJoint::Basis::Round ? 7 : 1;
+    const std::size_t next = joint.basis == CorrectiveJoint::Basis::Round         ? 7
+                             : joint.basis == CorrectiveJoint::Basis::TurnedHinge ? 3
+                                                                                  : 1;
     double atRest[3];
     const std::size_t first = splinesAt(joint.knots, 0.0, atRest);
     for (std::size_t i = 0; i < 3; ++i)

@@ -21,8 +21,12 @@ namespace {
 /// Samples of a joint's bends: along its main axis and across, or around and outwards.
 constexpr int kAlong = 40;
 constexpr int kAcross = 3;
+constexpr int kAcrossTurned = 5;
 constexpr int kAround = 12;
 constexpr int kOutwards = 12;
+/// The same of a joint that folds in any direction: its shapes change faster.
+constexpr int kAroundRound = 12;
+constexpr int kOutwardsRound = 24;
 
 constexpr double kRidge = 1e-6;
 
@@ -36,6 +40,11 @@ constexpr double kLeastCosine = 0.15;
 /// what leaves this much of its area, and tilts make good the rest.
 constexpr double kLeastArea = 0.1;
 
+bool isHinge(const CorrectiveJoint& joint) {
+    return joint.basis == CorrectiveJoint::Basis::Hinge ||
+           joint.basis == CorrectiveJoint::Basis::TurnedHinge;
+}
+
 std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& joint) {
     std::vector<glm::dvec2> samples;
     if (joint.basis == CorrectiveJoint::Basis::Input)
@@ -46,18 +55,23 @@ std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& joint) {
     const auto add = [&](const glm::dvec2& xy) {
         if (glm::length(xy) > 1e-3 && glm::length(xy) < 1.0) samples.push_back(xy);
     };
-    if (joint.basis == CorrectiveJoint::Basis::Hinge) {
+    if (isHinge(joint)) {
+        const int across =
+            joint.basis == CorrectiveJoint::Basis::TurnedHinge ? kAcrossTurned : kAcross;
         for (int i = 0; i <= kAlong; ++i)
-            for (int j = 0; j < kAcross; ++j)
+            for (int j = 0; j < across; ++j)
                 add(joint.low + (joint.high - joint.low) *
-                                    glm::dvec2(double(i) / kAlong, (j + 1.0) / (kAcross + 1.0)));
+                                    glm::dvec2(double(i) / kAlong, (j + 1.0) / (across + 1.0)));
         return samples;
     }
-    for (int i = 0; i < kAround; ++i)
-        for (int j = 1; j <= kOutwards; ++j) {
-            const double angle = glm::two_pi<double>() * i / kAround;
+    const bool isRound = joint.basis == CorrectiveJoint::Basis::Round;
+    const int around = isRound ? kAroundRound : kAround;
+    const int outwards = isRound ? kOutwardsRound : kOutwards;
+    for (int i = 0; i < around; ++i)
+        for (int j = 1; j <= outwards; ++j) {
+            const double angle = glm::two_pi<double>() * i / around;
             const glm::dvec2 way(std::cos(angle), std::sin(angle));
-            add(double(j) / kOutwards * way *
+            add(double(j) / outwards * way *
                 glm::dvec2(way.x < 0.0 ? -joint.low.x : joint.high.x,
                            way.y < 0.0 ? -joint.low.y : joint.high.y));
         }
@@ -271,8 +285,9 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
                            (joint.basis == CorrectiveJoint::Basis::Input);
             });
         const std::vector<glm::dvec2> samples = samplesOf(joint);
-        // Splines follow a hinge closely enough to do without part of the gradients.
-        if (joint.basis == CorrectiveJoint::Basis::Hinge) skin.limitGradients(samples);
+        // Splines follow a bend closely enough to do without part of the gradients.
+        if (isHinge(joint) || joint.basis == CorrectiveJoint::Basis::Round)
+            skin.limitGradients(samples);
         const auto rows = Eigen::Index(samples.size());
         Eigen::MatrixXd weights(rows, Eigen::Index(joint.modes));
         Eigen::MatrixXd tilts(rows, Eigen::Index(3 * skin.vertices().size()));

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -18,6 +19,11 @@ constexpr double kBeyondStraight = 12.0;
 constexpr double kSideways = 30.0;
 /// Between the angles that a hinge is bent sideways at, too; between knots; between samples.
 constexpr double kSidewaysStep = 30.0;
+/// How far a hinge turns about the limb, and between samples of that.
+constexpr double kTurn = 32.0;
+constexpr double kTurnStep = 16.0;
+/// Share of the range of a coordinate in which it is not clamped.
+constexpr double kNotClamped = 0.9;
 constexpr double kRoundKnotStep = 20.0;
 constexpr double kSampleStep = 15.0;
 constexpr double kRoundSampleStep = 10.0;
@@ -86,6 +92,34 @@ void setBallRange(const glm::dvec3& across, ShapedJoint& joint, double mostSwing
     functions.axis = perpendicular(across, joint.twistAxis);
     functions.low = glm::dvec2(-sineOfHalf(mostSwing));
     functions.high = -functions.low;
+}
+
+void setTurnedHinge(ShapedJoint& joint) {
+    CorrectiveJoint& functions = joint.functions;
+    functions.basis = CorrectiveJoint::Basis::TurnedHinge;
+    double low = functions.low.y, high = functions.high.y;
+    for (const BendTwist& bend : turnedBends(joint)) {
+        const double y = functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis).y;
+        low = std::min(low, y / kNotClamped);
+        high = std::max(high, y / kNotClamped);
+    }
+    functions.low.y = low;
+    functions.high.y = high;
+}
+
+std::vector<BendTwist> turnedBends(const ShapedJoint& joint) {
+    const CorrectiveJoint& functions = joint.functions;
+    std::vector<BendTwist> bends;
+    for (const double angle :
+         steps(degreesOf(functions.low.x), degreesOf(functions.high.x), kSampleStep)) {
+        if (std::abs(angle) < 1.0) continue;
+        const glm::dquat bent = glm::angleAxis(glm::radians(angle), joint.hinge);
+        for (const double turn : steps(-kTurn, kTurn, kTurnStep))
+            bends.push_back(splitBendTwist(glm::angleAxis(glm::radians(turn), joint.above) * bent *
+                                               glm::angleAxis(glm::radians(-turn), joint.bone),
+                                           joint.twistAxis));
+    }
+    return bends;
 }
 
 std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint) {

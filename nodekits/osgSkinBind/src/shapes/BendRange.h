@@ -28,6 +28,14 @@ void setBendRange(const std::optional<glm::dvec3>& mainAxis, const glm::dvec3& a
 void setBallRange(const glm::dvec3& across, ShapedJoint& joint,
                   double mostSwing = ShapeScope().mostSwing);
 
+/// Lets a hinge turn about the limb, as knees and elbows do: sets basis and range of y.
+/// \param joint of setBendRange(), with a main axis
+void setTurnedHinge(ShapedJoint& joint);
+
+/// The bends of a turned hinge that shapes are fitted to, from one end of the range to the other
+/// and to both sides. They twist, too, where the hinge is not perpendicular to the bone or turns.
+std::vector<BendTwist> turnedBends(const ShapedJoint& joint);
+
 /// The bends, as coordinates (x, y) of the joint's functions, whose shapes those are fitted to: all
 /// over the range and to its end, the rest pose left out.
 std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint);

@@ -15,14 +15,23 @@ namespace {
 /// What is left of a bulge, in radii.
 constexpr double kBulgeLeft = 0.005;
 
-/// How deep inside the fold skin swells, in radii from the bone: outside it does not.
-constexpr double kSwellFrom = -0.5;
-constexpr double kSwellFull = 0.3;
+/// Distance along the bone, in radii, from which on sections are restored wholly.
+constexpr double kRestoreFull = 2.0;
+
+/// Depths inside the fold between which widening sets in, in radii from the bone.
+constexpr double kWidenFrom = -1.5;
+constexpr double kWidenFull = -0.5;
+
+/// Half the width of the transition from the parent's to the child's side, in radii.
+constexpr double kSideWidth = 0.25;
+
+/// Sine of the angle between the bones from which on a limb has an inner side.
+constexpr double kLeastFold = 0.1;
 
 /// Gap between the skins on both sides of a fold, far from the joint, and how softly they meet; in
 /// radii.
-constexpr double kGap = 0.1;
-constexpr double kSoftness = 0.08;
+constexpr double kGap = 0.2;
+constexpr double kSoftness = 0.2;
 
 /// Angles between which the press sets in, in degrees.
 constexpr double kPressFrom = 45.0;
@@ -50,6 +59,64 @@ glm::dvec3 boneOf(const FoldShape& fold, const glm::dvec3& posed) {
     return glm::dot(fold.above + fold.bone, posed) < 0.0 ? -fold.above : fold.bone;
 }
 
+/// Signed distance at rest from the plane that bisects the joint; positive on the child's side.
+double heightAtRest(const FoldShape& fold, const glm::dvec3& rest) {
+    return glm::dot(rest, glm::normalize(fold.above + fold.boneRest));
+}
+
+/// Signed distance from the bisecting plane that pressed skin keeps.
+double limitOf(const FoldShape& fold, const glm::dvec3& rest) {
+    const double h0 = heightAtRest(fold, rest);
+    return kGap * fold.radius * h0 / (std::abs(h0) + fold.radius);
+}
+
+/// About the smaller of `wish` and `room`, never more than either; both at least 0.
+double limitedTo(double wish, double room) {
+    if (!(room > 0.0)) return 0.0;
+    const double t = wish / room, square = t * t;
+    return wish / std::sqrt(std::sqrt(1.0 + square * square));
+}
+
+/// Distance from the bone at rest, mixed where both sides of the joint meet.
+double distanceAtRest(const FoldShape& fold, const glm::dvec3& rest) {
+    const auto from = [&](const glm::dvec3& bone) {
+        const double z = std::max(glm::dot(bone, rest), 0.0);
+        return std::sqrt(std::max(glm::dot(rest, rest) - z * z, 0.0));
+    };
+    return glm::mix(from(-fold.above), from(fold.boneRest), childShare(fold, rest));
+}
+
+/// A bone that skin is restored to.
+struct RestoringBone {
+    glm::dvec3 atRest; ///< unit, away from the joint
+    glm::dvec3 posed;
+    glm::dquat turn; ///< takes `atRest` to `posed`
+    double side;     ///< 1 on the child's side of the joint, -1 on the parent's
+};
+
+/// Across the bone.
+glm::dvec3 restoringMove(const FoldShape& fold, const RestoringBone& bone, const glm::dvec3& rest,
+                         const glm::dvec3& clamped) {
+    const glm::dvec3& m = bone.posed;
+    const double z = glm::dot(m, clamped);
+    const double share = hermiteRatio(z / (kRestoreFull * fold.radius));
+    if (!(share > 0.0)) return glm::dvec3(0.0);
+    const glm::dvec3 radial = bone.turn * (rest - glm::dot(bone.atRest, rest) * bone.atRest);
+    glm::dvec3 move = share * (radial - (clamped - z * m));
+    const glm::dvec3 inwards = fold.bone - fold.above;
+    const glm::dvec3 across = inwards - glm::dot(m, inwards) * m;
+    const double length = glm::length(across);
+    if (length < kLeastFold) return move;
+    const glm::dvec3 inner = across / length;
+    const double wish = glm::dot(inner, move);
+    if (!(wish > 0.0)) return move;
+    // Where the plane's normal leans towards the bone, `inner` leads to the plane.
+    const glm::dvec3 normal = bone.side * fold.normal;
+    const double room = (glm::dot(normal, clamped) - bone.side * limitOf(fold, rest)) /
+                        std::max(-glm::dot(normal, inner), 1e-3);
+    return move + (limitedTo(wish, room) - wish) * inner;
+}
+
 } // namespace
 
 glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
@@ -66,6 +133,24 @@ glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::
     return (1.0 - k) * posed + k * z * m;
 }
 
+glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& clamped,
+                          const glm::dquat& turn) {
+    const double childs = childShare(fold, rest);
+    const glm::dquat unit(1.0, 0.0, 0.0, 0.0);
+    glm::dvec3 moved(0.0);
+    if (childs > 0.0)
+        moved += childs * restoringMove(fold, {fold.boneRest, fold.bone, turn, 1.0}, rest, clamped);
+    if (childs < 1.0)
+        moved += (1.0 - childs) *
+                 restoringMove(fold, {-fold.above, -fold.above, unit, -1.0}, rest, clamped);
+    return clamped + moved;
+}
+
+double childShare(const FoldShape& fold, const glm::dvec3& rest) {
+    const double h0 = heightAtRest(fold, rest);
+    return hermiteRatio(0.5 + 0.5 * h0 / (kSideWidth * fold.radius));
+}
+
 double depthIn(const FoldShape& fold, const glm::dvec3& posed) {
     const glm::dvec3 inwards = fold.bone - fold.above;
     const glm::dvec3 m = boneOf(fold, posed);
@@ -75,25 +160,35 @@ double depthIn(const FoldShape& fold, const glm::dvec3& posed) {
     return length < 1e-6 ? 0.0 : glm::dot(across, posed) / (length * fold.radius);
 }
 
-glm::dvec3 swell(const FoldShape& fold, const glm::dvec3& posed, double share) {
-    const glm::dvec3 m = boneOf(fold, posed);
-    const glm::dvec3 radial = posed - std::max(glm::dot(m, posed), 0.0) * m;
-    const double depth = depthIn(fold, posed);
-    return posed + share * hermiteRatio((depth - kSwellFrom) / (kSwellFull - kSwellFrom)) * radial;
+glm::dvec3 widen(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed,
+                 double share, double most) {
+    const glm::dvec3 axis = glm::cross(fold.above, fold.bone);
+    const double sine = glm::length(axis);
+    if (sine < kLeastFold) return posed;
+    const glm::dvec3 sideways = axis / sine;
+    const double at = glm::dot(sideways, posed);
+    const double z = std::max(glm::dot(boneOf(fold, posed), posed), 0.0);
+    const double across = glm::dot(posed, posed) - z * z - at * at; // squared
+    const double mostAcross = most * distanceAtRest(fold, rest);
+    const double room = std::sqrt(std::max(mostAcross * mostAcross - across, 0.0)) - std::abs(at);
+    const double inside =
+        hermiteRatio((depthIn(fold, posed) - kWidenFrom) / (kWidenFull - kWidenFrom));
+    const double move = limitedTo(share * inside * std::abs(at), room);
+    return posed + std::copysign(move, at) * sideways;
 }
 
 glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
     const double onset = since(fold, kPressFrom, kPressFull);
     const glm::dvec3 sum = fold.above + fold.bone, inwards = fold.bone - fold.above;
     if (!(onset > 0.0) || glm::length(sum) < 1e-3 || glm::length(inwards) < 1e-3) return posed;
-    const glm::dvec3 n = glm::normalize(sum);
+    const glm::dvec3& n = fold.normal;
     const double r = fold.radius;
-    const double h0 = glm::dot(rest, glm::normalize(fold.above + fold.boneRest));
+    const double h0 = heightAtRest(fold, rest);
     const double h = glm::dot(posed, n);
-    const double limit = kGap * r * h0 / (std::abs(h0) + r);
+    const double limit = limitOf(fold, rest);
     const double childs = softMax(h, limit, kSoftness * r);
     const double parents = -softMax(-h, -limit, kSoftness * r);
-    const double side = hermiteRatio(0.5 + h0 / (0.5 * r));
+    const double side = childShare(fold, rest);
     // The crease itself lies between both sides: else it pricks the one that is pressed upon it.
     const double deep = since(fold, kCreaseFrom, kCreaseFull) *
                         (1.0 - hermiteRatio((std::abs(h0) / r - kCreaseCore) / kCreaseEdge));

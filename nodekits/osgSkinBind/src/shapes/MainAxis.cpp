@@ -15,6 +15,9 @@ namespace {
 constexpr double kPlain = 0.21;
 constexpr double kFaint = 0.052;
 
+/// Cosine of the angle that a knee's axis leans from its main axis, at most.
+constexpr double kLeastAlong = 0.9;
+
 enum class End { None, Hand, Foot };
 
 /// What a limb ends in: the first hand or foot below the joint.
@@ -47,6 +50,16 @@ std::optional<glm::dvec3> findMainAxis(const RestSkeleton& skeleton,
     }
     if (end != End::None && sine > kFaint) return acrossTwist(atRest);
     return std::nullopt;
+}
+
+glm::dvec3 findHinge(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                     std::size_t joint, const glm::dvec3& mainAxis) {
+    const std::optional<BodyAxes> body = bodyAxes(joints);
+    if (!body || endOf(skeleton, joints, joint) != End::Foot) return mainAxis;
+    const glm::dvec3 across = glm::cross(body->up, body->front);
+    const double along = glm::dot(across, mainAxis);
+    if (std::abs(along) < kLeastAlong) return mainAxis;
+    return glm::normalize(mainAxis + std::copysign(1.0, along) * across);
 }
 
 } // namespace osgSkin

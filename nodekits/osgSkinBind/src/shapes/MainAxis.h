@@ -17,6 +17,13 @@ namespace osgSkin {
 std::optional<glm::dvec3> findMainAxis(const RestSkeleton& skeleton,
                                        const std::vector<PlannedJoint>& joints, std::size_t joint);
 
+/// The axis in space that a joint's bone turns about, which need not be perpendicular to the bone.
+/// Some rigs bend knees about the axis across the body, others across the shin: a knee's lies
+/// halfway between. That of another joint is the main axis.
+/// \param mainAxis of findMainAxis()
+glm::dvec3 findHinge(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                     std::size_t joint, const glm::dvec3& mainAxis);
+
 } // namespace osgSkin
 
 #endif

@@ -54,6 +54,16 @@ double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
     return *middle;
 }
 
+/// For each joint whether it is a head, a hand or a foot, or below one. Fingers and toes are no
+/// limbs, even where they are long for their radius.
+std::vector<bool> withinExtremities(const std::vector<PlannedJoint>& joints) {
+    std::vector<bool> within(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        within[j] = joints[j].extremity ||
+                    (joints[j].parent >= 0 && within[static_cast<std::size_t>(joints[j].parent)]);
+    return within;
+}
+
 /// Whether faces look inwards: volumes count as if they did not.
 bool isInsideOut(const WeldedMesh& mesh) {
     if (mesh.positions.empty()) return false;
@@ -150,12 +160,11 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
     const std::vector<bool> trunk = trunkByShape(joints, mesh.size);
     const bool insideOut = isInsideOut(mesh);
     std::vector<ShapedJoint> result;
+    const std::vector<bool> extremities = withinExtremities(joints);
     std::vector<double> bend(mesh.vertexCount());
     for (std::uint32_t j = 1; j < joints.size(); ++j) {
         const PlannedJoint& planned = joints[j];
-        if (trunk[j] || planned.extremity || planned.digit || planned.rigid >= 0 ||
-            !planned.holdsRegion)
-            continue;
+        if (trunk[j] || extremities[j] || planned.rigid >= 0 || !planned.holdsRegion) continue;
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
         const bool atTrunk = trunk[above];
         for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
@@ -172,9 +181,11 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         shaped.functions.joint = j;
         if (atTrunk)
             setBallRange(acrossOf(joints, j), shaped, scope.mostSwing);
-        else
-            setBendRange(findMainAxis(skeleton, joints, j), acrossOf(joints, j), shaped,
-                         scope.mostFlexion, scope.knotStep);
+        else {
+            const std::optional<glm::dvec3> mainAxis = findMainAxis(skeleton, joints, j);
+            setBendRange(mainAxis, acrossOf(joints, j), shaped, scope.mostFlexion, scope.knotStep);
+            if (mainAxis) shaped.hinge = findHinge(skeleton, joints, j, *mainAxis);
+        }
         result.push_back(std::move(shaped));
     }
     for (ShapedJoint& shaped : result) {

@@ -29,6 +29,8 @@ struct ShapedJoint {
     glm::dvec3 above{0.0};     ///< unit; direction in which the bone above arrives; at the trunk,
                                ///< `bone`
     glm::dvec3 bone{0.0};      ///< unit; from the centre to the child
+    glm::dvec3 hinge{0.0};     ///< unit; axis that the bone turns about where there is a main one.
+                               ///< It need not be perpendicular to the bone: such bends twist, too
     double radius = 0.0;       ///< of the limb at the joint
     glm::dvec3 away{0.0};      ///< unit, or 0 without a pit; see ShapePit
 
