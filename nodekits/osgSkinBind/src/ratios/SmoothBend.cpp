@@ -35,7 +35,7 @@ constexpr Widths kCollar{0.72, 0.72};
 constexpr Widths kRigid{1.5, 0.6};
 
 /// Above the border of a head, hand or foot.
-constexpr double kAboveBorder = 1.1;
+constexpr double kAboveBorder = 0.95;
 
 /// A field reaches along a limb no farther than this share of the bone: limbs of game figures may
 /// be as short as they are thick.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "regions/Extremities.h"
 
+#include "joints/BodyAxes.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -15,18 +17,22 @@
 namespace osgSkin {
 namespace {
 
-/// How far a section may lean from the joint's plane, in degrees: the one below a chin and behind a
-/// skull leans by 30 to 50.
+/// How far a section may lean from the joint's plane, in degrees.
 constexpr double kMaxLean = 50.0;
 constexpr int kLeans = 5;
 constexpr int kDirections = 12;
 
+/// The section below a chin and behind a skull leans to the front by so much; how far it may lean
+/// from there.
+constexpr double kHeadLean = 30.0;
+constexpr double kMaxHeadLean = 25.0;
+
 /// How far below its joint a head may end, in lengths of the head: its jaw hangs there.
-constexpr double kMaxDrop = 0.5;
-constexpr int kDrops = 10;
+constexpr double kMaxDrop = 0.6;
+constexpr int kDrops = 12;
 
 /// A section of a neck is narrow up to so many times the length of the narrowest.
-constexpr double kNarrow = 1.2;
+constexpr double kNarrow = 1.15;
 
 /// A head, hand or foot has fewer of the skin's vertices than this share of what is not beyond its
 /// border.
@@ -155,12 +161,12 @@ private:
 };
 
 /// Unit directions around `axis`, evenly over a cone.
-std::vector<glm::dvec3> leaning(const glm::dvec3& axis) {
+std::vector<glm::dvec3> leaning(const glm::dvec3& axis, double maxLean) {
     const glm::dvec3 u = anyPerpendicular(axis), v = glm::cross(axis, u);
     std::vector<glm::dvec3> result{axis};
     for (int i = 1; i <= kLeans; ++i)
         for (int k = 0; k < kDirections; ++k) {
-            const double lean = glm::radians(kMaxLean * i / kLeans);
+            const double lean = glm::radians(maxLean * i / kLeans);
             const double around = 2.0 * glm::pi<double>() * k / kDirections;
             result.push_back(std::cos(lean) * axis +
                              std::sin(lean) * (std::cos(around) * u + std::sin(around) * v));
@@ -176,11 +182,11 @@ double reachBeyond(const WeldedMesh& mesh, const PlannedJoint& joint) {
     return std::min(reach, mesh.size);
 }
 
-/// The shortest section around a point of a limb, of all that lean no farther than they may.
+/// The shortest section around a point of a limb, of those with one of these normals.
 std::optional<Section> narrowestAt(SectionFinder& finder, const glm::dvec3& point,
-                                   const glm::dvec3& along) {
+                                   const std::vector<glm::dvec3>& normals) {
     std::optional<Section> narrowest;
-    for (const glm::dvec3& normal : leaning(along)) {
+    for (const glm::dvec3& normal : normals) {
         std::optional<Section> section = finder.find({point, normal});
         if (section && (!narrowest || section->length < narrowest->length))
             narrowest = std::move(section);
@@ -188,31 +194,44 @@ std::optional<Section> narrowestAt(SectionFinder& finder, const glm::dvec3& poin
     return narrowest;
 }
 
-/// Where the limb ends and the extremity begins: at the joint. A head begins at or below its joint,
-/// as high as the neck is narrow.
-std::optional<Section> borderOf(SectionFinder& finder, const WeldedMesh& mesh,
-                                const PlannedJoint& joint) {
-    const glm::dvec3 along = planeNormal(joint);
-    if (joint.part != JointPart::Head) return narrowestAt(finder, joint.centre, along);
+/// The border of a head: from where the neck is narrowest it is moved up, as it leans there, for as
+/// long as it stays narrow.
+std::optional<Section> headBorder(SectionFinder& finder, const WeldedMesh& mesh,
+                                  const PlannedJoint& joint, const glm::dvec3& front) {
+    glm::dvec3 along = planeNormal(joint);
+    const double length = glm::length(front);
+    if (length > 0.0)
+        along = glm::normalize(std::cos(glm::radians(kHeadLean)) * along +
+                               std::sin(glm::radians(kHeadLean)) / length * front);
+    const std::vector<glm::dvec3> normals = leaning(along, length > 0.0 ? kMaxHeadLean : kMaxLean);
     const double maxDrop = kMaxDrop * reachBeyond(mesh, joint);
-    std::vector<Section> sections;
-    double narrowest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i <= kDrops; ++i)
-        if (std::optional<Section> section = narrowestAt(
-                finder, joint.centre - (maxDrop * i / kDrops) * joint.comingFrom, along)) {
-            narrowest = std::min(narrowest, section->length);
-            sections.push_back(std::move(*section));
-        }
-    const auto first = std::find_if(sections.begin(), sections.end(), [&](const Section& section) {
-        return section.length <= kNarrow * narrowest;
-    });
-    if (first == sections.end()) return std::nullopt;
-    return std::move(*first);
+    const auto pointAt = [&](int drop) {
+        return joint.centre - (maxDrop * drop / kDrops) * joint.comingFrom;
+    };
+    std::optional<Section> narrowest;
+    int lowest = 0;
+    for (int i = 0; i <= kDrops; ++i) {
+        std::optional<Section> section = narrowestAt(finder, pointAt(i), normals);
+        if (!section || (narrowest && section->length >= narrowest->length)) continue;
+        narrowest = std::move(section);
+        lowest = i;
+    }
+    if (!narrowest) return std::nullopt;
+    Section border = *narrowest;
+    for (int i = lowest; i-- > 0;) {
+        std::optional<Section> section = finder.find({pointAt(i), narrowest->plane.normal});
+        if (!section || section->length > kNarrow * narrowest->length) break;
+        border = std::move(*section);
+    }
+    return border;
 }
 
 std::vector<std::uint32_t> beyondJoint(SectionFinder& finder, const WeldedMesh& mesh,
-                                       const PlannedJoint& joint) {
-    std::optional<Section> border = borderOf(finder, mesh, joint);
+                                       const PlannedJoint& joint, const glm::dvec3& front) {
+    std::optional<Section> border =
+        joint.part == JointPart::Head
+            ? headBorder(finder, mesh, joint, front)
+            : narrowestAt(finder, joint.centre, leaning(planeNormal(joint), kMaxLean));
     if (!border) return {};
     std::sort(border->edges.begin(), border->edges.end());
     std::vector<std::uint32_t> beyond = finder.beyond(*border);
@@ -225,9 +244,10 @@ std::vector<std::uint32_t> beyondJoint(SectionFinder& finder, const WeldedMesh& 
 
 void findExtremities(const WeldedMesh& mesh, std::vector<PlannedJoint>& joints) {
     SectionFinder finder(mesh);
+    const glm::dvec3 front = facing(joints);
     for (PlannedJoint& joint : joints)
         if (joint.extremity && joint.holdsRegion && joint.lengthAbove > 0.0)
-            joint.beyond = beyondJoint(finder, mesh, joint);
+            joint.beyond = beyondJoint(finder, mesh, joint, front);
 }
 
 } // namespace osgSkin
