@@ -87,8 +87,8 @@ BodyPose& BodyPose::flex(const std::string& joint, double flexion) {
     const int found = _rig->find(joint);
     if (found < 0) return *this;
     const osgSkin::RestJoint& own = _rig->joints[static_cast<std::size_t>(found)];
-    const glm::dvec3 upper = glm::normalize(
-        own.centre - _rig->joints[static_cast<std::size_t>(own.parent)].centre);
+    const glm::dvec3 upper =
+        glm::normalize(own.centre - _rig->joints[static_cast<std::size_t>(own.parent)].centre);
     const glm::dvec3 lower = bone(joint);
     const double atRest = std::acos(glm::clamp(glm::dot(upper, lower), -1.0, 1.0));
     const bool knee = joint.find("Leg") != std::string::npos;
@@ -145,7 +145,9 @@ void leg(BodyPose& pose, const Side& side, const glm::dvec3& direction, double k
 }
 
 void bendSpine(BodyPose& pose, const glm::dvec3& axis, double lower, double middle, double upper) {
-    pose.rotate("LowerBack", axis, lower).rotate("Spine", axis, middle).rotate("Spine1", axis, upper);
+    pose.rotate("LowerBack", axis, lower)
+        .rotate("Spine", axis, middle)
+        .rotate("Spine1", axis, upper);
 }
 
 void bendNeck(BodyPose& pose, const glm::dvec3& axis, double lower, double middle, double head) {
@@ -160,7 +162,7 @@ struct Recipe {
 };
 
 const Recipe kRecipes[] = {
-    {"arms up", "Spine1", 0.66, 10, 5,
+    {"arms up", "Spine1", 0.86, 10, 5,
      [](BodyPose& pose) {
          bothSides([&](const Side& side) {
              raiseClavicle(pose, side, 25.0);
@@ -279,9 +281,7 @@ const Recipe kRecipes[] = {
      [](BodyPose& pose) {
          leg(pose, {"Left", 1.0}, {0.05, 0.5, 0.87}, 5.0);
          pose.flex("RightLeg", 12.0);
-         bothSides([&](const Side& side) {
-             arm(pose, side, {0.8, -0.5, -0.4 * side.out}, 60.0);
-         });
+         bothSides([&](const Side& side) { arm(pose, side, {0.8, -0.5, -0.4 * side.out}, 60.0); });
      }},
     {"knee", "LeftLeg", 0.36, 70, 5,
      [](BodyPose& pose) {

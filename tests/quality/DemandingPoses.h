@@ -14,8 +14,8 @@
 
 namespace quality {
 
-/// A pose that is put together joint by joint. Bodies stand with +y up and face +z; their left is +x.
-/// Joints that the rig does not have are left out. All angles are in degrees.
+/// A pose that is put together joint by joint. Bodies stand with +y up and face +z; their left is
+/// +x. Joints that the rig does not have are left out. All angles are in degrees.
 class BodyPose {
 public:
     /// The rest pose.
@@ -25,9 +25,8 @@ public:
     /// Rotates a joint about an axis of its parent's frame, after what it does already.
     BodyPose& rotate(const std::string& joint, const glm::dvec3& axis, double degrees);
 
-    /// Points a joint's bone in a direction of the body's space by the shortest rotation. Its parents
-    /// are posed first.
-    /// \param roll about that direction afterwards
+    /// Points a joint's bone in a direction of the body's space by the shortest rotation. Its
+    /// parents are posed first. \param roll about that direction afterwards
     BodyPose& aim(const std::string& joint, const glm::dvec3& direction, double roll = 0.0);
 
     /// Twists a joint about a bone at rest, before what it does already.
@@ -61,8 +60,8 @@ int firstChild(const osgSkin::RestSkeleton& rig, int joint);
 /// A pose that skins find hard, and from where to look at it.
 struct DemandingPose {
     NamedPose pose;
-    std::string centre;     ///< the joint in the middle of the picture
-    double height;          ///< of the picture, over the body's
+    std::string centre;        ///< the joint in the middle of the picture
+    double height;             ///< of the picture, over the body's
     double azimuth, elevation; ///< of the camera, degrees; 0, 0 is in front of the body
 };
 

@@ -152,7 +152,8 @@ double sectionArea(const Subject& subject, const compare::Points& posed, const g
     return std::abs(area);
 }
 
-std::optional<double> leastSection(const MeasuredSkin& skin, const std::vector<VertexShares>& painted,
+std::optional<double> leastSection(const MeasuredSkin& skin,
+                                   const std::vector<VertexShares>& painted,
                                    const std::string& name) {
     const Subject& subject = skin.subject;
     const int joint = subject.rig.find(name);
@@ -166,9 +167,9 @@ std::optional<double> leastSection(const MeasuredSkin& skin, const std::vector<V
         const compare::Points posed = deformed(skin, pose);
         const glm::dmat4 matrix = pose.skinning()[static_cast<std::size_t>(joint)];
         for (const double along : {0.15, 0.25, 0.4})
-            least = std::min(
-                least, sectionArea(subject, posed, matrix, joint, region, along) /
-                           sectionArea(subject, subject.rest, unit, joint, region, along));
+            least =
+                std::min(least, sectionArea(subject, posed, matrix, joint, region, along) /
+                                    sectionArea(subject, subject.rest, unit, joint, region, along));
     }
     return least;
 }
@@ -183,8 +184,7 @@ std::size_t pairsNear(SelfIntersections& intersections, const Subject& subject,
     std::size_t count = 0;
     for (const auto& [a, b] : intersections.pairs(posed)) {
         bool shared = false;
-        for (std::size_t i = 0; i < 9; ++i)
-            shared = shared || corner(a, i / 3) == corner(b, i % 3);
+        for (std::size_t i = 0; i < 9; ++i) shared = shared || corner(a, i / 3) == corner(b, i % 3);
         if (!shared && isNear(a) && isNear(b)) ++count;
     }
     return count;
@@ -196,7 +196,9 @@ std::optional<std::size_t> worstFold(const MeasuredSkin& skin, const Subject& pa
     const Subject& subject = skin.subject;
     const int joint = subject.rig.find(name), above = subject.rig.find(upper);
     if (joint < 0 || above < 0) return std::nullopt;
-    const auto centre = [&](int j) { return subject.rig.joints[static_cast<std::size_t>(j)].centre; };
+    const auto centre = [&](int j) {
+        return subject.rig.joints[static_cast<std::size_t>(j)].centre;
+    };
     const double length =
         std::min(glm::distance(centre(joint), centre(firstChild(subject.rig, joint))),
                  glm::distance(centre(joint), centre(above)));
@@ -215,8 +217,7 @@ std::optional<std::size_t> worstFold(const MeasuredSkin& skin, const Subject& pa
         for (const double turned : {-20.0, -10.0, 0.0, 10.0, 20.0}) {
             BodyPose pose(subject.rig);
             pose.flex(name, flexion).rotate(name, pose.bone(upper), turned).twist(name, -turned);
-            const std::size_t pairs =
-                pairsNear(intersections, subject, deformed(skin, pose), near);
+            const std::size_t pairs = pairsNear(intersections, subject, deformed(skin, pose), near);
             worst = std::max(worst, pairs > atRest ? pairs - atRest : 0);
         }
     return worst;

@@ -42,8 +42,8 @@ struct RiggerFigures {
     std::optional<double> headWhole;
     /// Percentage of all vertices that belong to a joint and follow it by less than .9.
     double inside = 0.0;
-    /// Percentage of all vertices that painters give to a joint by less than .01 and that follow it by
-    /// more than .1.
+    /// Percentage of all vertices that painters give to a joint by less than .01 and that follow it
+    /// by more than .1.
     double outside = 0.0;
     std::string worstJoint; ///< with the most vertices of `inside`
     std::size_t worstCount = 0;
@@ -59,8 +59,8 @@ struct RiggerFigures {
     /// Change of the volume after both clavicles are raised by 30 degrees, per cent.
     std::optional<double> clavicleVolume;
 
-    /// RMS distance of a finger's last link from its rigid motion in a fist, in hand lengths, of the
-    /// worst finger of the left hand.
+    /// RMS distance of a finger's last link from its rigid motion in a fist, in hand lengths, of
+    /// the worst finger of the left hand.
     std::optional<double> fist;
 
     /// Distance that the trunk's skin moves while the hips bend by 90 degrees, per cent of the

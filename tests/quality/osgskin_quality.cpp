@@ -34,9 +34,10 @@ struct Options {
 };
 
 void define(CLI::App& app, Options& options) {
-    app.add_option("--body", options.bodies,
-                   "a body, as often as wanted: one of MakeHuman's by its shape, or a mesh file with "
-                   "--rig and --weights; default: all six shapes");
+    app.add_option(
+        "--body", options.bodies,
+        "a body, as often as wanted: one of MakeHuman's by its shape, or a mesh file with "
+        "--rig and --weights; default: all six shapes");
     auto* rig = app.add_option("--rig", options.rig, "the skeleton of the mesh file (BVH)");
     auto* weights =
         app.add_option("--weights", options.weights, "the painted weights of the mesh file (JSON)");

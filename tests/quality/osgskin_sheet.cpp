@@ -71,8 +71,7 @@ figures::Tile tile(const Subject& subject, const DemandingPose& demanding, Metho
                    std::cos(azimuth) * std::cos(elevation)});
     const std::vector<glm::dmat4>& skinning = demanding.pose.skinning;
     const auto joint = static_cast<std::size_t>(std::max(subject.rig.find(demanding.centre), 0));
-    const glm::dvec3 centre(skinning[joint] *
-                            glm::dvec4(subject.rig.joints[joint].centre, 1.0));
+    const glm::dvec3 centre(skinning[joint] * glm::dvec4(subject.rig.joints[joint].centre, 1.0));
     const double distance = 0.5 * demanding.height * heightOf(subject) /
                             std::tan(0.5 * osg::DegreesToRadians(kFieldOfView));
     const bool ours = method == Method::Ours;
@@ -109,8 +108,9 @@ void drawSheet(const std::string& shape, const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Draws bodies in 24 demanding poses, each by osgSkin (skin) and beside it by dual "
-                 "quaternions with painted weights (grey): FOLDER/sheet_SHAPE.png. Needs a display.");
+    CLI::App app(
+        "Draws bodies in 24 demanding poses, each by osgSkin (skin) and beside it by dual "
+        "quaternions with painted weights (grey): FOLDER/sheet_SHAPE.png. Needs a display.");
     Options options;
     app.add_option("--body", options.bodies, "one of MakeHuman's shapes, as often as wanted")
         ->check(CLI::IsMember(kShapes));
