@@ -26,7 +26,10 @@ public:
     BodyPose& rotate(const std::string& joint, const glm::dvec3& axis, double degrees);
 
     /// Points a joint's bone in a direction of the body's space by the shortest rotation. Its
-    /// parents are posed first. \param roll about that direction afterwards
+    /// parents are posed first.
+    ///
+    /// \param direction of any length
+    /// \param roll about that direction afterwards
     BodyPose& aim(const std::string& joint, const glm::dvec3& direction, double roll = 0.0);
 
     /// Twists a joint about a bone at rest, before what it does already.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "DemandingPoses.h"
 #include "RiggerFigures.h"
+#include "DemandingPoses.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -24,7 +24,8 @@ RestSkeleton limbs() {
     rig.add("LeftArm", 0, glm::dvec3(1, 8, 0));
     rig.add("LeftForeArm", 1, glm::dvec3(3, 8, 0));
     const double angle = glm::radians(30.0);
-    rig.add("LeftHand", 2, glm::dvec3(3, 8, 0) + 2.0 * glm::dvec3(std::cos(angle), 0, std::sin(angle)));
+    rig.add("LeftHand", 2,
+            glm::dvec3(3, 8, 0) + 2.0 * glm::dvec3(std::cos(angle), 0, std::sin(angle)));
     rig.add("LeftUpLeg", 0, glm::dvec3(0, 8, 0));
     rig.add("LeftLeg", 4, glm::dvec3(0, 4, 0));
     rig.add("LeftFoot", 5, glm::dvec3(0, 0, 0));
@@ -62,8 +63,8 @@ PaintedBody leg() {
             const auto at = [&](int r, int s) {
                 return static_cast<std::uint32_t>(r * kSides + s % kSides);
             };
-            for (const std::uint32_t corner : {at(ring - 1, side), at(ring, side),
-                                               at(ring, side + 1), at(ring - 1, side + 1)})
+            for (const std::uint32_t corner :
+                 {at(ring - 1, side), at(ring, side), at(ring, side + 1), at(ring - 1, side + 1)})
                 body.mesh.faceVertices.push_back(corner);
             body.mesh.faceSizes.push_back(4);
         }

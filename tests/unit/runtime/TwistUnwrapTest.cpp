@@ -83,6 +83,16 @@ TEST_F(TwistUnwrap, EachRoundOfALoopIsLikeTheFirst) {
             ASSERT_NEAR(twistAt(time += 0.05, degrees), degrees, 1e-9) << round;
 }
 
+/// Whoever poses frames of a motion in any order, as baking does, gets the same ones.
+TEST_F(TwistUnwrap, PoseWithoutAnUpdateDependsOnTheBonesAlone) {
+    twistAt(0.0, 170.0);
+    EXPECT_NEAR(twistAt(0.1, 190.0), 190.0, 1e-9);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(callback->pose(*skin, *skeleton));
+        EXPECT_NEAR(skin->getPose().transform(1).split.twistAngle / kDegree, -170.0, 1e-9);
+    }
+}
+
 TEST_F(TwistUnwrap, SkinRunsOnToo) {
     double time = 0.0;
     for (double degrees = 0.0; degrees < 270.0; degrees += 10.0) {
