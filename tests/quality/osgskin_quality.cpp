@@ -5,11 +5,14 @@
 #include "CylinderReport.h"
 #include "FoldFigures.h"
 #include "Json.h"
+#include "MakeHuman.h"
+#include "RiggerFigures.h"
 #include "Table.h"
 
 #include <CLI/CLI.hpp>
 
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
@@ -19,7 +22,10 @@ namespace {
 using namespace quality;
 
 struct Options {
-    SubjectFiles files;
+    std::vector<std::string> bodies = kShapes;
+    std::string rig, weights;
+    SkinChoice skins;
+    bool rigger = false;
     std::string motions = OSGSKIN_SHARED_DATA "/cmu/mb";
     std::string json;
     std::string method = "smooth";
@@ -28,14 +34,16 @@ struct Options {
 };
 
 void define(CLI::App& app, Options& options) {
-    auto* body = app.add_option("--body", options.files.body,
-                                "a body mesh, in place of the cylinder and the two bodies");
-    auto* rig = app.add_option("--rig", options.files.rig, "its skeleton (BVH)");
+    app.add_option(
+        "--body", options.bodies,
+        "a body, as often as wanted: one of MakeHuman's by its shape, or a mesh file with "
+        "--rig and --weights; default: all six shapes");
+    auto* rig = app.add_option("--rig", options.rig, "the skeleton of the mesh file (BVH)");
     auto* weights =
-        app.add_option("--weights", options.files.weights, "its painted weights (JSON)");
-    body->needs(rig)->needs(weights);
-    rig->needs(body);
-    weights->needs(body);
+        app.add_option("--weights", options.weights, "the painted weights of the mesh file (JSON)");
+    rig->needs(weights);
+    weights->needs(rig);
+    app.add_option("--heat", options.skins.heat, "its bone heat weights (JSON)")->needs(rig);
     app.add_option("--motions", options.motions, "the folder of the CMU motions");
     app.add_option("--bind", options.method, "how our ratios are found")
         ->check(CLI::IsMember({"smooth", "paper", "weights"}))
@@ -46,26 +54,41 @@ void define(CLI::App& app, Options& options) {
         ->check(CLI::IsMember({"fast", "elastic"}))
         ->excludes(json);
     app.add_flag("--no-sweeps", options.noSweeps, "leave out the sweeps, which take longest");
+    app.add_flag("--rigger", options.rigger, "only what a rigger looks at first");
+    app.add_flag("--elastic", options.skins.elastic,
+                 "a rigger's figures with elastic shapes, too; takes minutes a body");
+    app.add_option("--cache", options.skins.cacheFolder, "a folder that keeps elastic shapes");
 }
 
 std::vector<SubjectFiles> subjects(const Options& options) {
-    if (!options.files.body.empty()) return {options.files};
-    const std::string makehuman = OSGSKIN_SHARED_DATA "/makehuman/";
+    const bool isFile = !options.rig.empty();
+    if (isFile && options.bodies.size() != 1)
+        throw std::runtime_error("--rig: expected one --body, a mesh file");
     std::vector<SubjectFiles> files;
-    for (const std::string shape : {"neutral", "male"}) {
-        SubjectFiles& entry = files.emplace_back();
-        entry.body = makehuman;
-        entry.body.append("body/body4k_").append(shape).append(".obj");
-        entry.rig = makehuman;
-        entry.rig.append("rig/cmu_mb_").append(shape).append(".bvh");
-        entry.weights = makehuman + "weights/body4k_weights_cmu_mb.json";
-    }
+    for (const std::string& body : options.bodies)
+        files.push_back(isFile ? SubjectFiles{body, options.rig, options.weights}
+                               : makeHumanFiles(body));
     return files;
 }
 
-Report measure(SubjectFiles files, const Options& options) {
-    if (options.method == "weights") files.ratios = Ratios::Painted;
-    if (options.method == "paper") files.ratios = Ratios::AsPrinted;
+/// Figures of all skins of a body.
+std::vector<RiggerFigures> measureRigger(const SubjectFiles& files, const Options& options) {
+    SkinChoice choice = options.skins;
+    const std::string shape = shapeOf(files);
+    if (!shape.empty()) choice.heat = makeHumanHeat(shape);
+    const std::vector<MeasuredSkin> skins = makeSkins(files, choice);
+    std::vector<RiggerFigures> figures =
+        measureRigger(skins, standardPoses(options.motions, skins.front().subject));
+    if (shape.empty()) return figures;
+    // The CMU rig has no joints for fingers.
+    choice.heat.clear();
+    for (const MeasuredSkin& skin : makeSkins(makeHumanFiles(shape, "game_engine"), choice))
+        for (RiggerFigures& entry : figures)
+            if (entry.skin == skin.name) entry.fist = measureFist(skin);
+    return figures;
+}
+
+Report measure(const SubjectFiles& files, const Options& options) {
     const Subject subject = loadSubject(files);
     const std::vector<NamedPose> poses = standardPoses(options.motions, subject);
     Report report;
@@ -96,16 +119,27 @@ void reportShapes(const Options& options) {
 void run(const Options& options) {
     if (!options.shapes.empty()) return reportShapes(options);
     nlohmann::ordered_json json = {{"bind", options.method}, {"bodies", nlohmann::json::array()}};
-    if (options.files.body.empty()) {
+    if (options.rig.empty() && !options.rigger) {
         const std::vector<CylinderPose> cylinder = measureCylinder();
         printTable(cylinder, std::cout);
         json["cylinder"] = toJson(cylinder);
     }
     for (const SubjectFiles& files : subjects(options)) {
-        const Report report = measure(files, options);
-        printTable(report, std::cout);
+        SubjectFiles chosen = files;
+        if (options.method == "weights") chosen.ratios = Ratios::Painted;
+        if (options.method == "paper") chosen.ratios = Ratios::AsPrinted;
+        nlohmann::ordered_json body = {{"body", files.body}};
+        if (!options.rigger) {
+            const Report report = measure(chosen, options);
+            printTable(report, std::cout);
+            body = toJson(report);
+        }
+        const std::vector<RiggerFigures> figures = measureRigger(chosen, options);
+        printTable(std::filesystem::path(files.body).stem().string(), figures, std::cout);
         std::cout.flush();
-        json["bodies"].push_back(toJson(report));
+        body["rigger"] = nlohmann::json::array();
+        for (const RiggerFigures& skin : figures) body["rigger"].push_back(toJson(skin));
+        json["bodies"].push_back(body);
     }
     if (options.json.empty()) return;
     std::ofstream out(options.json);

@@ -62,8 +62,11 @@ TEST_P(OlderFile, HoldsTheRestOfTheSkins) {
         EXPECT_EQ(is[i]->getName(), was[i]->getName());
         EXPECT_EQ(is[i]->getEager(), was[i]->getEager());
         EXPECT_EQ(is[i]->getTangentAttribute(), was[i]->getTangentAttribute());
-        EXPECT_NE(dynamic_cast<osgSkin::UpdateDeformableSkin*>(is[i]->getUpdateCallback()),
-                  nullptr);
+        const auto* callback =
+            dynamic_cast<osgSkin::UpdateDeformableSkin*>(is[i]->getUpdateCallback());
+        ASSERT_NE(callback, nullptr);
+        // False was the default, and is left out of text files.
+        EXPECT_EQ(callback->getUnwrapTwist(), i == 0);
     }
     EXPECT_NE(dynamic_cast<osgSkin::AutoPlayManager*>(scene->getUpdateCallback()), nullptr);
 }

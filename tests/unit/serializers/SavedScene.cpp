@@ -111,15 +111,15 @@ osg::ref_ptr<osg::Group> makeScene(const Tube& tube) {
     skin->setNodeMask(0x1234);
     skin->setUserValue("answer", 42);
     skin->addDescription("a description");
-    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
-    update->setUnwrapTwist(true);
-    skin->setUpdateCallback(update);
+    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
     const osg::ref_ptr<osgSkin::DeformableSkin> copy = osg::clone(skin.get());
     copy->setName("copy");
     copy->setEager(false);
     copy->setTangentAttribute(-1);
     copy->setStateSet(new osg::StateSet);
-    copy->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    update->setUnwrapTwist(false);
+    copy->setUpdateCallback(update);
     skin->setPose(somePoses(*skin).front().data(), tube.binding.joints.size());
 
     auto& end = static_cast<osgAnimation::Bone&>(

@@ -56,19 +56,25 @@ void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable)
             _toldSeveral = true;
         }
         noticeSeek(*nv);
-        pose(*skin, *skeleton);
+        if (poseAs(_twist, *skin, *skeleton))
+            _twist = _unwrapTwist ? Pose::Twist::Continued : Pose::Twist::Shortest;
     }
     traverse(drawable, nv); // callbacks that were added to this one
 }
 
 bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
+    return poseAs(Pose::Twist::Shortest, skin, skeleton);
+}
+
+bool UpdateDeformableSkin::poseAs(Pose::Twist twist, DeformableSkin& skin,
+                                  osgAnimation::Skeleton& skeleton) {
     const SkinModel* model = skin.getModel();
     if (!model) return false;
     if (_skeleton.get() != &skeleton || _model.get() != model || _reader.isOutdated(&skin)) {
         _reader = BoneReader(model->joints(), skeleton, &skin);
         _skeleton = &skeleton;
         _model = model;
-        startTwistAfresh();
+        twist = Pose::Twist::Shortest;
         // A root over several bones, as readSkeleton() adds one, has none and stays at rest.
         const bool toldMissing = _toldMissing;
         for (const std::string& joint : _reader.missing()) {
@@ -82,7 +88,7 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
         }
     }
     const std::vector<glm::dmat4>& skinning = _reader.read();
-    if (!skin.setPose(skinning.data(), skinning.size(), _twist)) {
+    if (!skin.setPose(skinning.data(), skinning.size(), twist)) {
         if (!_warned)
             OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
                                   skeleton.getName() +
@@ -92,7 +98,6 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
         _warned = true;
         return false;
     }
-    _twist = _unwrapTwist ? Pose::Twist::Continued : Pose::Twist::Shortest;
     return true;
 }
 

@@ -156,9 +156,10 @@ void ClipCharacter::bake(const SampledClip* clip) {
     for (std::size_t i = 0; i < _skins.size(); ++i)
         baked->skins[i].model = _skins[i].skin->getModel();
     player._baked.clear();
+    // Twists run on from the first sample.
     const auto poseAt = [&](double samples) {
         player.setTrack(0, {clip, samples * clip->step(), 0.0, true});
-        if (!player.pose())
+        if (!player.poseAs(samples == 0.0 ? Pose::Twist::Shortest : Pose::Twist::Continued))
             throw Error("clip character: the clip \"" + clip->name() + "\" cannot pose its skins");
     };
     constexpr std::size_t parts = BakedClip::kParts;

@@ -5,6 +5,7 @@
 #include "clips/SampleBlend.h"
 
 #include <osgSkin/GlmOsg>
+#include <osgSkin/PoseBounds>
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
@@ -93,7 +94,7 @@ osg::Vec3d ClipPlayer::takeRootMotion() {
 
 void ClipPlayer::addSkin(DeformableSkin* skin) {
     if (!skin) return;
-    _skins.push_back({skin, nullptr, {}, false});
+    _skins.push_back({skin, nullptr, {}, {}, false});
     _found[0] = nullptr;
 }
 
@@ -175,6 +176,7 @@ void ClipPlayer::findJoints() {
         skin.joints.clear();
         skin.direct = skin.same = true;
         if (!skin.skin->getModel()) continue;
+        skin.pose = Pose(skin.model->joints(), skin.model->inputs().size());
         for (const BoundJoint& joint : skin.skin->getModel()->joints()) {
             const int found = clip.find(joint.name);
             const int above =
@@ -222,16 +224,22 @@ void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
                      _others[j] < 0 ? JointSample() : others[static_cast<std::size_t>(_others[j])]);
 }
 
-bool ClipPlayer::poseSkin(const Skin& skin, const std::vector<JointMap>& own,
-                          const std::vector<JointMap>& whole,
+bool ClipPlayer::poseSkin(Skin& skin, const std::vector<JointMap>& own,
+                          const std::vector<JointMap>& whole, Pose::Twist twist, const Pose* baked,
                           const osg::BoundingBox* bounds) const {
     static thread_local std::vector<JointMap> maps;
     if (!skin.skin->getModel()) return false;
     const std::vector<BoundJoint>& joints = skin.skin->getModel()->joints();
     if (joints.size() != skin.joints.size()) return false;
     const auto set = [&](const std::vector<JointMap>& of) {
-        return bounds ? skin.skin->setPose(of.data(), joints.size(), *bounds)
-                      : skin.skin->setPose(of.data(), joints.size());
+        if (!baked) return skin.skin->setPose(of.data(), joints.size(), twist);
+        // Twists run on from those of the sample, whatever was shown before.
+        if (!skin.pose.setJoints(*baked) ||
+            !skin.pose.set(of.data(), joints.size(), Pose::Twist::Continued))
+            return false;
+        if (bounds->valid()) return skin.skin->setPose(skin.pose, *bounds);
+        return skin.skin->setPose(skin.pose,
+                                  toOsg(computePoseBounds(*skin.skin->getModel(), skin.pose)));
     };
     if (skin.direct && skin.same) return set(own);
     maps.assign(joints.size(), JointMap());
@@ -283,7 +291,21 @@ bool ClipPlayer::poseBaked(const BakedClip& baked, std::size_t sample) const {
     return good;
 }
 
+bool ClipPlayer::isContinued() const {
+    const auto isNear = [&](std::size_t i) {
+        return std::abs(_tracks[i].time - _posedTimes[i]) <= kSeekSeconds;
+    };
+    return _posed && knowsJoints() && isNear(0) && (!_tracks[1].clip || isNear(1));
+}
+
 bool ClipPlayer::pose() {
+    const bool good = poseAs(isContinued() ? Pose::Twist::Continued : Pose::Twist::Shortest);
+    _posed = good;
+    for (std::size_t i = 0; i < _tracks.size(); ++i) _posedTimes[i] = _tracks[i].time;
+    return good;
+}
+
+bool ClipPlayer::poseAs(Pose::Twist twist) {
     if (!_tracks[0].clip) return false;
     const BakedClip* baked = findBaked();
     SampledClip::Place at;
@@ -309,8 +331,8 @@ bool ClipPlayer::pose() {
     bool good = true;
     for (std::size_t i = 0; i < _skins.size(); ++i) {
         const osg::BoundingBox* bounds = baked ? &baked->skins[i].boundsAt(at) : nullptr;
-        if (bounds && !bounds->valid()) bounds = nullptr;
-        good = poseSkin(_skins[i], own, whole, bounds) && good;
+        const Pose* from = baked ? &baked->skins[i].poses[at.from] : nullptr;
+        good = poseSkin(_skins[i], own, whole, twist, from, bounds) && good;
     }
     for (const Rigid& rigid : _rigids)
         rigid.transform->setMatrix(rigid.joint < 0

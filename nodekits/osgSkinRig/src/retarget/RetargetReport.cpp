@@ -33,6 +33,9 @@ std::string RetargetReport::text() const {
                 << " degrees";
         if (entry.rolledOver > 0)
             out << ", upside down in " << entry.rolledOver << " samples: rolled back";
+        if (entry.twistShared > 0)
+            out << ", twisted by more than 90 degrees in " << entry.twistShared
+                << " samples: the excess is shared out";
         out << "\n";
     }
     for (const std::string& joint : unusedMotionJoints)
