@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kLeaf = 8;
 
 /// How many times a node's reach a point must be away for the dipole to do: 1 % of a winding.
-constexpr double kFar = 2.3;
+constexpr double kFarFromSkin = 2.3;
 
 constexpr double kSphere = 12.566370614359172;
 
@@ -79,7 +79,7 @@ double WindingTree::sum(std::uint32_t index, const Point& point, AngleSum& halve
     const Node& node = _nodes[index];
     const Point away = node.centre - point;
     const double distance = away.norm();
-    if (distance > kFar * node.reach)
+    if (distance > kFarFromSkin * node.reach)
         return node.dipole.dot(away) / (distance * distance * distance);
     if (node.child != 0) return sum(node.child, point, halves) + sum(node.child + 1, point, halves);
     for (std::uint32_t i = node.begin; i < node.end; ++i)
