@@ -21,8 +21,8 @@ SkinMesh box(const glm::dvec3& low, const glm::dvec3& high) {
     for (int i = 0; i < 8; ++i)
         mesh.positions.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y,
                                     i & 4 ? high.z : low.z);
-    for (const std::uint32_t corner :
-         {0u, 4u, 6u, 2u, 1u, 3u, 7u, 5u, 0u, 1u, 5u, 4u, 2u, 6u, 7u, 3u, 0u, 2u, 3u, 1u, 4u, 5u, 7u, 6u})
+    for (const std::uint32_t corner : {0u, 4u, 6u, 2u, 1u, 3u, 7u, 5u, 0u, 1u, 5u, 4u,
+                                       2u, 6u, 7u, 3u, 0u, 2u, 3u, 1u, 4u, 5u, 7u, 6u})
         mesh.faceVertices.push_back(corner);
     mesh.faceSizes.assign(6, 4);
     return mesh;
@@ -30,7 +30,8 @@ SkinMesh box(const glm::dvec3& low, const glm::dvec3& high) {
 
 /// Trunk, two arms and a head, box by box: their sides touch, corner on corner.
 SkinMesh blocks() {
-    const SkinMesh arms = shapes::joined(box({4, 12, -2}, {8, 24, 2}), box({-8, 12, -2}, {-4, 24, 2}));
+    const SkinMesh arms =
+        shapes::joined(box({4, 12, -2}, {8, 24, 2}), box({-8, 12, -2}, {-4, 24, 2}));
     return shapes::joined(shapes::joined(box({-4, 12, -2}, {4, 24, 2}), arms),
                           box({-4, 24, -4}, {4, 32, 4}));
 }
@@ -59,12 +60,12 @@ RestSkeleton handSkeleton() {
     return skeleton;
 }
 
-struct RealBody {
+struct PaintedCase {
     const char* shape;
     const char* rig;
 };
 
-std::ostream& operator<<(std::ostream& out, const RealBody& body) {
+std::ostream& operator<<(std::ostream& out, const PaintedCase& body) {
     return out << body.shape << ", " << body.rig;
 }
 
@@ -90,7 +91,8 @@ TEST(Ownership, BoxesThatTouchFollowOneJointEach) {
 
 TEST(Ownership, PiecesThatShareVerticesAreOne) {
     SkinMesh mesh = shapes::joined(box({0, 0, 0}, {1, 4, 1}), box({1, 0, 0}, {2, 4, 1}));
-    for (std::uint32_t& corner : mesh.faceVertices) // the second box's left side is the first's right
+    for (std::uint32_t& corner :
+         mesh.faceVertices) // the second box's left side is the first's right
         if (corner >= 8 && corner % 2 == 0) corner -= 7;
     BindReport report;
     bind(mesh, shapes::chainAlongY({0.5, 2.0}, 3.5), {}, &report);
@@ -123,7 +125,9 @@ TEST(Ownership, LastJointsWithoutATipReachToTheEndOfTheSkin) {
     const SkinMesh mesh = shapes::cylinder(12.0);
     const Binding binding = bind(mesh, skeleton);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        if (mesh.positions[v].y > 9.0) EXPECT_EQ(ratiosOf(binding, v, 1).bend, 1.0f) << v;
+        if (mesh.positions[v].y > 9.0) {
+            EXPECT_EQ(ratiosOf(binding, v, 1).bend, 1.0f) << v;
+        }
 }
 
 TEST(Ownership, LimbsAsShortAsThickBendAtTheirJointsOnly) {
@@ -134,7 +138,9 @@ TEST(Ownership, LimbsAsShortAsThickBendAtTheirJointsOnly) {
     const SkinMesh mesh = shapes::cylinder(11.0);
     const Binding binding = bind(mesh, skeleton);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        if (mesh.positions[v].y > 6.8) EXPECT_GT(ratiosOf(binding, v, 1).bend, 0.99f) << "elbow and beyond";
+        if (mesh.positions[v].y > 6.8) {
+            EXPECT_GT(ratiosOf(binding, v, 1).bend, 0.99f) << "elbow and beyond";
+        }
 }
 
 TEST(Ownership, ALimbWithoutSkinIsReported) {
@@ -161,7 +167,7 @@ TEST(RigidNames, HandsWithFingersBendUnlessNothingMovesThem) {
     EXPECT_TRUE(automaticRigidJoints(skeleton, {}, isMoved).empty());
 }
 
-class RealOwnership : public testing::TestWithParam<RealBody> {};
+class RealOwnership : public testing::TestWithParam<PaintedCase> {};
 
 /// Painters give these vertices to the head or a joint, or not at all; the limits are a rigger's.
 TEST_P(RealOwnership, IsAsPaintersHaveIt) {
@@ -173,9 +179,9 @@ TEST_P(RealOwnership, IsAsPaintersHaveIt) {
         GTEST_SKIP() << "needs " << meshFile << " and " << rigFile;
     const SkinMesh mesh = shared::readObj(meshFile);
     const RestSkeleton skeleton = shared::readJoints(rigFile);
-    std::vector<std::vector<double>> painted = shared::readWeights(
-        folder / "weights" / ("body4k_weights_" + std::string(rig) + ".json"), skeleton,
-        mesh.positions.size());
+    std::vector<std::vector<double>> painted =
+        shared::readWeights(folder / "weights" / ("body4k_weights_" + std::string(rig) + ".json"),
+                            skeleton, mesh.positions.size());
     for (auto& row : painted)
         for (std::size_t j = row.size(); j-- > 1;)
             row[static_cast<std::size_t>(skeleton.joints[j].parent)] += row[j];
@@ -189,7 +195,8 @@ TEST_P(RealOwnership, IsAsPaintersHaveIt) {
         const Binding binding = bind(mesh, skeleton, options);
         expectSound(binding);
         std::size_t inside = 0, outside = 0, head = 0, headWhole = 0;
-        const std::size_t headJoint = std::min(jointCalled(binding, "head"), jointCalled(binding, "Head"));
+        const std::size_t headJoint =
+            std::min(jointCalled(binding, "head"), jointCalled(binding, "Head"));
         std::vector<bool> isLarge(skeleton.joints.size(), false);
         for (std::size_t j = 0; j < isLarge.size(); ++j)
             isLarge[j] = std::count_if(painted.begin(), painted.end(), [&](const auto& row) {
@@ -220,8 +227,8 @@ TEST_P(RealOwnership, IsAsPaintersHaveIt) {
 
 INSTANTIATE_TEST_SUITE_P(
     MakeHuman, RealOwnership,
-    testing::Values(RealBody{"neutral", "cmu_mb"}, RealBody{"male", "cmu_mb"},
-                    RealBody{"female", "cmu_mb"}, RealBody{"child", "cmu_mb"},
-                    RealBody{"female_old", "cmu_mb"}, RealBody{"male_heavy", "cmu_mb"},
-                    RealBody{"child", "game_engine"}, RealBody{"male_heavy", "game_engine"},
-                    RealBody{"female_old", "default"}, RealBody{"male", "default"}));
+    testing::Values(PaintedCase{"neutral", "cmu_mb"}, PaintedCase{"male", "cmu_mb"},
+                    PaintedCase{"female", "cmu_mb"}, PaintedCase{"child", "cmu_mb"},
+                    PaintedCase{"female_old", "cmu_mb"}, PaintedCase{"male_heavy", "cmu_mb"},
+                    PaintedCase{"child", "game_engine"}, PaintedCase{"male_heavy", "game_engine"},
+                    PaintedCase{"female_old", "default"}, PaintedCase{"male", "default"}));

@@ -69,8 +69,9 @@ TEST_F(TwistUnwrap, DoesNotWindUp) {
     for (double degrees = 0.0; degrees < 2000.0; degrees += 10.0) {
         const double twist = twistAt(time += 0.05, degrees);
         ASSERT_LT(std::abs(twist), 270.0) << degrees;
-        if (std::abs(std::remainder(degrees, 360.0)) < 90.0)
+        if (std::abs(std::remainder(degrees, 360.0)) < 90.0) {
             ASSERT_NEAR(twist, std::remainder(degrees, 360.0), 1e-9) << degrees;
+        }
     }
 }
 

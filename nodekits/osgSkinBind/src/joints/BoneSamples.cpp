@@ -19,14 +19,11 @@ constexpr int kMinSamples = 2;
 /// A bone is inside the skin where at least this share of its samples is.
 constexpr double kInside = 0.5;
 
-/// Joint centres closer than this fraction of the mesh's size are one point.
-constexpr double kCentreTolerance = 1e-6;
-
 /// How far a last bone may go on beyond its end, in its own lengths; one without a length in those
 /// of the bone above.
 constexpr double kMaxExtension = 2.0;
 
-std::size_t at(int index) {
+std::size_t indexOf(int index) {
     return static_cast<std::size_t>(index);
 }
 
@@ -43,7 +40,7 @@ public:
         for (std::size_t j = count; j-- > 0;) {
             const bool isLeaf = _skeleton.children(static_cast<int>(j)).empty();
             if (isLeaf && !isControl(joints, j)) isBody[j] = true;
-            if (isBody[j] && joints[j].parent >= 0) isBody[at(joints[j].parent)] = true;
+            if (isBody[j] && joints[j].parent >= 0) isBody[indexOf(joints[j].parent)] = true;
         }
         std::vector<std::vector<glm::dvec3>> result(count);
         for (std::size_t j = 0; j < count; ++j)
@@ -69,7 +66,8 @@ private:
         if (joint.parent < 0 || joint.boneLength > 0.0 || !_roles.roles[j].empty() ||
             joint.part != JointPart::Other)
             return false;
-        const std::vector<glm::dvec3> above = along(joints[at(joint.parent)].centre, joint.centre);
+        const std::vector<glm::dvec3> above =
+            along(joints[indexOf(joint.parent)].centre, joint.centre);
         return share(above) < kInside;
     }
 
@@ -84,7 +82,8 @@ private:
         const PlannedJoint& joint = joints[j];
         std::vector<glm::dvec3> bones;
         for (const int child : _skeleton.children(static_cast<int>(j)))
-            if (isBody[at(child)]) append(along(joint.centre, joints[at(child)].centre), bones);
+            if (isBody[indexOf(child)])
+                append(along(joint.centre, joints[indexOf(child)].centre), bones);
         if (_skeleton.joints[j].tip) append(along(joint.centre, joint.boneEnd), bones);
         const bool isLast = _skeleton.children(static_cast<int>(j)).empty();
 
@@ -132,7 +131,7 @@ int ownerOf(const std::vector<PlannedJoint>& joints, std::size_t joint, double t
             glm::distance(joints[j].centre, joints[joint].centre) <= tolerance)
             return static_cast<int>(j);
     int owner = joints[joint].parent;
-    while (owner >= 0 && !joints[at(owner)].holdsRegion) owner = joints[at(owner)].parent;
+    while (owner >= 0 && !joints[indexOf(owner)].holdsRegion) owner = joints[indexOf(owner)].parent;
     return owner;
 }
 
@@ -155,7 +154,7 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
         for (std::size_t j = 0; j < joints.size(); ++j) {
             const int owner = ownerOf(joints, j, kCentreTolerance * mesh.size);
             if (owner < 0) continue;
-            std::vector<glm::dvec3>& all = joints[at(owner)].samples;
+            std::vector<glm::dvec3>& all = joints[indexOf(owner)].samples;
             all.insert(all.end(), samples[j].begin(), samples[j].end());
         }
     }
@@ -168,8 +167,8 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
     for (std::size_t j = 0; j < joints.size(); ++j) {
         PlannedJoint& joint = joints[j];
         if (joint.parent >= 0)
-            isBelowBody[j] =
-                isBelowBody[at(joint.parent)] || !joints[at(joint.parent)].samples.empty();
+            isBelowBody[j] = isBelowBody[indexOf(joint.parent)] ||
+                             !joints[indexOf(joint.parent)].samples.empty();
         if (!joint.holdsRegion || !joint.samples.empty()) continue;
         joint.claims = isBelowBody[j] && joint.child >= 0 && !joint.belowRigid(static_cast<int>(j));
         joint.holdsRegion = joint.claims;

@@ -13,9 +13,6 @@
 namespace osgSkin {
 namespace {
 
-/// Joint centres closer than this fraction of the mesh's size are one point.
-constexpr double kCentreTolerance = 1e-6;
-
 bool hasParentPole(const JointBindOptions& options, JointPart part) {
     if (options.twistPole == JointBindOptions::Pole::Automatic) return part == JointPart::Hand;
     return options.twistPole == JointBindOptions::Pole::Parent;

@@ -14,6 +14,9 @@
 
 namespace osgSkin {
 
+/// Joint centres closer than this fraction of the mesh's size are one point.
+constexpr double kCentreTolerance = 1e-6;
+
 /// What binding decides about one joint before it looks at regions.
 struct PlannedJoint {
     glm::dvec3 centre{0.0};
