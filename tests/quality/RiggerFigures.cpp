@@ -21,7 +21,7 @@
 namespace quality {
 namespace {
 
-const glm::dvec3 kX(1.0, 0.0, 0.0), kZ(0.0, 0.0, 1.0);
+const glm::dvec3 kRight(1.0, 0.0, 0.0), kFront(0.0, 0.0, 1.0);
 
 using VertexShares = std::vector<double>; ///< [vertex]
 using osgSkin::BindOptions;
@@ -124,7 +124,7 @@ double sectionArea(const Subject& subject, const compare::Points& posed, const g
     const glm::dvec3 bone = subject.rig.joints[static_cast<std::size_t>(child)].centre - centre;
     const double length = glm::length(bone);
     const glm::dvec3 axis = bone / length;
-    const glm::dvec3 u = glm::normalize(glm::cross(axis, kZ)), v = glm::cross(axis, u);
+    const glm::dvec3 u = glm::normalize(glm::cross(axis, kFront)), v = glm::cross(axis, u);
     const glm::dmat4 back = glm::inverse(matrix);
     const auto local = [&](std::uint32_t i) {
         return glm::dvec3(back * glm::dvec4(posed[i], 1.0)) - centre;
@@ -227,7 +227,7 @@ std::optional<double> clavicleVolume(const MeasuredSkin& skin) {
     const Subject& subject = skin.subject;
     if (subject.rig.find("LeftShoulder") < 0) return std::nullopt;
     BodyPose pose(subject.rig);
-    pose.rotate("LeftShoulder", kZ, 30.0).rotate("RightShoulder", kZ, -30.0);
+    pose.rotate("LeftShoulder", kFront, 30.0).rotate("RightShoulder", kFront, -30.0);
     const double volume = compare::enclosedVolume(deformed(skin, pose), subject.triangles);
     return 100.0 * (volume / compare::enclosedVolume(subject.rest, subject.triangles) - 1.0);
 }
