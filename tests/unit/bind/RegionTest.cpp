@@ -185,10 +185,9 @@ TEST(Regions, JointOutsideInTheMiddleOfAChainStillBends) {
     BindReport report;
     const Binding binding = bind(mesh, skeleton, {}, &report);
     expectSound(binding);
-    EXPECT_TRUE(hasNote(report, "\"joint1\" lies outside the skin, its region"));
     const BindReport::Region* region = regionOf(report, "joint1");
     ASSERT_NE(region, nullptr);
-    EXPECT_EQ(region->seeds, 0u);
+    EXPECT_GT(region->seeds, 0u) << "its bone leads back into the skin";
     EXPECT_GT(region->vertices, 50u);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const double height = mesh.positions[v].y;
@@ -215,7 +214,7 @@ TEST(Regions, OfAJointOutsideBeginBesideIt) {
     }
 }
 
-TEST(Regions, JointsBesideEachOtherInOnePointHaveNone) {
+TEST(Regions, JointsBesideEachOtherInOnePointHaveThatOfTheirBones) {
     RestSkeleton skeleton;
     shapes::addJoint(skeleton, "chest", "", {0, 1, 0});
     shapes::addJoint(skeleton, "leftHip", "chest", {0, -3, 0});
@@ -224,9 +223,17 @@ TEST(Regions, JointsBesideEachOtherInOnePointHaveNone) {
     shapes::addJoint(skeleton, "right", "rightHip", {-1.6, -0.9, 0});
     BindReport report;
     expectSound(bind(shapes::hangingArms(), skeleton, {}, &report));
+    ASSERT_NE(regionOf(report, "leftHip"), nullptr);
+    ASSERT_NE(regionOf(report, "rightHip"), nullptr);
+    EXPECT_GT(regionOf(report, "leftHip")->vertices, 0u);
+    EXPECT_GT(regionOf(report, "rightHip")->vertices, 0u);
+
+    // The printed method sees joint centres only.
+    BindOptions printed;
+    printed.method = BindOptions::Method::Paper;
+    bind(shapes::hangingArms(), skeleton, printed, &report);
     EXPECT_EQ(regionOf(report, "leftHip"), nullptr);
     EXPECT_EQ(regionOf(report, "rightHip"), nullptr);
-    EXPECT_EQ(report.regions.size(), 3u);
     EXPECT_NE(report.text().find("\"leftHip\" and \"rightHip\" are in one place"),
               std::string::npos);
 }

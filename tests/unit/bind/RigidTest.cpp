@@ -28,6 +28,12 @@ RestSkeleton limb() {
     return skeleton;
 }
 
+BindOptions withRigidHand() {
+    BindOptions options;
+    options.rigid = Names{"Hand"};
+    return options;
+}
+
 } // namespace
 
 TEST(RigidNames, AreRecognised) {
@@ -51,7 +57,7 @@ TEST(RigidNames, OnlyTheTopmostCounts) {
 
 TEST(RigidPart, StartsOneRadiusBehindTheJoint) {
     const SkinMesh mesh = shapes::cylinder(12.0);
-    const Binding binding = bind(mesh, limb());
+    const Binding binding = bind(mesh, limb(), withRigidHand());
     expectSound(binding);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         EXPECT_EQ(ratiosOf(binding, v, 3).bend, 0.0f) << "a joint below the rigid one moves skin";
@@ -78,7 +84,7 @@ TEST(RigidPart, NoneLeavesEveryJointItsRegion) {
 
 TEST(RigidSplit, TakesFacesThatMoveAlike) {
     const SkinMesh mesh = shapes::cylinder(12.0);
-    const Binding binding = bind(mesh, limb());
+    const Binding binding = bind(mesh, limb(), withRigidHand());
     const RigidSplit split = splitRigid(mesh, binding, {"Hand"});
     ASSERT_EQ(split.faceJoint.size(), mesh.faceSizes.size());
     std::size_t corner = 0, rigid = 0;
@@ -99,13 +105,14 @@ TEST(RigidSplit, TakesFacesThatMoveAlike) {
 
 TEST(RigidSplit, WithoutNamesLeavesAllFacesToTheSkin) {
     const SkinMesh mesh = shapes::cylinder(12.0);
-    for (const std::uint32_t joint : splitRigid(mesh, bind(mesh, limb()), {}).faceJoint)
+    for (const std::uint32_t joint :
+         splitRigid(mesh, bind(mesh, limb(), withRigidHand()), {}).faceJoint)
         EXPECT_EQ(joint, RigidSplit::kSkin);
 }
 
 TEST(RigidSplit, RefusesWhatDoesNotFit) {
     const SkinMesh mesh = shapes::cylinder(12.0);
-    const Binding binding = bind(mesh, limb());
+    const Binding binding = bind(mesh, limb(), withRigidHand());
     EXPECT_THROW(splitRigid(mesh, binding, {"Foot"}), Error);
     EXPECT_THROW(splitRigid(shapes::cylinder(2.0), binding, {"Hand"}), Error);
     Binding empty = binding;

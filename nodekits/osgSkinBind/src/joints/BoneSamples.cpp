@@ -39,6 +39,7 @@ public:
         std::vector<bool> isBody(count, false); // a joint that is no control, or leads to one
         for (std::size_t j = count; j-- > 0;) {
             const bool isLeaf = _skeleton.children(static_cast<int>(j)).empty();
+            if (joints[j].helper) continue;
             if (isLeaf && !isControl(joints, j)) isBody[j] = true;
             if (isBody[j] && joints[j].parent >= 0) isBody[indexOf(joints[j].parent)] = true;
         }

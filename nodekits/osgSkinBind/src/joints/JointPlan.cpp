@@ -91,6 +91,7 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
         helps[j] = true;
         joints[j].holdsRegion = false;
     }
+    for (std::size_t j = 0; j < joints.size(); ++j) joints[j].helper = helps[j];
 }
 
 /// A rigid joint owns what its descendants seed, so it has a region although it may seed none.

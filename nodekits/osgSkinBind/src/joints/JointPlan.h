@@ -39,9 +39,10 @@ struct PlannedJoint {
     bool trunk = false;       ///< of the trunk: spine, hips, collar bones
     bool collarBone = false;  ///< between the spine and an upper arm
     double armDistance = 0.0; ///< of a collar bone's joint from the upper arm's
-    bool inside = false;      ///< the centre is inside the skin
-    bool outside = false;     ///< the centre is not, and the joint is no part of a hand or a head
-    bool claims = false;      ///< outside the skin: takes the skin nearest to it
+    bool helper = false;  ///< stands in another joint's place, or below one that does: owns nothing
+    bool inside = false;  ///< the centre is inside the skin
+    bool outside = false; ///< the centre is not, and the joint is no part of a hand or a head
+    bool claims = false;  ///< outside the skin: takes the skin nearest to it
     bool holdsRegion = false; ///< has a region, so its field is its own; else its children's
 
     /// The points that stand for the joint in the Delaunay step, inside the skin.

@@ -31,7 +31,10 @@ std::vector<std::string> automaticRigidJoints(const RestSkeleton& skeleton,
             if (!skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(joint))) continue;
             const bool isEnd = !skeleton.joints[j].tip && roles.roles[j].empty() &&
                                skeleton.children(static_cast<int>(j)).empty();
-            bends = !isEnd && (isMoved.empty() || isMoved[j]);
+            const JointPart part = roles.parts[j];
+            const bool isSame = part == JointPart::Head || part == JointPart::Hand ||
+                                part == JointPart::Foot; // a hand below its wrist
+            bends = !isEnd && !isSame && (isMoved.empty() || isMoved[j]);
         }
         if (!bends) result.push_back(skeleton.joints[joint].name);
     }
