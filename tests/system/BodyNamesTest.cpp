@@ -108,7 +108,7 @@ protected:
     void expectAlike(const osgSkin::JointNames& family, const std::string& extra) {
         const auto names = test::namesIn(body, family);
         const Drawn expected = drawn(body, {}), found = drawn(test::renamed(body, names), extra);
-        ASSERT_EQ(expected.rigids.size(), 5u); // head, hands, feet
+        ASSERT_EQ(expected.rigids.size(), 1u); // the head: thumbs and toes move
         ASSERT_GT(expected.skin.size(), 1000u);
         // The product has both legs by their names, and skins have their vertices in its order.
         ASSERT_EQ(found.skin.size(), expected.skin.size());
