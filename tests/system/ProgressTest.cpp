@@ -107,8 +107,8 @@ private:
 TEST(LoadProgress, TellsTheStagesOfACharacter) {
     Recorder recorder;
     load(OSGSKIN_TEST_DATA "/character/good.skin", recorder);
-    EXPECT_EQ(recorder.stages(), (Strings{"mesh", "skeleton", "binding", "motion move",
-                                          "motion later", "scene", "done"}));
+    EXPECT_EQ(recorder.stages(), (Strings{"mesh", "skeleton", "motion move", "motion later",
+                                          "binding", "scene", "done"}));
     recorder.expectRising();
 }
 
@@ -126,7 +126,7 @@ TEST(LoadProgress, TellsTheStagesOfARetargetedModel) {
     options.progress = recorder.progress();
     const osgSkin::Character character =
         osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/rig/tube.gltf", options);
-    EXPECT_EQ(recorder.stages(), (Strings{"model", "binding", "motion move", "scene", "done"}));
+    EXPECT_EQ(recorder.stages(), (Strings{"model", "motion move", "binding", "scene", "done"}));
     recorder.expectRising();
 }
 

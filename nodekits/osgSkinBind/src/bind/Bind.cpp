@@ -146,7 +146,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
     if (options.method == BindOptions::Method::Smooth) findExtremities(skin, joints);
     for (const PlannedJoint& joint : joints) {
-        found.jointsInside += joint.holdsRegion && joint.inside ? 1 : 0;
+        found.jointsInside += joint.inside ? 1 : 0;
         found.jointsOutside += joint.outside ? 1 : 0;
     }
     Regions regions = findRegions(
@@ -157,7 +157,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     checkInfluences(joints, regions.jointOf, skin.weldedOf, options.maxInfluences);
 
     // Section 3: what fraction of each joint's rotation each vertex takes.
-    const BinaryField binary{skin, joints, regions.jointOf};
+    const BinaryField binary{skin, joints, regions.jointOf, regions.isWhole};
     const std::vector<double> radii = limbRadii(binary);
     JointFields bend, twist;
     if (options.method == BindOptions::Method::Paper) {

@@ -143,7 +143,7 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
                 std::vector<std::string>& notes) {
     for (std::size_t j = 0; j < joints.size(); ++j) {
         PlannedJoint& joint = joints[j];
-        joint.inside = isInsideSkin(mesh, joint.centre);
+        joint.inside = joint.holdsRegion && isInsideSkin(mesh, joint.centre);
         joint.outside =
             joint.holdsRegion && !joint.inside && !joint.belowRigid(static_cast<int>(j));
         if (method == BindOptions::Method::Paper && joint.holdsRegion && joint.inside)

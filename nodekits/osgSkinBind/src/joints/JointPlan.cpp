@@ -165,8 +165,12 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
                 notes);
     setSamples(skeleton, mesh, roles, options.method, joints, notes);
     giveRegionsToRigidJoints(joints);
+    // With a root on the floor, the first joint with skin moves all of it.
+    const auto first = std::find_if(joints.begin(), joints.end(),
+                                    [](const PlannedJoint& joint) { return joint.holdsRegion; });
     for (std::size_t j = 1; j < joints.size(); ++j)
-        joints[j].topmost = roles.roles[j] == "Hips" && !joints[regionAbove(joints, j)].holdsRegion;
+        joints[j].topmost = (roles.roles[j] == "Hips" || &joints[j] == &*first) &&
+                            !joints[regionAbove(joints, j)].holdsRegion;
     return joints;
 }
 

@@ -31,12 +31,13 @@ struct PlannedJoint {
 
     JointPart part = JointPart::Other; ///< of the body, by its name
     int parent = -1;
-    int child = -1;           ///< the child that continues the chain, -1 for a leaf
-    int rigid = -1;           ///< the rigid joint at or above, -1 where there is none
-    bool extremity = false;   ///< a topmost head, hand or foot
-    bool digit = false;       ///< below an extremity that is not rigid: of a finger or a toe
-    bool topmost = false;     ///< the hips, with no region above them: a root on the floor
-    bool trunk = false;       ///< of the trunk: spine, hips, collar bones
+    int child = -1;         ///< the child that continues the chain, -1 for a leaf
+    int rigid = -1;         ///< the rigid joint at or above, -1 where there is none
+    bool extremity = false; ///< a topmost head, hand or foot
+    bool digit = false;     ///< below an extremity that is not rigid: of a finger or a toe
+    bool topmost =
+        false;          ///< moves all skin, with no region above it: hips below a root on the floor
+    bool trunk = false; ///< of the trunk: spine, hips, collar bones
     bool collarBone = false;  ///< between the spine and an upper arm
     double armDistance = 0.0; ///< of a collar bone's joint from the upper arm's
     bool helper = false;  ///< stands in another joint's place, or below one that does: owns nothing

@@ -29,7 +29,7 @@ std::vector<double> BinaryField::divided(std::size_t joint, double shift) const 
         for (std::size_t j = 0; j < joints.size(); ++j)
             isDivided[j] = joints[j].isSpine() || j == 0;
     for (std::size_t v = 0; v < field.size(); ++v) {
-        if (!isDivided[regions[v]]) continue;
+        if (!isDivided[regions[v]] || (!isWhole.empty() && isWhole[v])) continue;
         const double along = glm::dot(mesh.positions[v] - planned.centre, normal);
         field[v] = along > shift ? 1.0 : 0.0;
     }
@@ -43,7 +43,8 @@ std::vector<double> BinaryField::bounded(std::size_t joint, double upper, double
     const double length = std::max(joints[joint].boneLength, 1e-9 * mesh.size);
     const std::size_t above = regionAbove(joints, joint);
     for (std::size_t v = 0; v < field.size(); ++v) {
-        if (regions[v] != joint && regions[v] != above) continue;
+        if ((regions[v] != joint && regions[v] != above) || (!isWhole.empty() && isWhole[v]))
+            continue;
         const double along = glm::dot(mesh.positions[v] - joints[joint].centre, normal) / length;
         field[v] = hermiteRatio((along - upper) / (lower - upper)); // eq. 5
     }

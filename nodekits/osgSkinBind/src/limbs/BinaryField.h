@@ -17,6 +17,7 @@ struct BinaryField {
     const WeldedMesh& mesh;
     const std::vector<PlannedJoint>& joints;
     const std::vector<std::uint32_t>& regions;
+    std::vector<bool> isWhole{}; ///< see Regions; vertices that no plane divides
 
     /// 1 over the subtree's regions and, in the joint's own region, below the joint's plane, which
     /// bisects the bone above and its own; else 0.

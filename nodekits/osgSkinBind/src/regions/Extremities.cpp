@@ -161,8 +161,13 @@ private:
 };
 
 /// Unit directions around `axis`, evenly over a cone.
-std::vector<glm::dvec3> leaning(const glm::dvec3& axis, double maxLean) {
-    const glm::dvec3 u = anyPerpendicular(axis), v = glm::cross(axis, u);
+/// \param across a direction of the body's, so that a body that is turned has the same sections
+std::vector<glm::dvec3> leaning(const glm::dvec3& axis, const glm::dvec3& across, double maxLean) {
+    const glm::dvec3 aside = across - axis * glm::dot(across, axis);
+    const double length = glm::length(aside);
+    const glm::dvec3 u =
+        length > 1e-3 * glm::length(across) ? aside / length : anyPerpendicular(axis);
+    const glm::dvec3 v = glm::cross(axis, u);
     std::vector<glm::dvec3> result{axis};
     for (int i = 1; i <= kLeans; ++i)
         for (int k = 0; k < kDirections; ++k) {
@@ -197,13 +202,15 @@ std::optional<Section> narrowestAt(SectionFinder& finder, const glm::dvec3& poin
 /// The border of a head: from where the neck is narrowest it is moved up, as it leans there, for as
 /// long as it stays narrow.
 std::optional<Section> headBorder(SectionFinder& finder, const WeldedMesh& mesh,
-                                  const PlannedJoint& joint, const glm::dvec3& front) {
+                                  const PlannedJoint& joint, const glm::dvec3& front,
+                                  const glm::dvec3& across) {
     glm::dvec3 along = planeNormal(joint);
     const double length = glm::length(front);
     if (length > 0.0)
         along = glm::normalize(std::cos(glm::radians(kHeadLean)) * along +
                                std::sin(glm::radians(kHeadLean)) / length * front);
-    const std::vector<glm::dvec3> normals = leaning(along, length > 0.0 ? kMaxHeadLean : kMaxLean);
+    const std::vector<glm::dvec3> normals =
+        leaning(along, across, length > 0.0 ? kMaxHeadLean : kMaxLean);
     const double maxDrop = kMaxDrop * reachBeyond(mesh, joint);
     const auto pointAt = [&](int drop) {
         return joint.centre - (maxDrop * drop / kDrops) * joint.comingFrom;
@@ -226,12 +233,16 @@ std::optional<Section> headBorder(SectionFinder& finder, const WeldedMesh& mesh,
     return border;
 }
 
+/// \param front of the body, of any length; zero where nothing tells
 std::vector<std::uint32_t> beyondJoint(SectionFinder& finder, const WeldedMesh& mesh,
+                                       const std::vector<PlannedJoint>& joints,
                                        const PlannedJoint& joint, const glm::dvec3& front) {
+    const glm::dvec3 across =
+        glm::length(front) > 0.0 ? front : joint.centre - joints.front().centre;
     std::optional<Section> border =
         joint.part == JointPart::Head
-            ? headBorder(finder, mesh, joint, front)
-            : narrowestAt(finder, joint.centre, leaning(planeNormal(joint), kMaxLean));
+            ? headBorder(finder, mesh, joint, front, across)
+            : narrowestAt(finder, joint.centre, leaning(planeNormal(joint), across, kMaxLean));
     if (!border) return {};
     std::sort(border->edges.begin(), border->edges.end());
     std::vector<std::uint32_t> beyond = finder.beyond(*border);
@@ -247,7 +258,7 @@ void findExtremities(const WeldedMesh& mesh, std::vector<PlannedJoint>& joints) 
     const glm::dvec3 front = facing(joints);
     for (PlannedJoint& joint : joints)
         if (joint.extremity && joint.holdsRegion && joint.lengthAbove > 0.0)
-            joint.beyond = beyondJoint(finder, mesh, joint, front);
+            joint.beyond = beyondJoint(finder, mesh, joints, joint, front);
 }
 
 } // namespace osgSkin

@@ -14,8 +14,10 @@ struct Regions {
 
     std::vector<std::uint32_t> jointOf; ///< joint index of each welded vertex
     std::vector<std::uint32_t> seedOf;  ///< the Delaunay step's label, kNone without one
-    std::vector<std::size_t> seeds;     ///< for each joint, vertices labelled by the Delaunay step
-    std::size_t rejectedEdges = 0;      ///< by normal filtering
+    /// For each vertex, whether its shell is wholly of its joint: no plane divides it. Empty: none.
+    std::vector<bool> isWhole;
+    std::vector<std::size_t> seeds; ///< for each joint, vertices labelled by the Delaunay step
+    std::size_t rejectedEdges = 0;  ///< by normal filtering
 };
 
 } // namespace osgSkin

@@ -101,9 +101,11 @@ void giveShells(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
             (isOwn ? hasShell : hasOther)[joint] = true;
         }
     }
+    regions.isWhole.assign(regions.jointOf.size(), false);
     for (std::size_t v = 0; v < regions.jointOf.size(); ++v) {
         if (mesh.shellOf[v] == WeldedMesh::kNoShell) continue;
         const std::uint32_t joint = owner[mesh.shellOf[v]], now = regions.jointOf[v];
+        regions.isWhole[v] = joint != Regions::kNone;
         if (joint != Regions::kNone)
             regions.jointOf[v] = regions.seedOf[v] = joint;
         else if (hasShell[now] && !hasOther[now])

@@ -44,11 +44,9 @@ void addMoved(const osgAnimation::Animation& animation, const std::map<std::stri
 } // namespace
 
 void setRigidParts(CharacterSource& source, const std::vector<CharacterMotion>& motions) {
-    if (source.bind.rigid) return;
+    if (source.bind.rigid || (motions.empty() && source.animations.empty())) return;
     const RestSkeleton& rest = source.rest;
     const std::vector<std::string> stiff = automaticRigidJoints(rest, source.bind.names);
-    source.bind.rigid = stiff;
-    if (motions.empty() && source.animations.empty()) return;
     std::vector<bool> isMoved(rest.joints.size(), false);
     const std::map<std::string, int> jointOf = rest.byName();
     for (const CharacterMotion& motion : motions) addMoved(motion.clip, isMoved);
