@@ -198,10 +198,13 @@ TEST_P(RealOwnership, IsAsPaintersHaveIt) {
         const std::size_t headJoint =
             std::min(jointCalled(binding, "head"), jointCalled(binding, "Head"));
         std::vector<bool> isLarge(skeleton.joints.size(), false);
+        std::vector<bool> isUsed(isLarge.size(), false); // not below a rigid part
+        for (const Influence& influence : binding.influences) isUsed[influence.joint] = true;
         for (std::size_t j = 0; j < isLarge.size(); ++j)
-            isLarge[j] = std::count_if(painted.begin(), painted.end(), [&](const auto& row) {
-                             return row[j] > 0.99 * row[0];
-                         }) >= 20;
+            isLarge[j] =
+                isUsed[j] && std::count_if(painted.begin(), painted.end(), [&](const auto& row) {
+                                 return row[j] > 0.99 * row[0];
+                             }) >= 20;
         for (std::size_t v = 0; v < painted.size(); ++v) {
             bool isInside = false, isOutside = false;
             for (std::size_t j = 0; j < isLarge.size(); ++j) {

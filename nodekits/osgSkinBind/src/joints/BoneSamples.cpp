@@ -11,7 +11,7 @@
 namespace osgSkin {
 namespace {
 
-/// Distance between samples along a bone, over the mesh's size; a finer one changes little. Short
+/// Distance between samples along a bone, over the body's extent; a finer one changes little. Short
 /// bones have a few all the same.
 constexpr double kSpacing = 0.05;
 constexpr int kMinSamples = 2;
@@ -27,10 +27,22 @@ std::size_t indexOf(int index) {
     return static_cast<std::size_t>(index);
 }
 
+/// Twice the largest distance from the mean of all vertices: about the height of a body, however it
+/// stands.
+double extentOf(const WeldedMesh& mesh) {
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& p : mesh.positions) sum += p;
+    const glm::dvec3 mean = sum / static_cast<double>(mesh.vertexCount());
+    double farthest = 0.0;
+    for (const glm::dvec3& p : mesh.positions)
+        farthest = std::max(farthest, glm::distance(p, mean));
+    return 2.0 * farthest;
+}
+
 class BoneSampler {
 public:
     BoneSampler(const RestSkeleton& skeleton, const WeldedMesh& mesh, const JointRoles& roles)
-        : _skeleton(skeleton), _mesh(mesh), _roles(roles) {}
+        : _skeleton(skeleton), _mesh(mesh), _roles(roles), _spacing(kSpacing * extentOf(mesh)) {}
 
     /// For each joint, the samples along its bones that are inside the skin. Nothing for controls,
     /// and for bones that run outside.
@@ -54,8 +66,7 @@ private:
 
     std::vector<glm::dvec3> along(const glm::dvec3& from, const glm::dvec3& to) const {
         const double length = glm::distance(from, to);
-        const int count =
-            std::max(kMinSamples, static_cast<int>(std::ceil(length / (kSpacing * _mesh.size))));
+        const int count = std::max(kMinSamples, static_cast<int>(std::ceil(length / _spacing)));
         std::vector<glm::dvec3> result;
         for (int i = 0; i < count; ++i) result.push_back(from + (i + 0.5) / count * (to - from));
         return result;
@@ -104,7 +115,7 @@ private:
         const bool hasBone = joint.boneLength > 0.0;
         const glm::dvec3& direction = hasBone ? joint.boneAxis : joint.comingFrom;
         const double length = hasBone ? joint.boneLength : joint.lengthAbove;
-        const double step = std::min(0.5 * kSpacing * _mesh.size, 0.5 * length);
+        const double step = std::min(0.5 * _spacing, 0.5 * length);
         const int count = step > 0.0 ? static_cast<int>(kMaxExtension * length / step) : 0;
         for (int i = 0; i <= count; ++i) {
             const glm::dvec3 point = joint.boneEnd + i * step * direction;
@@ -121,6 +132,7 @@ private:
     const RestSkeleton& _skeleton;
     const WeldedMesh& _mesh;
     const JointRoles& _roles;
+    const double _spacing;
 };
 
 /// The joint whose region a joint's samples belong to: itself, the one in the same point, or the

@@ -69,7 +69,10 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
         }
         const int more = standing(skeleton, roles, j) - standing(skeleton, roles, other);
         if (more == 0) {
-            if (tellsBonesApart && haveOwnBones(joints[other], joints[j], tolerance)) continue;
+            if (tellsBonesApart && haveOwnBones(joints[other], joints[j], tolerance)) {
+                joints[j].holdsRegion = true;
+                continue;
+            }
             if (rivals.empty())
                 note = "joints \"" + skeleton.joints[other].name + "\" and \"" +
                        skeleton.joints[j].name +

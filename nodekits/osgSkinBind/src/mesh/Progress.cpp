@@ -6,7 +6,8 @@ namespace osgSkin {
 Progress subProgress(const Progress& whole, double begin, double end, const std::string& name) {
     if (!whole) return {};
     return [whole, begin, end, prefix = name.empty() ? name : name + ": "](const ProgressStep& s) {
-        whole({prefix + s.what, begin + s.fraction * (end - begin)});
+        // Exact at both ends, so that what follows does not seem to go back.
+        whole({prefix + s.what, (1.0 - s.fraction) * begin + s.fraction * end});
     };
 }
 

@@ -52,8 +52,9 @@ bool packInfluences(const std::vector<JointRatio>& ratios, std::size_t mostParti
     const float margin = excess(all, mostPartial);
     if (margin > 0.0f)
         for (Influence& influence : all) {
-            influence.bend = stretched(influence.bend, margin);
-            influence.twist = stretched(influence.twist, margin);
+            // Ratios may be as far from 0 and 1 as the surplus one, up to rounding.
+            influence.bend = ratio(stretched(influence.bend, margin));
+            influence.twist = ratio(stretched(influence.twist, margin));
         }
     for (const Influence& influence : all)
         if (influence.bend > 0.0f || influence.twist > 0.0f) influences.push_back(influence);

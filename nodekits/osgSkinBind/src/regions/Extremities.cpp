@@ -180,11 +180,11 @@ std::vector<glm::dvec3> leaning(const glm::dvec3& axis, const glm::dvec3& across
 }
 
 /// How far skin reaches beyond a joint, near the line that its bone is on.
-double reachBeyond(const WeldedMesh& mesh, const PlannedJoint& joint) {
+double reachBeyond(const PlannedJoint& joint) {
     double reach = joint.boneLength;
     for (const glm::dvec3& sample : joint.samples)
         reach = std::max(reach, glm::distance(sample, joint.centre));
-    return std::min(reach, mesh.size);
+    return reach;
 }
 
 /// The shortest section around a point of a limb, of those with one of these normals.
@@ -201,9 +201,8 @@ std::optional<Section> narrowestAt(SectionFinder& finder, const glm::dvec3& poin
 
 /// The border of a head: from where the neck is narrowest it is moved up, as it leans there, for as
 /// long as it stays narrow.
-std::optional<Section> headBorder(SectionFinder& finder, const WeldedMesh& mesh,
-                                  const PlannedJoint& joint, const glm::dvec3& front,
-                                  const glm::dvec3& across) {
+std::optional<Section> headBorder(SectionFinder& finder, const PlannedJoint& joint,
+                                  const glm::dvec3& front, const glm::dvec3& across) {
     glm::dvec3 along = planeNormal(joint);
     const double length = glm::length(front);
     if (length > 0.0)
@@ -211,7 +210,7 @@ std::optional<Section> headBorder(SectionFinder& finder, const WeldedMesh& mesh,
                                std::sin(glm::radians(kHeadLean)) / length * front);
     const std::vector<glm::dvec3> normals =
         leaning(along, across, length > 0.0 ? kMaxHeadLean : kMaxLean);
-    const double maxDrop = kMaxDrop * reachBeyond(mesh, joint);
+    const double maxDrop = kMaxDrop * reachBeyond(joint);
     const auto pointAt = [&](int drop) {
         return joint.centre - (maxDrop * drop / kDrops) * joint.comingFrom;
     };
@@ -241,7 +240,7 @@ std::vector<std::uint32_t> beyondJoint(SectionFinder& finder, const WeldedMesh& 
         glm::length(front) > 0.0 ? front : joint.centre - joints.front().centre;
     std::optional<Section> border =
         joint.part == JointPart::Head
-            ? headBorder(finder, mesh, joint, front, across)
+            ? headBorder(finder, joint, front, across)
             : narrowestAt(finder, joint.centre, leaning(planeNormal(joint), across, kMaxLean));
     if (!border) return {};
     std::sort(border->edges.begin(), border->edges.end());
