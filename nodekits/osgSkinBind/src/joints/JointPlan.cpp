@@ -168,11 +168,13 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
                 notes);
     setSamples(skeleton, mesh, roles, options.method, joints, notes);
     giveRegionsToRigidJoints(joints);
-    // With a root on the floor, the first joint with skin moves all of it.
+    // With a root on the floor, the first joint with skin moves all of it. By its centre alone, as
+    // the printed method has it, nobody can tell such a root from one at the skin's end.
+    const bool isSmooth = options.method == BindOptions::Method::Smooth;
     const auto first = std::find_if(joints.begin(), joints.end(),
                                     [](const PlannedJoint& joint) { return joint.holdsRegion; });
     for (std::size_t j = 1; j < joints.size(); ++j)
-        joints[j].topmost = (roles.roles[j] == "Hips" || &joints[j] == &*first) &&
+        joints[j].topmost = (roles.roles[j] == "Hips" || (isSmooth && &joints[j] == &*first)) &&
                             !joints[regionAbove(joints, j)].holdsRegion;
     return joints;
 }
