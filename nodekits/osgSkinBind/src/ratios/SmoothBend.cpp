@@ -23,7 +23,6 @@ struct Widths {
 
 /// A limb's joint bends its skin mostly above the joint: the forearm and the calf keep their shape.
 constexpr Widths kBetweenLimbs{1.5, 0.75};
-constexpr Widths kLimbAtTrunk{1.15, 1.15};
 constexpr Widths kOther{1.0, 1.0};
 
 /// The trunk's joints stand so close that their fields would overlap. Their radius is that of the
@@ -113,7 +112,7 @@ Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, b
         return {std::min(widths.above, kDigit * joint.lengthAbove),
                 std::min(widths.below, kDigit * joint.boneLength)};
     }
-    Widths widths = times(!limb ? kOther : onLimb ? kBetweenLimbs : kLimbAtTrunk);
+    Widths widths = times(limb && onLimb ? kBetweenLimbs : kOther);
     if (carries(joints, index, JointPart::Head))
         return widths; // necks bend over their whole length
     if (onLimb) widths.above = std::min(widths.above, kMaxShareOfBone * joint.lengthAbove);
