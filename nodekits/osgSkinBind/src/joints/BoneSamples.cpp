@@ -16,6 +16,9 @@ namespace {
 constexpr double kSpacing = 0.05;
 constexpr int kMinSamples = 2;
 
+/// Bones shorter than this share of the distance have one: chains may have thousands.
+constexpr double kTiny = 0.1;
+
 /// A bone is inside the skin where at least this share of its samples is.
 constexpr double kInside = 0.5;
 
@@ -66,7 +69,8 @@ private:
 
     std::vector<glm::dvec3> along(const glm::dvec3& from, const glm::dvec3& to) const {
         const double length = glm::distance(from, to);
-        const int count = std::max(kMinSamples, static_cast<int>(std::ceil(length / _spacing)));
+        const int least = length > kTiny * _spacing ? kMinSamples : 1;
+        const int count = std::max(least, static_cast<int>(std::ceil(length / _spacing)));
         std::vector<glm::dvec3> result;
         for (int i = 0; i < count; ++i) result.push_back(from + (i + 0.5) / count * (to - from));
         return result;

@@ -36,7 +36,10 @@ std::vector<DelaunayLink> delaunayLinks(const std::vector<glm::dvec3>& vertices,
     std::vector<Handle> handles;
     for (std::size_t c = 0; c < samples.size(); ++c) {
         const std::size_t before = triangulation.number_of_vertices();
-        const Handle handle = triangulation.insert(point(samples[c]));
+        // The next sample of a bone is near the last one.
+        const Handle handle = handles.empty()
+                                  ? triangulation.insert(point(samples[c]))
+                                  : triangulation.insert(point(samples[c]), handles.back());
         if (triangulation.number_of_vertices() != before)
             handle->info() = vertexCount + static_cast<std::uint32_t>(c);
         handles.push_back(handle);
