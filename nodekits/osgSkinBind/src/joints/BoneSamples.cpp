@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace osgSkin {
 namespace {
@@ -16,8 +17,9 @@ namespace {
 constexpr double kSpacing = 0.05;
 constexpr int kMinSamples = 2;
 
-/// Bones shorter than this share of the distance have one: chains may have thousands.
-constexpr double kTiny = 0.1;
+/// A bone that is shorter than this share of the distance, and as near to the last sample above it,
+/// owns no skin: chains may have thousands of links.
+constexpr double kTiny = 0.02;
 
 /// A bone is inside the skin where at least this share of its samples is.
 constexpr double kInside = 0.5;
@@ -59,9 +61,19 @@ public:
             if (isBody[j] && joints[j].parent >= 0) isBody[indexOf(joints[j].parent)] = true;
         }
         std::vector<std::vector<glm::dvec3>> result(count);
-        for (std::size_t j = 0; j < count; ++j)
-            if (isBody[j]) result[j] = samplesOf(joints, j, isBody);
+        std::vector<std::optional<glm::dvec3>> last(count); // sample at or above each joint
+        for (std::size_t j = 0; j < count; ++j) {
+            if (joints[j].parent >= 0) last[j] = last[indexOf(joints[j].parent)];
+            if (!isBody[j] || isTiny(joints[j], last[j])) continue;
+            result[j] = samplesOf(joints, j, isBody);
+            if (!result[j].empty()) last[j] = result[j].back();
+        }
         return result;
+    }
+
+    bool isTiny(const PlannedJoint& joint, const std::optional<glm::dvec3>& last) const {
+        return last && joint.boneLength > 0.0 && joint.boneLength < kTiny * _spacing &&
+               glm::distance(*last, joint.centre) < kTiny * _spacing;
     }
 
 private:
@@ -69,8 +81,7 @@ private:
 
     std::vector<glm::dvec3> along(const glm::dvec3& from, const glm::dvec3& to) const {
         const double length = glm::distance(from, to);
-        const int least = length > kTiny * _spacing ? kMinSamples : 1;
-        const int count = std::max(least, static_cast<int>(std::ceil(length / _spacing)));
+        const int count = std::max(kMinSamples, static_cast<int>(std::ceil(length / _spacing)));
         std::vector<glm::dvec3> result;
         for (int i = 0; i < count; ++i) result.push_back(from + (i + 0.5) / count * (to - from));
         return result;
@@ -187,7 +198,8 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
             isBelowBody[j] = isBelowBody[indexOf(joint.parent)] ||
                              !joints[indexOf(joint.parent)].samples.empty();
         if (!joint.holdsRegion || !joint.samples.empty()) continue;
-        joint.claims = isBelowBody[j] && joint.child >= 0 && !joint.belowRigid(static_cast<int>(j));
+        joint.claims = isBelowBody[j] && joint.child >= 0 && !joint.inside &&
+                       !joint.belowRigid(static_cast<int>(j));
         joint.holdsRegion = joint.claims;
         if (joint.outside)
             notes.push_back("joint \"" + skeleton.joints[j].name + "\" lies outside the skin" +
