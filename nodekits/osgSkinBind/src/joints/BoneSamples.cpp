@@ -27,6 +27,13 @@ constexpr double kInside = 0.5;
 /// How far a last bone may go on beyond its end, in its own lengths; one without a length in those
 /// of the bone above.
 constexpr double kMaxExtension = 2.0;
+constexpr double kMaxSteps = 10.0;
+
+/// A joint with more children has no bones to them: nobody's skeleton, but a file may have it.
+constexpr std::size_t kMaxBones = 64;
+
+/// From so many samples on, those that are near others are left out.
+constexpr std::size_t kManySamples = 4096;
 
 std::size_t indexOf(int index) {
     return static_cast<std::size_t>(index);
@@ -42,6 +49,20 @@ double extentOf(const WeldedMesh& mesh) {
     for (const glm::dvec3& p : mesh.positions)
         farthest = std::max(farthest, glm::distance(p, mean));
     return 2.0 * farthest;
+}
+
+/// Leaves out samples close to ones of earlier joints.
+void thin(double distance, std::vector<std::vector<glm::dvec3>>& samples) {
+    std::vector<glm::dvec3> kept;
+    for (std::vector<glm::dvec3>& own : samples) {
+        const auto isClose = [&](const glm::dvec3& p) {
+            return std::any_of(kept.rbegin(), kept.rend(), [&](const glm::dvec3& other) {
+                return glm::distance(p, other) < distance;
+            });
+        };
+        own.erase(std::remove_if(own.begin(), own.end(), isClose), own.end());
+        kept.insert(kept.end(), own.begin(), own.end());
+    }
 }
 
 class BoneSampler {
@@ -68,6 +89,9 @@ public:
             result[j] = samplesOf(joints, j, isBody);
             if (!result[j].empty()) last[j] = result[j].back();
         }
+        std::size_t all = 0;
+        for (const std::vector<glm::dvec3>& own : result) all += own.size();
+        if (all > kManySamples) thin(kTiny * _spacing, result);
         return result;
     }
 
@@ -108,6 +132,8 @@ private:
                                       const std::vector<bool>& isBody) const {
         const PlannedJoint& joint = joints[j];
         std::vector<glm::dvec3> bones;
+        if (_skeleton.children(static_cast<int>(j)).size() > kMaxBones)
+            return joint.inside ? std::vector<glm::dvec3>{joint.centre} : std::vector<glm::dvec3>{};
         for (const int child : _skeleton.children(static_cast<int>(j)))
             if (isBody[indexOf(child)])
                 append(along(joint.centre, joints[indexOf(child)].centre), bones);
@@ -131,7 +157,8 @@ private:
         const glm::dvec3& direction = hasBone ? joint.boneAxis : joint.comingFrom;
         const double length = hasBone ? joint.boneLength : joint.lengthAbove;
         const double step = std::min(0.5 * _spacing, 0.5 * length);
-        const int count = step > 0.0 ? static_cast<int>(kMaxExtension * length / step) : 0;
+        const int count =
+            step > 0.0 ? static_cast<int>(std::min(kMaxExtension * length / step, kMaxSteps)) : 0;
         for (int i = 0; i <= count; ++i) {
             const glm::dvec3 point = joint.boneEnd + i * step * direction;
             if (!isInside(point)) break;
