@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ratios/PackInfluences.h"
 
+#include <osgSkin/SkinModel>
+
 #include <algorithm>
 #include <functional>
 
@@ -56,6 +58,16 @@ bool packInfluences(const std::vector<JointRatio>& ratios, std::size_t mostParti
             influence.bend = ratio(stretched(influence.bend, margin));
             influence.twist = ratio(stretched(influence.twist, margin));
         }
+    // A joint that only twists skin is partial, too. Where there are more than the runtime can
+    // split, the lowest ones follow their bend.
+    auto partial = std::count_if(all.begin(), all.end(),
+                                 [](const Influence& influence) { return influence.isPartial(); });
+    for (auto lowest = all.rbegin(); lowest != all.rend(); ++lowest) {
+        if (partial <= static_cast<std::ptrdiff_t>(SkinModel::kMaxPartialInfluences)) break;
+        if (lowest->isFractional() || !lowest->isPartial()) continue;
+        lowest->twist = lowest->bend;
+        --partial;
+    }
     for (const Influence& influence : all)
         if (influence.bend > 0.0f || influence.twist > 0.0f) influences.push_back(influence);
     return margin > 0.0f;
