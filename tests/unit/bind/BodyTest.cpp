@@ -4,6 +4,7 @@
 
 #include <osgSkin/DeformJob>
 #include <osgSkinBind/Bind>
+#include <osgSkinBind/RigidJoints>
 #include <osgSkinBind/RigidSplit>
 
 #include <glm/geometric.hpp>
@@ -57,7 +58,10 @@ protected:
         mesh = meshCalled(GetParam().mesh);
         skeleton = skeletonCalled(GetParam().rig);
         if (GetParam().towardsMale != 0.0) goTowardsMale(GetParam().towardsMale);
-        binding = bind(mesh, skeleton, {}, &report);
+        BindOptions options; // nothing moves fingers, toes and faces
+        options.rigid =
+            automaticRigidJoints(skeleton, {}, std::vector<bool>(skeleton.joints.size()));
+        binding = bind(mesh, skeleton, options, &report);
     }
 
     /// Mean bend ratio of `joint` over the skin in the middle third of the bone from `from` to
@@ -116,7 +120,8 @@ TEST_P(Body, IsBound) {
 }
 
 TEST_P(Body, HasRigidHandsFeetAndHead) {
-    const std::vector<std::string> rigid = automaticRigidJoints(skeleton);
+    const std::vector<std::string> rigid =
+        automaticRigidJoints(skeleton, {}, std::vector<bool>(skeleton.joints.size()));
     ASSERT_EQ(rigid.size(), 5u);
     const RigidSplit split = splitRigid(mesh, binding, rigid);
     for (const std::string& name : rigid) {
@@ -161,7 +166,8 @@ TEST_P(CmuBody, RegionsAgreeWithPaintedWeights) {
 
     // A joint's region is on the tree of joints; joints below a rigid one and joints of no length
     // count as the one above.
-    const std::vector<std::string> rigid = automaticRigidJoints(skeleton);
+    const std::vector<std::string> rigid =
+        automaticRigidJoints(skeleton, {}, std::vector<bool>(skeleton.joints.size()));
     std::vector<std::size_t> shown(skeleton.joints.size());
     for (std::size_t j = 0; j < shown.size(); ++j) {
         shown[j] = j;

@@ -8,6 +8,7 @@
 
 #include <osgSkin/DeformJob>
 #include <osgSkinBind/Bind>
+#include <osgSkinBind/RigidJoints>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -87,7 +88,10 @@ protected:
             GTEST_SKIP() << "needs " << meshFile << " and " << rigFile;
         skeleton = shared::readJoints(rigFile);
         mesh = GetParam().change(shared::readObj(meshFile), skeleton);
-        binding = bind(mesh, skeleton, {}, &report);
+        BindOptions options; // nothing moves fingers and toes
+        options.rigid =
+            automaticRigidJoints(skeleton, {}, std::vector<bool>(skeleton.joints.size()));
+        binding = bind(mesh, skeleton, options, &report);
     }
 
     /// The skin with the given joints turned by degrees about x or z, parents first.

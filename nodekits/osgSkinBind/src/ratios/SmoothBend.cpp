@@ -174,9 +174,6 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     const bool isLifted = planned.isSpine();
     std::vector<double> start = binary.divided(joint, isLifted ? -kTrunkLift * radius : 0.0);
     if (!(radius > 0.0)) return start;
-    if (!planned.beyond.empty())
-        return fromBorder(smoother, start, kAboveBorder * options.smoothing * radius,
-                          options.cutOff);
     if (isLastDigit(binary.joints, planned))
         return fromBorder(smoother, start,
                           std::min(options.smoothing * radius, kTip * planned.lengthAbove),
@@ -187,6 +184,16 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     const bool onLimb = above > 0 && isLimb(binary.joints[above], radii[above]);
     const MiddleThird own = limb ? MiddleThird(binary, joint) : MiddleThird();
     const MiddleThird previous = onLimb ? MiddleThird(binary, above) : MiddleThird();
+    if (!planned.beyond.empty()) {
+        double width = kAboveBorder * options.smoothing * radius;
+        const double least = kNarrowest * width;
+        std::vector<double> field = fromBorder(smoother, start, width, options.cutOff);
+        for (int i = 0; i < kTries && !previous.empty() &&
+                        narrow(width, least, previous.mean(field), kNextRigidity);
+             ++i)
+            field = fromBorder(smoother, start, width, options.cutOff);
+        return field;
+    }
     Widths widths = firstWidths(binary.joints, joint, limb, onLimb, radii, options.smoothing);
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
     const std::vector<bool> isHeld =

@@ -201,11 +201,11 @@ Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
     for (std::uint32_t& joint : regions.jointOf)
         if (joints[joint].rigid >= 0) joint = static_cast<std::uint32_t>(joints[joint].rigid);
     trimRegions(mesh, joints, regions.jointOf);
-    removeIslands(mesh, isSeed, regions.jointOf);
-    extendDigits(mesh, joints, regions.jointOf); // whose regions may have several parts
     giveShells(mesh, joints, regions);
     for (std::uint32_t j = 0; j < joints.size(); ++j)
         if (!joints[j].beyond.empty()) giveBeyond(mesh, joints, j, regions.jointOf);
+    removeIslands(mesh, isSeed, regions.jointOf);
+    extendDigits(mesh, joints, regions.jointOf); // whose regions may have several parts
     return regions;
 }
 
