@@ -18,7 +18,7 @@ namespace osgSkin {
 namespace {
 
 /// How far a section may lean from the joint's plane, in degrees.
-constexpr double kMaxLean = 50.0;
+constexpr double kMaxLean = 25.0;
 constexpr int kLeans = 5;
 constexpr int kDirections = 12;
 
@@ -209,7 +209,7 @@ std::optional<Section> headBorder(SectionFinder& finder, const PlannedJoint& joi
         along = glm::normalize(std::cos(glm::radians(kHeadLean)) * along +
                                std::sin(glm::radians(kHeadLean)) / length * front);
     const std::vector<glm::dvec3> normals =
-        leaning(along, across, length > 0.0 ? kMaxHeadLean : kMaxLean);
+        leaning(along, across, length > 0.0 ? kMaxHeadLean : 2.0 * kMaxHeadLean);
     const double maxDrop = kMaxDrop * reachBeyond(joint);
     const auto pointAt = [&](int drop) {
         return joint.centre - (maxDrop * drop / kDrops) * joint.comingFrom;
