@@ -107,6 +107,7 @@ private:
         const double length = glm::distance(from, to);
         const int count = std::max(kMinSamples, static_cast<int>(std::ceil(length / _spacing)));
         std::vector<glm::dvec3> result;
+        result.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i) result.push_back(from + (i + 0.5) / count * (to - from));
         return result;
     }
