@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/WeldedMesh.h"
 
-#include "mesh/DisjointSets.h"
 #include "mesh/Neighbours.h"
 
 #include <glm/geometric.hpp>
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -68,6 +68,24 @@ private:
     std::unordered_map<Cell, std::uint32_t, CellHash> _cells;
 };
 
+/// Numbers that are joined, each time two of them, to sets.
+class JoinedSets {
+public:
+    explicit JoinedSets(std::size_t count) : _above(count) {
+        std::iota(_above.begin(), _above.end(), std::size_t{0});
+    }
+
+    /// The number that stands for the set of another.
+    std::size_t find(std::size_t i) {
+        while (_above[i] != i) i = _above[i] = _above[_above[i]];
+        return i;
+    }
+    void join(std::size_t a, std::size_t b) { _above[find(a)] = find(b); }
+
+private:
+    std::vector<std::size_t> _above;
+};
+
 /// A triangle's side between two welded vertices, the lower one first.
 struct Side {
     std::uint32_t low, high;
@@ -100,7 +118,7 @@ std::vector<Side> sidesOf(const std::vector<std::uint32_t>& corners,
 /// \param first,end the sides along one edge
 /// \param isOpen is set for triangles that are left alone
 void joinAcross(std::vector<Side>::const_iterator first, std::vector<Side>::const_iterator end,
-                DisjointSets& pieces, std::vector<bool>& isOpen) {
+                JoinedSets& pieces, std::vector<bool>& isOpen) {
     std::vector<Side> left(first, end);
     while (!left.empty()) {
         std::size_t a = 0, b = 0, nearest = std::numeric_limits<std::size_t>::max();
@@ -150,7 +168,7 @@ void WeldedMesh::partClosedPieces(const SkinMesh& mesh) {
         touch = sides[i].isAlong(sides[i + 2]);
     if (!touch) return;
     const std::size_t triangleCount = corners.size() / 3;
-    DisjointSets pieces(triangleCount);
+    JoinedSets pieces(triangleCount);
     std::vector<bool> isOpen(triangleCount, false);
     for (auto first = sides.begin(); first != sides.end();) {
         const auto end = std::find_if(first, sides.end(),

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_MESH_DISJOINTSETS_H
-#define OSGSKINBIND_MESH_DISJOINTSETS_H
+#ifndef OSGSKINBIND_ELASTIC_DISJOINTSETS_H
+#define OSGSKINBIND_ELASTIC_DISJOINTSETS_H
 
 #include <cstddef>
 #include <numeric>
 #include <vector>
 
-namespace osgSkin {
+namespace osgSkin::elastic {
 
 /// Union-find: elements 0..count-1, each in a set of its own until sets are joined.
 class DisjointSets {
@@ -30,6 +30,6 @@ private:
     std::vector<std::size_t> _above;
 };
 
-} // namespace osgSkin
+} // namespace osgSkin::elastic
 
 #endif
