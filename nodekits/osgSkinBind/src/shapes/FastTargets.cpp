@@ -26,7 +26,7 @@ constexpr double kWidenFull = -0.5;
 constexpr double kSideWidth = 0.25;
 
 /// Sine of the angle between the bones from which on a limb has an inner side.
-constexpr double kLeastFold = 0.1;
+constexpr double kMinFold = 0.1;
 
 /// Gap between the skins on both sides of a fold, far from the joint, and how softly they meet; in
 /// radii.
@@ -106,7 +106,7 @@ glm::dvec3 restoringMove(const FoldShape& fold, const RestoringBone& bone, const
     const glm::dvec3 inwards = fold.bone - fold.above;
     const glm::dvec3 across = inwards - glm::dot(m, inwards) * m;
     const double length = glm::length(across);
-    if (length < kLeastFold) return move;
+    if (length < kMinFold) return move;
     const glm::dvec3 inner = across / length;
     const double wish = glm::dot(inner, move);
     if (!(wish > 0.0)) return move;
@@ -164,7 +164,7 @@ glm::dvec3 widen(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3
                  double share, double most) {
     const glm::dvec3 axis = glm::cross(fold.above, fold.bone);
     const double sine = glm::length(axis);
-    if (sine < kLeastFold) return posed;
+    if (sine < kMinFold) return posed;
     const glm::dvec3 sideways = axis / sine;
     const double at = glm::dot(sideways, posed);
     const double z = std::max(glm::dot(boneOf(fold, posed), posed), 0.0);

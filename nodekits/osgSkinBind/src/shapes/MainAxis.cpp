@@ -16,7 +16,7 @@ constexpr double kPlain = 0.21;
 constexpr double kFaint = 0.052;
 
 /// Cosine of the angle that a knee's axis leans from its main axis, at most.
-constexpr double kLeastAlong = 0.9;
+constexpr double kMinAlong = 0.9;
 
 enum class End { None, Hand, Foot };
 
@@ -58,7 +58,7 @@ glm::dvec3 findHinge(const RestSkeleton& skeleton, const std::vector<PlannedJoin
     if (!body || endOf(skeleton, joints, joint) != End::Foot) return mainAxis;
     const glm::dvec3 across = glm::cross(body->up, body->front);
     const double along = glm::dot(across, mainAxis);
-    if (std::abs(along) < kLeastAlong) return mainAxis;
+    if (std::abs(along) < kMinAlong) return mainAxis;
     return glm::normalize(mainAxis + std::copysign(1.0, along) * across);
 }
 
