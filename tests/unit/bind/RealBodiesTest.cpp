@@ -163,7 +163,7 @@ TEST_P(RealBody, IsBoundWhole) {
                              "RightForeArm", "LeftUpLeg", "RightLeg"})
         EXPECT_GE(
             std::count(binding.regions.begin(), binding.regions.end(), jointCalled(binding, name)),
-            8) // a ring of the sparse body's forearm
+            8) // all that the sparse body has between elbow and wrist
             << name << "\n"
             << report.text();
 }

@@ -115,7 +115,8 @@ std::vector<Side> sidesOf(const std::vector<std::uint32_t>& corners,
 /// Joins the triangles on both sides of an edge. Where several pieces touch there are more than
 /// two: each goes with the one of the other direction that is nearest in the file, since a piece's
 /// faces follow each other there.
-/// \param first,end the sides along one edge
+/// \param first is the first of the sides along one edge
+/// \param end is behind the last of them
 /// \param isOpen is set for triangles that are left alone
 void joinAcross(std::vector<Side>::const_iterator first, std::vector<Side>::const_iterator end,
                 JoinedSets& pieces, std::vector<bool>& isOpen) {

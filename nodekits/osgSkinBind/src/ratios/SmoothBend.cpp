@@ -61,6 +61,10 @@ constexpr int kTries = 6;
 /// into its middle third, no width leaves that third rigid, and a narrow one tears the armpit.
 constexpr double kNarrowest = 0.4;
 
+/// Where arms swing, skin may take part that lies this much farther from the joint than the field
+/// reaches.
+constexpr double kRoom = 1.2;
+
 /// \param share of the width that a vertex takes, for each; none where all take 1
 std::vector<double> spread(const SkinSmoother& smoother, const std::vector<double>& binary,
                            const Widths& widths, const std::vector<double>& share,
@@ -97,7 +101,8 @@ double waistRadius(const std::vector<PlannedJoint>& joints, const std::vector<do
 }
 
 /// Widths to start with, in rest units.
-/// \param limb,onLimb whether the joint is a limb's, and the one above
+/// \param limb whether the joint is a limb's
+/// \param onLimb whether the one above is
 Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, bool limb,
                    bool onLimb, const std::vector<double>& radii, double smoothing) {
     const PlannedJoint& joint = joints[index];
@@ -142,14 +147,21 @@ bool narrow(double& width, double least, double excess, double most) {
     return true;
 }
 
+/// Where a field is neither 0 nor 1.
+std::vector<bool> isPartial(const std::vector<double>& field) {
+    std::vector<bool> result(field.size());
+    for (std::size_t v = 0; v < field.size(); ++v) result[v] = field[v] > 0.0 && field[v] < 1.0;
+    return result;
+}
+
 /// Evens out what an arm's swings do to the skin between it and the trunk. Its middle third stays
 /// as it is.
+/// \param isFree which vertices may change
 void evenOut(const BinaryField& binary, const SkinSmoother& smoother, std::size_t joint,
-             const MiddleThird& third, double width, std::vector<double>& field) {
+             const MiddleThird& third, double width, std::vector<bool> isFree,
+             std::vector<double>& field) {
     const std::vector<glm::dvec3> swings = armSwings(binary.joints, joint);
     if (swings.empty()) return;
-    std::vector<bool> isFree(field.size());
-    for (std::size_t v = 0; v < field.size(); ++v) isFree[v] = field[v] > 0.0 && field[v] < 1.0;
     for (const std::uint32_t v : third.vertices()) isFree[v] = false;
     keepLooseSkin(smoother.skin(), field, isFree);
     const glm::dvec3& centre = binary.joints[joint].centre;
@@ -213,7 +225,12 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
                 narrow(widths.above, least.above, previous.mean(field), kNextRigidity) || narrower;
         if (!narrower) break;
     }
-    if (!share.empty()) evenOut(binary, smoother, joint, own, options.smoothing * radius, field);
+    if (!share.empty()) {
+        const Widths wider = {kRoom * widths.above, kRoom * widths.below};
+        const std::vector<bool> isFree =
+            isPartial(spread(smoother, start, wider, share, isHeld, options.cutOff));
+        evenOut(binary, smoother, joint, own, options.smoothing * radius, isFree, field);
+    }
     return field;
 }
 

@@ -74,7 +74,7 @@ Bone boneAt(const glm::dvec3& along, const glm::dvec3& other, double share) {
 void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, double step,
                  JointSections::Values& areas) {
     std::array<double, 3> z{};
-    for (int i = 0; i < 3; ++i) z[i] = glm::dot(corners[i], bone.along);
+    for (std::size_t i = 0; i < 3; ++i) z[i] = glm::dot(corners[i], bone.along);
     const auto [least, most] = std::minmax_element(z.begin(), z.end());
     const double from = std::ceil(std::max(*least, 0.0) / step);
     if (!(from < JointSections::kCount + 1)) return;
@@ -83,8 +83,8 @@ void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, dou
         const double at = double(k) * step;
         const glm::dvec3 origin = at * (bone.along + bone.slope * bone.boundary);
         glm::dvec3 enter(0.0), leave(0.0);
-        for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
             if ((z[i] < at) == (z[j] < at)) continue;
             const glm::dvec3 x =
                 corners[i] + (at - z[i]) / (z[j] - z[i]) * (corners[j] - corners[i]) - origin;
