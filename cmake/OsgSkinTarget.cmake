@@ -5,10 +5,6 @@
 function(osgskin_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
-  if(OSGSKIN_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC takes an unnamed namespace below the unity source for one in a header.
-    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
-  endif()
   if(OSGSKIN_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -22,7 +18,6 @@ function(osgskin_settings target)
     get_target_property(type ${target} TYPE)
     if(OSGSKIN_SANITIZE MATCHES address AND type STREQUAL EXECUTABLE)
       target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests/support/DriverLeaks.cpp")
-      osgskin_alone("${PROJECT_SOURCE_DIR}/tests/support/DriverLeaks.cpp")
       target_link_options(${target} PRIVATE
         -Wl,--export-dynamic-symbol=dlclose,--export-dynamic-symbol=__lsan_default_suppressions)
     endif()
@@ -35,14 +30,7 @@ function(osgskin_settings target)
     CXX_EXTENSIONS OFF
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
-    POSITION_INDEPENDENT_CODE ON
-    UNITY_BUILD ${OSGSKIN_UNITY} UNITY_BUILD_BATCH_SIZE 30)
-endfunction()
-
-# osgskin_alone(SOURCE...): these are never compiled together with others (OSGSKIN_UNITY): they
-# share a name of their own with one of them, or define macros that others must not see.
-function(osgskin_alone)
-  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    POSITION_INDEPENDENT_CODE ON)
 endfunction()
 
 # osgskin_nodekit(NAME HEADERS... ): a shared library nodekits/NAME with include/NAME headers.
@@ -59,6 +47,10 @@ function(osgskin_nodekit name)
     VERSION ${PROJECT_VERSION} SOVERSION ${OSGSKIN_SOVERSION} INSTALL_RPATH "$ORIGIN")
   osgskin_kit_build(${name})
   add_library(osgSkin::${name} ALIAS ${name})
+  # The same objects for tests of what the library does not export.
+  add_library(${name}Internals STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${name}>)
+  set_target_properties(${name}Internals PROPERTIES LINKER_LANGUAGE CXX)
+  target_include_directories(${name}Internals INTERFACE "${CMAKE_CURRENT_SOURCE_DIR}/src")
 endfunction()
 
 # The number that libraries' names end with: layouts that differ never meet. Before 1.0.0 they may

@@ -6,7 +6,6 @@
 function(osgskin_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES} "${PROJECT_SOURCE_DIR}/tests/support/TempFolder.cpp")
-  osgskin_alone("${PROJECT_SOURCE_DIR}/tests/support/TempFolder.cpp")
   osgskin_settings(${name})
   # Compiling takes longer than running: GCC's -O1 saves a quarter of the first.
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)

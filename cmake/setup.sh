@@ -6,7 +6,7 @@ osgskin_build_packages="g++ cmake ninja-build pkg-config libopenscenegraph-dev o
   libcli11-dev libhwy-dev libtbb-dev libmeshoptimizer-dev
   libgif-dev libpng-dev"
 osgskin_show_packages="xvfb imagemagick libgl1-mesa-dri"
-osgskin_test_packages="libgtest-dev libbenchmark-dev libegl-dev libegl1 binutils dpkg-dev file locales assimp-testmodels python3 universal-ctags"
+osgskin_test_packages="libgtest-dev libbenchmark-dev libegl-dev libegl1 binutils dpkg-dev file locales assimp-testmodels python3"
 
 # osgskin_install PACKAGE...: installs the Debian packages that are missing.
 osgskin_install() {
@@ -44,7 +44,7 @@ osgskin_build() {
   local preset=$1
   shift
   echo "Building (preset $preset)"
-  cmake --preset "$preset" -DOSGSKIN_UNITY=ON "$@" >"$osgskin_root/build-$preset.log" 2>&1 &&
+  cmake --preset "$preset" "$@" >"$osgskin_root/build-$preset.log" 2>&1 &&
     cmake --build --preset "$preset" >>"$osgskin_root/build-$preset.log" 2>&1 || {
     tail -n 60 "$osgskin_root/build-$preset.log" >&2
     echo "The build failed; all of it is in $osgskin_root/build-$preset.log" >&2

@@ -14,7 +14,7 @@ rm -rf "$folder/installed" "$folder/play"
 mkdir -p "$folder"
 # The folder is kept from run to run, so that only what has changed is built again; without
 # optimisation, as what counts is what it needs, not its speed.
-cmake --preset runtime-only --no-warn-unused-cli -S "$source" -B "$folder/build" -DCMAKE_EXPORT_COMPILE_COMMANDS=OFF -DOSGSKIN_UNITY=ON \
+cmake --preset runtime-only --no-warn-unused-cli -S "$source" -B "$folder/build" -DCMAKE_EXPORT_COMPILE_COMMANDS=OFF \
   -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
   -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_assimp=ON \
   >"$folder/configure.txt"
