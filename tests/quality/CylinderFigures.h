@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef QUALITY_CYLINDERFIGURES_H
+#define QUALITY_CYLINDERFIGURES_H
 
-#include "Methods.h"
+#include "Subject.h"
 
+#include <nlohmann/json.hpp>
+
+#include <ostream>
 #include <vector>
 
 namespace quality {
@@ -23,4 +27,10 @@ std::vector<CylinderPose> measureCylinder();
 double leastTwistArea(const std::vector<CylinderPose>& poses);
 double mostVolumeError(const std::vector<CylinderPose>& poses);
 
+/// The cylinder's figures for people, and for programs, to read.
+void printTable(const std::vector<CylinderPose>& poses, std::ostream& out);
+nlohmann::ordered_json toJson(const std::vector<CylinderPose>& poses);
+
 } // namespace quality
+
+#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "PoseSet.h"
+#include "Subject.h"
 
 #include <osgSkinRig/RestSkeleton>
 

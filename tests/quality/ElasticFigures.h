@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
+#ifndef QUALITY_ELASTICFIGURES_H
+#define QUALITY_ELASTICFIGURES_H
 
 #include "Subject.h"
 
@@ -33,3 +34,5 @@ ReferenceJoint referenceJointOf(const Subject& shaped, const std::string& name);
 void measureElastic(const Subject& subject, const ElasticRun& run);
 
 } // namespace quality
+
+#endif

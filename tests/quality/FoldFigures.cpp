@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "FoldFigures.h"
 
-#include "Format.h"
-#include "SelfIntersections.h"
+#include "Report.h"
+#include "SkinFigures.h"
 
 #include <osgSkinBind/Bind>
 

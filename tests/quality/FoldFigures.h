@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "Continuity.h"
 #include "PoseFigures.h"
+#include "SkinFigures.h"
 
 #include <ostream>
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef QUALITY_POSEFIGURES_H
+#define QUALITY_POSEFIGURES_H
 
-#include "Methods.h"
-#include "NormalError.h"
-#include "PoseSet.h"
+#include "SkinFigures.h"
+#include "Subject.h"
+
+#include <string>
 
 namespace quality {
 
@@ -38,4 +40,28 @@ PerMethod<PoseFigures> measureStrains(const Subject& subject, const std::vector<
 
 PerMethod<PoseFigures> measurePoses(const Subject& subject, const std::vector<NamedPose>& poses);
 
+/// Both hands, one after the other, twisted about their poles; the worse of the two.
+struct WristTwist {
+    double degrees = 0.0;
+    PerMethod<double> strain;                  ///< RMS over the edges that change their length
+    PerMethod<CrossSections::Least> leastArea; ///< of the forearm's cross-sections
+};
+
+/// At 60, 120 and 170 degrees. Empty where the rig has no hands.
+std::vector<WristTwist> measureWristTwists(const Subject& subject);
+
+/// What it costs that a vertex follows few joints in part: the largest share by which any figure of
+/// the motions or of a twisted wrist is worse than with as many as the deformation takes.
+struct CappingCost {
+    double share = 0.0;
+    std::string figure; ///< where that is
+};
+
+/// \param capped the subject's own figures
+/// \param wrist the subject's own, too
+CappingCost measureCapping(const Subject& subject, const std::vector<NamedPose>& poses,
+                           const PoseFigures& capped, const std::vector<WristTwist>& wrist);
+
 } // namespace quality
+
+#endif

@@ -2,8 +2,8 @@
 #include "RiggerFigures.h"
 
 #include "DemandingPoses.h"
-#include "Format.h"
-#include "SelfIntersections.h"
+#include "Report.h"
+#include "SkinFigures.h"
 
 #include <osgSkinBind/Bind>
 #include <osgSkinCharacter/ReadWeights>

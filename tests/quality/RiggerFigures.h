@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Methods.h"
-#include "PoseSet.h"
+#include "Subject.h"
 
 #include <nlohmann/json.hpp>
 

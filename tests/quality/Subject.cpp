@@ -1,17 +1,43 @@
 // SPDX-License-Identifier: MIT
 #include "Subject.h"
 
+#include <osgSkin/BoneReader>
+#include <osgSkin/DeformJob>
 #include <osgSkinBind/Bind>
+#include <osgSkinCharacter/ReadWeights>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/ApplyFrame>
+#include <osgSkinRig/MakeSkeleton>
+#include <osgSkinRig/Motion>
+#include <osgSkinRig/Retarget>
 
+#include <DualQuaternionBlend.h>
+#include <LinearBlend.h>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <iterator>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace quality {
+
+PaintedBody loadBody(const std::string& body, const std::string& rig, const std::string& weights) {
+    PaintedBody loaded;
+    loaded.name = std::filesystem::path(body).stem().string();
+    loaded.mesh = osgSkin::importMesh(body).mesh;
+    loaded.rig = osgSkin::importSkeleton(rig);
+    loaded.painted = osgSkin::readWeights(weights, loaded.rig, loaded.mesh.positions.size());
+    return loaded;
+}
+
 namespace {
 
 compare::SkinWeights normalised(const osgSkin::VertexWeights& painted) {
@@ -111,6 +137,134 @@ std::uint32_t Subject::dominantJoint(std::size_t vertex) const {
     return std::max_element(begin, end,
                             [](const auto& a, const auto& b) { return a.weight < b.weight; })
         ->joint;
+}
+
+namespace {
+
+/// Samples first, first + step, ... below `end`, counted as the file does: its calibration pose,
+/// where it has one, is frame 0.
+struct Clip {
+    const char* name;
+    const char* file;
+    std::size_t first, end, step;
+};
+
+constexpr Clip kClips[] = {{"12_01", "12_01_walk_pybvh.bvh", 10, 519, 60},
+                           {"124_01", "124_01_pitch_excerpt_120hz.bvh", 1, 28, 3},
+                           {"01_03", "01_03.bvh", 400, 4399, 400},
+                           {"01_01", "01_01.bvh", 300, 2699, 300}};
+
+/// The motions' joints for those of a game engine's rig; nothing for a rig with their own names.
+std::map<std::string, std::string> jointMap(const osgSkin::RestSkeleton& rig) {
+    static const std::map<std::string, std::string> kMiddle = {
+        {"pelvis", "Hips"},     {"spine_01", "LowerBack"}, {"spine_02", "Spine"},
+        {"spine_03", "Spine1"}, {"neck_01", "Neck"},       {"head", "Head"}};
+    static const std::map<std::string, std::string> kBothSides = {
+        {"clavicle", "Shoulder"}, {"upperarm", "Arm"}, {"lowerarm", "ForeArm"},
+        {"hand", "Hand"},         {"thigh", "UpLeg"},  {"calf", "Leg"},
+        {"foot", "Foot"},         {"ball", "ToeBase"}};
+    std::map<std::string, std::string> map = kMiddle;
+    for (const auto& [name, motion] : kBothSides) {
+        map[name + "_l"] = "Left" + motion;
+        map[name + "_r"] = "Right" + motion;
+    }
+    for (auto entry = map.begin(); entry != map.end();)
+        entry = rig.find(entry->first) < 0 ? map.erase(entry) : std::next(entry);
+    return map;
+}
+
+} // namespace
+
+std::vector<NamedPose> standardPoses(const std::string& folder, const Subject& subject) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(subject.rig);
+    osgSkin::BoneReader bones(subject.binding.joints, *skeleton);
+    std::vector<NamedPose> poses;
+    for (const Clip& entry : kClips) {
+        const osgSkin::Clip clip = osgSkin::retarget(
+            osgSkin::importMotion(folder + "/" + entry.file), subject.rig, {jointMap(subject.rig)});
+        for (std::size_t frame = entry.first; frame < entry.end; frame += entry.step) {
+            osgSkin::applyFrame(clip, subject.rig, frame, *skeleton);
+            poses.push_back({entry.name + (":" + std::to_string(frame)), bones.read()});
+        }
+    }
+    return poses;
+}
+
+namespace {
+
+PosedSkin deformOurs(const Subject& subject, const std::vector<glm::dmat4>& skinning,
+                     bool withNormals) {
+    osgSkin::Pose pose(subject.binding.joints);
+    if (!pose.set(skinning.data(), skinning.size()))
+        throw std::runtime_error("a pose cannot be set: expected finite matrices, one a joint");
+    std::vector<glm::vec3> posed(subject.rest.size()), normals(withNormals ? posed.size() : 0);
+    osgSkin::DeformJob job;
+    job.model = subject.model.get();
+    job.pose = &pose;
+    job.positions = posed.data();
+    job.positionCount = posed.size();
+    job.normals = withNormals ? normals.data() : nullptr;
+    job.normalCount = normals.size();
+    job.validate();
+    job.run();
+    return {{posed.begin(), posed.end()}, {normals.begin(), normals.end()}};
+}
+
+/// Points moved and normals turned by a matrix for each vertex.
+PosedSkin deformBy(const std::vector<glm::dmat4>& matrices, const Subject& subject) {
+    PosedSkin posed{compare::transformPoints(matrices, subject.rest), {}};
+    for (std::size_t v = 0; v < matrices.size(); ++v) {
+        const glm::dvec3 turned = glm::dmat3(matrices[v]) * subject.normals[v];
+        const double length = glm::length(turned);
+        posed.normals.push_back(length > 0.0 ? turned / length : turned);
+    }
+    return posed;
+}
+
+} // namespace
+
+const char* nameOf(Method method) {
+    constexpr std::array<const char*, 3> kNames{"LBS", "DQS", "ours"};
+    return kNames[static_cast<std::size_t>(method)];
+}
+
+compare::Points deform(const Subject& subject, Method method,
+                       const std::vector<glm::dmat4>& skinning) {
+    switch (method) {
+    case Method::Linear:
+        return compare::linearBlend(subject.rest, subject.weights, skinning);
+    case Method::DualQuaternion:
+        return compare::dualQuaternionBlend(subject.rest, subject.weights, skinning);
+    case Method::Ours:
+        break;
+    }
+    return deformOurs(subject, skinning, false).points;
+}
+
+PosedSkin deformWithNormals(const Subject& subject, Method method,
+                            const std::vector<glm::dmat4>& skinning) {
+    switch (method) {
+    case Method::Linear:
+        return deformBy(compare::linearBlendMatrices(subject.weights, skinning), subject);
+    case Method::DualQuaternion:
+        return deformBy(compare::dualQuaternionBlendMatrices(subject.weights, skinning), subject);
+    case Method::Ours:
+        break;
+    }
+    return deformOurs(subject, skinning, true);
+}
+
+std::vector<glm::dmat4> singleTurn(const Subject& subject, std::size_t joint,
+                                   const glm::dvec3& axis, double angle) {
+    const glm::dmat4 unit(1.0);
+    const glm::dvec3& centre = subject.binding.joints[joint].centre;
+    const glm::dmat4 turn = glm::translate(unit, centre) * glm::rotate(unit, angle, axis) *
+                            glm::translate(unit, -centre);
+    std::vector<glm::dmat4> skinning(subject.rig.joints.size(), unit);
+    for (std::size_t j = joint; j < skinning.size(); ++j)
+        if (subject.rig.isInSubtree(static_cast<int>(j), static_cast<int>(joint)))
+            skinning[j] = turn;
+    return skinning;
 }
 
 } // namespace quality

@@ -1,21 +1,40 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef QUALITY_SUBJECT_H
+#define QUALITY_SUBJECT_H
 
-#include "PaintedBody.h"
-
-#include <SkinMeasures.h>
-#include <SkinWeights.h>
 #include <osgSkin/Binding>
 #include <osgSkin/SkinModel>
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/BindReport>
+#include <osgSkinBind/BindWeights>
+#include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/SkinMesh>
 
+#include <SkinMeasures.h>
+#include <SkinWeights.h>
+#include <glm/mat4x4.hpp>
+
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace quality {
+
+/// A body with a skeleton and painted weights, not bound yet.
+struct PaintedBody {
+    std::string name;
+    osgSkin::SkinMesh mesh;
+    osgSkin::RestSkeleton rig;
+    osgSkin::VertexWeights painted; ///< one list for each vertex, over the rig's joints
+};
+
+/// \param body mesh file
+/// \param rig skeleton file
+/// \param weights JSON of painted weights
+/// \throw osgSkin::Error where a file cannot be read or does not fit the others
+PaintedBody loadBody(const std::string& body, const std::string& rig, const std::string& weights);
 
 /// Where our ratios come from.
 enum class Ratios {
@@ -73,4 +92,69 @@ struct PosedSkin {
 compare::Points skinNormals(const compare::Points& points,
                             const std::vector<std::uint32_t>& triangles);
 
+/// The shapes of MakeHuman's bodies in the shared data.
+inline const std::vector<std::string> kShapes{"neutral", "male",       "female",
+                                              "child",   "female_old", "male_heavy"};
+
+/// The files of a shape with about 4,000 vertices.
+/// \param rig "cmu_mb", "game_engine" or "default"
+inline SubjectFiles makeHumanFiles(const std::string& shape, const std::string& rig = "cmu_mb") {
+    const std::string folder = OSGSKIN_SHARED_DATA "/makehuman/";
+    SubjectFiles files;
+    files.body = folder + "body/body4k_" + shape + ".obj";
+    files.rig = folder + "rig/" + rig + "_" + shape + ".bvh";
+    files.weights = folder + "weights/body4k_weights_" + rig + ".json";
+    return files;
+}
+
+/// The bone heat weights of a shape, for the rig "cmu_mb".
+inline std::string makeHumanHeat(const std::string& shape) {
+    return OSGSKIN_SHARED_DATA "/makehuman/heat/body4k_" + shape + ".json";
+}
+
+/// The shape whose files these are, empty where they are another body's.
+inline std::string shapeOf(const SubjectFiles& files) {
+    for (const std::string& shape : kShapes)
+        if (makeHumanFiles(shape).body == files.body) return shape;
+    return {};
+}
+
+struct NamedPose {
+    std::string name;                 ///< clip:frame, the frame as its file counts
+    std::vector<glm::dmat4> skinning; ///< G_j of each joint of the rig
+};
+
+/// The standard poses: walk, pitch, climb and jump of the CMU motions in `folder`, 36 in all.
+/// \throw osgSkin::Error where a file is missing or does not fit the rig
+std::vector<NamedPose> standardPoses(const std::string& folder, const Subject& subject);
+
+enum class Method { Linear, DualQuaternion, Ours };
+constexpr std::array<Method, 3> kMethods{Method::Linear, Method::DualQuaternion, Method::Ours};
+
+/// A value for each method, in the order of kMethods.
+template <typename T>
+struct PerMethod {
+    std::array<T, 3> values{};
+    T& operator[](Method method) { return values[static_cast<std::size_t>(method)]; }
+    const T& operator[](Method method) const { return values[static_cast<std::size_t>(method)]; }
+};
+
+const char* nameOf(Method method);
+
+/// The posed skin, one point for each vertex of the mesh.
+/// \param skinning G_j = bone matrix * inverse bind matrix for each joint of the rig
+compare::Points deform(const Subject& subject, Method method,
+                       const std::vector<glm::dmat4>& skinning);
+
+/// The same with normals. Those of linear blending are turned by the blended matrix, as renderers
+/// do.
+PosedSkin deformWithNormals(const Subject& subject, Method method,
+                            const std::vector<glm::dmat4>& skinning);
+
+/// Joint `joint` alone turned about its centre, with all that hangs on it; radians.
+std::vector<glm::dmat4> singleTurn(const Subject& subject, std::size_t joint,
+                                   const glm::dvec3& axis, double angle);
+
 } // namespace quality
+
+#endif

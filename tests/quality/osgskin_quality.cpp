@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Measures deformed bodies: ours beside linear blending and dual quaternions with painted weights.
-#include "Bars.h"
 #include "CommandLine.h"
-#include "CylinderReport.h"
+#include "CylinderFigures.h"
 #include "FoldFigures.h"
-#include "Json.h"
-#include "MakeHuman.h"
+#include "Report.h"
 #include "RiggerFigures.h"
-#include "Table.h"
+#include "Subject.h"
 
 #include <CLI/CLI.hpp>
 

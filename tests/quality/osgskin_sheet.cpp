@@ -3,8 +3,7 @@
 #include "CommandLine.h"
 #include "DemandingPoses.h"
 #include "Drawing.h"
-#include "MakeHuman.h"
-#include "Methods.h"
+#include "Subject.h"
 #include "Tiles.h"
 
 #include <osgSkinBind/Bind>
