@@ -2,7 +2,7 @@
 #include "Arguments.h"
 
 #include "CommandLine.h"
-#include "MaterialLibrary.h"
+#include "Surface.h"
 
 #include <CLI/CLI.hpp>
 #include <osgDB/FileNameUtils>

@@ -1,14 +1,196 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Bytes.h"
 
-#include "WholeFile.h"
+#include <osgSkin/Error>
+
+#include <fcntl.h>
+#include <osg/Notify>
+#include <osgDB/FileUtils>
+#include <osgDB/Options>
+#include <osgDB/Registry>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <system_error>
 
 namespace bake {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The one file that is being written, for the handler: no more than one is at a time, and a handler
+// may not take memory.
+constexpr std::size_t kLongestPath = 4096;
+char unfinished[kLongestPath];
+volatile std::sig_atomic_t hasUnfinished = 0;
+
+void setUnfinished(const std::string& path) {
+    hasUnfinished = 0;
+    if (path.empty() || path.size() >= kLongestPath) return;
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    std::memcpy(unfinished, path.c_str(), path.size() + 1);
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    hasUnfinished = 1;
+}
+
+std::vector<std::string> keptFiles;
+
+bool isKept(const std::string& file) {
+    return std::any_of(keptFiles.begin(), keptFiles.end(), [&](const std::string& kept) {
+        std::error_code missing;
+        return fs::equivalent(kept, file, missing);
+    });
+}
+
+/// A file of its own, whatever stands there: in a folder of all users' that may be a link of
+/// others.
+std::FILE* openNew(const std::string& file) {
+    ::unlink(file.c_str());
+    const int number = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (number < 0) return nullptr;
+    std::FILE* const stream = ::fdopen(number, "wb");
+    if (stream == nullptr) ::close(number);
+    return stream;
+}
+
+/// A name beside a file, for what is not finished; no longer than names may be.
+std::string besides(const std::string& file) {
+    constexpr std::size_t kMost = 230; // of 255 bytes
+    const fs::path path(file);
+    const std::string name = path.filename().string().substr(0, kMost);
+    return (path.parent_path() / (name + ".part" + std::to_string(::getpid()))).string();
+}
+
+extern "C" void removeAndGo(int signal) {
+    if (hasUnfinished != 0) ::unlink(unfinished);
+    std::signal(signal, SIG_DFL);
+    std::raise(signal); // the shell sees what ended the program
+}
+
+} // namespace
+
+void keepFiles(const std::vector<std::string>& files) {
+    keptFiles = files;
+}
+
+void removeUnfinishedOnSignals() {
+    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is one that cannot be written
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+        const auto before = std::signal(signal, removeAndGo);
+        if (before == SIG_IGN) std::signal(signal, SIG_IGN); // as under nohup
+    }
+}
+
+WholeFile::WholeFile(const std::string& file) : _file(file), _target(file) {
+    std::error_code failure;
+    if (fs::exists(file, failure)) _target = fs::canonical(file, failure).string();
+    if (failure) _target = file;
+    if (!fs::exists(_target, failure) || fs::is_regular_file(_target, failure))
+        _written = besides(_target);
+    if (isKept(_target))
+        throw osgSkin::Error(_file + ": a part of the character, expected another file");
+    // A file that may not be written is not replaced either.
+    if (fs::exists(_target, failure) && ::access(_target.c_str(), W_OK) != 0) fail();
+    setUnfinished(_written); // first: a signal may come while it is opened
+    _stream = _written.empty() ? std::fopen(_target.c_str(), "wb") : openNew(_written);
+    if (_stream != nullptr) return;
+    setUnfinished({});
+    fail();
+}
+
+WholeFile::~WholeFile() {
+    if (_stream == nullptr) return;
+    std::fclose(_stream);
+    if (!_written.empty()) std::remove(_written.c_str());
+    setUnfinished({});
+}
+
+void WholeFile::write(const std::string& data) {
+    if (std::fwrite(data.data(), 1, data.size(), _stream) != data.size()) fail();
+}
+
+void WholeFile::finish() {
+    if (std::ferror(_stream) != 0 || std::fflush(_stream) != 0) fail();
+    const bool closed = std::fclose(_stream) == 0;
+    _stream = nullptr;
+    const bool named =
+        closed && (_written.empty() || std::rename(_written.c_str(), _target.c_str()) == 0);
+    if (!named && !_written.empty()) std::remove(_written.c_str());
+    setUnfinished({});
+    if (!named) fail();
+}
+
+void WholeFile::fail() const {
+    throw osgSkin::Error(_file + ": cannot be written, expected a writable file");
+}
 
 void writeBytes(const std::string& file, const std::string& data) {
     WholeFile out(file);
     out.write(data);
     out.finish();
+}
+
+namespace {
+
+bool begins(const std::string& data, const std::string& with) {
+    return data.compare(0, with.size(), with) == 0;
+}
+
+std::optional<ImageBytes> readBytes(const osg::Image& image, const std::string& folder) {
+    if (image.getFileName().empty()) return std::nullopt;
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->getDatabasePathList().push_front(folder);
+    ImageBytes result;
+    result.file = osgDB::findDataFile(image.getFileName(), options);
+    // A scene may call a picture that stands in it as it likes, as a pipe or a device, too.
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(result.file, failure)) return std::nullopt;
+    std::ifstream in(result.file, std::ios::binary);
+    result.data.assign(std::istreambuf_iterator<char>(in), {});
+    result.isJpeg = begins(result.data, "\xff\xd8\xff");
+    if (!result.isJpeg && !begins(result.data, "\x89PNG\r\n\x1a\n")) return std::nullopt;
+    return result;
+}
+
+/// The image as rows of RGBA bytes from the lower left, which the PNG writer takes whatever the
+/// image was.
+osg::ref_ptr<osg::Image> plain(const osg::Image& image) {
+    osg::ref_ptr<osg::Image> result = new osg::Image;
+    result->allocateImage(image.s(), image.t(), 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    const bool flip = image.getOrigin() == osg::Image::TOP_LEFT;
+    const auto columns = static_cast<unsigned>(image.s()), rows = static_cast<unsigned>(image.t());
+    for (unsigned t = 0; t < rows; ++t)
+        for (unsigned s = 0; s < columns; ++s)
+            result->setColor(image.getColor(s, flip ? rows - 1 - t : t), s, t);
+    return result;
+}
+
+std::optional<ImageBytes> makePng(const osg::Image& image) {
+    osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension("png");
+    if (writer == nullptr || image.isCompressed() || image.s() < 1 || image.t() < 1)
+        return std::nullopt;
+    std::ostringstream out;
+    if (!writer->writeImage(*plain(image), out).success()) return std::nullopt;
+    return ImageBytes{out.str(), false, {}};
+}
+
+} // namespace
+
+std::optional<ImageBytes> bytesOf(const osg::Image& image, const std::string& folder) {
+    std::optional<ImageBytes> result = readBytes(image, folder);
+    if (!result) result = makePng(image);
+    if (!result)
+        OSG_NOTICE << "texture \"" << image.getFileName()
+                   << "\" cannot be written as PNG; baked without" << std::endl;
+    return result;
 }
 
 } // namespace bake

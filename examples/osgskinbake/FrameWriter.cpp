@@ -2,15 +2,103 @@
 #include "FrameWriter.h"
 
 #include "Arguments.h"
-#include "GlbMorphs.h"
+#include "Bytes.h"
+#include "Glb.h"
 #include "ObjWriter.h"
-#include "PlyWriter.h"
-#include "PointCache.h"
+#include "PosedMesh.h"
+#include "Surface.h"
 
+#include <osgSkin/Error>
+#include <osgSkinCharacter/Character>
+
+#include <osg/Vec4>
 #include <osgDB/FileNameUtils>
 
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
 namespace bake {
+
 namespace {
+
+/// Writes PLY files of one body in its poses, as bytes: vertices, normals, colours where the body
+/// has them, and the mesh's own faces.
+class PlyWriter {
+public:
+    explicit PlyWriter(const osgSkin::Character& character);
+
+    /// Writes the posed vertices.
+    /// \throw osgSkin::Error where it cannot
+    void write(const std::string& file, const PosedMesh& posed) const;
+
+private:
+    const osgSkin::SkinMesh& _mesh;
+    std::vector<osg::Vec4> _colours; ///< one a vertex of the mesh, or none
+};
+PlyWriter::PlyWriter(const osgSkin::Character& character)
+    : _mesh(character.body.mesh), _colours(vertexColoursOf(surfacesOf(character), _mesh)) {}
+
+void PlyWriter::write(const std::string& file, const PosedMesh& posed) const {
+    Bytes bytes;
+    bytes.data = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                 std::to_string(posed.positions.size()) + "\n";
+    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
+        bytes.data += std::string("property float ") + name + "\n";
+    if (!_colours.empty())
+        for (const char* name : {"red", "green", "blue", "alpha"})
+            bytes.data += std::string("property uchar ") + name + "\n";
+    bytes.data += "element face " + std::to_string(_mesh.faceSizes.size()) +
+                  "\nproperty list uint uint vertex_indices\nend_header\n";
+    for (std::size_t v = 0; v < posed.positions.size(); ++v) {
+        bytes.add(posed.positions[v]);
+        bytes.add(posed.normals[v]);
+        for (unsigned k = 0; k < 4 && !_colours.empty(); ++k)
+            bytes.add(static_cast<std::uint8_t>(std::lround(_colours[v][k] * 255.0f)));
+    }
+    std::size_t corner = 0;
+    for (const std::uint32_t size : _mesh.faceSizes) {
+        bytes.add(size);
+        for (std::uint32_t k = 0; k < size; ++k) bytes.add(_mesh.faceVertices[corner++]);
+    }
+    writeBytes(file, bytes.data);
+}
+
+/// A point cache (PC2): the places of all vertices, frame by frame. Blender's Mesh Cache modifier
+/// and others play it on a mesh of the same vertices in the same order, such as that of --rest.
+class PointCache : public FrameWriter {
+public:
+    PointCache(const std::string& file, const FrameSeries& series);
+    void add(std::size_t frame, const PosedMesh& posed) override;
+    void finish() override;
+
+private:
+    WholeFile _out;
+};
+PointCache::PointCache(const std::string& file, const FrameSeries& series) : _out(file) {
+    if (series.count > std::size_t(std::numeric_limits<std::int32_t>::max()))
+        throw osgSkin::Error(file + ": too many frames for a point cache");
+    Bytes header;
+    header.data = std::string("POINTCACHE2\0", 12);
+    header.add(std::int32_t(1)); // version
+    header.add(static_cast<std::int32_t>(series.character->body.mesh.positions.size()));
+    header.add(static_cast<float>(series.first));
+    header.add(1.0f); // frames from one sample to the next
+    header.add(static_cast<std::int32_t>(series.count));
+    _out.write(header.data);
+}
+
+void PointCache::add(std::size_t, const PosedMesh& posed) {
+    Bytes sample;
+    for (const glm::dvec3& position : posed.positions) sample.add(position);
+    _out.write(sample.data);
+}
+
+void PointCache::finish() {
+    _out.finish();
+}
 
 /// An OBJ file for each frame.
 class ObjSequence : public FrameWriter {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
+#ifndef OSGSKINBAKE_FRAMEWRITER_H
+#define OSGSKINBAKE_FRAMEWRITER_H
 
 #include "PosedMesh.h"
 
@@ -43,3 +44,5 @@ public:
 };
 
 } // namespace bake
+
+#endif

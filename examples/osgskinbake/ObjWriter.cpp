@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ObjWriter.h"
 
-#include "MaterialLibrary.h"
-#include "WholeFile.h"
+#include "Bytes.h"
+#include "Surface.h"
 
 #include <cinttypes>
 #include <cstdio>

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Surface.h"
 
+#include "Bytes.h"
+
 #include <osgSkin/GlmOsg>
 
-#include <osg/Geometry>
-
 #include <glm/geometric.hpp>
+#include <osg/AlphaFunc>
+#include <osg/Geometry>
+#include <osg/Material>
+#include <osgDB/FileNameUtils>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <filesystem>
 #include <map>
 #include <numeric>
+#include <sstream>
 
 namespace bake {
+
 namespace {
 
 using osgSkin::Character;
@@ -156,6 +164,133 @@ std::vector<Surface> surfacesOf(const Character& character) {
         result.push_back(gatherer.finish(state));
     }
     return result;
+}
+
+SurfaceMaterial SurfaceMaterial::of(const Surface& surface) {
+    SurfaceMaterial material;
+    const osg::StateSet& state = *surface.state;
+    const auto* attribute =
+        dynamic_cast<const osg::Material*>(state.getAttribute(osg::StateAttribute::MATERIAL));
+    material.vertexColours =
+        !surface.colours.empty() &&
+        (attribute == nullptr || attribute->getColorMode() != osg::Material::OFF);
+    if (attribute != nullptr) {
+        material.diffuse = attribute->getDiffuse(osg::Material::FRONT);
+        material.specular = attribute->getSpecular(osg::Material::FRONT);
+        material.emission = attribute->getEmission(osg::Material::FRONT);
+        material.shininess = attribute->getShininess(osg::Material::FRONT);
+    }
+    if (material.vertexColours) material.diffuse = {1.0f, 1.0f, 1.0f, 1.0f};
+    const auto* texture = dynamic_cast<const osg::Texture*>(
+        state.getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+    if (texture != nullptr && !surface.texCoords.empty()) {
+        material.image = texture->getImage(0);
+        material.wrapS = texture->getWrap(osg::Texture::WRAP_S);
+        material.wrapT = texture->getWrap(osg::Texture::WRAP_T);
+    }
+    material.twoSided = (state.getMode(GL_CULL_FACE) & osg::StateAttribute::ON) == 0;
+    const auto* test =
+        dynamic_cast<const osg::AlphaFunc*>(state.getAttribute(osg::StateAttribute::ALPHAFUNC));
+    if ((state.getMode(GL_BLEND) & osg::StateAttribute::ON) != 0) {
+        material.alpha = Alpha::Blend;
+    } else if (test != nullptr) {
+        material.alpha = Alpha::Mask;
+        material.alphaCutOff = test->getReferenceValue();
+    }
+    return material;
+}
+
+std::vector<osg::Vec4> vertexColoursOf(const std::vector<Surface>& surfaces,
+                                       const osgSkin::SkinMesh& mesh) {
+    std::vector<osg::Vec4> result;
+    for (const Surface& surface : surfaces) {
+        if (!SurfaceMaterial::of(surface).vertexColours) continue;
+        result.resize(mesh.positions.size(), {1.0f, 1.0f, 1.0f, 1.0f});
+        for (std::size_t v = 0; v < surface.colours.size(); ++v)
+            for (unsigned k = 0; k < 4; ++k)
+                result[surface.sourceVertex[v]][k] = std::clamp(surface.colours[v][k], 0.0f, 1.0f);
+    }
+    return result;
+}
+
+osg::Vec4 linear(const osg::Vec4& srgb) {
+    osg::Vec4 result = srgb;
+    for (unsigned k = 0; k < 3; ++k) {
+        const float value = srgb[k];
+        result[k] = value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+    }
+    return result;
+}
+
+namespace {
+
+/// Names images as the library at `file` has to, and writes those that are nowhere.
+class Images {
+public:
+    Images(std::string file, std::string folder)
+        : _file(std::move(file)), _folder(std::move(folder)) {}
+
+    std::string nameOf(const osg::Image& image) {
+        const auto [entry, isNew] = _names.emplace(&image, std::string());
+        if (!isNew) return entry->second;
+        const std::optional<ImageBytes> bytes = bytesOf(image, _folder);
+        if (!bytes) return entry->second;
+        if (!bytes->file.empty()) {
+            // Without links: a name that leads upward goes by where folders are.
+            const auto file = std::filesystem::weakly_canonical(bytes->file);
+            const auto here = std::filesystem::weakly_canonical(_file).parent_path();
+            return entry->second = file.lexically_proximate(here).string();
+        }
+        const std::string name = osgDB::getNameLessExtension(_file) + "_" +
+                                 std::to_string(++_written) + (bytes->isJpeg ? ".jpg" : ".png");
+        writeBytes(name, bytes->data);
+        return entry->second = osgDB::getSimpleFileName(name);
+    }
+
+private:
+    std::string _file, _folder;
+    std::map<const osg::Image*, std::string> _names;
+    int _written = 0;
+};
+
+std::ostream& operator<<(std::ostream& out, const osg::Vec4& c) {
+    return out << c.r() << ' ' << c.g() << ' ' << c.b();
+}
+
+} // namespace
+
+std::string libraryName(const std::string& pattern) {
+    std::string stem = osgDB::getStrippedName(pattern);
+    const std::size_t percent = stem.find('%');
+    if (percent != std::string::npos) {
+        stem = stem.substr(0, percent) + stem.substr(stem.find('d', percent) + 1);
+        while (!stem.empty() && std::string("_-. ").find(stem.back()) != std::string::npos)
+            stem.pop_back();
+        if (stem.empty()) stem = "frame";
+    }
+    return stem + ".mtl";
+}
+
+std::string materialName(std::size_t surface) {
+    return "skin_" + std::to_string(surface + 1);
+}
+
+void writeLibrary(const std::string& file, const std::vector<Surface>& surfaces,
+                  const std::string& folder) {
+    Images images(file, folder);
+    std::ostringstream out;
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        const SurfaceMaterial material = SurfaceMaterial::of(surfaces[s]);
+        out << "newmtl " << materialName(s) << "\nKd " << material.diffuse << "\nKs "
+            << material.specular << "\nKe " << material.emission << "\nNs " << material.shininess
+            << "\nd "
+            << (material.alpha == SurfaceMaterial::Alpha::Opaque ? 1.0f : material.diffuse.a())
+            << "\nillum 2\n";
+        if (!material.image) continue;
+        const std::string name = images.nameOf(*material.image);
+        if (!name.empty()) out << "map_Kd " << name << "\n";
+    }
+    writeBytes(file, out.str());
 }
 
 } // namespace bake

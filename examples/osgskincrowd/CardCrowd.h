@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINCROWD_CARDCROWD_H
+#define OSGSKINCROWD_CARDCROWD_H
 
 #include <osgSkinGpu/GpuCrowd>
 
@@ -43,3 +44,5 @@ private:
     float _radius = 0.0f;
     double _updateTime = 0.0, _cullTime = 0.0;
 };
+
+#endif

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#pragma once
-
-#include "CrowdCharacter.h"
+#ifndef OSGSKINCROWD_CROWD_H
+#define OSGSKINCROWD_CROWD_H
 
 #include <osgSkin/DeformPool>
+#include <osgSkinRig/ClipCharacter>
 
 #include <osg/Group>
 #include <osg/Referenced>
@@ -11,7 +11,20 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
+
+/// A character read from a file, with the first of its clips sampled 60 times a second and baked: a
+/// member of the crowd copies poses and asks no animation manager and no bone.
+struct CrowdCharacter {
+    /// \throw std::runtime_error where the file cannot be read, osgSkin::Error where it has no
+    ///        skin
+    explicit CrowdCharacter(const std::string& file);
+
+    osg::ref_ptr<osgSkin::ClipCharacter> character;
+    osg::ref_ptr<const osgSkin::SampledClip> clip;
+    std::size_t vertices = 0; ///< of its skins
+};
 
 /// Characters side by side, each in its own phase of its clip; all that come from one file share
 /// its skin models.
@@ -50,3 +63,5 @@ private:
     std::size_t _vertices = 0;
     double _time = -1.0, _poseTime = 0.0, _deformTime = 0.0;
 };
+
+#endif

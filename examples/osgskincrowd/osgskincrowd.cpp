@@ -3,7 +3,6 @@
 #include "CommandLine.h"
 #include "Crowd.h"
 #include "FrameBench.h"
-#include "FrameTime.h"
 #include "Ground.h"
 #include "OpenWindow.h"
 #include "Snapshots.h"

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Body.h"
 #include "CommandLine.h"
-#include "CompareFigure.h"
-#include "RatioFigure.h"
-#include "RegionFigure.h"
-#include "SplitFigure.h"
-#include "ThrowFigure.h"
+#include "Figures.h"
 
 #include <osgDB/FileUtils>
 

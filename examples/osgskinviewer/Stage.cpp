@@ -6,12 +6,14 @@
 #include "Ground.h"
 #include "Keys.h"
 
+#include <osgSkinBind/ShowRegions>
+
+#include <osg/Array>
 #include <osg/FrameStamp>
 #include <osg/NodeCallback>
 #include <osg/PolygonMode>
 #include <osg/Transform>
 #include <osgAnimation/Bone>
-#include <osgSkinBind/ShowRegions>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +21,46 @@
 #include <stdexcept>
 
 namespace viewer {
+
+void Clock::advance(double seconds) {
+    if (playing) seek(_time + speed * seconds);
+}
+
+void Clock::seek(double seconds) {
+    _time = _length > 0.0 ? seconds - _length * std::floor(seconds / _length) : 0.0;
+}
+
+namespace {
+
+std::vector<glm::vec3> asVectors(const osg::Array& array) {
+    std::vector<glm::vec3> result;
+    for (const osg::Vec3& v : static_cast<const osg::Vec3Array&>(array))
+        result.emplace_back(v.x(), v.y(), v.z());
+    return result;
+}
+
+} // namespace
+
+NormalsSwitch::NormalsSwitch(const osgSkin::Character& character) {
+    if (character.binding.gradients.empty()) return;
+    osgSkin::Binding turned = character.binding;
+    turned.gradients.clear();
+    turned.correctives.normalShares.clear();
+    for (osgSkin::CorrectiveJoint& joint : turned.correctives.joints) joint.normalScales.clear();
+    for (const osgSkin::SkinParts::Skin& skin : character.skin.skins) {
+        osg::Geometry* rest = skin.part.geometry;
+        if (!rest) continue;
+        _skins.push_back({skin.drawable, rest, skin.drawable->getModel(),
+                          osgSkin::SkinModel::create(turned, asVectors(*rest->getVertexArray()),
+                                                     asVectors(*rest->getNormalArray()),
+                                                     skin.part.sourceVertex)});
+    }
+}
+
+void NormalsSwitch::showTurned(bool turned) {
+    for (const Skin& skin : _skins)
+        skin.drawable->setSkin(skin.rest, turned ? skin.turned : skin.surface);
+}
 
 using figures::Method;
 using Timer = std::chrono::steady_clock;

@@ -1,24 +1,81 @@
 // SPDX-License-Identifier: MIT
 #ifndef OSGSKINVIEWER_STAGE_H
-#define OSGSKINVIEWER_STAGE_H 1
+#define OSGSKINVIEWER_STAGE_H
 
-#include "Clock.h"
+#include "Body.h"
 #include "Figure.h"
-#include "NormalsSwitch.h"
-#include "PlayedExtent.h"
-#include "Settings.h"
 #include "Snapshots.h"
+
+#include <osgSkin/BoneReader>
+#include <osgSkin/DeformableSkin>
+#include <osgSkin/SkinModel>
+#include <osgSkinCharacter/Character>
 
 #include <osg/Group>
 #include <osg/MatrixTransform>
-#include <osgSkin/BoneReader>
+#include <osg/ref_ptr>
 #include <osgText/Text>
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace viewer {
+
+/// Where a motion stands: plays, pauses, runs at any speed either way, begins again at its end.
+class Clock {
+public:
+    explicit Clock(double seconds = 0.0) : _length(seconds) {}
+
+    void advance(double seconds); ///< of real time
+    void seek(double seconds);    ///< to a place in the motion, wrapped into it
+    double time() const { return _time; }
+    double length() const { return _length; }
+
+    bool playing = true;
+    double speed = 1.0; ///< negative: backwards
+
+private:
+    double _length; ///< 0: nothing moves
+    double _time = 0.0;
+};
+
+/// Lets a character's skins show the normals of their surface, or those that turn with vertices.
+class NormalsSwitch {
+public:
+    /// \param character whose skins' parts and binding are known; else it can't be switched
+    explicit NormalsSwitch(const osgSkin::Character& character);
+
+    bool canSwitch() const { return !_skins.empty(); }
+    /// The skins come to their rest pose; the next update traversal poses them.
+    void showTurned(bool turned);
+
+private:
+    struct Skin {
+        osg::ref_ptr<osgSkin::DeformableSkin> drawable;
+        osg::ref_ptr<osg::Geometry> rest;
+        osg::ref_ptr<const osgSkin::SkinModel> surface, turned;
+    };
+    std::vector<Skin> _skins;
+};
+
+enum class Colours { Own, Regions, Bend, Twist };
+
+/// What a person may turn on and off.
+struct Settings {
+    figures::Method method = figures::Method::Ours;
+    Colours colours = Colours::Own;
+    std::size_t joint = 0;      ///< whose ratios are shown
+    bool tensed = false;        ///< all muscles
+    bool turnedNormals = false; ///< instead of the surface's
+    bool skeleton = false;
+    bool wireframe = false;
+    bool bounds = false;
+    bool help = false;
+    bool status = true;
+};
 
 /// The scene: a character as loaded, or in its place the same body deformed by a peer or coloured
 /// by what binding found; its skeleton, its bounds, the floor under its feet, and a line that says

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+//
+// A thousand characters that share one model, each in its own phase: poses set and skins deformed.
 #include "CharacterBench.h"
 
-#include "OsgRig.h"
+#include "BenchBody.h"
 
 #include <osgSkin/DeformJob>
+#include <osgSkin/DeformPool>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinRig/ClipCharacter>
@@ -11,15 +14,68 @@
 #include <osgSkinRig/MakeSkeleton>
 
 #include <osg/Group>
+#include <osg/ref_ptr>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
+#include <ctime>
 #include <memory>
 #include <vector>
 
 namespace bench {
+
+namespace {
+
+constexpr std::size_t kCharacters = 1000;
+
+/// Poses and outputs of the whole crowd; two output buffers each, as a DeformableSkin has.
+struct Crowd {
+    explicit Crowd(const Body& body) : model(body.model()), poses(kCharacters) {
+        for (osgSkin::Pose& pose : poses) pose = osgSkin::Pose(model->joints());
+        for (auto& buffer : outputs)
+            buffer.assign(kCharacters, std::vector<glm::vec3>(2 * model->vertexCount()));
+        jobs.resize(kCharacters);
+        for (std::size_t i = 0; i < kCharacters; ++i) {
+            jobs[i].model = model.get();
+            jobs[i].pose = &poses[i];
+            jobs[i].positionCount = jobs[i].normalCount = model->vertexCount();
+        }
+    }
+    void swap(std::size_t frame) {
+        for (std::size_t i = 0; i < kCharacters; ++i) {
+            jobs[i].positions = outputs[frame % 2][i].data();
+            jobs[i].normals = jobs[i].positions + model->vertexCount();
+        }
+    }
+
+    osg::ref_ptr<const osgSkin::SkinModel> model;
+    std::vector<osgSkin::Pose> poses;
+    std::vector<std::vector<glm::vec3>> outputs[2];
+    std::vector<osgSkin::DeformJob> jobs;
+};
+
+} // namespace
+
+void crowd(benchmark::State& state, unsigned int threads) {
+    const Body& body = bench::body(1);
+    static Crowd crowd(body);
+    const osg::ref_ptr<osgSkin::DeformPool> pool = new osgSkin::DeformPool(threads);
+    std::size_t frame = 0;
+    for ([[maybe_unused]] auto iteration : state) {
+        crowd.swap(frame);
+        // Phases 7 samples apart: neighbours share neither a pose nor what it leaves in a cache.
+        pool->forEach(kCharacters, [&](std::size_t i) {
+            const auto& skinning = body.skinning[(7 * i + frame) % body.skinning.size()];
+            crowd.poses[i].set(skinning.data(), skinning.size());
+            crowd.jobs[i].run();
+        });
+        ++frame;
+    }
+    state.counters["vertices"] = static_cast<double>(kCharacters * crowd.model->vertexCount());
+}
+
 namespace {
 
 constexpr unsigned int kInScene = 20;
@@ -173,6 +229,93 @@ void deformationAlone(benchmark::State& state, Kind kind) {
     }
     state.counters["vertices"] =
         static_cast<double>(kInScene) * static_cast<double>(model->vertexCount());
+}
+
+namespace {
+
+/// A body's skin with every vertex `times` times, in memory of its own.
+class UpdatedSkin {
+public:
+    UpdatedSkin(const Body& body, std::size_t times) : _body(body) {
+        std::vector<glm::vec3> positions, normals;
+        std::vector<std::uint32_t> source;
+        for (std::size_t i = 0; i < times; ++i) {
+            positions.insert(positions.end(), body.positions.begin(), body.positions.end());
+            normals.insert(normals.end(), body.normals.begin(), body.normals.end());
+            for (std::uint32_t v = 0; v < body.positions.size(); ++v) source.push_back(v);
+        }
+        _model =
+            osgSkin::SkinModel::createInBestOrder(body.binding, positions, normals, source).model;
+        _outputs.resize(2 * positions.size());
+    }
+
+    double vertexCount() const { return static_cast<double>(_model->vertexCount()); }
+
+    /// Seconds that an update takes, of several: the caches get used to it.
+    double update(std::size_t frame, osgSkin::Pose& pose) {
+        constexpr std::size_t kUpdates = 20;
+        osgSkin::DeformJob job;
+        job.model = _model.get();
+        job.pose = &pose;
+        job.positionCount = job.normalCount = _model->vertexCount();
+        job.positions = _outputs.data();
+        job.normals = job.positions + job.positionCount;
+        const std::clock_t start = std::clock();
+        for (std::size_t i = 0; i < kUpdates; ++i) {
+            const auto& skinning = _body.skinning[(frame + i) % _body.skinning.size()];
+            pose.set(skinning.data(), skinning.size());
+            job.run();
+            benchmark::ClobberMemory();
+        }
+        return static_cast<double>(std::clock() - start) / (CLOCKS_PER_SEC * kUpdates);
+    }
+
+private:
+    const Body& _body;
+    osg::ref_ptr<const osgSkin::SkinModel> _model;
+    std::vector<glm::vec3> _outputs;
+};
+
+double median(std::vector<double> numbers) {
+    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return *middle;
+}
+
+} // namespace
+
+// How fast a skin is depends on where its memory happens to be, so there are several; what is told
+// is the median of them, and how far they are apart.
+void setUpShare(benchmark::State& state, Kind kind, Larger larger) {
+    constexpr std::size_t kSkins = 9, kRounds = 25;
+    const bool finer = larger == Larger::FinerMesh;
+    const Body& body = bench::body(1, kind);
+    osgSkin::Pose pose(body.binding.joints, body.binding.correctives.inputs.size());
+    std::vector<UpdatedSkin> small, large;
+    for (std::size_t i = 0; i < kSkins; ++i) {
+        small.emplace_back(body, 1);
+        large.emplace_back(finer ? bench::body(3, kind) : body, finer ? 1 : 2);
+    }
+    const double ratio = large.front().vertexCount() / small.front().vertexCount();
+    for ([[maybe_unused]] auto iteration : state) {
+        std::vector<double> rests, updates, shares;
+        for (std::size_t i = 0; i < kSkins; ++i) {
+            std::vector<double> smalls, larges;
+            for (std::size_t round = 0; round < kRounds; ++round) {
+                smalls.push_back(small[i].update(round, pose));
+                larges.push_back(large[i].update(round, pose));
+            }
+            const double update = median(smalls);
+            updates.push_back(update);
+            rests.push_back(update - (median(larges) - update) / (ratio - 1.0));
+            shares.push_back(100.0 * rests.back() / update);
+        }
+        state.SetIterationTime(std::max(0.0, median(rests)));
+        state.counters["update us"] = 1e6 * median(updates);
+        state.counters["set-up %"] = median(shares);
+        state.counters["least %"] = *std::min_element(shares.begin(), shares.end());
+        state.counters["most %"] = *std::max_element(shares.begin(), shares.end());
+    }
 }
 
 } // namespace bench

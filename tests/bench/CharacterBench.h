@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef BENCH_CHARACTERBENCH_H
+#define BENCH_CHARACTERBENCH_H
 
 #include "BenchBody.h"
 
 #include <benchmark/benchmark.h>
 
 namespace bench {
+
+/// One frame of a thousand characters, on so many threads; wall-clock time.
+void crowd(benchmark::State& state, unsigned int threads);
 
 /// Who animates and skins a character.
 enum class Player {
@@ -23,4 +27,16 @@ void characters(benchmark::State& state, Player player, Kind kind);
 /// DeformJob alone over the same poses, of as many characters.
 void deformationAlone(benchmark::State& state, Kind kind);
 
+/// The larger skin that tells what a vertex costs.
+enum class Larger {
+    FinerMesh,       ///< the same body with three edges for each: what users have who have more
+    EveryVertexTwice ///< the same groups, twice as full: a group's empty lanes count as set-up, too
+};
+
+/// What an update of a skin costs beside its vertices: the line through the times of a skin and of
+/// a larger one, at no vertices; `set-up %` is its share of the smaller one's update.
+void setUpShare(benchmark::State& state, Kind kind, Larger larger);
+
 } // namespace bench
+
+#endif

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINFIGURES_FIGURES_H
+#define OSGSKINFIGURES_FIGURES_H
 
 #include "Tiles.h"
 
 #include <vector>
 
 namespace figures {
+
+class Body;
+
+/// The paper's Fig. 3 with its caption: ratios along a limb.
+Tile ratioFigure(const Body& body);
 
 class Body;
 
@@ -21,4 +27,19 @@ struct Comparison {
 /// \param elastic the same body with elastic shapes; may be null
 std::vector<Comparison> comparisons(const Body& body, bool painted, const Body* elastic);
 
+class Body;
+
+/// The paper's Fig. 1 with its caption: the regions of the skin.
+Tile regionFigure(const Body& body);
+
+/// The paper's Fig. 2 with its caption: a rotation split into bend and twist.
+Tile splitFigure();
+
+class Body;
+
+/// The paper's Fig. 4 with its caption: the thrower.
+Tile throwFigure(Body& body);
+
 } // namespace figures
+
+#endif

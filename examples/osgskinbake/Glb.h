@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBAKE_GLB_H
+#define OSGSKINBAKE_GLB_H
+
+#include "Bytes.h"
+#include "FrameWriter.h"
+#include "Surface.h"
+
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+#include <osg/Image>
+#include <osg/Vec2>
+#include <osg/Vec4>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bake {
+
+/// The binary buffer of a glTF file, with its views and accessors. Each add() returns the index of
+/// an accessor, or of a view where it says so.
+class GlbBuffer {
+public:
+    std::size_t addVectors(const std::vector<glm::dvec3>& vectors, bool withRange);
+    std::size_t addTexCoords(const std::vector<osg::Vec2>& texCoords); ///< flipped for glTF
+    std::size_t addColours(const std::vector<osg::Vec4>& linear);
+    std::size_t addIndices(const std::vector<std::uint32_t>& indices);
+    std::size_t addTimes(const std::vector<float>& ascending);
+    std::size_t addNumbers(const std::vector<float>& numbers);
+    std::size_t addFile(const std::string& data); ///< returns the view's index
+
+    std::size_t size() const { return _bytes.data.size(); }
+
+    /// Writes `root`, completed by the buffer's parts, and the buffer as a .glb file.
+    /// \throw osgSkin::Error where the file cannot be written
+    void write(const std::string& file, nlohmann::json root) const;
+
+private:
+    enum class Use { Vertices, Indices, Data };
+    std::size_t addView(std::size_t begin, Use use);
+    std::size_t addAccessor(std::size_t begin, std::size_t count, const char* type, int component,
+                            Use use);
+
+    Bytes _bytes;
+    nlohmann::json _views = nlohmann::json::array();
+    nlohmann::json _accessors = nlohmann::json::array();
+};
+
+/// The materials of a glTF file, with the textures and the embedded images that they need.
+class GlbMaterials {
+public:
+    /// \param folder where file names of images are relative to
+    GlbMaterials(GlbBuffer& buffer, std::string folder);
+
+    /// Adds a material. Returns its index.
+    std::size_t add(const SurfaceMaterial& material, const std::string& name);
+
+    /// Puts what was added into the file's description.
+    void finish(nlohmann::json& root) const;
+
+private:
+    std::optional<std::size_t> texture(const SurfaceMaterial& material);
+    std::optional<std::size_t> image(const osg::Image& image);
+    std::size_t sampler(const SurfaceMaterial& material);
+
+    GlbBuffer& _buffer;
+    std::string _folder;
+    nlohmann::json _materials = nlohmann::json::array();
+    nlohmann::json _textures = nlohmann::json::array();
+    nlohmann::json _images = nlohmann::json::array();
+    nlohmann::json _samplers = nlohmann::json::array();
+    std::map<const osg::Image*, std::optional<std::size_t>> _known;
+    std::map<std::string, std::size_t> _files;
+};
+
+/// A binary glTF file whose mesh is the first frame, with a morph target for each further one, and
+/// an animation that goes from one to the next: between two frames vertices go straight. Anything
+/// that plays glTF plays it, without a skin model and without a skeleton. A primitive for each
+/// material, with its texture.
+class GlbMorphs : public FrameWriter {
+public:
+    GlbMorphs(std::string file, const FrameSeries& series);
+    void add(std::size_t frame, const PosedMesh& posed) override;
+    void finish() override;
+
+private:
+    /// A surface while its frames come in.
+    struct Primitive {
+        Surface surface;
+        SurfaceMaterial material;
+        std::vector<glm::dvec3> positions, normals; ///< of the first frame
+        nlohmann::json attributes;
+        nlohmann::json targets = nlohmann::json::array();
+    };
+    void addFirst(Primitive& primitive, const PosedMesh& posed);
+    void addTarget(Primitive& primitive, const PosedMesh& posed);
+    nlohmann::json animation();
+
+    std::string _file;
+    FrameSeries _series;
+    GlbBuffer _buffer;
+    GlbMaterials _materials;
+    std::vector<Primitive> _primitives;
+    std::size_t _frames = 0;
+};
+
+} // namespace bake
+
+#endif
