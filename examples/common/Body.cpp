@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Body.h"
 
-#include "DualQuaternionBlend.h"
-#include "LinearBlend.h"
+#include "Blending.h"
 #include "ProgressLine.h"
 
 #include <osgSkin/DeformJob>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "SkinWeights.h"
+#include "Blending.h"
 
 #include <osgSkin/SkinModel>
 #include <osgSkinCharacter/Character>

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "Snapshots.h"
 
+#include <osg/Math>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
 #include <osgViewer/Viewer>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
 namespace example {
+
 namespace {
 
 /// Pictures are drawn this many times larger and averaged down: smooth edges on every driver.
@@ -118,6 +123,59 @@ std::string pictureName(const std::string& folder, const std::string& prefix, un
     char number[16];
     std::snprintf(number, sizeof number, "_%02u.png", index);
     return folder + "/" + prefix + number;
+}
+
+View framed(const osg::BoundingBoxd& box, const osg::Vec3d& side, double aspect) {
+    View view;
+    view.centre = box.center();
+    osg::Vec3d back = side;
+    back.normalize();
+    osg::Vec3d right = view.up ^ back;
+    right.normalize();
+    const osg::Vec3d up = back ^ right;
+    const double height = std::tan(0.5 * osg::DegreesToRadians(view.fieldOfView)) / 1.1;
+    double distance = 0.0;
+    for (unsigned int i = 0; i < 8; ++i) {
+        const osg::Vec3d corner = box.corner(i) - view.centre;
+        const double from = std::max(std::abs(corner * up), std::abs(corner * right) / aspect);
+        distance = std::max(distance, from / height + corner * back);
+    }
+    view.eye = view.centre + back * distance;
+    return view;
+}
+
+} // namespace example
+
+namespace figures {
+
+Tile tiled(const std::vector<Tile>& tiles, std::size_t columns) {
+    const int width = tiles.front()->s();
+    const int height = tiles.front()->t();
+    const std::size_t rows = (tiles.size() + columns - 1) / columns;
+    Tile sheet = new osg::Image;
+    sheet->allocateImage(width * int(columns), height * int(rows), 1, GL_RGB, GL_UNSIGNED_BYTE);
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        sheet->copySubImage(width * int(i % columns), height * int(rows - 1 - i / columns), 0,
+                            tiles[i]); // images have their origin at the lower left
+    return sheet;
+}
+
+Tile photograph(osg::Node* scene, const example::View& view, int width, int height) {
+    return example::Snapshots(scene, view, width, height).take(0.0);
+}
+
+void writePicture(const osg::Image& image, const std::string& file) {
+    example::writePicture(image, file);
+    std::cout << file << std::endl;
+}
+
+} // namespace figures
+
+namespace example {
+
+void openWindow(osgViewer::Viewer& viewer) {
+    viewer.realize();
+    if (!viewer.isRealized()) throw std::runtime_error("no window can be opened; is DISPLAY set?");
 }
 
 } // namespace example

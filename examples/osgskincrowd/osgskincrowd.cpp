@@ -4,7 +4,6 @@
 #include "Crowd.h"
 #include "FrameBench.h"
 #include "Ground.h"
-#include "OpenWindow.h"
 #include "Snapshots.h"
 
 #include <osgDB/Registry>

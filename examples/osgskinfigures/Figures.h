@@ -2,7 +2,7 @@
 #ifndef OSGSKINFIGURES_FIGURES_H
 #define OSGSKINFIGURES_FIGURES_H
 
-#include "Tiles.h"
+#include "Snapshots.h"
 
 #include <vector>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "CommandLine.h"
 #include "Ground.h"
-#include "OpenWindow.h"
 #include "Snapshots.h"
 #include "ThrowScene.h"
 

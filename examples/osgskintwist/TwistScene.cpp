@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "TwistScene.h"
 
-#include "DualQuaternionBlend.h"
-#include "LinearBlend.h"
+#include "Blending.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkinBind/AttachSkin>

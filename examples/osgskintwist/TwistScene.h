@@ -2,7 +2,7 @@
 #ifndef OSGSKINTWIST_TWISTSCENE_H
 #define OSGSKINTWIST_TWISTSCENE_H
 
-#include "SkinWeights.h"
+#include "Blending.h"
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkinRig/MeshPart>
@@ -53,7 +53,7 @@ struct Cylinder {
 /// A mesh part skinned by one of osgSkin's peers, deformed when its pose is set.
 class PeerSkin {
 public:
-    /// One matrix per vertex of the mesh (see LinearBlend.h and DualQuaternionBlend.h).
+    /// One matrix per vertex of the mesh (see Blending.h).
     using Blend = std::function<std::vector<glm::dmat4>(const compare::SkinWeights&,
                                                         const std::vector<glm::dmat4>&)>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "CommandLine.h"
-#include "OpenWindow.h"
+#include "Snapshots.h"
 #include "TwistScene.h"
 
 #include <CLI/CLI.hpp>

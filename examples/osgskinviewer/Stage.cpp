@@ -2,9 +2,9 @@
 #include "Stage.h"
 
 #include "Drawing.h"
-#include "Framing.h"
 #include "Ground.h"
 #include "Keys.h"
+#include "Snapshots.h"
 
 #include <osgSkinBind/ShowRegions>
 

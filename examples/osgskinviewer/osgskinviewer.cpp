@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "CommandLine.h"
 #include "Keys.h"
-#include "OpenWindow.h"
+#include "Snapshots.h"
 #include "Stage.h"
 
 #include <osgSkin/Error>

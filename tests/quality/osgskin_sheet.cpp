@@ -3,8 +3,8 @@
 #include "CommandLine.h"
 #include "DemandingPoses.h"
 #include "Drawing.h"
+#include "Snapshots.h"
 #include "Subject.h"
-#include "Tiles.h"
 
 #include <osgSkinBind/Bind>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "LinearBlend.h"
+#include "Blending.h"
 
 #include "HalfTurned.h"
-#include "SkinMeasures.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

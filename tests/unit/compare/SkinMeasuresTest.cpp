@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "SkinMeasures.h"
+#include "Blending.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "SkinWeights.h"
+#include "Blending.h"
 
 #include <gtest/gtest.h>
 
