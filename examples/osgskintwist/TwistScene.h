@@ -8,7 +8,7 @@
 #include <osgSkinRig/MeshPart>
 #include <osgSkinRig/SkinMesh>
 
-#include <SkinMeasures.h>
+#include <Blending.h>
 #include <Snapshots.h>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>

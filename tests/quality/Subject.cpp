@@ -13,8 +13,7 @@
 #include <osgSkinRig/Motion>
 #include <osgSkinRig/Retarget>
 
-#include <DualQuaternionBlend.h>
-#include <LinearBlend.h>
+#include <Blending.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 

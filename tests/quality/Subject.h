@@ -10,8 +10,7 @@
 #include <osgSkinRig/RestSkeleton>
 #include <osgSkinRig/SkinMesh>
 
-#include <SkinMeasures.h>
-#include <SkinWeights.h>
+#include <Blending.h>
 #include <glm/mat4x4.hpp>
 
 #include <array>
