@@ -1,23 +1,81 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/DeformJob>
 
-#include <osgSkin/Error>
-
-#include "chains/PosedChains.h"
-#include "correctives/CorrectiveWeights.h"
-#include "correctives/ReferenceCorrections.h"
-#include "deform/Chain.h"
 #include "deform/DeformKernel.h"
-#include "deform/KernelSlopes.h"
+#include "deform/PosedChains.h"
 #include "deform/RestCopy.h"
-#include "deform/SurfaceChain.h"
-#include "model/SkinModelAccess.h"
+#include "model/SkinBlocks.h"
+#include "pose/CorrectiveWeights.h"
+
+#include <osgSkin/Error>
+#include <osgSkin/SkinModel>
 
 #include <algorithm>
-#include <optional>
+#include <cstddef>
 
 namespace osgSkin {
 namespace {
+
+/// Tells the kernel which links tilt normals in one pose, and by how much; on the stack. Of a model
+/// that has gradients.
+class KernelSlopes {
+public:
+    explicit KernelSlopes(const SkinModel& model) noexcept;
+
+    /// Takes what the joints of a section do.
+    ///
+    /// \param joints of the section; they outlive this
+    /// \param jointCount of them
+    /// \param run what it has of slopes is set; good until the next call
+    void take(const KernelJoints& joints, std::size_t jointCount, KernelRun& run) noexcept;
+
+    /// Finds the links that tilt normals, of as many groups as there is room for.
+    ///
+    /// \param firstGroup the first of them, in the section
+    /// \param endGroup the one behind the last that is asked for
+    /// \param run what it has of tilts is set; good until the next call
+    /// \return the group behind the last that was found
+    std::size_t find(std::size_t firstGroup, std::size_t endGroup, KernelRun& run) noexcept;
+
+private:
+    const SkinModel& _model;
+    const GradientBlocks* _blocks; ///< null where the model has none
+    const KernelJoints* _joints;
+    LinkTilts _tilts;
+    float _bendSlopes[KernelJoints::kMost], _twistSlopes[KernelJoints::kMost];
+};
+
+KernelSlopes::KernelSlopes(const SkinModel& model) noexcept
+    : _model(model), _blocks(SkinModelAccess::gradients(model)) {}
+
+void KernelSlopes::take(const KernelJoints& joints, std::size_t jointCount,
+                        KernelRun& run) noexcept {
+    const auto unit = static_cast<float>(_blocks->unit);
+    for (std::size_t j = 0; j < jointCount; ++j) {
+        _bendSlopes[j] = unit * joints.wholeBend[j]; // exact: a power of two
+        _twistSlopes[j] = unit * joints.wholeTwist[j];
+    }
+    run.bendSlopes = _bendSlopes;
+    run.twistSlopes = _twistSlopes;
+    run.slopeUnit = unit;
+    _joints = &joints;
+}
+
+std::size_t KernelSlopes::find(std::size_t firstGroup, std::size_t endGroup,
+                               KernelRun& run) noexcept {
+    const SkinBlocks& blocks = SkinModelAccess::blocks(_model);
+    const auto endOf = [&](std::size_t g) {
+        return std::size_t(blocks.groups[g].firstLink) + blocks.groups[g].linkCount;
+    };
+    const std::size_t first = blocks.groups[firstGroup].firstLink;
+    while (endOf(endGroup - 1) > first + LinkTilts::kMost) --endGroup;
+    // Reach stands as the plan's links do.
+    _tilts.find(blocks.plan.links.data() + first, _blocks->reach.data() + first,
+                endOf(endGroup - 1) - first, *_joints);
+    run.tilts = &_tilts;
+    run.firstTilt = first;
+    return endGroup;
+}
 
 constexpr std::size_t kPartBlocks = 256;
 
@@ -158,47 +216,6 @@ bool DeformJob::runPart(std::size_t part) const noexcept {
     const std::size_t first = part * kPartBlocks;
     runBlocks(*this, first,
               std::min(first + kPartBlocks, SkinModelAccess::blocks(*model).firstBlock.back()));
-    return true;
-}
-
-bool DeformJob::runReference() const noexcept {
-    if (!isValid()) return false;
-    if (isAtRest(*model, *pose)) {
-        copyRest(*this, 0, model->vertexCount());
-        return true;
-    }
-    std::optional<ReferenceCorrections> corrections;
-    if (SkinModelAccess::correctives(*model)) corrections.emplace(*model, *pose);
-    for (std::size_t g = 0; g < model->groups().size(); ++g) {
-        const SkinModel::Group& group = model->groups()[g];
-        const Chain chain(*model, group, *pose);
-        std::optional<SurfaceChain> surface;
-        if (SkinModelAccess::gradients(*model)) surface.emplace(*model, g, *pose);
-        if (surface && !surface->tilts()) surface.reset();
-        const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;
-        const std::uint32_t* order = model->order().data() + group.firstVertex;
-        for (std::uint32_t i = 0; i < group.vertexCount; ++i, ratios += group.partialCount) {
-            const std::uint32_t v = order[i];
-            glm::dvec3 rest = model->positions()[v];
-            glm::dvec3 tilt(0.0); // of the rest normal
-            if (corrections) corrections->apply(g, i, rest, tilt);
-            glm::vec3 position = rest;
-            glm::vec3 normal = model->normals()[v];
-            const glm::vec4 restTangent = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
-            glm::vec3 tangent(restTangent);
-            if (normals && surface) {
-                surface->apply(i, ratios, rest, normal, tilt, tangents ? &tangent : nullptr);
-                chain.apply(ratios, position, nullptr);
-            } else {
-                if (tilt != glm::dvec3(0.0)) tiltNormal(tilt, normal, tangent);
-                chain.apply(ratios, position, normals ? &normal : nullptr,
-                            tangents ? &tangent : nullptr);
-            }
-            positions[v] = position;
-            if (normals) normals[v] = normal;
-            if (tangents) tangents[v] = glm::vec4(tangent, restTangent.w);
-        }
-    }
     return true;
 }
 

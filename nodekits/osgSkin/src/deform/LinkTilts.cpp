@@ -2,9 +2,9 @@
 //
 // Compiled once for each instruction set by foreach_target.h, which includes this file again and
 // again; the best one is chosen at run time.
-#include "deform/LinkTilts.h"
+#include "deform/DeformKernel.h"
 
-#include "pose/LinkTilt.h"
+#include "model/GradientBlocks.h"
 
 #include <cstring>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "points/Four.h"
+#include "core/Four.h"
 
 #include <osgSkin/Correctives>
 #include <osgSkin/SkinModel>

@@ -2,8 +2,7 @@
 #include "model/CorrectiveBlocks.h"
 
 #include "model/GradientBlocks.h"
-#include "model/SkinModelAccess.h"
-#include "points/QuadraticSplines.h"
+#include "model/SkinBlocks.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "model/SkinBlocks.h"
-#include "points/KernelMap.h"
 
 #include <osgSkin/Binding>
 #include <osgSkin/SkinModel>
@@ -135,6 +134,13 @@ private:
         return &of[range.firstRow + (block - range.firstBlock) * rowsPerBlock(range.joint)];
     }
 };
+
+/// The values at x, clamped to the knots, of the three quadratic B-splines that are not 0 there.
+/// The first and last knots count three times.
+///
+/// \param knots ascending, at least two
+/// \return the index of the first of the three
+std::size_t splinesAt(const std::vector<double>& knots, double x, double (&values)[3]) noexcept;
 
 /// The joints whose correctives a bound vertex follows: what vertices of a group are sorted by.
 std::vector<std::uint32_t> correctedBy(const Binding& binding, std::uint32_t vertex);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model/GradientBlocks.h"
 
-#include "model/SkinModelAccess.h"
-#include "model/VertexGroups.h"
+#include "model/SkinBlocks.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

@@ -4,8 +4,6 @@
 // again; the best one is chosen at run time.
 #include "pose/PoseKernel.h"
 
-#include "pose/SplitUnit.h"
-
 #include <cfloat>
 #include <cmath>
 
@@ -15,7 +13,6 @@
 // Must follow foreach_target.h.
 #include <hwy/highway.h>
 
-#include "pose/JointLanes-inl.h"
 #include "pose/JointSplits-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "model/ChainPlan.h"
+#include "model/SkinBlocks.h"
 
+#include <osgSkin/Pose>
+#include <osgSkin/SkinModel>
+
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 
@@ -38,5 +42,45 @@ struct KernelJoints {
     std::int32_t adjusted[kMost]; ///< these are not 0, and something follows the joint in part
     bool anyAdjusted;             ///< of all joints, whatever their number
 };
+
+/// x -> scale * turn x + move, while full turns are being multiplied out: columns of the turn, then
+/// the move with the scale behind it. Turns are rotations.
+struct alignas(64) PosedMap {
+    double column[4][4];
+};
+
+/// The maps of a plan's section in one pose. Only what the section has is ever set.
+struct PosedChains {
+    /// Works out what the groups from `firstGroup` to before `endGroup` need, which are of one
+    /// section.
+    void set(const SkinModel& model, const Pose& pose, const ChainPlan::Section& section,
+             std::size_t firstGroup, std::size_t endGroup) noexcept;
+
+    /// The joints' full turns, column after column.
+    double turns[9][ChainPlan::kMostJoints];
+    PosedMap wide[ChainPlan::kWideMaps]; ///< by ChainPlan's indices
+    KernelMap maps[ChainPlan::kMaps];    ///< the same
+    KernelMap outs[ChainPlan::kMostOuts];
+    KernelJoints joints;
+    bool scaled; ///< any joint is
+};
+
+/// Which of a section's maps are needed.
+struct NeededMaps {
+    std::bitset<ChainPlan::kMostStates> states;
+    std::bitset<ChainPlan::kMostOuts> outs;
+};
+
+/// What multiplies a section out.
+struct ChainCall {
+    const Pose& pose;
+    const ChainPlan& plan;
+    const ChainPlan::Section& section; ///< with the next one behind it
+    double smallMove;                  ///< a joint's translation up to this is a rounding error
+    const NeededMaps* needed;          ///< null: all are
+};
+
+/// By the best instructions that the machine has.
+void multiplyOut(const ChainCall& call, PosedChains& chains) noexcept;
 
 } // namespace osgSkin

@@ -2,14 +2,16 @@
 //
 // Compiled once for each instruction set by foreach_target.h, which includes this file again and
 // again; the best one is chosen at run time.
-#include "correctives/WeightTerms.h"
+#include "pose/CorrectiveWeights.h"
 
-#include "points/QuadraticSplines.h"
+#include "model/SkinBlocks.h"
+#include "pose/PoseKernel.h"
 
+#include <cmath>
 #include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "correctives/WeightTerms.cpp"
+#define HWY_TARGET_INCLUDE "pose/CorrectiveWeights.cpp"
 #include <hwy/foreach_target.h>
 // Must follow foreach_target.h.
 #include <hwy/highway.h>
@@ -109,6 +111,35 @@ WeightTerms::WeightTerms(const CorrectiveJoint& joint, const CorrectiveTable& ta
 
 void WeightTerms::sum(double* beta) const noexcept {
     HWY_DYNAMIC_DISPATCH(sumTerms)(*this, beta);
+}
+
+glm::dvec2 CorrectiveWeights::coordinatesOf(std::uint32_t joint) const noexcept {
+    const CorrectiveJoint& of = _blocks->joints[joint];
+    if (of.basis == CorrectiveJoint::Basis::Input) return {double(_pose.input(of.joint)), 0.0};
+    const PoseAccess::Split split = PoseAccess::split(_pose, of.joint);
+    const glm::dvec2 axis(split.azimuthCosine, split.azimuthSine);
+    return std::sin(0.5 * split.bendAngle) * PoseAccess::kAzimuthStep *
+           (_blocks->tables[joint].toAxes * axis);
+}
+
+void CorrectiveWeights::workOut(std::uint32_t joint) noexcept {
+    const CorrectiveJoint& from = _blocks->joints[joint];
+    static_assert(CorrectiveJoint::kMostModes % CorrectiveTable::kAtOnce == 0);
+    double beta[CorrectiveJoint::kMostModes];
+    WeightTerms(from, _blocks->tables[joint], coordinatesOf(joint)).sum(beta);
+    const double small = SkinModelAccess::blocks(_model).smallMove;
+    Weights& weights = _weights[joint];
+    bool isSomething = false;
+    for (std::size_t k = 0; k < from.modes; ++k) {
+        // A rest pose read from matrices is one up to rounding errors.
+        isSomething |= std::abs(beta[k]) > small;
+        const double unit = beta[k] / Correctives::kUnit;
+        weights.positions[k] = static_cast<float>(unit);
+        weights.normals[k] =
+            static_cast<float>(_blocks->hasNormals ? unit * from.normalScales[k] : 0.0);
+    }
+    _states[joint] = State::Known;
+    _known[joint] = isSomething ? &weights : nullptr;
 }
 
 } // namespace osgSkin

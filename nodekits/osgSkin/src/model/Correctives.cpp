@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Correctives>
 
-#include "points/QuadraticSplines.h"
+#include "model/CorrectiveBlocks.h"
 
 #include <osgSkin/Binding>
 #include <osgSkin/Error>
@@ -15,6 +15,22 @@
 
 namespace osgSkin {
 namespace {
+
+/// Number of quadratic B-splines over ascending knots, the first and last of which count three
+/// times; 0 for fewer than two knots.
+std::size_t splineCount(const std::vector<double>& knots) noexcept {
+    return knots.size() < 2 ? 0 : knots.size() + 1;
+}
+
+/// The values of all splineCount() splines at x, clamped to the knots. They add up to 1.
+void evaluateSplines(const std::vector<double>& knots, double x, double* values) noexcept {
+    const std::size_t count = splineCount(knots);
+    if (count == 0) return;
+    std::fill_n(values, count, 0.0);
+    double three[3];
+    const std::size_t first = splinesAt(knots, x, three);
+    std::copy_n(three, 3, values + first);
+}
 
 using Basis = CorrectiveJoint::Basis;
 
@@ -107,6 +123,27 @@ void checkJoint(const CorrectiveJoint& joint, const Correctives& correctives,
 }
 
 } // namespace
+
+std::size_t splinesAt(const std::vector<double>& knots, double x, double (&values)[3]) noexcept {
+    const std::size_t last = knots.size() - 1;
+    x = std::clamp(x, knots.front(), knots.back());
+    std::size_t span = 0;
+    while (span + 1 < last && x >= knots[span + 1]) ++span;
+    const auto knot = [&](std::size_t i, int shift) { // end knots count three times
+        const auto at = static_cast<std::ptrdiff_t>(i) + shift;
+        return knots[static_cast<std::size_t>(
+            std::clamp<std::ptrdiff_t>(at, 0, static_cast<std::ptrdiff_t>(last)))];
+    };
+    // Cox and de Boor's recursion, from the one spline of degree 0 that is not 0 here.
+    const double low = knot(span, 0), high = knot(span, 1);
+    const double up = (x - low) / (high - low);
+    const double before = knot(span, -1), behind = knot(span, 2);
+    const double left = (high - x) / (high - before), right = (behind - x) / (behind - low);
+    values[0] = left * (1.0 - up);
+    values[1] = (1.0 - left) * (1.0 - up) + right * up;
+    values[2] = (1.0 - right) * up;
+    return span;
+}
 
 std::size_t CorrectiveJoint::functionCount() const noexcept {
     switch (basis) {
