@@ -23,7 +23,16 @@ namespace {
 class CorrectiveStray {
 public:
     /// \pre the model has correctives
-    CorrectiveStray(const SkinModel& model, const Pose& pose) noexcept;
+    CorrectiveStray(const SkinModel& model, const Pose& pose) noexcept {
+        CorrectiveWeights weights(model, pose);
+        const std::size_t joints = SkinModelAccess::correctives(model)->joints.size();
+        for (std::uint32_t joint = 0; joint < joints; ++joint) {
+            const CorrectiveWeights::Weights* now = weights.of(joint);
+            float* const to = &_weights[BoundsProxy::weightOf(joint, 0)];
+            for (std::size_t k = 0; k < weights.modesOf(joint); ++k)
+                to[k] = now ? std::abs(now->positions[k]) : 0.0f;
+        }
+    }
 
     /// By BoundsProxy::weightOf(); set of the modes that there are.
     const float* weights() const { return _weights.data(); }
@@ -31,16 +40,6 @@ public:
 private:
     std::array<float, BoundsProxy::kMostWeights> _weights;
 };
-CorrectiveStray::CorrectiveStray(const SkinModel& model, const Pose& pose) noexcept {
-    CorrectiveWeights weights(model, pose);
-    const std::size_t joints = SkinModelAccess::correctives(model)->joints.size();
-    for (std::uint32_t joint = 0; joint < joints; ++joint) {
-        const CorrectiveWeights::Weights* now = weights.of(joint);
-        float* const to = &_weights[BoundsProxy::weightOf(joint, 0)];
-        for (std::size_t k = 0; k < weights.modesOf(joint); ++k)
-            to[k] = now ? std::abs(now->positions[k]) : 0.0f;
-    }
-}
 
 /// A side of the box where it is a number, else as far out as poses may reach.
 float bounded(float side, float otherwise) {

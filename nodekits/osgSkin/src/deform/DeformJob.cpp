@@ -20,14 +20,25 @@ namespace {
 /// that has gradients.
 class KernelSlopes {
 public:
-    explicit KernelSlopes(const SkinModel& model) noexcept;
+    explicit KernelSlopes(const SkinModel& model) noexcept
+        : _model(model), _blocks(SkinModelAccess::gradients(model)) {}
 
     /// Takes what the joints of a section do.
     ///
     /// \param joints of the section; they outlive this
     /// \param jointCount of them
     /// \param run what it has of slopes is set; good until the next call
-    void take(const KernelJoints& joints, std::size_t jointCount, KernelRun& run) noexcept;
+    void take(const KernelJoints& joints, std::size_t jointCount, KernelRun& run) noexcept {
+        const auto unit = static_cast<float>(_blocks->unit);
+        for (std::size_t j = 0; j < jointCount; ++j) {
+            _bendSlopes[j] = unit * joints.wholeBend[j]; // exact: a power of two
+            _twistSlopes[j] = unit * joints.wholeTwist[j];
+        }
+        run.bendSlopes = _bendSlopes;
+        run.twistSlopes = _twistSlopes;
+        run.slopeUnit = unit;
+        _joints = &joints;
+    }
 
     /// Finds the links that tilt normals, of as many groups as there is room for.
     ///
@@ -35,7 +46,20 @@ public:
     /// \param endGroup the one behind the last that is asked for
     /// \param run what it has of tilts is set; good until the next call
     /// \return the group behind the last that was found
-    std::size_t find(std::size_t firstGroup, std::size_t endGroup, KernelRun& run) noexcept;
+    std::size_t find(std::size_t firstGroup, std::size_t endGroup, KernelRun& run) noexcept {
+        const SkinBlocks& blocks = SkinModelAccess::blocks(_model);
+        const auto endOf = [&](std::size_t g) {
+            return std::size_t(blocks.groups[g].firstLink) + blocks.groups[g].linkCount;
+        };
+        const std::size_t first = blocks.groups[firstGroup].firstLink;
+        while (endOf(endGroup - 1) > first + LinkTilts::kMost) --endGroup;
+        // Reach stands as the plan's links do.
+        _tilts.find(blocks.plan.links.data() + first, _blocks->reach.data() + first,
+                    endOf(endGroup - 1) - first, *_joints);
+        run.tilts = &_tilts;
+        run.firstTilt = first;
+        return endGroup;
+    }
 
 private:
     const SkinModel& _model;
@@ -44,38 +68,6 @@ private:
     LinkTilts _tilts;
     float _bendSlopes[KernelJoints::kMost], _twistSlopes[KernelJoints::kMost];
 };
-
-KernelSlopes::KernelSlopes(const SkinModel& model) noexcept
-    : _model(model), _blocks(SkinModelAccess::gradients(model)) {}
-
-void KernelSlopes::take(const KernelJoints& joints, std::size_t jointCount,
-                        KernelRun& run) noexcept {
-    const auto unit = static_cast<float>(_blocks->unit);
-    for (std::size_t j = 0; j < jointCount; ++j) {
-        _bendSlopes[j] = unit * joints.wholeBend[j]; // exact: a power of two
-        _twistSlopes[j] = unit * joints.wholeTwist[j];
-    }
-    run.bendSlopes = _bendSlopes;
-    run.twistSlopes = _twistSlopes;
-    run.slopeUnit = unit;
-    _joints = &joints;
-}
-
-std::size_t KernelSlopes::find(std::size_t firstGroup, std::size_t endGroup,
-                               KernelRun& run) noexcept {
-    const SkinBlocks& blocks = SkinModelAccess::blocks(_model);
-    const auto endOf = [&](std::size_t g) {
-        return std::size_t(blocks.groups[g].firstLink) + blocks.groups[g].linkCount;
-    };
-    const std::size_t first = blocks.groups[firstGroup].firstLink;
-    while (endOf(endGroup - 1) > first + LinkTilts::kMost) --endGroup;
-    // Reach stands as the plan's links do.
-    _tilts.find(blocks.plan.links.data() + first, _blocks->reach.data() + first,
-                endOf(endGroup - 1) - first, *_joints);
-    run.tilts = &_tilts;
-    run.firstTilt = first;
-    return endGroup;
-}
 
 constexpr std::size_t kPartBlocks = 256;
 

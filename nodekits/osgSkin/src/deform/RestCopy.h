@@ -13,7 +13,7 @@
 
 namespace osgSkin {
 
-/// Whether a pose moves nothing: all joints are as they rest, and all inputs 0.
+/// Whether a pose is the rest pose, with all inputs 0.
 inline bool isAtRest(const SkinModel& model, const Pose& pose) noexcept {
     const glm::dvec3 none(0.0);
     for (std::size_t j = 0; j < pose.size(); ++j) {
@@ -28,12 +28,8 @@ inline bool isAtRest(const SkinModel& model, const Pose& pose) noexcept {
     return true;
 }
 
-/// Writes the rest vertices to a job's outputs, to the last bit: kernels keep them in their groups'
-/// own frames, and rounding would show on the way back.
-///
-/// \param job valid
-/// \param first in SkinModel::order()
-/// \param end the one behind the last
+/// Copies rest vertices `first` to before `end` of SkinModel::order() to a valid job's outputs, so
+/// that they are exact: kernels keep them in their groups' frames, where they are rounded.
 inline void copyRest(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
     const SkinModel& model = *job.model;
     for (std::size_t i = first; i < end; ++i) {

@@ -23,7 +23,6 @@
 #include <vector>
 
 namespace osgSkin {
-
 namespace {
 
 /// A cylinder over an ellipse: centre + x axes[0] + y axes[1] + z axes[2] with x^2 + y^2 <= 1 and
@@ -32,19 +31,19 @@ struct EllipticCylinder {
     glm::vec3 centre{0.0f};
     glm::vec3 axes[3] = {glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
 
-    /// How far it reaches from its centre in a direction.
-    float reach(const glm::vec3& direction) const;
-    /// The radius of the ball about its centre that holds it.
-    float radius() const;
+    /// How far it extends from its centre in a direction.
+    float reach(const glm::vec3& direction) const {
+        const float x = glm::dot(direction, axes[0]), y = glm::dot(direction, axes[1]);
+        return std::sqrt(x * x + y * y) + std::abs(glm::dot(direction, axes[2]));
+    }
+    /// The radius of the sphere about its centre that contains it.
+    float radius() const {
+        const float wide = std::max(glm::dot(axes[0], axes[0]), glm::dot(axes[1], axes[1]));
+        return std::sqrt(wide + glm::dot(axes[2], axes[2]));
+    }
 };
 
-/// One along the points' principal axes that holds them all, and is not much larger than the
-/// smallest one.
-///
-/// \param points at least one
-EllipticCylinder cylinderAround(const std::vector<glm::vec3>& points);
-
-/// Eigenvectors of a symmetric matrix, by Jacobi's rotations; enough of them for a choice of axes.
+/// Approximate eigenvectors of a symmetric matrix, by a few sweeps of Jacobi rotations.
 glm::mat3 principalAxes(glm::mat3 m) {
     glm::mat3 axes(1.0f);
     for (int sweep = 0; sweep < 4; ++sweep)
@@ -69,7 +68,7 @@ glm::mat3 covariance(const std::vector<glm::vec3>& points) {
     return sum;
 }
 
-/// The one whose straight axis is axes[2].
+/// The cylinder around points whose straight axis is axes[2].
 EllipticCylinder cylinderAlong(const glm::mat3& axes, const std::vector<glm::vec3>& points) {
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& p : points) {
@@ -85,12 +84,12 @@ EllipticCylinder cylinderAlong(const glm::mat3& axes, const std::vector<glm::vec
         wide = std::max(wide, at.x * at.x + at.y * at.y);
         tall = std::max(tall, std::abs(at.z));
     }
-    // A little more, for what single precision rounds off.
+    // Slightly larger, to cover rounding.
     wide = 1.00001f * std::sqrt(wide);
     tall *= 1.00001f;
     EllipticCylinder result{
         axes * middle, {wide * half.x * axes[0], wide * half.y * axes[1], tall * half.z * axes[2]}};
-    // What is next to nothing would make denormal numbers of products, which are slow.
+    // Products of tiny numbers would be denormal, which is slow.
     const float nothing = 1e-9f * result.radius();
     for (glm::vec3& axis : result.axes)
         for (int i = 0; i < 3; ++i)
@@ -98,22 +97,16 @@ EllipticCylinder cylinderAlong(const glm::mat3& axes, const std::vector<glm::vec
     return result;
 }
 
-/// Its volume, but so that flat ones differ, too.
+/// About its volume; `least` makes flat ones comparable.
 float sizeOf(const EllipticCylinder& c, float least) {
     return (glm::length(c.axes[0]) + least) * (glm::length(c.axes[1]) + least) *
            (1.2732f * glm::length(c.axes[2]) + least);
 }
 
-float EllipticCylinder::reach(const glm::vec3& direction) const {
-    const float x = glm::dot(direction, axes[0]), y = glm::dot(direction, axes[1]);
-    return std::sqrt(x * x + y * y) + std::abs(glm::dot(direction, axes[2]));
-}
-
-float EllipticCylinder::radius() const {
-    const float wide = std::max(glm::dot(axes[0], axes[0]), glm::dot(axes[1], axes[1]));
-    return std::sqrt(wide + glm::dot(axes[2], axes[2]));
-}
-
+/// A cylinder along the points' principal axes that contains them; not much larger than the
+/// smallest.
+///
+/// \param points at least one
 EllipticCylinder cylinderAround(const std::vector<glm::vec3>& points) {
     const glm::mat3 axes = principalAxes(covariance(points));
     EllipticCylinder best = cylinderAlong(axes, points);
@@ -121,16 +114,16 @@ EllipticCylinder cylinderAround(const std::vector<glm::vec3>& points) {
     for (int turn = 1; turn < 3; ++turn) {
         const EllipticCylinder other =
             cylinderAlong({axes[turn % 3], axes[(turn + 1) % 3], axes[(turn + 2) % 3]}, points);
-        // Not for the sake of rounding errors: the choice is the same however sums are rounded.
+        // By a margin, so that the choice does not depend on how sums are rounded.
         if (sizeOf(other, least) < 0.9999f * sizeOf(best, least)) best = other;
     }
     return best;
 }
 
-/// Vertices by their places in a model's order.
+/// Vertices, as indices in the model's order.
 using Rows = std::vector<std::uint32_t>;
 
-/// What vertices of one piece have of one joint.
+/// The ranges of the ratios that the vertices of a piece have for a joint.
 struct PieceRatios {
     std::uint32_t joint;
     float low = 1.0f, high = 0.0f;           ///< bend ratio
@@ -142,15 +135,15 @@ struct PieceRatios {
         lowTwist = std::min(lowTwist, ratio.twist);
         highTwist = std::max(highTwist, ratio.twist);
     }
-    /// Ratios this near to 0 or 1 do not turn a piece.
+    /// Ratios this close to 0 or 1 count as 0 or 1.
     static constexpr float kSnapped = 0.15f;
-    static constexpr float kNear = 0.03f; ///< the same where pieces are blended
+    static constexpr float kNear = 0.03f; ///< the same for blended pieces
 
     bool isWhole() const { return low >= 1.0f - kSnapped && lowTwist >= 1.0f - kSnapped; }
     bool isNothing() const { return high <= kSnapped && highTwist <= kSnapped; }
     bool isConstant() const { return low == high && lowTwist == highTwist; }
-    /// One ratio for all, bend and twist: bends move vertices further, and where a twist builds up
-    /// along a bone nothing bends.
+    /// One ratio for bend and twist. It is the bend's: bends move vertices further, and where a
+    /// twist builds up along a bone nothing bends.
     float snapped() const {
         const float ratio = middle();
         return ratio < kNear ? 0.0f : ratio > 1.0f - kNear ? 1.0f : ratio;
@@ -167,7 +160,7 @@ public:
         for (std::uint32_t g = 0; g < model.groups().size(); ++g)
             _group.insert(_group.end(), model.groups()[g].vertexCount, g);
     }
-    /// A joint's place in productOrder().
+    /// A joint's position in productOrder().
     std::uint32_t place(std::uint32_t joint) const { return _places[joint]; }
 
     const glm::vec3& position(std::uint32_t row) const {
@@ -179,7 +172,7 @@ public:
         return row - model.groups()[_group[row]].firstVertex;
     }
 
-    /// Calls `each(joint, ratio)` for the joints that a vertex follows, in productOrder().
+    /// Calls `each(joint, ratio)` for each joint that a vertex follows, in productOrder().
     template <typename Each>
     void forEachJoint(std::uint32_t row, Each&& each) const {
         const SkinModel::Group& group = model.groups()[_group[row]];
@@ -192,7 +185,7 @@ public:
         }
     }
 
-    /// What a vertex has of each of these joints, which stand in productOrder().
+    /// The ratios that a vertex has for `joints`, which are in productOrder().
     void ratiosOf(std::uint32_t row, const std::vector<PieceRatios>& joints,
                   SkinModel::Ratio* result) const {
         std::fill(result, result + joints.size(), SkinModel::Ratio{0.0f, 0.0f});
@@ -241,34 +234,24 @@ inline float fromCentre(const BoundJoint& joint, const glm::vec3& point) {
     return glm::distance(glm::vec3(joint.centre), point);
 }
 
-/// Vertices that become one piece of a BoundsProxy.
+/// The vertices of one piece of a BoundsProxy.
 struct SkinPiece {
     Rows rows;
     EllipticCylinder shape;
-    float excess = 0.0f; ///< by how much bounds are larger for its sake in a usual pose
+    float excess = 0.0f; ///< by how much it enlarges the bounds in a typical pose
 };
 
-/// Cuts a skin into pieces such that those with fixed ratios stand well for their vertices. Where
-/// several cuts are worth the same to a few digits, as a symmetrical body's are, the first one is
-/// taken: the pieces do not depend on how sums are rounded.
-///
-/// \param vertices at least one
-/// \param extent of the skin
-/// \param most pieces
-std::vector<SkinPiece> cutSkin(const PieceVertices& vertices, float extent, std::size_t most);
-
-/// A piece whose excess is less than this share of the skin's extent is small enough.
+/// Pieces whose excess is below this fraction of the skin's extent are not cut further.
 constexpr float kFine = 0.006f;
-/// Bend and twist, in radians, that pieces are cut for.
+/// The bend and twist of a typical pose, radians.
 constexpr float kUsualBend = 0.5f, kUsualTwist = 0.25f;
-/// How many of many vertices are looked at to choose a cut.
+/// The most vertices sampled to choose a cut.
 constexpr std::size_t kMostTried = 64;
-/// How many joints' ratios are looked at to choose a cut, of those that let vertices stray most. A
-/// body has fewer.
+/// The most joints considered for a cut, those whose vertices deviate most. A body has fewer.
 constexpr std::size_t kMostJoints = 100;
-/// What differs by less than this share is worth the same.
+/// Relative differences below this are ignored.
 constexpr float kSame = 1e-4f;
-/// Where pieces are cut: not in the middle, which is where a symmetrical body has vertices.
+/// Where pieces are cut: off the middle, where a symmetrical body has vertices.
 constexpr float kMiddle = 0.5013f;
 
 class Cutter {
@@ -287,7 +270,7 @@ public:
             if (worst->excess <= _fine) break;
             std::array<Rows, 2> halves = halve(worst->rows);
             if (halves[0].empty() || halves[1].empty()) {
-                worst->excess = 0.0f; // its vertices are all alike
+                worst->excess = 0.0f; // all its vertices are alike
                 continue;
             }
             *worst = pieceOf(std::move(halves[0]));
@@ -297,13 +280,13 @@ public:
     }
 
 private:
-    /// What a vertex has of a joint, and how far it is from the joint's centre and twist axis.
+    /// A vertex's ratios for a joint, and its distances from the joint's centre and twist axis.
     struct Follower {
         SkinModel::Ratio ratio;
         float fromCentre, fromTwistAxis;
     };
 
-    /// Some of a piece's vertices, and their ratios of the joints that they follow differently.
+    /// Some of a piece's vertices, and their ratios for the joints for which these differ.
     struct Sample {
         Rows rows;
         std::vector<PieceRatios> ranges; ///< by joint
@@ -349,7 +332,7 @@ private:
                      ranges.end());
     }
 
-    /// How far vertices stick out of the skin, and stray, in a piece of this shape.
+    /// How far the shape extends beyond the skin, and its vertices deviate in a typical pose.
     float excessOf(const EllipticCylinder& shape, const Sample& some) const {
         float bulge = 0.0f;
         for (const std::uint32_t row : some.rows) {
@@ -362,7 +345,7 @@ private:
         return excess;
     }
 
-    /// How far each joint's ratios let vertices stray in a usual pose.
+    /// For each joint, how far its ratios let vertices deviate in a typical pose.
     std::vector<float> straysOf(const Sample& some) const {
         std::vector<float> bend(some.ranges.size(), 0.0f), twist(some.ranges.size(), 0.0f);
         for (std::size_t row = 0; row < some.rows.size(); ++row) {
@@ -388,7 +371,7 @@ private:
         return some;
     }
 
-    /// Some rows of a sample, and what these follow differently.
+    /// The sample of some rows of a sample.
     Sample partOf(const Sample& all, const Rows& rows) const {
         const Rows some = thinned(rows);
         Sample result;
@@ -407,12 +390,12 @@ private:
         return result;
     }
 
-    /// x, y, z, then bend ratios, then twist ratios, of a column of ratios each.
+    /// 0 to 2: x, y, z; 3 and 4: the bend and twist ratios of a column.
     struct Axis {
         std::size_t index, column;
     };
 
-    /// What a joint must let vertices stray for its ratios to be worth a cut.
+    /// The least deviation for which a joint's ratios are tried as a cut.
     float leastStray(std::vector<float> strays) const {
         if (strays.size() <= kMostJoints) return 0.1f * _fine;
         const auto last = strays.begin() + static_cast<std::ptrdiff_t>(kMostJoints);
@@ -420,7 +403,7 @@ private:
         return std::max(0.1f * _fine, *last);
     }
 
-    /// The way to cut the vertices in two that leaves the least excess.
+    /// The best cut in two.
     std::array<Rows, 2> halve(const Rows& rows) const {
         const Sample some = sampleOf(rows);
         const std::vector<float> strays = straysOf(some);
@@ -450,7 +433,7 @@ private:
         return halves;
     }
 
-    /// Of a piece made of these rows of a sample.
+    /// \param rows of the sample
     float excessOf(const Sample& all, const Rows& rows) const {
         std::vector<glm::vec3> points;
         points.reserve(rows.size());
@@ -458,13 +441,13 @@ private:
         return excessOf(cylinderAround(points), partOf(all, rows));
     }
 
-    /// Of a row of the sample.
+    /// \param row of the sample
     float coordinate(const Sample& some, std::uint32_t row, const Axis& axis) const {
         if (axis.index < 3) return _vertices.position(some.rows[row])[static_cast<int>(axis.index)];
         const SkinModel::Ratio& ratio = some.of(row)[axis.column].ratio;
         return axis.index == 3 ? ratio.bend : ratio.twist;
     }
-    /// Of any row of the skin.
+    /// \param row of the skin
     float coordinateOf(std::uint32_t row, const Sample& some, const Axis& axis) const {
         if (axis.index < 3) return _vertices.position(row)[static_cast<int>(axis.index)];
         float result = 0.0f;
@@ -488,32 +471,176 @@ private:
     float _fine;
 };
 
+/// Cuts a skin into pieces whose vertices deviate little from the pieces' fixed ratios. Of several
+/// cuts that are about equally good, as on a symmetrical body, it takes the first, so that the
+/// result does not depend on how sums are rounded.
+///
+/// \param vertices at least one
+/// \param extent of the skin
+/// \param most pieces
 std::vector<SkinPiece> cutSkin(const PieceVertices& vertices, float extent, std::size_t most) {
     return Cutter(vertices, extent).cut(most);
 }
 
-/// Writes down what the pose does to a piece, and how far its vertices may stray from it.
+/// Finds the terms of a piece, and how far its vertices may deviate from it.
 class PieceTerms {
 public:
-    /// What the piece has of one joint when it is blended; see BoundsProxy::Share.
+    /// Of one joint; see BoundsProxy::Share.
     struct Share {
         float weight = 0.0f, bend = 0.0f, twist = 0.0f, square = 0.0f;
     };
 
     /// Both must outlive this.
-    PieceTerms(const PieceVertices& vertices, const SkinPiece& piece);
+    PieceTerms(const PieceVertices& vertices, const SkinPiece& piece)
+        : _vertices(vertices), _joints(vertices.model.joints()), _rows(piece.rows),
+          _ranges(vertices.ranges(piece.rows)) {
+        for (const PieceRatios& range : _ranges)
+            _above.push_back(placeOf(_joints[range.joint].parent));
+        // All vertices follow the root fully.
+        while (_anchor + 1 < _ranges.size() && _ranges[_anchor + 1].isWhole() &&
+               _above[_anchor + 1] == _anchor)
+            ++_anchor;
+        while (_first < _ranges.size() && _ranges[_first].low == 1.0f &&
+               _ranges[_first].lowTwist == 1.0f && _first <= _anchor)
+            ++_first;
+        lookAtVertices();
+        for (std::size_t k = _ranges.size(); k-- > _first;) _terms.push_back(termOf(k));
+        _shares = shares();
+        // Frees the large tables.
+        _ratios = {};
+        _far = {};
+    }
 
-    void addTo(BoundsProxy& proxy, BoundsProxy::Piece& piece) const;
+    void addTo(BoundsProxy& proxy, BoundsProxy::Piece& piece) const {
+        piece.anchor = _ranges[_anchor].joint;
+        piece.firstTerm = static_cast<std::uint32_t>(proxy.terms.size());
+        piece.termCount = static_cast<decltype(piece.termCount)>(_terms.size());
+        proxy.terms.insert(proxy.terms.end(), _terms.begin(), _terms.end());
+    }
 
     const std::map<std::uint32_t, Share>& jointShares() const { return _shares; }
 
 private:
-    std::map<std::uint32_t, Share> shares();
-    std::size_t placeOf(int joint) const;
-    void lookAtVertices();
-    void addStrays(std::size_t k, const std::vector<float>& ratios, std::vector<Share>& all) const;
-    void limitFar(const std::vector<float>& ratios);
-    BoundsProxy::Term termOf(std::size_t k) const;
+    std::map<std::uint32_t, Share> shares() {
+        std::vector<float> ratios(_ranges.size(), 1.0f);
+        std::vector<Share> all(_ranges.size());
+        all[0].weight = 1.0f;
+        for (std::size_t k = 1; k < _ranges.size(); ++k) {
+            // A joint counts only where its parent does.
+            const std::size_t parent = _above[k];
+            ratios[k] = parent < k && ratios[parent] > 0.0f ? _ranges[k].snapped() : 0.0f;
+            if (ratios[k] > 0.0f) all[parent].weight -= ratios[k];
+            all[k].weight += ratios[k];
+        }
+        limitFar(ratios);
+        for (std::size_t k = 1; k < _ranges.size(); ++k) addStrays(k, ratios, all);
+        std::map<std::uint32_t, Share> result;
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (all[k].weight != 0.0f || all[k].bend > 0.0f || all[k].twist > 0.0f ||
+                all[k].square > 0.0f)
+                result[_ranges[k].joint] = all[k];
+        return result;
+    }
+    /// A joint's index in _ranges; their number where it is not among them.
+    std::size_t placeOf(int joint) const {
+        if (joint < 0) return _ranges.size();
+        const std::uint32_t place = _vertices.place(static_cast<std::uint32_t>(joint));
+        const auto at = std::lower_bound(_ranges.begin(), _ranges.end(), place,
+                                         [this](const PieceRatios& range, std::uint32_t wanted) {
+                                             return _vertices.place(range.joint) < wanted;
+                                         });
+        return at != _ranges.end() && static_cast<int>(at->joint) == joint
+                   ? static_cast<std::size_t>(at - _ranges.begin())
+                   : _ranges.size();
+    }
+    void lookAtVertices() {
+        const std::size_t count = _ranges.size();
+        _ratios.resize(_rows.size() * count);
+        _far.resize(_rows.size() * count);
+        for (std::size_t i = 0; i < _rows.size(); ++i) {
+            _vertices.ratiosOf(_rows[i], _ranges, _ratios.data() + i * count);
+            // Rotations keep the distances between neighbouring centres.
+            glm::vec3 from = _vertices.position(_rows[i]);
+            float far = 0.0f;
+            for (std::size_t k = count; k-- > 0;) {
+                const glm::vec3 centre(_joints[_ranges[k].joint].centre);
+                far += glm::distance(centre, from);
+                from = centre;
+                _far[i * count + k] = far;
+            }
+        }
+    }
+    /// Adds how far vertices deviate by the k-th joint, alone and with others.
+    void addStrays(std::size_t k, const std::vector<float>& ratios, std::vector<Share>& all) const {
+        const BoundJoint& joint = _joints[_ranges[k].joint];
+        float high = 0.0f, far = 0.0f;
+        std::vector<float> pairs(_ranges.size(), 0.0f); // with joints that turn earlier or later
+        for (std::size_t row = 0; row < _rows.size(); ++row) {
+            const glm::vec3& x = _vertices.position(_rows[row]);
+            const SkinModel::Ratio* const own = ratiosOf(row);
+            const float* const most = farOf(row);
+            const float bend = std::abs(own[k].bend - ratios[k]);
+            const float twist = std::abs(own[k].twist - ratios[k]);
+            all[k].bend = std::max(all[k].bend, bend * fromCentre(joint, x));
+            all[k].twist = std::max(all[k].twist, twist * fromTwistAxis(joint, x));
+            high = std::max(high, fromCentre(joint, x));
+            far = std::max(far, most[k]);
+            if (bend == 0.0f && twist == 0.0f) continue;
+            for (std::size_t i = k + 1; i < _ranges.size(); ++i)
+                pairs[i] = std::max(pairs[i], std::max(bend, twist) *
+                                                  std::max(own[i].bend, own[i].twist) * most[i]);
+        }
+        all[k].square += 0.5f * ratios[k] * (1.0f - ratios[k]) * far;
+        std::vector<bool> isAbove(k, false);
+        for (std::size_t i = _above[k]; i < k; i = _above[i]) isAbove[i] = true;
+        for (std::size_t i = 1; i < k; ++i)
+            pairs[i] = ratios[k] * std::abs(ratios[i] - (isAbove[i] ? 1.0f : 0.0f)) * high;
+        for (std::size_t i = 1; i < pairs.size(); ++i) {
+            all[i].square += 0.5f * pairs[i];
+            all[k].square += 0.5f * pairs[i];
+        }
+    }
+    /// Limits _far by how far the joints applied before can move a vertex by its own ratios or the
+    /// piece's (a bend is at most pi, a twist 2 pi).
+    void limitFar(const std::vector<float>& ratios) {
+        for (std::size_t row = 0; row < _rows.size(); ++row) {
+            const glm::vec3& x = _vertices.position(_rows[row]);
+            const SkinModel::Ratio* const own = ratiosOf(row);
+            float* const far = _far.data() + row * _ranges.size();
+            float moved = 0.0f;
+            for (std::size_t k = _ranges.size(); k-- > 0;) {
+                far[k] = std::min(far[k], fromCentre(_joints[_ranges[k].joint], x) + moved);
+                const float bend = std::max(own[k].bend, ratios[k]);
+                const float twist = std::max(own[k].twist, ratios[k]);
+                moved += std::min(2.0f, 3.15f * bend + 6.3f * twist) * far[k];
+            }
+        }
+    }
+    BoundsProxy::Term termOf(std::size_t k) const {
+        const PieceRatios& range = _ranges[k];
+        const BoundJoint& joint = _joints[range.joint];
+        const bool anchored = k <= _anchor;
+        BoundsProxy::Term term{};
+        term.joint = range.joint;
+        term.turns = !anchored && !range.isNothing();
+        term.bend = anchored ? 1.0f : term.turns ? range.middle() : 0.0f;
+        term.twist = anchored ? 1.0f : term.turns ? range.middleTwist() : 0.0f;
+        term.bendSpread = std::max(range.high - term.bend, term.bend - range.low);
+        term.twistSpread = std::max(range.highTwist - term.twist, term.twist - range.lowTwist);
+        term.mostBend = range.high;
+        term.mostTwist = range.highTwist;
+        for (std::size_t row = 0; row < _rows.size(); ++row) {
+            const glm::vec3& x = _vertices.position(_rows[row]);
+            const SkinModel::Ratio& ratio = ratiosOf(row)[k];
+            const float high = fromCentre(joint, x), wide = fromTwistAxis(joint, x);
+            term.bendReach = std::max(term.bendReach, std::abs(ratio.bend - term.bend) * high);
+            term.twistReach = std::max(term.twistReach, std::abs(ratio.twist - term.twist) * wide);
+            term.bendMove = std::max(term.bendMove, ratio.bend * high);
+            term.twistMove = std::max(term.twistMove, ratio.twist * wide);
+            term.mostHigh = std::max(term.mostHigh, farOf(row)[k]);
+        }
+        return term;
+    }
     const SkinModel::Ratio* ratiosOf(std::size_t row) const {
         return _ratios.data() + row * _ranges.size();
     }
@@ -530,163 +657,11 @@ private:
     std::vector<BoundsProxy::Term> _terms;
     std::map<std::uint32_t, Share> _shares;
 };
-PieceTerms::PieceTerms(const PieceVertices& vertices, const SkinPiece& piece)
-    : _vertices(vertices), _joints(vertices.model.joints()), _rows(piece.rows),
-      _ranges(vertices.ranges(piece.rows)) {
-    for (const PieceRatios& range : _ranges) _above.push_back(placeOf(_joints[range.joint].parent));
-    // The root is followed wholly, always.
-    while (_anchor + 1 < _ranges.size() && _ranges[_anchor + 1].isWhole() &&
-           _above[_anchor + 1] == _anchor)
-        ++_anchor;
-    while (_first < _ranges.size() && _ranges[_first].low == 1.0f &&
-           _ranges[_first].lowTwist == 1.0f && _first <= _anchor)
-        ++_first;
-    lookAtVertices();
-    for (std::size_t k = _ranges.size(); k-- > _first;) _terms.push_back(termOf(k));
-    _shares = shares();
-    // These are as many as the piece's vertices times its joints.
-    _ratios = {};
-    _far = {};
-}
 
-void PieceTerms::addTo(BoundsProxy& proxy, BoundsProxy::Piece& piece) const {
-    piece.anchor = _ranges[_anchor].joint;
-    piece.firstTerm = static_cast<std::uint32_t>(proxy.terms.size());
-    piece.termCount = static_cast<decltype(piece.termCount)>(_terms.size());
-    proxy.terms.insert(proxy.terms.end(), _terms.begin(), _terms.end());
-}
-
-std::map<std::uint32_t, PieceTerms::Share> PieceTerms::shares() {
-    std::vector<float> ratios(_ranges.size(), 1.0f);
-    std::vector<Share> all(_ranges.size());
-    all[0].weight = 1.0f;
-    for (std::size_t k = 1; k < _ranges.size(); ++k) {
-        // Without its parent, a joint's own map is not what its vertices follow.
-        const std::size_t parent = _above[k];
-        ratios[k] = parent < k && ratios[parent] > 0.0f ? _ranges[k].snapped() : 0.0f;
-        if (ratios[k] > 0.0f) all[parent].weight -= ratios[k];
-        all[k].weight += ratios[k];
-    }
-    limitFar(ratios);
-    for (std::size_t k = 1; k < _ranges.size(); ++k) addStrays(k, ratios, all);
-    std::map<std::uint32_t, Share> result;
-    for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k].weight != 0.0f || all[k].bend > 0.0f || all[k].twist > 0.0f ||
-            all[k].square > 0.0f)
-            result[_ranges[k].joint] = all[k];
-    return result;
-}
-
-/// The place in _ranges of a joint; the number of ranges where it is not there.
-std::size_t PieceTerms::placeOf(int joint) const {
-    if (joint < 0) return _ranges.size();
-    const std::uint32_t place = _vertices.place(static_cast<std::uint32_t>(joint));
-    const auto at = std::lower_bound(_ranges.begin(), _ranges.end(), place,
-                                     [this](const PieceRatios& range, std::uint32_t wanted) {
-                                         return _vertices.place(range.joint) < wanted;
-                                     });
-    return at != _ranges.end() && static_cast<int>(at->joint) == joint
-               ? static_cast<std::size_t>(at - _ranges.begin())
-               : _ranges.size();
-}
-
-void PieceTerms::lookAtVertices() {
-    const std::size_t count = _ranges.size();
-    _ratios.resize(_rows.size() * count);
-    _far.resize(_rows.size() * count);
-    for (std::size_t i = 0; i < _rows.size(); ++i) {
-        _vertices.ratiosOf(_rows[i], _ranges, _ratios.data() + i * count);
-        // They keep distances from their own centres.
-        glm::vec3 from = _vertices.position(_rows[i]);
-        float far = 0.0f;
-        for (std::size_t k = count; k-- > 0;) {
-            const glm::vec3 centre(_joints[_ranges[k].joint].centre);
-            far += glm::distance(centre, from);
-            from = centre;
-            _far[i * count + k] = far;
-        }
-    }
-}
-
-/// How far vertices stray by the k-th joint of the ranges, and it together with others.
-void PieceTerms::addStrays(std::size_t k, const std::vector<float>& ratios,
-                           std::vector<Share>& all) const {
-    const BoundJoint& joint = _joints[_ranges[k].joint];
-    float high = 0.0f, far = 0.0f;
-    std::vector<float> pairs(_ranges.size(), 0.0f); // with joints that turn earlier or later
-    for (std::size_t row = 0; row < _rows.size(); ++row) {
-        const glm::vec3& x = _vertices.position(_rows[row]);
-        const SkinModel::Ratio* const own = ratiosOf(row);
-        const float* const most = farOf(row);
-        const float bend = std::abs(own[k].bend - ratios[k]);
-        const float twist = std::abs(own[k].twist - ratios[k]);
-        all[k].bend = std::max(all[k].bend, bend * fromCentre(joint, x));
-        all[k].twist = std::max(all[k].twist, twist * fromTwistAxis(joint, x));
-        high = std::max(high, fromCentre(joint, x));
-        far = std::max(far, most[k]);
-        if (bend == 0.0f && twist == 0.0f) continue;
-        for (std::size_t i = k + 1; i < _ranges.size(); ++i)
-            pairs[i] = std::max(pairs[i], std::max(bend, twist) *
-                                              std::max(own[i].bend, own[i].twist) * most[i]);
-    }
-    all[k].square += 0.5f * ratios[k] * (1.0f - ratios[k]) * far;
-    std::vector<bool> isAbove(k, false);
-    for (std::size_t i = _above[k]; i < k; i = _above[i]) isAbove[i] = true;
-    for (std::size_t i = 1; i < k; ++i)
-        pairs[i] = ratios[k] * std::abs(ratios[i] - (isAbove[i] ? 1.0f : 0.0f)) * high;
-    for (std::size_t i = 1; i < pairs.size(); ++i) {
-        all[i].square += 0.5f * pairs[i];
-        all[k].square += 0.5f * pairs[i];
-    }
-}
-
-/// Lessens _far to what moves vertices at all: joints that turn earlier, by the vertex's own
-/// ratios or the piece's, by no more than these allow (a bend is at most pi, a twist 2 pi).
-void PieceTerms::limitFar(const std::vector<float>& ratios) {
-    for (std::size_t row = 0; row < _rows.size(); ++row) {
-        const glm::vec3& x = _vertices.position(_rows[row]);
-        const SkinModel::Ratio* const own = ratiosOf(row);
-        float* const far = _far.data() + row * _ranges.size();
-        float moved = 0.0f;
-        for (std::size_t k = _ranges.size(); k-- > 0;) {
-            far[k] = std::min(far[k], fromCentre(_joints[_ranges[k].joint], x) + moved);
-            const float bend = std::max(own[k].bend, ratios[k]);
-            const float twist = std::max(own[k].twist, ratios[k]);
-            moved += std::min(2.0f, 3.15f * bend + 6.3f * twist) * far[k];
-        }
-    }
-}
-
-BoundsProxy::Term PieceTerms::termOf(std::size_t k) const {
-    const PieceRatios& range = _ranges[k];
-    const BoundJoint& joint = _joints[range.joint];
-    const bool anchored = k <= _anchor;
-    BoundsProxy::Term term{};
-    term.joint = range.joint;
-    term.turns = !anchored && !range.isNothing();
-    term.bend = anchored ? 1.0f : term.turns ? range.middle() : 0.0f;
-    term.twist = anchored ? 1.0f : term.turns ? range.middleTwist() : 0.0f;
-    term.bendSpread = std::max(range.high - term.bend, term.bend - range.low);
-    term.twistSpread = std::max(range.highTwist - term.twist, term.twist - range.lowTwist);
-    term.mostBend = range.high;
-    term.mostTwist = range.highTwist;
-    for (std::size_t row = 0; row < _rows.size(); ++row) {
-        const glm::vec3& x = _vertices.position(_rows[row]);
-        const SkinModel::Ratio& ratio = ratiosOf(row)[k];
-        const float high = fromCentre(joint, x), wide = fromTwistAxis(joint, x);
-        term.bendReach = std::max(term.bendReach, std::abs(ratio.bend - term.bend) * high);
-        term.twistReach = std::max(term.twistReach, std::abs(ratio.twist - term.twist) * wide);
-        term.bendMove = std::max(term.bendMove, ratio.bend * high);
-        term.twistMove = std::max(term.twistMove, ratio.twist * wide);
-        term.mostHigh = std::max(term.mostHigh, farOf(row)[k]);
-    }
-    return term;
-}
-
-/// Of a skin, for each of its pieces: else these would cost more than its vertices.
+/// The fewest vertices of a skin for each piece: else pieces would cost more than vertices.
 constexpr std::size_t kLeastVertices = 12;
 
-/// Length of the k-th mode's shares in a lane.
+/// The length of a mode's share in a lane.
 float lengthOf(const CorrectiveRow* block, std::size_t mode, std::size_t lane) {
     float sum = 0.0f;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -696,7 +671,7 @@ float lengthOf(const CorrectiveRow* block, std::size_t mode, std::size_t lane) {
     return std::sqrt(sum);
 }
 
-/// How far the modes of correctives take the vertices of a piece, by BoundsProxy::weightOf().
+/// How far corrective modes move the vertices of a piece, by BoundsProxy::weightOf().
 using Reaches = std::map<std::uint32_t, float>;
 
 Reaches reachesOf(const PieceVertices& vertices, const Rows& rows) {
@@ -720,7 +695,7 @@ Reaches reachesOf(const PieceVertices& vertices, const Rows& rows) {
     return result;
 }
 
-/// A piece on its way into a block.
+/// A piece before it is put into a block.
 struct CutPiece {
     SkinPiece cut;
     PieceTerms terms;
@@ -729,7 +704,7 @@ struct CutPiece {
     CutPiece(const PieceVertices& vertices, SkinPiece&& piece)
         : cut(std::move(piece)), terms(vertices, cut), reaches(reachesOf(vertices, cut.rows)) {}
 
-    /// The joints that it moves with.
+    /// The joints that move it.
     std::set<std::uint32_t> joints() const {
         std::set<std::uint32_t> result;
         for (const auto& [joint, share] : terms.jointShares())
@@ -740,8 +715,8 @@ struct CutPiece {
 
 using CutPieces = std::vector<std::unique_ptr<CutPiece>>;
 
-/// Puts pieces into an order in which those of a block move with few joints altogether: what a
-/// block takes grows with these. One with many joints begins, those that add the fewest follow.
+/// Orders pieces so that each block depends on few joints, which its cost grows with: a block
+/// starts with a piece of many joints, then takes those that add the fewest.
 void orderByJoints(CutPieces& pieces) {
     std::vector<std::set<std::uint32_t>> joints;
     for (const std::unique_ptr<CutPiece>& piece : pieces) joints.push_back(piece->joints());
@@ -762,7 +737,7 @@ void orderByJoints(CutPieces& pieces) {
     }
 }
 
-/// Adds `count` pieces, from the proxy's piece `first` on, as a block.
+/// Adds pieces `first` to `first + count` of the proxy as a block.
 void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::size_t first,
               BoundsProxy& proxy) {
     BoundsProxy::Block block{};

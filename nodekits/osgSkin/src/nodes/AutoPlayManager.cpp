@@ -18,19 +18,6 @@ namespace osgSkin {
 
 namespace {
 
-/// Links bones and transforms with the channels of their name. OSG's own visitor compares the name
-/// of each with that of every channel, and copies it: thousands of bones would take many seconds.
-class NameLinker : public osgAnimation::LinkVisitor {
-public:
-    /// \param animations as OSG's managers have them, none of them null
-    explicit NameLinker(const osgAnimation::AnimationList& animations);
-
-    void apply(osg::Node& node) override;
-
-private:
-    std::unordered_map<std::string, std::vector<osgAnimation::Channel*>> m_channels;
-};
-
 /// A callback that links what has its name and nothing else; those that others derive from it may
 /// do otherwise, as OSG's for morph targets does.
 osgAnimation::UpdateMatrixTransform* linkedByName(osg::Callback& callback) {
@@ -53,30 +40,39 @@ bool isAnotherCharacter(osg::Node& node, const osg::NodePath& path) {
            });
 }
 
-NameLinker::NameLinker(const osgAnimation::AnimationList& animations) {
-    _animations = animations;
-    for (const auto& animation : animations)
-        for (const auto& channel : animation->getChannels())
-            m_channels[channel->getTargetName()].push_back(channel.get());
-}
-
-void NameLinker::apply(osg::Node& node) {
-    if (isAnotherCharacter(node, getNodePath())) return;
-    if (osg::StateSet* states = node.getStateSet()) handle_stateset(states);
-    for (osg::Callback* callback = node.getUpdateCallback(); callback != nullptr;
-         callback = callback->getNestedCallback()) {
-        if (auto* transform = linkedByName(*callback)) {
-            const auto channels = m_channels.find(transform->getName());
-            if (channels == m_channels.end()) continue;
-            for (osgAnimation::Channel* channel : channels->second) transform->link(channel);
-            _nbLinkedTarget += static_cast<unsigned int>(channels->second.size());
-        } else if (auto* other =
-                       dynamic_cast<osgAnimation::AnimationUpdateCallbackBase*>(callback)) {
-            link(other);
-        }
+/// Links bones and transforms with the channels of their name. OSG's own visitor compares the name
+/// of each with that of every channel, and copies it: thousands of bones would take many seconds.
+class NameLinker : public osgAnimation::LinkVisitor {
+public:
+    /// \param animations as OSG's managers have them, none of them null
+    explicit NameLinker(const osgAnimation::AnimationList& animations) {
+        _animations = animations;
+        for (const auto& animation : animations)
+            for (const auto& channel : animation->getChannels())
+                m_channels[channel->getTargetName()].push_back(channel.get());
     }
-    traverse(node);
-}
+
+    void apply(osg::Node& node) override {
+        if (isAnotherCharacter(node, getNodePath())) return;
+        if (osg::StateSet* states = node.getStateSet()) handle_stateset(states);
+        for (osg::Callback* callback = node.getUpdateCallback(); callback != nullptr;
+             callback = callback->getNestedCallback()) {
+            if (auto* transform = linkedByName(*callback)) {
+                const auto channels = m_channels.find(transform->getName());
+                if (channels == m_channels.end()) continue;
+                for (osgAnimation::Channel* channel : channels->second) transform->link(channel);
+                _nbLinkedTarget += static_cast<unsigned int>(channels->second.size());
+            } else if (auto* other =
+                           dynamic_cast<osgAnimation::AnimationUpdateCallbackBase*>(callback)) {
+                link(other);
+            }
+        }
+        traverse(node);
+    }
+
+private:
+    std::unordered_map<std::string, std::vector<osgAnimation::Channel*>> m_channels;
+};
 
 } // namespace
 

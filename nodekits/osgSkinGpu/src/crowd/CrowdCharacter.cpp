@@ -1,25 +1,103 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinGpu/CrowdCharacter>
 
-#include "crowd/Levels.h"
-#include "model/PackRigid.h"
-#include "shader/CrowdText.h"
+#include "crowd/CrowdText.h"
+#include "model/PackTexels.h"
 
-#include <osgSkinGpu/GpuCrowd>
-#include <osgSkinGpu/GpuPalette>
-
+#include <osgSkin/Binding>
+#include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/PoseBounds>
+#include <osgSkinGpu/GpuCrowd>
+#include <osgSkinGpu/GpuPalette>
 
+#include <osg/Array>
 #include <osg/BufferObject>
+#include <osg/Geometry>
+#include <osg/TriangleIndexFunctor>
+#include <osg/Vec3>
+#include <osg/ref_ptr>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
+
+#ifdef OSGSKIN_HAS_MESHOPTIMIZER
+#include <meshoptimizer.h>
+#endif
 
 namespace osgSkin {
 namespace {
+
+/// The texels of a GpuModel all of whose vertices follow one joint wholly.
+///
+/// \param joints of the palettes that it will be drawn with
+/// \param joint an index of them
+/// \param positions rest space
+/// \param normals as many
+osg::ref_ptr<osg::Vec4uiArray> packRigid(const std::vector<BoundJoint>& joints, unsigned int joint,
+                                         const osg::Vec3Array& positions,
+                                         const osg::Vec3Array& normals) {
+    osg::ref_ptr<osg::Vec4uiArray> texels = new osg::Vec4uiArray;
+    packJoints(joints, *texels);
+    const auto chain = static_cast<unsigned int>(texels->size());
+    texels->push_back(osg::Vec4ui(joint, 0, 0, 0));
+    texels->front() = osg::Vec4ui(static_cast<unsigned int>(joints.size()), chain + 1,
+                                  static_cast<unsigned int>(positions.size()), 0u);
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        texels->push_back(packedTexel(*asGlm(&positions[v]), chain));
+        texels->push_back(packedTexel(*asGlm(&normals[v]), 0));
+    }
+    return texels;
+}
+
+struct CollectTriangles {
+    std::vector<GLuint> indices;
+    void operator()(unsigned int a, unsigned int b, unsigned int c) {
+        if (a != b && b != c && c != a) indices.insert(indices.end(), {a, b, c});
+    }
+};
+
+/// Indices of the triangles that a geometry draws.
+///
+/// \param geometry with as many vertices as its array has
+/// \throw osgSkin::Error where a primitive names another vertex, or ends within a triangle
+std::vector<GLuint> trianglesOf(const osg::Geometry& geometry) {
+    const std::string broken =
+        brokenPrimitive(geometry, geometry.getVertexArray()->getNumElements());
+    if (!broken.empty())
+        throw Error("crowd: the geometry \"" + geometry.getName() + "\" has " + broken);
+    osg::TriangleIndexFunctor<CollectTriangles> collect;
+    geometry.accept(collect);
+    return collect.indices;
+}
+
+/// Fewer triangles between the same vertices.
+///
+/// \param positions of them; copies at one place move together
+/// \param indices of triangles
+/// \param most of the result's indices to aim at
+/// \throw osgSkin::Error where this kit was built without meshoptimizer
+std::vector<GLuint> simplified([[maybe_unused]] const std::vector<osg::Vec3>& positions,
+                               [[maybe_unused]] const std::vector<GLuint>& indices,
+                               [[maybe_unused]] std::size_t most) {
+#ifdef OSGSKIN_HAS_MESHOPTIMIZER
+    std::vector<GLuint> result(indices.size());
+    if (indices.empty()) return result;
+    // Of the extent: what is that small in the picture may be that wrong.
+    const float error = 0.05f;
+    const std::size_t size =
+        meshopt_simplify(result.data(), indices.data(), indices.size(), positions.front().ptr(),
+                         positions.size(), sizeof(osg::Vec3), most, error, 0, nullptr);
+    result.resize(size);
+    return result;
+#else
+    throw Error("levels of detail: this osgSkinGpu was built without meshoptimizer");
+#endif
+}
 
 /// Texels that floats can number.
 constexpr std::size_t kMostTexels = std::size_t(1) << 24;

@@ -1,15 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "crowd/CrowdDraws.h"
 
-#include "crowd/TexelCheck.h"
-#include "shader/CrowdText.h"
+#include "crowd/CrowdText.h"
+#include "skin/ComputeStage.h"
 
 #include <osgSkinGpu/CrowdInstance>
 
 #include <osg/BufferObject>
+#include <osg/Notify>
+#include <osg/RenderInfo>
 #include <osg/Uniform>
 
 #include <algorithm>
+#include <atomic>
+
+namespace osgSkin {
+
+void TexelCheck::drawImplementation(osg::RenderInfo& renderInfo,
+                                    const osg::Drawable* drawable) const {
+    if (canReadTexels(renderInfo.getContextID(), _texels)) {
+        _draw ? _draw->drawImplementation(renderInfo, drawable)
+              : drawable->drawImplementation(renderInfo);
+        return;
+    }
+    static std::atomic<bool> isTold{false};
+    if (!isTold.exchange(true))
+        OSG_WARN << "osgSkin: a crowd has a buffer of " << _texels
+                 << " texels, more than this driver reads; nothing of it is drawn" << std::endl;
+}
+
+} // namespace osgSkin
 
 #ifndef GL_R32UI
 #define GL_R32UI 0x8236

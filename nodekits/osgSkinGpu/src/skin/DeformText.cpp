@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shader/DeformText.h"
+#include "skin/DeformText.h"
 
 namespace osgSkin {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "shader/CrowdText.h"
+#include "crowd/CrowdText.h"
 
-#include "shader/DeformText.h"
+#include "skin/DeformText.h"
 
 #include <osg/ref_ptr>
 
