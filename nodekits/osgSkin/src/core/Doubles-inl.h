@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Included once for each instruction set by what foreach_target.h includes again and again.
+// Included once for each instruction set, through foreach_target.h.
 #if defined(OSGSKIN_DOUBLES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef OSGSKIN_DOUBLES_INL_H
 #undef OSGSKIN_DOUBLES_INL_H
@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A number of up to four joints each.
+/// One number of each of up to four joints.
 using DoubleTag = hn::CappedTag<double, 4>;
 using Doubles = hn::Vec<DoubleTag>;
 using DoubleMask = hn::Mask<DoubleTag>;
@@ -39,9 +39,9 @@ HWY_INLINE void cross(const V (&a)[3], const V (&b)[3], V (&to)[3]) {
     to[2] = hn::MulSub(a[0], b[1], hn::Mul(a[1], b[0]));
 }
 
-/// Four numbers that stand side by side, of one joint a lane.
+/// Loads four adjacent numbers per lane, transposed.
 ///
-/// \param from as many as there are lanes
+/// \param from one array per lane
 HWY_INLINE void loadFour(const double* const* from, std::size_t at, Doubles (&to)[4]) {
     const DoubleTag d;
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
@@ -68,10 +68,10 @@ HWY_INLINE void loadFour(const double* const* from, std::size_t at, Doubles (&to
 #endif
 }
 
-/// The same the other way round.
+/// The inverse of loadFour().
 ///
-/// \param to of the first lane
-/// \param next from one lane's to the next one's
+/// \param to the array of the first lane
+/// \param next the distance between two lanes' arrays
 HWY_INLINE void storeFour(const Doubles& x, const Doubles& y, const Doubles& z, const Doubles& w,
                           double* to, std::size_t next) {
     const DoubleTag d;
@@ -93,11 +93,11 @@ HWY_INLINE void storeFour(const Doubles& x, const Doubles& y, const Doubles& z, 
 #endif
 }
 
-/// One number of each lane's own place in a row.
+/// Gathers row[at[lane]].
 HWY_INLINE Doubles loadEach(const double* row, const int* at) {
     const DoubleTag d;
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-    // Faster than the instruction for it where that is slow, and about as fast elsewhere.
+    // About as fast as the gather instruction, and much faster where that is slow.
     return Doubles{_mm256_setr_pd(row[at[0]], row[at[1]], row[at[2]], row[at[3]])};
 #else
     double lanes[4];
@@ -108,8 +108,7 @@ HWY_INLINE Doubles loadEach(const double* row, const int* at) {
 
 /// The angle of (x, y) from the x axis, -pi / 2 to pi / 2, to the last digits.
 ///
-/// \param y as long as it is wide
-/// \param x not below 0; not 0 where y is
+/// \param x not negative; not 0 where y is 0
 template <typename V>
 HWY_INLINE V angleOf(const V& y, const V& x) {
     const auto all = [](double number) HWY_ATTR { return hn::Set(hn::DFromV<V>(), number); };

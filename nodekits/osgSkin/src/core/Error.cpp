@@ -6,7 +6,7 @@ namespace osgSkin {
 std::string onOneLine(std::string text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const auto byte = static_cast<unsigned char>(text[i]);
-        // Terminals obey U+0080 to U+009F, too: two bytes of UTF-8.
+        // U+0080 to U+009F, two bytes of UTF-8, are control characters, too.
         if (byte == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0)
             text[i] = text[i + 1] = ' ';
         else if (byte < 0x20 || byte == 0x7f)
@@ -18,7 +18,7 @@ std::string onOneLine(std::string text) {
 
 Error::Error(const std::string& message) : std::runtime_error(onOneLine(message)) {}
 
-// Out of line, so that the type has one home and can be caught across shared libraries.
+// Defined here, so that the type can be caught across shared libraries.
 Error::~Error() = default;
 
 } // namespace osgSkin

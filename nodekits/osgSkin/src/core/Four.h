@@ -7,8 +7,8 @@
 
 namespace osgSkin {
 
-/// x, y, z and a spare number, or one number of four things each, in one of the processor's
-/// vectors: GCC and Clang know these without naming the processor.
+/// x, y, z and a spare number, or four numbers, in a vector register, by an extension of GCC and
+/// Clang.
 struct Four {
     using Vector = float __attribute__((vector_size(16)));
     using Mask = int __attribute__((vector_size(16)));
@@ -54,11 +54,11 @@ inline Four sqrt(const Four& a) noexcept {
     return four(std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3]));
 }
 
-/// An affine map of points.
+/// An affine map.
 struct FourMap {
     Four column[4];
 
-    /// Its linear part, for directions.
+    /// Applies the linear part.
     Four turn(const Four& x) const noexcept {
         return x[0] * column[0] + x[1] * column[1] + x[2] * column[2];
     }
@@ -75,7 +75,7 @@ inline FourMap operator*(const FourMap& a, const FourMap& b) noexcept {
 
 /// The rotation of a unit quaternion q[3] + q[0] i + q[1] j + q[2] k, about the origin.
 inline FourMap rotation(const Four& q) noexcept {
-    // 2 q_i q + 2 q_w (q_w e_i + q x e_i) - e_i, whose spare number is nothing.
+    // 2 q_i q + 2 q_w (q_w e_i + q x e_i) - e_i; the spare number is 0.
     const Four x = four(q[0], q[1], q[2], 0.0f);
     const Four twice = x + x, w = all(q[3] + q[3]);
     return {{twice[0] * x + w * four(q[3], q[2], -q[1], 0.0f) - four(1.0f, 0.0f, 0.0f, 0.0f),

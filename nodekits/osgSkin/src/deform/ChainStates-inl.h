@@ -23,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
-/// A number of up to eight joints each.
+/// One number of each of up to eight joints.
 constexpr std::size_t kAtOnce = 8;
 using JointTag = hn::CappedTag<double, kAtOnce>;
 using Joints = hn::Vec<JointTag>;
@@ -35,17 +35,16 @@ HWY_INLINE Joints each(double x) {
     return hn::Set(JointTag(), x);
 }
 
-/// The last column of a map that moves nothing.
+/// The last column of a map without translation.
 alignas(16) constexpr float kNoMove[4] = {0.0f, 0.0f, 0.0f, 1.0f};
 
-/// Rounding errors are taken as 0: their products would be denormal numbers, which processors are
-/// many times slower with.
+/// Rounding errors become 0: their products would be denormal numbers, which are many times slower.
 template <typename V, typename T>
 HWY_INLINE V flushed(const V& x, T least) {
     return hn::IfThenElseZero(hn::Ge(hn::Abs(x), hn::Set(hn::DFromV<V>(), least)), x);
 }
 
-/// Rows of a pose's joints, as they stand in it or gathered.
+/// The rows of a pose, or gathered from it.
 struct JointRows {
     const double* own;  ///< by PoseAccess::Row
     const double* rest; ///< by PoseAccess::RestRow
@@ -67,7 +66,7 @@ HWY_INLINE JointRows rowsOf(const Pose& pose) {
             PoseAccess::parents(pose), pose.size()};
 }
 
-/// Where rows of a section's own are put together.
+/// Memory for a section's gathered rows.
 struct GatheredRows {
     double own[PoseAccess::kNumberRows * ChainPlan::kMostJoints];
     double rest[PoseAccess::kRestRows * ChainPlan::kMostJoints];
@@ -75,8 +74,7 @@ struct GatheredRows {
     int parents[ChainPlan::kMostJoints];
 };
 
-/// Of several joints: which of the ranges that its sine is known in an angle is in, and the angle
-/// as it is told there.
+/// Stores angles and what KernelAngle has of them.
 HWY_INLINE void putAngle(const Joints& whole, float* wholes, float* angles, std::int32_t* ranges) {
     const JointFloats d;
     const JointSteps steps;
@@ -95,8 +93,7 @@ HWY_INLINE void putAngle(const Joints& whole, float* wholes, float* angles, std:
     hn::StoreU(range, steps, ranges);
 }
 
-/// How far joints are moved, those without parents left out: the root's centre has nothing to be
-/// moved against.
+/// The joints' translations; of the root, its offset.
 HWY_INLINE void movesOf(const JointRows& rows, std::size_t first, const Joints (&turn)[3][3],
                         Joints (&move)[3]) {
     const JointTag d;
@@ -113,7 +110,7 @@ HWY_INLINE void movesOf(const JointRows& rows, std::size_t first, const Joints (
     }
 }
 
-/// What joints from `first` on give in any chain.
+/// Computes the KernelJoints, but for translations and scales, and full rotations from `first` on.
 HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, const ChainCall& call,
                            PosedChains& chains, JointMask& adjusted, JointMask& scaled) {
     using Own = PoseAccess::Row;
@@ -122,7 +119,7 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, const Chain
     const JointSteps steps;
     const Joints zero = hn::Zero(d), one = each(1.0);
 
-    // The whole turn.
+    // The full rotation.
     const Joints w = rows.ownOf(Own::kW, first), x = rows.ownOf(Own::kX, first),
                  y = rows.ownOf(Own::kY, first), z = rows.ownOf(Own::kZ, first);
     const Joints x2 = hn::Add(x, x), y2 = hn::Add(y, y), z2 = hn::Add(z, z);
@@ -154,7 +151,7 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, const Chain
     for (const Joints& axis : move) square = hn::MulAdd(axis, axis, square);
     const JointMask grows = hn::Ne(rows.ownOf(Own::kScale, first), one);
     const JointMask moves = hn::Gt(square, each(call.smallMove * call.smallMove));
-    // The root moves as a rule, and nothing follows it in part.
+    // The root usually moves, but nothing follows it in part.
     const std::int32_t* const partial = &call.plan.arePartial[call.section.joint + first];
     const JointMask isPartial = hn::Ne(hn::PromoteTo(d, hn::LoadU(steps, partial)), zero);
     const JointMask changed = hn::Or(grows, hn::And(moves, isPartial));
@@ -164,7 +161,7 @@ HWY_INLINE void poseJoints(const JointRows& rows, std::size_t first, const Chain
                joints.adjusted + first);
 }
 
-/// Where and how much joints from `first` on are moved and scaled, in their frames.
+/// Computes the translations and scales of joints from `first` on, in their frames.
 HWY_INLINE void poseMoves(const JointRows& rows, std::size_t first, PosedChains& chains) {
     using Rest = PoseAccess::RestRow;
     const JointTag d;
@@ -193,7 +190,7 @@ HWY_INLINE void poseMoves(const JointRows& rows, std::size_t first, PosedChains&
     put(along[2], joints.move[2]);
 }
 
-/// A full turn of a joint of the section.
+/// The full rotation of a joint of the section.
 struct RowsTurn {
     const double* turns; ///< as PosedChains::turns
     const double* offset;
@@ -208,7 +205,7 @@ struct RowsTurn {
     }
 };
 
-/// Of one that the section has no room for.
+/// The full rotation of a joint for which the section has no room.
 struct SplitTurn {
     HWY_NOINLINE SplitTurn(const Pose& pose, std::uint32_t joint)
         : split(PoseAccess::split(pose, joint)), rotation(glm::mat3_cast(split.rotation)) {}
@@ -223,11 +220,11 @@ struct SplitTurn {
     glm::dmat3 rotation;
 };
 
-/// First `with`, then `from`.
+/// Multiplies: first `with`, then `from`.
 ///
-/// \param about where moves in single precision are told of
-/// \param narrowed the same in single precision, so told; may be null
-/// \param lead the same as it is; may be null
+/// \param about the pivot of `narrowed`
+/// \param narrowed the same in single precision; may be null
+/// \param lead the same with the origin as pivot; may be null
 template <bool kScaled, typename Turn>
 HWY_INLINE void multiply(const PosedMap& from, const Turn& with, PosedMap& to,
                          const std::array<double, 3>& about, KernelMap* narrowed, KernelMap* lead) {
@@ -302,7 +299,7 @@ HWY_INLINE void makeStates(const ChainCall& call, const JointRows& rows, PosedCh
     }
 }
 
-/// First `with`, which does not scale, and is moved by `move` instead of its own; then `from`.
+/// Multiplies: first `with`, which does not scale, with `move4` as its last column; then `from`.
 HWY_INLINE void multiply(const KernelMap& from, const KernelMap& with, const float* move4,
                          KernelMap& to) {
     const hn::CappedTag<float, 16> d;

@@ -16,18 +16,16 @@
 namespace osgSkin {
 namespace {
 
-/// Tells the kernel which links tilt normals in one pose, and by how much; on the stack. Of a model
-/// that has gradients.
+/// Finds for the kernel which links tilt normals in one pose, and by how much; on the stack.
 class KernelSlopes {
 public:
     explicit KernelSlopes(const SkinModel& model) noexcept
         : _model(model), _blocks(SkinModelAccess::gradients(model)) {}
 
-    /// Takes what the joints of a section do.
+    /// Takes the joints of a section.
     ///
-    /// \param joints of the section; they outlive this
-    /// \param jointCount of them
-    /// \param run what it has of slopes is set; good until the next call
+    /// \param joints must outlive this
+    /// \param run its slopes are set, until the next call
     void take(const KernelJoints& joints, std::size_t jointCount, KernelRun& run) noexcept {
         const auto unit = static_cast<float>(_blocks->unit);
         for (std::size_t j = 0; j < jointCount; ++j) {
@@ -42,10 +40,9 @@ public:
 
     /// Finds the links that tilt normals, of as many groups as there is room for.
     ///
-    /// \param firstGroup the first of them, in the section
-    /// \param endGroup the one behind the last that is asked for
-    /// \param run what it has of tilts is set; good until the next call
-    /// \return the group behind the last that was found
+    /// \param endGroup the end of the wanted groups, in the section
+    /// \param run its tilts are set, until the next call
+    /// \return the end of the groups that were found
     std::size_t find(std::size_t firstGroup, std::size_t endGroup, KernelRun& run) noexcept {
         const SkinBlocks& blocks = SkinModelAccess::blocks(_model);
         const auto endOf = [&](std::size_t g) {
@@ -71,13 +68,13 @@ private:
 
 constexpr std::size_t kPartBlocks = 256;
 
-/// The group that a block belongs to.
+/// The group of a block.
 std::size_t groupOf(const SkinBlocks& blocks, std::size_t block) noexcept {
     const auto behind = std::upper_bound(blocks.firstBlock.begin(), blocks.firstBlock.end(), block);
     return static_cast<std::size_t>(behind - blocks.firstBlock.begin()) - 1;
 }
 
-/// The vertex, in the model's order, that a block begins with; all of them for the end.
+/// The first vertex of a block, in the model's order; their number for the end.
 std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
     const SkinBlocks& blocks = SkinModelAccess::blocks(model);
     if (block >= blocks.firstBlock.back()) return model.vertexCount();
@@ -85,7 +82,7 @@ std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
     return model.groups()[group].firstVertex + (block - blocks.firstBlock[group]) * kBlock;
 }
 
-/// What all groups of a job have in common, whatever the pose.
+/// The part of a run that does not depend on the pose.
 KernelRun runOf(const DeformJob& job, std::size_t endVertex) noexcept {
     const SkinBlocks& blocks = SkinModelAccess::blocks(*job.model);
     KernelRun run{};
@@ -101,17 +98,17 @@ KernelRun runOf(const DeformJob& job, std::size_t endVertex) noexcept {
     return run;
 }
 
-/// Deforms of a group, and those behind it, the blocks from `first` to before `end`.
+/// Deforms the blocks from `first` to before `end` of group `g` and groups after it.
 ///
-/// \param endGroup where the groups end that may be deformed in one go
-/// \return the group behind the last that was deformed
+/// \param endGroup the end of the groups that may be deformed together
+/// \return the end of the groups that were deformed
 std::size_t runGroups(Kernel kernel, std::size_t g, std::size_t endGroup, std::size_t first,
                       std::size_t end, KernelRun& run) noexcept {
     const SkinBlocks& blocks = *run.blocks;
     run.firstGroup = g;
     run.skippedBlocks = 0;
     if (first <= blocks.firstBlock[g] && end >= blocks.firstBlock[g + 1]) {
-        if (end < blocks.firstBlock[endGroup]) --endGroup; // a part of the last one comes next
+        if (end < blocks.firstBlock[endGroup]) --endGroup; // only part of the last one: next
         run.groups = blocks.groups.data() + g;
         run.groupCount = endGroup - g;
         kernel(run);
@@ -132,7 +129,7 @@ std::size_t runGroups(Kernel kernel, std::size_t g, std::size_t endGroup, std::s
     return g + 1;
 }
 
-/// Deforms the blocks from `first` to before `end`, and no other vertex is written.
+/// Deforms the blocks from `first` to before `end`; writes no other vertex.
 void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
     if (first >= end) return;
     const SkinModel& model = *job.model;
@@ -144,7 +141,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
     run.joints = &chains.joints;
     run.outs = chains.outs;
     const std::size_t firstGroup = groupOf(blocks, first), endGroup = groupOf(blocks, end - 1) + 1;
-    // Not std::optional: GCC 12 fills one with zeros where it begins.
+    // Not std::optional: GCC 12 would fill it with zeros.
     CorrectiveWeights weights(model, *job.pose);
     if (run.corrections) weights.workOut(firstGroup, endGroup);
     run.weights = weights.known();

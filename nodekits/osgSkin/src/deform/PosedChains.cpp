@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Compiled once for each instruction set by foreach_target.h, which includes this file again and
-// again; the best one is chosen at run time.
+// Compiled once for each instruction set, through foreach_target.h; the best is chosen at run time.
 #include "deform/PosedChains.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,8 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
-/// The way into a joint's frame, told of the joint's centre, and the way back, which moves nothing:
-/// rows v, w x v, w, and columns.
+/// The rotation into a joint's frame (rows v, w x v, w) and back.
 HWY_INLINE void poseFrame(const PlannedFrame& of, float cosine, float sine, KernelMap& into,
                           KernelMap& back) {
 #if HWY_TARGET == HWY_SCALAR
@@ -46,7 +44,7 @@ HWY_INLINE void poseFrame(const PlannedFrame& of, float cosine, float sine, Kern
 #endif
 }
 
-/// By cosine and sine of the joint's azimuth.
+/// \param cosine of the joint's azimuth; so is the sine
 HWY_INLINE void poseWideInto(const PlannedWideInto& of, double cosine, double sine, PosedMap& to) {
     const JointTag d;
     double* const into = to.column[0]; // of all sixteen
@@ -57,7 +55,7 @@ HWY_INLINE void poseWideInto(const PlannedWideInto& of, double cosine, double si
     }
 }
 
-/// Maps between rest space and the frames of the section's partial joints.
+/// Computes the maps between rest space and the frames of the section's partial joints.
 HWY_INLINE void poseFrames(const ChainCall& call, const JointRows& rows, PosedChains& chains) {
     const ChainPlan::Section& next = (&call.section)[1];
     for (std::size_t i = call.section.frame; i < next.frame; ++i) {
@@ -98,7 +96,7 @@ HWY_NOINLINE JointRows gather(const ChainCall& call, std::size_t count, Gathered
     return {to.own, to.rest, to.azimuths, to.parents, kStride};
 }
 
-/// Calls `pose` for all joints, as many at a time as there are lanes.
+/// Calls `pose` for all joints, one vector of them at a time.
 template <typename PoseThem>
 HWY_INLINE void forJoints(std::size_t count, const PoseThem& pose) {
     const std::size_t lanes = hn::Lanes(JointTag());
@@ -144,13 +142,13 @@ void multiplyOut(const ChainCall& call, PosedChains& chains) noexcept {
 
 namespace {
 
-/// Tells the maps that some of a section's groups need.
+/// Finds the maps that some of a section's groups need.
 ///
-/// \return false where all are to be made
+/// \return false where all are needed
 bool findNeeded(const SkinModel& model, const ChainPlan& plan, const ChainPlan::Section& section,
                 std::size_t firstGroup, std::size_t endGroup, NeededMaps& needed) noexcept {
     const ChainPlan::Section& next = (&section)[1];
-    // Of a group that is too long for that.
+    // A group too long for the bit sets.
     if (next.state - section.state > ChainPlan::kMostStates) return false;
     for (std::size_t g = firstGroup; g < endGroup; ++g) {
         const ChainPlan::Group& group = plan.groups[g];

@@ -12,7 +12,7 @@
 
 namespace osgSkin {
 
-/// An angle of which each vertex takes its share. The smaller it is, the fewer terms its sine
+/// An angle of which each vertex takes a fraction. The smaller it is, the fewer terms its sine
 /// needs.
 struct KernelAngle {
     /// Up to 0.34, 0.9, pi / 2, pi and 2 pi.
@@ -22,11 +22,11 @@ struct KernelAngle {
     std::int32_t range;
 };
 
-/// What joints do in the present pose, whatever chain they are in.
+/// The joints of a section in a pose.
 ///
-/// In the frame (v, w x v, w) about the joint centre, with bend axis v and twist axis w, the
-/// partial turn is a turn in the plane of the first two axes (by the twist) followed by one in the
-/// plane of the last two (by the bend).
+/// In the frame (v, w x v, w) about the joint centre, with bend axis v and twist axis w, a partial
+/// rotation is one in the plane of the first two axes (the twist) followed by one in the plane of
+/// the last two (the bend).
 struct KernelJoints {
     static constexpr std::size_t kMost = ChainPlan::kMostJoints;
 
@@ -36,33 +36,31 @@ struct KernelJoints {
     float bend[kMost], twist[kMost]; ///< psi and phi, as KernelAngle has them
     std::int32_t bendRange[kMost], twistRange[kMost];
     float wholeBend[kMost], wholeTwist[kMost];      ///< psi and phi
-    float azimuthCosine[kMost], azimuthSine[kMost]; ///< of v in the joint's fixed frame
-    float move[3][kMost]; ///< the joint's translation, in its frame; comes in with the bend ratio
-    float growth[kMost];  ///< the joint's scale less 1; the same
-    std::int32_t adjusted[kMost]; ///< these are not 0, and something follows the joint in part
-    bool anyAdjusted;             ///< of all joints, whatever their number
+    float azimuthCosine[kMost], azimuthSine[kMost]; ///< of v, in the joint's fixed frame
+    float move[3][kMost];         ///< translation, in its frame; times the bend ratio
+    float growth[kMost];          ///< scale less 1; times the bend ratio
+    std::int32_t adjusted[kMost]; ///< whether either is not 0 and any group follows it in part
+    bool anyAdjusted;             ///< whether any joint is
 };
 
-/// x -> scale * turn x + move, while full turns are being multiplied out: columns of the turn, then
-/// the move with the scale behind it. Turns are rotations.
+/// x -> scale * turn x + move: columns of the rotation, then the translation and the scale.
 struct alignas(64) PosedMap {
     double column[4][4];
 };
 
-/// The maps of a plan's section in one pose. Only what the section has is ever set.
+/// The maps of a plan's section in one pose. Only those in the plan are set.
 struct PosedChains {
-    /// Works out what the groups from `firstGroup` to before `endGroup` need, which are of one
-    /// section.
+    /// Computes what the groups from `firstGroup` to before `endGroup`, all of one section, need.
     void set(const SkinModel& model, const Pose& pose, const ChainPlan::Section& section,
              std::size_t firstGroup, std::size_t endGroup) noexcept;
 
-    /// The joints' full turns, column after column.
+    /// The joints' full rotations, column by column.
     double turns[9][ChainPlan::kMostJoints];
     PosedMap wide[ChainPlan::kWideMaps]; ///< by ChainPlan's indices
-    KernelMap maps[ChainPlan::kMaps];    ///< the same
+    KernelMap maps[ChainPlan::kMaps];    ///< by ChainPlan's indices
     KernelMap outs[ChainPlan::kMostOuts];
     KernelJoints joints;
-    bool scaled; ///< any joint is
+    bool scaled; ///< whether any joint is
 };
 
 /// Which of a section's maps are needed.
@@ -71,16 +69,16 @@ struct NeededMaps {
     std::bitset<ChainPlan::kMostOuts> outs;
 };
 
-/// What multiplies a section out.
+/// The arguments of multiplyOut().
 struct ChainCall {
     const Pose& pose;
     const ChainPlan& plan;
-    const ChainPlan::Section& section; ///< with the next one behind it
-    double smallMove;                  ///< a joint's translation up to this is a rounding error
-    const NeededMaps* needed;          ///< null: all are
+    const ChainPlan::Section& section; ///< followed by the next one
+    double smallMove;                  ///< SkinBlocks::smallMove
+    const NeededMaps* needed;          ///< null: all
 };
 
-/// By the best instructions that the machine has.
+/// Computes a section's maps.
 void multiplyOut(const ChainCall& call, PosedChains& chains) noexcept;
 
 } // namespace osgSkin

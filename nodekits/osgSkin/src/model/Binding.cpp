@@ -105,7 +105,7 @@ std::vector<std::uint32_t> productOrder(const std::vector<BoundJoint>& joints) {
     const std::vector<std::size_t> sizes = subtreeSizes(joints);
     Indices order, open;
     if (!joints.empty()) open.push_back(0);
-    while (!open.empty()) { // without recursion: chains may be as long as they like
+    while (!open.empty()) { // without recursion: chains may be long
         const std::uint32_t j = open.back();
         open.pop_back();
         order.push_back(j);

@@ -34,7 +34,7 @@ void evaluateSplines(const std::vector<double>& knots, double x, double* values)
 
 using Basis = CorrectiveJoint::Basis;
 
-/// Where the soft clamp leaves the straight line.
+/// Where the soft clamp leaves the identity.
 constexpr double kStraight = 0.9;
 constexpr double kSoft = 1.0 - kStraight;
 
@@ -43,7 +43,7 @@ double softClamp(double t) noexcept {
     return t <= kStraight ? t : kStraight + kSoft * std::tanh((t - kStraight) / kSoft);
 }
 
-/// A coordinate as a share of what was sampled on its side; not negative.
+/// A coordinate as a fraction of the range sampled on its side; not negative.
 double shareOf(double x, double low, double high) noexcept {
     return x > 0.0 ? x / high : x / low;
 }
@@ -72,7 +72,7 @@ void checkKnots(const CorrectiveJoint& joint, const std::string& place) {
             throw Error(place + " have knots that do not ascend");
 }
 
-/// Written so that NaN is refused.
+/// Rejects NaN.
 void checkRange(const CorrectiveJoint& joint, const std::string& place) {
     for (int axis = 0; axis < 2; ++axis)
         if (!(joint.low[axis] < -1e-6 && joint.low[axis] > -2.0 && joint.high[axis] > 1e-6 &&
@@ -88,7 +88,7 @@ void checkBend(const CorrectiveJoint& joint, const BoundJoint& of, const std::st
     checkKnots(joint, place);
 }
 
-/// Written so that NaN is refused.
+/// Rejects NaN.
 void checkInput(const CorrectiveJoint& joint, const std::string& place) {
     if (!(joint.low.x >= -2.0 && joint.low.x <= 0.0 && joint.high.x > 0.0 && joint.high.x <= 2.0))
         throw Error(place + " have a range that does not hold 0, or is beyond -2 to 2");
@@ -235,7 +235,7 @@ void CorrectiveJoint::weights(glm::dvec2 xy, double* beta) const noexcept {
     const std::size_t functions = functionCount();
     const double* row = coefficients.data();
     for (std::size_t k = 0; k < modes; ++k) beta[k] = 0.0;
-    for (std::size_t i = 0; i < functions; ++i, ++row) // modes side by side: no sum waits for one
+    for (std::size_t i = 0; i < functions; ++i, ++row) // interleaves the modes' sums
         for (std::size_t k = 0; k < modes; ++k) beta[k] += row[k * functions] * phi[i];
 }
 

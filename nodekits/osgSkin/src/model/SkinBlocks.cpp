@@ -18,7 +18,6 @@
 #include <utility>
 
 namespace osgSkin {
-
 namespace {
 
 using Index = ChainPlan::Index;
@@ -36,7 +35,7 @@ PlannedFrame planFrame(const BoundJoint& joint, std::uint32_t number) {
     return frame;
 }
 
-/// The way into a joint's frame: rows v, w x v, w.
+/// The map to a joint's frame: rows v, w x v, w.
 PlannedWideInto planWideInto(const BoundJoint& joint, std::uint32_t number) {
     const glm::dmat3 axes = jointFrame(joint); // e1, e2, w
     PlannedWideInto map{};
@@ -115,11 +114,11 @@ private:
             _numbers[_plan.joints[i]] = kNoNumber;
     }
 
-    /// Whether what a group adds has room in the section.
+    /// Whether a group's maps fit into the section.
     bool fits(const SkinModel::Group& group) const {
         std::size_t joints = jointCount(), states = _stateCount, outs = outCount() + 1;
         Index state = ChainPlan::kIdentity;
-        bool known = true; // so far all of it is there already
+        bool known = true; // whether the section has all maps so far
         for (std::uint32_t i = 0; i < group.linkCount; ++i) {
             const SkinModel::Link& link = linksOf(group)[i];
             const std::uint32_t number = _numbers[link.joint];
@@ -148,7 +147,7 @@ private:
         _plan.joints.push_back(joint);
     }
 
-    /// A state in single precision, from its latest step on.
+    /// A state in single precision, as of its latest step.
     Index narrowed(Index from, Index with) {
         State& state = *std::find_if(_plan.states.rbegin(), _plan.states.rend(),
                                      [&](const State& each) { return each.to == from; });
@@ -161,13 +160,13 @@ private:
         return narrowed;
     }
 
-    /// Where a map that others are followed by starts.
+    /// The pivot where a map starts.
     glm::dvec3 startOf(Index with) const {
         if (with == ChainPlan::kIdentity) return glm::dvec3(0.0);
         return boundJoint(with - ChainPlan::frame(0)).centre;
     }
 
-    /// What moves of a map that comes last are told of.
+    /// The pivot of a map that comes last.
     glm::dvec3 aboutOf(Index from) const {
         if (from == ChainPlan::kIdentity) return glm::dvec3(0.0);
         if (from < ChainPlan::frame(0)) return boundJoint(from - ChainPlan::into(0)).centre;
@@ -192,7 +191,7 @@ private:
         const auto found = _states.find({from, with});
         if (found != _states.end()) return found->second;
         if (from != ChainPlan::kIdentity && from < ChainPlan::state(0)) addWideInto(from);
-        // A group too long for a section of its own goes on in the last state, which is its alone.
+        // A group too long for a section continues in the last state, which no other group uses.
         const bool isNew = _stateCount < ChainPlan::kMostStates;
         if (isNew) ++_stateCount;
         const Index to = ChainPlan::state(_stateCount - 1);
@@ -224,7 +223,7 @@ private:
 
     void add(const SkinModel::Group& group) {
         const SkinModel::Link* const links = linksOf(group);
-        for (const bool partial : {true, false}) // those must have numbers
+        for (const bool partial : {true, false}) // partial ones first: they need numbers
             for (std::uint32_t i = 0; i < group.linkCount; ++i)
                 if (links[i].partial == partial) number(links[i].joint);
         ChainPlan::Group added{static_cast<std::uint32_t>(_plan.links.size()), ChainPlan::kNoLead};
@@ -253,15 +252,7 @@ private:
     std::map<std::pair<Index, Index>, Index> _outs;           ///< by from and with
 };
 
-} // namespace
-
-ChainPlan::ChainPlan(const SkinModel& model) : inOrder(model.joints().size() <= kMostJoints) {
-    ChainPlanner(model, *this).plan();
-}
-
-namespace {
-
-/// Of single precision, of a skin's coordinates.
+/// Of single precision, relative to a skin's coordinates.
 constexpr double kRounding = 1e-7;
 
 double largestCoordinate(const SkinModel& model) {
@@ -282,7 +273,7 @@ std::uint32_t frameOf(const SkinModel& model, const SkinModel::Group& group) {
     return model.links()[group.firstLink + group.linkCount - 1].joint;
 }
 
-/// Writes one vertex into its lane of its block.
+/// Writes a vertex to its lane of a block.
 void place(const SkinModel& model, const SkinModel::Group& group, std::uint32_t row,
            const glm::dmat3& frame, BlockRow* block) {
     const std::uint32_t v = model.order()[group.firstVertex + row];
@@ -306,6 +297,10 @@ void place(const SkinModel& model, const SkinModel::Group& group, std::uint32_t 
 }
 
 } // namespace
+
+ChainPlan::ChainPlan(const SkinModel& model) : inOrder(model.joints().size() <= kMostJoints) {
+    ChainPlanner(model, *this).plan();
+}
 
 glm::dmat3 jointFrame(const BoundJoint& joint) {
     const glm::dvec3 w = glm::normalize(joint.twistAxis);

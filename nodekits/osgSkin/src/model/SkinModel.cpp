@@ -22,18 +22,16 @@
 
 namespace osgSkin {
 
-/// A skin's vertices, checked against their binding and grouped for the deformation: what
-/// SkinModel::create() makes a model of.
+/// A skin's vertices, checked against their binding and grouped for the deformation.
 ///
-/// The vertices of a group follow the same joints wholly and the same in part: they have one
-/// signature. Small groups join others, whose further joints their vertices follow by ratios of 0
-/// or 1, where that costs less than vectors with empty lanes. A group is deformed as a whole, so
-/// its vertices are written side by side best.
+/// The vertices of a group have one signature: they follow the same joints fully and the same in
+/// part. Small groups join others, whose additional joints their vertices follow by ratios of 0 or
+/// 1, where that costs less than vectors with empty lanes.
 class VertexGroups {
 public:
     struct Joint {
         std::uint32_t index; ///< in Binding::joints
-        bool partial;        ///< Influence::isPartial() of some; else followed wholly by all
+        bool partial;        ///< whether some vertices follow it in part
     };
     struct Group {
         std::vector<Joint> joints;     ///< that its vertices follow, in productOrder()
@@ -56,13 +54,11 @@ public:
     /// Sorted by signature, so that groups side by side begin with the same joints.
     const std::vector<Group>& groups() const { return _groups; }
 
-    /// The vertices, group by group, within a group those of the same joints' correctives together,
-    /// and otherwise as they came: the order in which the
-    /// deformation writes them. Geometry in any other order costs a scatter a frame.
+    /// The order in which the deformation writes vertices: group by group, within a group sorted by
+    /// the joints' correctives that they follow, otherwise as before.
     const std::vector<std::uint32_t>& order() const { return _order; }
 
-    /// Numbers the vertices as order() has them: what was vertex order()[i] is vertex i then, and
-    /// order() the identity.
+    /// Renumbers the vertices: vertex order()[i] becomes vertex i, and order() the identity.
     void reorder();
 
 private:
@@ -74,11 +70,11 @@ private:
 
 namespace {
 
-/// Joints that vertices follow in part where groups join, at most; as many as bindings have.
+/// The most joints that a joined group follows in part; as many as bindings have.
 constexpr std::size_t kMostJoined = 4;
 
-/// What the vertices of a group have in common: twice each joint's place in the product, one more
-/// where they follow it in part. Sorted.
+/// For each joint that a group's vertices follow, twice its position in the product, plus 1 where
+/// they follow it in part. Sorted.
 using Signature = std::vector<std::uint32_t>;
 
 /// \param places of the joints in the product
@@ -100,8 +96,8 @@ std::size_t partialCount(const Signature& signature) {
                                                   [](std::uint32_t key) { return key % 2 == 1; }));
 }
 
-/// The one that vertices of both can have: joints that one of them does not follow, or only one
-/// follows wholly, are followed in part, by ratios 0 or 1.
+/// The signature for vertices of both: joints that not both follow fully are followed in part, by
+/// ratios 0 or 1.
 void unite(const Signature& a, const Signature& b, Signature& result) {
     result.clear();
     auto i = a.begin(), k = b.begin();
@@ -119,7 +115,7 @@ void unite(const Signature& a, const Signature& b, Signature& result) {
 /// The vertices of each signature. Sorted, so that groups side by side share their outer links.
 using Members = std::map<Signature, std::vector<std::uint32_t>>;
 
-/// What it takes to deform a group, about, in the time that a link of a block takes.
+/// The approximate time to deform a group, in units of one link of one block.
 double costOf(const Signature& signature, std::size_t vertices) {
     constexpr double kGroup = 2.0; // to begin one
     const std::size_t count = (vertices + kBlock - 1) / kBlock;
@@ -127,9 +123,8 @@ double costOf(const Signature& signature, std::size_t vertices) {
     return kGroup + blocks * (1.0 + static_cast<double>(partialCount(signature)));
 }
 
-/// Lets small groups join others, where that takes less time than the padding of both and one group
-/// more. Of many, a group looks at those that are most like it in order, and at fewer where each
-/// has a long chain of joints: painted weights make thousands.
+/// Joins small groups with others where that saves time. Each tries only the groups next to it in
+/// order, and fewer of those for long chains: painted weights make thousands of groups.
 void joinSmall(Members& members) {
     constexpr std::size_t kSmall = 2 * kBlock;
     constexpr std::size_t kTriedOnASide = 64, kJointsTried = 64 * kTriedOnASide;
@@ -175,7 +170,7 @@ void joinSmall(Members& members) {
         all.insert(all.end(), own->second.begin(), own->second.end());
         members.erase(own);
         members.erase(with);
-        std::vector<std::uint32_t>& to = members[best]; // which there may be already
+        std::vector<std::uint32_t>& to = members[best]; // may exist already
         if (to.size() < all.size()) to.swap(all);
         to.insert(to.end(), all.begin(), all.end());
     }
@@ -218,7 +213,7 @@ void checkPartial(const std::vector<VertexGroups::Joint>& joints, std::uint32_t 
                     std::to_string(SkinModel::kMaxPartialInfluences));
 }
 
-/// The ratios of a group's vertices, those of partial joints only.
+/// Appends the ratios of a group's vertices for its partial joints.
 void addRatios(const VertexGroups& vertices, const VertexGroups::Group& group,
                std::vector<SkinModel::Ratio>& ratios) {
     const Binding& binding = vertices.binding();
@@ -289,7 +284,7 @@ std::vector<std::uint32_t> SkinModel::bestOrder(const Binding& binding,
 
 SkinModel::SkinModel() : _blocks(std::make_shared<SkinBlocks>(*this)) {}
 
-// What the two share of it never changes.
+// Copies share the immutable data.
 SkinModel::SkinModel(const SkinModel& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), _joints(other._joints), _positions(other._positions),
       _normals(other._normals), _order(other._order), _groups(other._groups), _links(other._links),
@@ -369,7 +364,7 @@ osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
     if (!vertices.binding().gradients.empty())
         model->_gradients =
             std::make_shared<GradientBlocks>(*model, vertices.binding(), vertices.source());
-    if (!vertices.binding().correctives.empty()) // which look at the gradients
+    if (!vertices.binding().correctives.empty()) // after the gradients, which these read
         model->_correctives =
             std::make_shared<CorrectiveBlocks>(*model, vertices.binding(), vertices.source());
     return model;

@@ -15,11 +15,10 @@
 #include <vector>
 
 namespace osgSkin {
-
 namespace {
 
-/// A callback that links what has its name and nothing else; those that others derive from it may
-/// do otherwise, as OSG's for morph targets does.
+/// The callback as one that links channels by its name. Null for derived classes: they may link
+/// otherwise, as OSG's for morph targets does.
 osgAnimation::UpdateMatrixTransform* linkedByName(osg::Callback& callback) {
     const std::type_info& type = typeid(callback);
     const bool plain = type == typeid(osgAnimation::UpdateBone) ||
@@ -29,8 +28,8 @@ osgAnimation::UpdateMatrixTransform* linkedByName(osg::Callback& callback) {
                : nullptr;
 }
 
-/// Another character, as a rider, is moved by its own manager. A channel moves one target alone: it
-/// would leave this character's bone for the one of the same name below it.
+/// Whether a node below a skeleton has a manager of its own, as a rider has. Its bones must not be
+/// linked: a channel has one target, and would lose this character's bone of the same name.
 bool isAnotherCharacter(osg::Node& node, const osg::NodePath& path) {
     osg::Callback* callback = node.getUpdateCallback();
     while (callback && !dynamic_cast<osgAnimation::AnimationManagerBase*>(callback))
@@ -40,11 +39,11 @@ bool isAnotherCharacter(osg::Node& node, const osg::NodePath& path) {
            });
 }
 
-/// Links bones and transforms with the channels of their name. OSG's own visitor compares the name
-/// of each with that of every channel, and copies it: thousands of bones would take many seconds.
+/// Links bones and transforms with the channels of their names. OSG's visitor compares (and copies)
+/// each name with that of every channel: many seconds for thousands of bones.
 class NameLinker : public osgAnimation::LinkVisitor {
 public:
-    /// \param animations as OSG's managers have them, none of them null
+    /// \param animations none of them null
     explicit NameLinker(const osgAnimation::AnimationList& animations) {
         _animations = animations;
         for (const auto& animation : animations)
@@ -79,7 +78,7 @@ private:
 AutoPlayManager::AutoPlayManager(const AutoPlayManager& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop), osgAnimation::BasicAnimationManager(
                                                                     other, copyop) {
-    // A copy plays nothing yet, so it starts by itself too.
+    // A copy plays nothing yet, so it starts itself, too.
 }
 
 void AutoPlayManager::registerAnimations(const osgAnimation::AnimationList& animations) {
@@ -89,7 +88,7 @@ void AutoPlayManager::registerAnimations(const osgAnimation::AnimationList& anim
 }
 
 void AutoPlayManager::link(osg::Node* subgraph) {
-    if (_linker.valid()) { // an application's own
+    if (_linker.valid()) { // the application's
         osgAnimation::BasicAnimationManager::link(subgraph);
         return;
     }
@@ -100,15 +99,15 @@ void AutoPlayManager::link(osg::Node* subgraph) {
 }
 
 void AutoPlayManager::update(double time) {
-    if (!std::isfinite(time)) return; // OSG would add to it from then on
+    if (!std::isfinite(time)) return; // OSG would never recover
     if (!_started) {
         _started = true;
         const bool playing = std::any_of(_animationsPlaying.begin(), _animationsPlaying.end(),
                                          [](const auto& layer) { return !layer.second.empty(); });
-        _lastUpdate = time; // when what is played begins
+        _lastUpdate = time;
         if (!playing && !_animations.empty()) playAnimation(_animations.front());
     }
-    // OSG divides by a pose's length, unless it is repeated, and looks behind its only key then.
+    // Unless it loops, OSG divides by the duration of a clip with a single key.
     for (const auto& layer : _animationsPlaying)
         for (const osg::ref_ptr<osgAnimation::Animation>& clip : layer.second)
             if (clip->getPlayMode() != osgAnimation::Animation::LOOP &&

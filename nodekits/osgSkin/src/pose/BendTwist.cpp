@@ -19,9 +19,9 @@ glm::dquat rotationAbout(const glm::dvec3& unitAxis, double angle) {
     return {std::cos(0.5 * angle), unitAxis * std::sin(0.5 * angle)};
 }
 
-/// The direction of u within the plane perpendicular to w; any direction there where u is nothing.
+/// The direction of u in the plane perpendicular to w; any such direction where u is 0.
 glm::dvec3 perpendicularDirection(glm::dvec3 u, const glm::dvec3& w) {
-    // A very short u is mostly rounding error along w: scale it up, then take that part out.
+    // A very short u may be mostly rounding error along w: scale it up, then remove that part.
     const double largest = std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z)});
     if (!(largest > 0.0)) return anyPerpendicular(w);
     u /= largest;
@@ -32,7 +32,7 @@ glm::dvec3 perpendicularDirection(glm::dvec3 u, const glm::dvec3& w) {
     return glm::normalize(u - w * glm::dot(u, w));
 }
 
-/// q and -q are the same rotation: the one of them whose first non-zero part is positive.
+/// q and -q are the same rotation; of the two, the first non-zero number is to be positive.
 bool isNegative(double a, double b, const glm::dvec3& c) {
     for (const double x : {a, b, c.x, c.y, c.z})
         if (x != 0.0) return x < 0.0;
@@ -46,25 +46,25 @@ BendTwist splitUnit(const glm::dquat& q, const glm::dvec3& w) noexcept {
     double c = q.w;
     const glm::dvec3 xyz(q.x, q.y, q.z);
     double s = glm::dot(xyz, w); // c + s w is the twist, unnormalised
-    glm::dvec3 u = xyz - w * s;  // what is perpendicular to the bone
+    glm::dvec3 u = xyz - w * s;  // the part perpendicular to the bone
     if (isNegative(c, s, u)) {
         c = -c;
         s = -s;
         u = -u;
     }
 
-    // Eq. 2 as acos loses its digits near 0 and pi; with n = cos(psi / 2), |u| = sin(psi / 2) the
-    // arc tangent keeps them.
+    // The acos of eq. 2 loses digits near 0 and pi; the arc tangent of |u| = sin(psi / 2) and
+    // n = cos(psi / 2) does not.
     const double n = std::sqrt(c * c + s * s);
     const double bendSine = glm::length(u);
     out.bendAngle = 2.0 * std::atan2(bendSine, n);
     if (n < 1e-12) {
-        // Bend of pi: w goes to -w, and every twist can be had by another bend axis.
+        // Bend of pi: w becomes -w, and the twist is not determined.
         out.bendAxis = perpendicularDirection(u, w);
         return out;
     }
-    // q times the inverse twist: its vector part is perpendicular to w, the bend axis of eq. 3. Its
-    // length is |u| n; where u is short, it has not that many digits.
+    // q times the inverse twist: its vector part is the bend axis of eq. 3, of length |u| n. A
+    // short one has few digits.
     const glm::dvec3 axis = c * u + s * glm::cross(w, u);
     out.bendAxis = bendSine > 1e-3 ? axis / (bendSine * n) : perpendicularDirection(axis, w);
     out.twistAngle = 2.0 * std::atan2(s, c); // eq. 4

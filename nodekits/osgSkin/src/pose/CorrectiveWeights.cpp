@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Compiled once for each instruction set by foreach_target.h, which includes this file again and
-// again; the best one is chosen at run time.
+// Compiled once for each instruction set, through foreach_target.h; the best is chosen at run time.
 #include "pose/CorrectiveWeights.h"
 
 #include "model/SkinBlocks.h"
@@ -131,7 +130,7 @@ void CorrectiveWeights::workOut(std::uint32_t joint) noexcept {
     Weights& weights = _weights[joint];
     bool isSomething = false;
     for (std::size_t k = 0; k < from.modes; ++k) {
-        // A rest pose read from matrices is one up to rounding errors.
+        // Rounding errors of a rest pose read from matrices have no effect.
         isSomething |= std::abs(beta[k]) > small;
         const double unit = beta[k] / Correctives::kUnit;
         weights.positions[k] = static_cast<float>(unit);

@@ -11,19 +11,17 @@
 
 namespace osgSkin {
 
-/// What the weights of a joint's correctives are sums of: the functions that are not 0 where it is,
-/// CorrectiveJoint::weights() in less time. Splines reach over few knots, and coefficients of modes
-/// stand side by side.
+/// CorrectiveJoint::weights() in less time: only the functions that are not 0, with the modes'
+/// coefficients side by side.
 class WeightTerms {
 public:
-    /// \param joint a valid one; outlives this, as its table does
-    /// \param table the joint's
-    /// \param xy its coordinates, not clamped yet
+    /// \param joint valid; must outlive this, as must its table
+    /// \param xy its coordinates, not yet clamped
     WeightTerms(const CorrectiveJoint& joint, const CorrectiveTable& table, glm::dvec2 xy) noexcept;
 
-    /// Sums them up, by the best instructions that the machine has.
+    /// Sums them up.
     ///
-    /// \param beta set; the table's stride of them
+    /// \param beta set: as many as the table's stride
     void sum(double* beta) const noexcept;
 
     static constexpr std::size_t kMost = 22; ///< of CorrectiveJoint::Basis::Round
@@ -40,11 +38,10 @@ private:
     void add(double factor, const double* coefficients) { terms[count++] = {factor, coefficients}; }
 };
 
-/// The correctives' beta in one pose, worked out joint by joint as they are asked for; on the
-/// stack.
+/// The correctives' weights (beta) in one pose, computed on demand, joint by joint; on the stack.
 class CorrectiveWeights {
 public:
-    /// What each mode's shares, as they are held, are to be multiplied by.
+    /// The factors of each mode's shares.
     struct Weights {
         std::array<float, CorrectiveJoint::kMostModes> positions;
         std::array<float, CorrectiveJoint::kMostModes> normals;
@@ -56,24 +53,22 @@ public:
     /// Whether the model has correctives.
     bool any() const noexcept { return _blocks; }
 
-    /// Null where the correctives of `joint`, an index of theirs, do nothing in this pose.
+    /// Null where the correctives of `joint` (Correctives::joints) have no effect in this pose.
     /// \pre any()
     const Weights* of(std::uint32_t joint) noexcept {
         if (_states[joint] == State::Unknown) workOut(joint);
         return _known[joint];
     }
 
-    /// Works out all that groups name.
+    /// Computes all that the groups from `firstGroup` to before `endGroup` need.
     /// \pre any()
-    /// \param firstGroup the first of them
-    /// \param endGroup the one behind the last
     void workOut(std::size_t firstGroup, std::size_t endGroup) noexcept {
         const std::vector<std::uint32_t>& ranges = _blocks->firstRange;
         for (std::uint32_t i = ranges[firstGroup]; i < ranges[endGroup]; ++i)
             of(_blocks->corrected[i].joint);
     }
 
-    /// What of() has given so far, by joint.
+    /// The results of of() so far, by joint.
     const Weights* const* known() const noexcept { return _known.data(); }
 
     std::size_t modesOf(std::uint32_t joint) const noexcept { return _blocks->joints[joint].modes; }

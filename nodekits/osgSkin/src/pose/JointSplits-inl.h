@@ -20,8 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
-/// A number of up to eight joints each: what waits for roots and quotients is done beside each
-/// other.
+/// One number of each of up to eight joints, so that roots and divisions overlap.
 using JointTag = hn::CappedTag<double, PoseCall::kAtOnce>;
 using Joints = hn::Vec<JointTag>;
 using JointMask = hn::Mask<JointTag>;
@@ -51,10 +50,9 @@ HWY_INLINE Joints loadEachOf(const double* row, const int* at) {
 #endif
 }
 
-/// Reads numbers of the parents of joints from `first` on.
+/// Reads the parents' numbers of the joints from `first` on.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-/// Most joints follow their parents, whose numbers stand side by side then; what others there are
-/// is put between those.
+/// Most joints directly follow their parents, whose numbers are then adjacent; others are inserted.
 class ParentRows {
 public:
     HWY_INLINE ParentRows(const int* parents, std::size_t first)
@@ -63,11 +61,11 @@ public:
         const hn::Rebind<std::int32_t, JointTag> steps;
         const Joints numbers = hn::Iota(d, 0.0);
         const Joints follow = hn::Add(numbers, each(double(first) - 1.0));
-        std::uint8_t bytes[8] = {}; // as many as may be written
+        std::uint8_t bytes[8] = {}; // the most that may be written
         hn::StoreMaskBits(d, hn::Ne(hn::PromoteTo(d, hn::LoadU(steps, parents)), follow), bytes);
         std::uint32_t bits = bytes[0] | 1u << hn::Lanes(d);
         for (std::size_t i = 0; i < kOthers; ++i) {
-            const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits); // behind all: none
+            const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits); // or past the end
             _isOther[i] = hn::Eq(numbers, each(double(lane)));
             _others[i] = parents[HWY_MIN(lane, hn::Lanes(d) - 1)];
             if (lane < hn::Lanes(d)) bits &= bits - 1;
@@ -103,7 +101,7 @@ private:
 };
 #endif
 
-/// What is read of a frame or a map.
+/// A frame or a map.
 struct Turns {
     Joints turn[3][3]; ///< columns
     Joints offset[3];
@@ -115,11 +113,10 @@ struct Quaternions {
 };
 
 struct Angles {
-    Joints bend, twist, cosine, sine; ///< the latter of the bend axis, from e1 to e2
+    Joints bend, twist, cosine, sine; ///< the latter of the bend axis, from e1 towards e2
 };
 
-/// Cube roots of what volumes are far from 1. Numbers of a file or rotation are rounded, which is
-/// no scale; and a root takes its time.
+/// The cube root, but 1 for volumes within rounding errors of 1.
 HWY_INLINE Joints scaleOf(const Joints& volume) {
     const JointTag d;
     const Joints one = each(1.0);
@@ -131,8 +128,7 @@ HWY_INLINE Joints scaleOf(const Joints& volume) {
     return hn::IfThenElse(even, one, hn::LoadU(d, lanes));
 }
 
-/// 1 / sqrt(square), to the last few bits; exact for 1. Axes of bones that are not scaled are of
-/// length 1 but for rounding: no division then, and no root.
+/// 1 / sqrt(square), to the last few bits; exact for 1. Near 1, as without scale, it needs no root.
 HWY_INLINE Joints inverseRoot(const Joints& square) {
     const JointTag d;
     const Joints one = each(1.0), more = hn::Sub(square, one);
@@ -146,10 +142,10 @@ struct Root {
     Joints root, inverse;
 };
 
-/// Of what is not 0, nor denormal; to the last digits.
+/// The root of a normal number, to the last digits.
 HWY_INLINE Root rootOf(const Joints& square) {
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-    // Two of Newton's steps: the instructions for it take three times as long.
+    // Two Newton steps: the exact instructions take three times as long.
     Joints inverse{_mm512_rsqrt14_pd(square.raw)};
     const Joints half = hn::Mul(each(0.5), square), more = each(1.5);
     for (int i = 0; i < 2; ++i)
@@ -161,7 +157,7 @@ HWY_INLINE Root rootOf(const Joints& square) {
 #endif
 }
 
-/// Of a rotation, with that part found first which is largest.
+/// The quaternions of rotations, starting from the largest component.
 HWY_INLINE Quaternions quaternionsOf(const Joints (&m)[3][3]) {
     const JointTag d;
     const Joints one = each(1.0), half = each(0.5);
@@ -192,7 +188,7 @@ HWY_INLINE Quaternions quaternionsOf(const Joints (&m)[3][3]) {
     return q;
 }
 
-/// What is too near to a half turn for the arithmetic of the others.
+/// splitUnit() of a joint too close to a half turn for the code below.
 inline HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t joint, const double (&q)[4],
                                     double (&angles)[4]) {
     const auto rest = [&](std::size_t row) {
@@ -219,9 +215,9 @@ inline HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t first,
 
 /// splitUnit() of several joints.
 HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternions& q) {
-    /// Bend axes are nothing below this sine of half the bend.
+    /// Below this sine of half the bend, there is no bend axis.
     constexpr double kNoBend = 1e-100;
-    /// Below this cosine of half the bend, its axis and the twist are not told apart.
+    /// Below this cosine of half the bend, the twist is not determined.
     constexpr double kHalfTurn = 1e-12;
     const JointTag d;
     const Joints zero = hn::Zero(d), one = each(1.0), two = each(2.0);
@@ -232,8 +228,8 @@ HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternio
                                 hn::LoadU(d, at + 2 * call.count)};
         return dot(xyz, axis);
     };
-    // c + s w is the twist, u1 e1 + u2 e2 what is perpendicular to w; of q and -q the one where c
-    // is positive.
+    // c + s w is the twist, u1 e1 + u2 e2 the part perpendicular to w; of q and -q the one with
+    // positive c.
     const Joints sign = hn::And(q.w, hn::SignBit(d));
     const Joints c = hn::Xor(q.w, sign);
     const Joints s = hn::Xor(along(PoseAccess::RestRow::kPole), sign);
@@ -278,7 +274,7 @@ HWY_INLINE Joints continued(const Joints& before, const Joints& twist) {
             hn::And(hn::Lt(hn::Abs(angle), limit), hn::Le(hn::Abs(hn::Sub(angle, before)), near));
         result = hn::IfThenElse(good, angle, result);
     };
-    // The first that is good is to be taken, so it comes last.
+    // The last one in range wins.
     choose(hn::Sub(twist, turn));
     choose(hn::Add(twist, turn));
     choose(twist);
