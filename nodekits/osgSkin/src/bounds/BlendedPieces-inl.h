@@ -31,7 +31,7 @@ constexpr float kBlendRounding = 2e-6f; ///< of a coordinate: several roundings
 /// Boxes of a block's pieces, [axis].
 struct BlendedBlock {
     BoundsProxy::Lanes low[3], high[3];
-    BoundsProxy::Lanes corrected; ///< how far correctives take the pieces' vertices
+    BoundsProxy::Lanes corrected; ///< how far correctives move the pieces' vertices
 };
 
 /// A box's sides, [axis].
@@ -39,7 +39,7 @@ struct BlendedBox {
     float low[3], high[3];
 };
 
-/// The pieces' own maps, [column][axis], and how far vertices stray from those.
+/// The pieces' maps, [column][axis], and how far vertices deviate from those.
 struct BlendedMaps {
     Pieces turn[3][3], move[3], more;
 };
@@ -77,9 +77,9 @@ HWY_INLINE Pieces turned(const BlendedMaps& maps, const BoundsProxy::Lanes (&x)[
     return from;
 }
 
-/// How far correctives take the vertices of a block's pieces.
+/// How far correctives move the vertices of a block's pieces.
 ///
-/// \param weights CorrectiveStray's; null where there are no correctives
+/// \param weights see boxOf()
 HWY_INLINE BoundsProxy::Lanes correctedBy(const BoundsProxy& proxy, const BoundsProxy::Block& block,
                                           const float* weights) {
     const PieceTag d;
@@ -121,14 +121,12 @@ struct Growing {
     }
 };
 
-/// Boxes of a skin's pieces in a plain pose by linear blending, with what vertices may stray from
-/// that (BoundsProxy).
+/// The boxes of a skin's pieces in a plain pose by linear blending, enlarged by how far vertices
+/// may deviate (BoundsProxy).
 ///
-/// \param proxy of the pose's model
-/// \param motions the pose's
-/// \param weights CorrectiveStray's; null where there are no correctives
-/// \param boxes one for each block
-/// \return around the pieces where nothing strays: about where the skin is
+/// \param weights see boxOf()
+/// \param boxes set: one for each block
+/// \return the box without the enlargement: about where the skin is
 HWY_INLINE BlendedBox blendBoxes(const BoundsProxy& proxy, const JointMotions& motions,
                                  const float* weights, BlendedBlock* boxes) {
     const PieceTag d;
@@ -165,12 +163,10 @@ HWY_INLINE BlendedBox blendBoxes(const BoundsProxy& proxy, const JointMotions& m
     return about.box();
 }
 
-/// Which pieces reach out of a box.
+/// Finds the pieces that extend beyond a box.
 ///
-/// \param boxes of the pieces
 /// \param count of the blocks
-/// \param box what they are to be in
-/// \param lanes set to a bit for each piece of a block that does not
+/// \param lanes set for each block: a bit for each such piece
 HWY_INLINE void findOutside(const BlendedBlock* boxes, std::size_t count, const BlendedBox& box,
                             std::uint8_t* lanes) {
     const PieceTag d;
@@ -192,7 +188,7 @@ HWY_INLINE void findOutside(const BlendedBlock* boxes, std::size_t count, const 
     }
 }
 
-/// The box around all.
+/// The box around all boxes.
 HWY_INLINE BlendedBox boxAround(const BlendedBlock* boxes, std::size_t count) {
     Growing result;
     for (const BlendedBlock* end = boxes + count; boxes != end; ++boxes)
@@ -203,21 +199,20 @@ HWY_INLINE BlendedBox boxAround(const BlendedBlock* boxes, std::size_t count) {
     return result.box();
 }
 
-/// How far out of where the skin is about a box may reach and be good enough, in that one's size.
+/// How far a piece's box may extend beyond the approximate box of the skin, relative to its size.
 constexpr float kLoose = 0.03f;
 
-/// Boxes of all pieces of skin in a plain pose, by linear blending: they tell which pieces need to
-/// be looked at more closely.
+/// Boxes of all pieces in a plain pose, by linear blending; few of them need a closer bound.
 class BlendedPieces {
 public:
     /// \param proxy of the pose's model
-    /// \param motions the pose's, which is plain
-    /// \param weights CorrectiveStray's; null where there are no correctives
+    /// \param motions of a plain pose
+    /// \param weights see boxOf()
     BlendedPieces(const BoundsProxy& proxy, const JointMotions& motions,
                   const float* weights) noexcept;
 
-    /// The box that holds all vertices: of the pieces' blended boxes, but where one reaches far out
-    /// of where the skin is about, of what is known more closely of that piece.
+    /// The box around all vertices: around the blended boxes, or closer ones of pieces that extend
+    /// far beyond the skin.
     ///
     /// \param pieces of the same pose
     FourBox box(const PosedPieces& pieces) noexcept;
@@ -226,8 +221,8 @@ private:
     static constexpr std::size_t kMostBlocks =
         (BoundsProxy::kMost + BoundsProxy::kAtOnce - 1) / BoundsProxy::kAtOnce;
 
-    /// Makes a piece's box smaller by what is known more closely, unless it is in `wanted`; that
-    /// grows by it: as far out as the skin reaches anyway, others need not be looked at.
+    /// Replaces a piece's box by a closer one unless it is inside `wanted`, and expands `wanted` by
+    /// it: pieces within the skin's extent need no closer bound.
     void look(std::size_t block, std::size_t lane, const PosedPieces& pieces,
               BlendedBox& wanted) noexcept;
 
@@ -249,7 +244,7 @@ HWY_INLINE void BlendedPieces::look(std::size_t block, std::size_t lane, const P
                    boxes.high[axis].lane[lane] <= wanted.high[axis];
     if (isInside) return;
     const BoundsProxy::Block& of = _proxy.blocks[block];
-    // Those that are missing are the first one again.
+    // Unused lanes repeat the first piece.
     const BoundsProxy::Piece& piece =
         _proxy.pieces[of.firstPiece + (lane < of.pieceCount ? lane : 0)];
     const FourBox turned = pieces.turned(piece, boxes.corrected.lane[lane]);

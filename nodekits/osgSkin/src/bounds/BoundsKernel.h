@@ -8,7 +8,7 @@
 
 namespace osgSkin {
 
-/// What bounds need of a joint in a pose, in single precision: BoundsProxy::rounding is for that.
+/// A joint's motion in a pose, in single precision (see BoundsProxy::rounding).
 struct JointMotion {
     FourMap map;         ///< G
     Four translation;    ///< the root's is in its map
@@ -18,7 +18,7 @@ struct JointMotion {
     float signedTwist;   ///< phi
     float cosine, sine;  ///< of the bend axis, from e1 to e2
     float scale, scaled; ///< its own, and that less 1
-    float travel;        ///< by how much it is translated; of the root 0
+    float travel;        ///< the length of its translation; 0 for the root
     float scaling;       ///< its own scale's difference from 1
     float growth;        ///< its own scale, at least 1
     float growthHere;    ///< the product of the growths of this joint and those above it
@@ -29,12 +29,11 @@ struct FourBox {
     Four low, high;
 };
 
-/// The box that holds a posed skin, by the best instruction set that the processor has.
+/// The box around a posed skin.
 ///
 /// \param proxy of the pose's model
-/// \param pose of the model's joints
-/// \param room for as many as the pose has joints, and at least PoseAccess::kAtOnce
-/// \param weights CorrectiveStray's; null where there are no correctives
+/// \param room one for each joint of the pose, and at least PoseAccess::kAtOnce
+/// \param weights CorrectiveStray's; null without correctives
 FourBox boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
               const float* weights) noexcept;
 

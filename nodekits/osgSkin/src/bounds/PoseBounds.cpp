@@ -17,9 +17,8 @@ namespace osgSkin {
 
 namespace {
 
-/// How much the modes of a skin's correctives weigh in a pose: what BoundsProxy::Reach is to be
-/// multiplied by, for how far they take vertices. Turns keep that distance, whatever the vertex's
-/// ratios.
+/// The absolute weights of corrective modes in a pose; times BoundsProxy::Reach, they bound how far
+/// correctives move vertices.
 class CorrectiveStray {
 public:
     /// \pre the model has correctives
@@ -34,14 +33,14 @@ public:
         }
     }
 
-    /// By BoundsProxy::weightOf(); set of the modes that there are.
+    /// By BoundsProxy::weightOf().
     const float* weights() const { return _weights.data(); }
 
 private:
     std::array<float, BoundsProxy::kMostWeights> _weights;
 };
 
-/// A side of the box where it is a number, else as far out as poses may reach.
+/// A side of the box, limited to the range of poses.
 float bounded(float side, float otherwise) {
     return std::abs(side) <= static_cast<float>(kLargestCoordinate) ? side : otherwise; // NaN too
 }

@@ -28,16 +28,15 @@ namespace HWY_NAMESPACE {
 using MotionTag = hn::Rebind<float, DoubleTag>;
 using Motions = hn::Vec<MotionTag>; ///< a number of several joints each
 
-/// What is a rounding error is nothing: products of such numbers would be denormal, and slow.
+/// Rounding errors become 0: their products would be denormal numbers, which are slow.
 HWY_INLINE Motions flushed(const Doubles& x, double least) {
     const auto large = hn::Ge(hn::Abs(x), allOf(least));
     return hn::DemoteTo(MotionTag(), hn::IfThenElseZero(large, x));
 }
 
-/// Four numbers of each joint, side by side.
+/// Stores four adjacent numbers of each joint.
 ///
-/// \param joints the first; the others follow
-/// \param at where the numbers stand in each, bytes
+/// \param at their offset in JointMotion, bytes
 HWY_INLINE void storeFour(Motions x, Motions y, Motions z, Motions w, JointMotion* joints,
                           std::size_t at) {
     char* const to = reinterpret_cast<char*>(joints) + at;
@@ -67,20 +66,20 @@ HWY_INLINE float lengthOf(const Four& a) noexcept {
     return std::sqrt(squares[0] + squares[1] + squares[2]);
 }
 
-/// The same of the joints that a proxy needs.
+/// The motions of the joints that a proxy needs.
 class JointMotions {
 public:
     /// \param proxy of the pose's model
     /// \param pose of the model's joints
-    /// \param room for as many as the pose has joints, and at least PoseAccess::kAtOnce
+    /// \param room see boxOf()
     JointMotions(const BoundsProxy& proxy, const Pose& pose, JointMotion* room) noexcept;
 
     const JointMotion& operator[](std::uint32_t joint) const noexcept { return _joints[joint]; }
 
-    /// But for the root none is moved or scaled, nor is that scaled.
+    /// Whether no joint is scaled, and none but the root is translated.
     bool isPlain() const noexcept { return _plain; }
 
-    /// The map of a joint's turn by ratios.
+    /// The map of a joint's partial rotation.
     FourMap partialTurn(const BoundsProxy::Term& term) const noexcept;
 
 private:
@@ -89,8 +88,7 @@ private:
     bool _plain = true;
 };
 
-/// A pose's rows, or those of fewer joints than are worked on at a time: with the last one over
-/// again.
+/// A pose's rows, padded where it has fewer joints than are processed at a time.
 class MotionRows {
 public:
     HWY_INLINE explicit MotionRows(const Pose& pose) : _count(pose.size()) {
@@ -129,7 +127,7 @@ private:
     std::int32_t _fewAzimuths[2 * PoseAccess::kAtOnce];
 };
 
-/// What joints from `first` on do against their parents, without what scale has to do with.
+/// Computes the motions of joints from `first` on relative to their parents, without scale.
 HWY_INLINE void moveJoints(const MotionRows& rows, std::size_t first, JointMotion* joints) {
     using Row = PoseAccess::Row;
     const MotionTag d;
@@ -215,7 +213,7 @@ HWY_INLINE FourMap JointMotions::partialTurn(const BoundsProxy::Term& term) cons
 
 constexpr float kRounding = 2e-6f; ///< of a coordinate: several roundings
 
-/// A cylinder on its way into the pose.
+/// A cylinder while it is posed.
 struct PosedPiece {
     Four centre, axes[3];
 
@@ -230,7 +228,7 @@ struct PosedPiece {
     }
 };
 
-/// Boxes of single pieces of skin, moved by a pose's joints.
+/// The boxes of single pieces in a pose.
 class PosedPieces {
 public:
     /// \param proxy of the pose's model
@@ -238,16 +236,15 @@ public:
     PosedPieces(const BoundsProxy& proxy, const JointMotions& motions) noexcept
         : _proxy(proxy), _motions(motions) {}
 
-    /// The box of a piece that is turned as its vertices are.
+    /// The box of a piece that is rotated as its vertices are.
     ///
-    /// \param piece of the proxy
-    /// \param corrected how far correctives take its vertices
+    /// \param corrected how far correctives move its vertices
     FourBox turned(const BoundsProxy::Piece& piece, float corrected) const noexcept;
 
 private:
     struct Strays {
-        float free = 0.0f;     ///< how far vertices stray before the anchor moves them
-        float anchored = 0.0f; ///< how much more by what they have less of the anchor
+        float free = 0.0f;     ///< how far vertices deviate before the anchor moves them
+        float anchored = 0.0f; ///< how much more, by ratios below the anchor's
         float grown = 1.0f;    ///< the scale of the first, at least 1
     };
     template <bool Plain>

@@ -19,10 +19,9 @@
 #include <vector>
 
 namespace osgSkin {
-
 namespace {
 
-/// Takes words one by one; never past the end, and never more memory than the words that are there.
+/// Reads words, never past the end, and never allocates more than the words need.
 class WordReader {
 public:
     explicit WordReader(const std::vector<std::uint32_t>& words) : _words(words) {}
@@ -31,7 +30,7 @@ public:
         if (_next == _words.size()) fail("it ends too early");
         return _words[_next++];
     }
-    /// A count of things that take at least `size` words each.
+    /// A count of items of at least `size` words each.
     std::uint32_t count(const char* what, std::size_t size) {
         const std::uint32_t number = word();
         if (number > (_words.size() - _next) / size)
@@ -77,7 +76,7 @@ private:
     std::size_t _next = 0;
 };
 
-/// Puts numbers and text into 32-bit words, every number with all its bits.
+/// Writes numbers and text as 32-bit words, without loss.
 class WordWriter {
 public:
     std::vector<std::uint32_t> words;
@@ -110,14 +109,7 @@ public:
     }
 };
 
-/// Correctives in a skin model's block, see packSkinModel().
-void putCorrectives(const Correctives& correctives, WordWriter& out);
-
-/// \throw osgSkin::Error where there are too few words; the numbers are checked by
-///        Correctives::validate()
-Correctives takeCorrectives(WordReader& in, std::uint32_t vertexCount);
-
-// Flags of a block.
+// Flags of correctives.
 constexpr std::uint32_t kNormals = 1, kInputs = 2;
 
 void putList(const std::vector<double>& numbers, WordWriter& out) {
@@ -131,7 +123,7 @@ std::vector<double> takeList(WordReader& in, const char* what) {
     return numbers;
 }
 
-/// Two a word, the first one lower.
+/// Two per word, the lower half first.
 void putShares(const std::int16_t* shares, std::size_t count, WordWriter& out) {
     for (std::size_t i = 0; i < count; i += 2) {
         std::uint32_t word = static_cast<std::uint16_t>(shares[i]);
@@ -200,6 +192,7 @@ void putCorrectives(const Correctives& correctives, WordWriter& out) {
     }
 }
 
+/// \throw osgSkin::Error where there are too few words; Correctives::validate() checks the numbers
 Correctives takeCorrectives(WordReader& in, std::uint32_t vertexCount) {
     Correctives result;
     const std::uint32_t flags = in.word();
@@ -262,8 +255,7 @@ std::vector<RatioGradient> takeGradients(WordReader& in, const std::vector<Influ
 } // namespace
 
 Binding bindingOf(const SkinModel& model) {
-    // Per vertex first: groups list their vertices in an order of their own, and their joints in
-    // the product's.
+    // By vertex first: groups have their own order of vertices, and of joints (productOrder()).
     std::vector<std::vector<std::pair<Influence, RatioGradient>>> influences(model.vertexCount());
     const std::vector<RatioGradient> grouped = gradientsOf(model);
     auto gradient = grouped.begin();
@@ -275,7 +267,7 @@ Binding bindingOf(const SkinModel& model) {
                 const SkinModel::Link& link = model.links()[group.firstLink + k];
                 const SkinModel::Ratio own = link.partial ? *ratio++ : SkinModel::Ratio{1.0f, 1.0f};
                 const RatioGradient slope = grouped.empty() ? RatioGradient{} : *gradient++;
-                if (own.bend == 0.0f && own.twist == 0.0f) continue; // others of the group have it
+                if (own.bend == 0.0f && own.twist == 0.0f) continue; // an influence of others
                 list.push_back({{link.joint, own.bend, own.twist}, slope});
             }
             std::sort(list.begin(), list.end(),
@@ -302,7 +294,7 @@ Binding bindingOf(const SkinModel& model) {
 std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
     const Binding binding = bindingOf(model);
     WordWriter out;
-    // As early a version as will do: older programs read it, too.
+    // The earliest version that suffices, for older programs.
     const bool corrected = !binding.correctives.empty();
     const bool sloped = !binding.gradients.empty();
     out.put(sloped ? kSkinModelBlockVersion : std::uint32_t{corrected ? 2u : 1u});
@@ -371,7 +363,7 @@ osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& 
     }
     if (version == 2) binding.correctives = takeCorrectives(in, vertices);
     if (!in.atEnd()) in.fail("there is more in it than a model");
-    // Numbers, indices, ratios, axes and the tree of joints are checked there.
+    // create() checks numbers, indices, ratios, axes and the joints' hierarchy.
     return SkinModel::create(binding, std::move(positions), std::move(normals), source);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What files hold of a model. Exported for the serializers alone: an application saves and reads
-// models by osgDB.
+// A model in files. Exported for the serializers; applications use osgDB.
 #pragma once
 
 #include <osgSkin/Binding>
@@ -15,18 +14,18 @@ namespace osgSkin {
 
 /// The binding that a model was made from, for the model's own vertices.
 ///
-/// Ratios come back exactly. Regions are not part of a model: a vertex's region is here the last
-/// joint that it follows by half or more. Correctives that are 0 are left out, and of gradients
-/// what SkinModel::create() leaves out.
+/// Ratios are exact. A vertex's region is the last joint that it follows by half or more, since
+/// models have no regions. Correctives that are 0, and gradients that SkinModel::create() drops,
+/// are left out.
 OSGSKIN_EXPORT Binding bindingOf(const SkinModel& model);
 
 /// The latest version. packSkinModel() writes it for a model with gradients, 2 for one with
 /// correctives alone, and 1 for any other.
 constexpr std::uint32_t kSkinModelBlockVersion = 3;
 
-/// A model as 32-bit words, every number with all its bits: the same in each file format.
+/// A model as 32-bit words, without loss: the same in each file format.
 ///
-/// Version; number of joints, and of each: parent, bytes in the name, the name (four bytes a word,
+/// Version; number of joints, and of each: parent, bytes of the name, the name (four bytes a word,
 /// the first lowest), centre, bone axis, twist axis (doubles, low word first); number of vertices,
 /// all positions, all normals (floats); of each vertex: number of influences, and of each: joint,
 /// bend, twist.
@@ -41,17 +40,17 @@ constexpr std::uint32_t kSkinModelBlockVersion = 3;
 /// and z, twist x, y and z (floats). Then 1 where the correctives follow, else 0.
 OSGSKIN_EXPORT std::vector<std::uint32_t> packSkinModel(const SkinModel& model);
 
-/// The model in `words`, which may come from anybody.
+/// The model in `words`, which need not be trusted.
 ///
 /// \return never null
-/// \throw osgSkin::Error that names the first thing found wrong
+/// \throw osgSkin::Error that names the first error
 OSGSKIN_EXPORT osg::ref_ptr<const SkinModel>
 unpackSkinModel(const std::vector<std::uint32_t>& words);
 
-/// The same for readers that have to make the object first, as osgDB's do.
+/// The same for readers that create the object first, as osgDB's do.
 ///
 /// \param words as above
-/// \param empty a model that nobody uses yet; as it was where this throws
+/// \param empty a new model; unchanged where this throws
 /// \throw osgSkin::Error as above, and where the model is not empty
 OSGSKIN_EXPORT void unpackSkinModel(const std::vector<std::uint32_t>& words, SkinModel& empty);
 

@@ -8,7 +8,7 @@
 namespace osgSkin {
 namespace {
 
-// Where things stand: CrowdClips has the clips, CrowdInstance::pack() the instances.
+// Layouts: CrowdCharacter::writeClips() for clips, CrowdInstance::pack() for instances.
 const char* const kInstances = R"(
 uniform samplerBuffer osgSkinClips;
 uniform usamplerBuffer osgSkinInstances;
@@ -18,8 +18,8 @@ uniform int osgSkinPaletteSize;
 uniform float osgSkinTime;
 uniform mat4 osgSkinStand;
 
-ivec4 osgSkinFrames;     // texels of two samples of one clip, and of two of the other
-vec3 osgSkinShares;      // of the second sample of each, and of the other clip
+ivec4 osgSkinFrames;     // the texels of two samples of one clip, then of the other
+vec3 osgSkinShares;      // weights of the second sample of each, and of the other clip
 
 vec4 osgSkin_palette(int texel) {
   vec4 one = mix(texelFetch(osgSkinClips, osgSkinFrames.x + texel),
@@ -48,8 +48,9 @@ vec4 osgSkin_rotation(int joint) {
 }
 )";
 
-// Between samples of one clip, G as it was baked; between two clips, which may be far apart, what
-// the joints' own mixed turns make of it, so that the skin stays whole where a ratio reaches 1.
+// Between samples of a clip, G is interpolated; between two clips, which may differ much, it is
+// computed from the joints' blended rotations, so that the skin stays whole where a ratio
+// reaches 1.
 const char* const kBlend = R"(
 void osgSkin_anchor(int joint, inout vec3 x, inout vec3 n, inout vec3 t) {
   if (osgSkinShares.z > 0.0 && osgSkinShares.z < 1.0)
@@ -70,9 +71,9 @@ void osgSkin_anchor(int joint, inout vec3 x, inout vec3 n, inout vec3 t) {
   osgSkin_follow(joint, x, n, t);
 }
 
-/// The two samples of a clip around a time: their texels, and the share of the second.
+/// The two samples of a clip around a time: their texels, and the weight of the second.
 void osgSkin_sample(int clip, float seconds, out ivec2 texels, out float share) {
-  vec4 about = texelFetch(osgSkinClips, clip); // first texel, samples, of them a second, loops
+  vec4 about = texelFetch(osgSkinClips, clip); // first texel, samples, samples per second, loops
   float last = about.y - 1.0;
   float at = seconds * about.z;
   at = about.w > 0.5 ? at - about.y * floor(at / about.y) : clamp(at, 0.0, last);
@@ -121,7 +122,7 @@ void main() {
   vec4 vertex = gl_Vertex;
   vec3 normal = gl_Normal, tangent = vec3(0.0);
   osgSkinColour = gl_FrontMaterial.diffuse;
-#ifdef OSGSKIN // not while OSG compiles it beforehand
+#ifdef OSGSKIN // undefined while OSG precompiles
   osgSkin_vertex(vertex, normal, tangent, osgSkinColour);
 #endif
   osgSkinNormal = gl_NormalMatrix * normal;
@@ -148,17 +149,17 @@ void main() {
 }
 )";
 
-// A figure's size is its sphere's radius in the picture, of half the picture's height.
+// The size of a character is its sphere's radius in the picture, in half picture heights.
 const char* const kCull = R"(#version 430
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer OsgSkinCommands { uint osgSkinCommands[]; };
 layout(std430, binding = 1) writeonly buffer OsgSkinList { uint osgSkinList[]; };
 uniform usamplerBuffer osgSkinInstances;
 uniform vec4 osgSkinPlanes[4];
-uniform vec4 osgSkinSphere;    // of a figure about its place, centre and radius
-uniform vec4 osgSkinEye;       // and what a size of 1 is at distance 1
-uniform int osgSkinIsFlat;     // no perspective
-uniform ivec4 osgSkinCounts;   // instances, levels, parts, places a level has in the list
+uniform vec4 osgSkinSphere;    // of a character in its own space: centre and radius
+uniform vec4 osgSkinEye;       // and the size of radius 1 at distance 1
+uniform int osgSkinIsFlat;     // orthographic
+uniform ivec4 osgSkinCounts;   // instances, levels, parts, list entries per level
 uniform float osgSkinSizes[8]; // below which each level is drawn
 
 void main() {

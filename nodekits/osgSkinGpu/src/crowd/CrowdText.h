@@ -8,7 +8,7 @@
 
 namespace osgSkin {
 
-/// Texture units of a crowd's shaders, beyond those that materials use.
+/// Texture units of a crowd's shaders, above those that materials use.
 enum CrowdUnit { kCrowdModelUnit = 10, kCrowdClipUnit, kCrowdInstanceUnit, kCrowdVisibleUnit };
 
 /// Buffer indices of cullProgram().
@@ -19,14 +19,14 @@ constexpr unsigned int kMostLevels = 8;
 /// The functions that crowdVertexShader() documents, in GLSL 3.30.
 std::string crowdText();
 
-/// Lit from light 0, with the material's diffuse colour and the texture of unit 0: what a crowd is
-/// drawn with that has no program of its own.
+/// Draws a crowd that has no program: lit from light 0, with the material's diffuse colour and the
+/// texture of unit 0.
 osg::Program* plainCrowdProgram();
 
-/// Finds which instances a camera sees, and in which level of detail; one a thread. GLSL 4.30.
+/// Finds the instances that a camera sees and their levels of detail, one per thread. GLSL 4.30.
 osg::Program* cullProgram();
 
-/// Threads of one group of it.
+/// Threads of a work group of cullProgram().
 constexpr unsigned int kCullThreads = 64;
 
 } // namespace osgSkin

@@ -18,13 +18,16 @@
 #include <mutex>
 
 namespace osgSkin {
-
 namespace {
 
-/// The texel of a palette, at which the weights of each of the correctives' joints begin; then
-/// that behind the last.
+/// The texels in a palette where the weights of each corrective joint begin; then their end.
 std::vector<unsigned int> weightTexels(const SkinModel& model,
-                                       const std::vector<CorrectiveJoint>& joints);
+                                       const std::vector<CorrectiveJoint>& joints) {
+    std::vector<unsigned int> texels = {static_cast<unsigned int>(4 * model.joints().size())};
+    for (const CorrectiveJoint& joint : joints)
+        texels.push_back(texels.back() + static_cast<unsigned int>((joint.modes + 1) / 2));
+    return texels;
+}
 
 constexpr unsigned int kNone = ~0u;
 
@@ -32,7 +35,7 @@ unsigned int halves(int low, int high) {
     return (static_cast<unsigned int>(low) & 0xffffu) | static_cast<unsigned int>(high) << 16;
 }
 
-/// Two directions along the skin, as the shader finds them of the same normal.
+/// The two directions along the skin that the shader derives from a normal.
 struct SkinDirections {
     glm::dvec3 u, v;
 };
@@ -44,19 +47,19 @@ SkinDirections skinDirections(const glm::dvec3& n) {
     return {{1.0 + s * n.x * n.x * a, s * b, -s * n.x}, {b, s + n.y * n.y * a, -n.y}};
 }
 
-/// A group's chain: the joint whose G comes last, and the links before that, innermost first.
+/// A group's chain: the joint whose G is applied last, and the links before that, innermost first.
 struct PackedChain {
     struct Link {
         unsigned int joint;
         std::uint32_t link; ///< in SkinModel::links()
-        std::size_t ratio;  ///< among the vertex's partial ratios; kFull: 1, 1
+        std::size_t ratio;  ///< index in the vertex's partial ratios; kFull: 1, 1
     };
     static constexpr std::size_t kFull = ~std::size_t(0);
 
     unsigned int anchor = kNone;
     std::vector<Link> links;
 
-    /// What the i-th link turns about; rest space's origin behind the last one.
+    /// The centre of the i-th link; the origin behind the last one.
     glm::dvec3 centre(const SkinModel& model, std::size_t i) const {
         return i < links.size() ? model.joints()[links[i].joint].centre : glm::dvec3(0.0);
     }
@@ -68,7 +71,7 @@ PackedChain chainOf(const SkinModel& model, const SkinModel::Group& group) {
     for (std::uint32_t i = 0; i < group.linkCount; ++i) {
         const SkinModel::Link& link = model.links()[group.firstLink + i];
         const int above = chain.anchor == kNone ? -1 : static_cast<int>(chain.anchor);
-        // Only as long as they lead down one path from the root do full links make up a joint's G.
+        // Full links are a joint's G while they are a path from the root.
         if (!link.partial && chain.links.empty() && model.joints()[link.joint].parent == above)
             chain.anchor = link.joint;
         else
@@ -126,7 +129,7 @@ private:
             {chain.anchor, word(chain.links.size()),
              (_correctives.empty() ? 0u : 1u) | (_model.hasSurfaceNormals() ? 2u : 0u), 0});
         for (const PackedChain::Link& link : chain.links) {
-            // A full link has no gradients, and what it moves by tilts nothing.
+            // A full link has no gradients.
             glm::vec2 reach(-1.0f);
             if (_model.hasSurfaceNormals() && link.ratio != PackedChain::kFull)
                 reach = _slopes.reach[link.link];
@@ -146,7 +149,7 @@ private:
         }
     }
 
-    /// Of each link the bend ratio's along u and along v, and the twist ratio's.
+    /// For each link the bend ratio's along u and v, and the twist ratio's.
     void addGradients(const PackedChain& chain, const SkinModel::Ratio* ratios,
                       std::uint32_t vertex) {
         const SkinDirections at = skinDirections(_model.normals()[vertex]);
@@ -192,18 +195,9 @@ private:
     osg::ref_ptr<osg::Vec4uiArray> _texels;
 };
 
-std::vector<unsigned int> weightTexels(const SkinModel& model,
-                                       const std::vector<CorrectiveJoint>& joints) {
-    std::vector<unsigned int> texels = {static_cast<unsigned int>(4 * model.joints().size())};
-    for (const CorrectiveJoint& joint : joints)
-        texels.push_back(texels.back() + static_cast<unsigned int>((joint.modes + 1) / 2));
-    return texels;
-}
-
-/// The texels of a GpuModel, laid out as that says.
+/// The texels of a GpuModel.
 ///
-/// \param model with vertices or without
-/// \param correctives the model's
+/// \param model may have no vertices
 osg::ref_ptr<osg::Vec4uiArray> packModel(const SkinModel& model, const Correctives& correctives) {
     return Packer(model, correctives).pack();
 }
@@ -213,7 +207,7 @@ struct Known {
     std::map<const SkinModel*, osg::observer_ptr<GpuModel>> models;
 };
 
-/// Never destroyed: models of an application's own statics outlive ours.
+/// Never destroyed: models in an application's statics may outlive it.
 Known& known() {
     static Known& instance = *new Known;
     return instance;
@@ -233,7 +227,7 @@ osg::ref_ptr<const GpuModel> GpuModel::of(const SkinModel& model) {
     const std::lock_guard<std::mutex> lock(all.mutex);
     osg::ref_ptr<GpuModel> found;
     osg::observer_ptr<GpuModel>& place = all.models[&model];
-    // An address may be a new model's: the one that was there before has gone with its GpuModel.
+    // A null entry may be of an earlier model at this address.
     if (!place.lock(found)) {
         found = new GpuModel(model);
         place = found.get();

@@ -10,6 +10,12 @@
 #ifndef GL_MAX_TEXTURE_BUFFER_SIZE
 #define GL_MAX_TEXTURE_BUFFER_SIZE 0x8C2B
 #endif
+#ifndef GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT
+#define GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT 0x00000001
+#endif
+#ifndef GL_BUFFER_UPDATE_BARRIER_BIT
+#define GL_BUFFER_UPDATE_BARRIER_BIT 0x00000200
+#endif
 
 namespace osgSkin {
 namespace {
@@ -24,9 +30,9 @@ std::array<std::atomic<bool>, kMostContexts>& failed() {
 bool canCompute(const osg::State& state) {
     const unsigned int id = state.getContextID();
     if (id >= kMostContexts || failed()[id]) return false;
-    // Asking for the extensions needs the context; those that are known may be read by any thread.
+    // Finding the extensions needs the context; known ones may be read by any thread.
     const osg::GLExtensions* extensions = osg::GLExtensions::Get(id, false);
-    // A driver without compute shaders may give their functions' addresses all the same.
+    // A driver without compute shaders may still have their functions.
     return extensions && extensions->glslLanguageVersion >= 4.3f &&
            osg::isGLExtensionOrVersionSupported(id, "GL_ARB_compute_shader", 4.3f) &&
            osg::isGLExtensionOrVersionSupported(id, "GL_ARB_shader_storage_buffer_object", 4.3f) &&
@@ -38,7 +44,7 @@ void noteCannotCompute(unsigned int contextId) {
 }
 
 bool canReadTexels(unsigned int contextId, std::size_t texels) {
-    static std::array<std::atomic<GLint>, kMostContexts> known{}; // a driver may be slow to ask
+    static std::array<std::atomic<GLint>, kMostContexts> known{}; // the query may be slow
     GLint most = contextId < kMostContexts ? known[contextId].load() : 0;
     if (most == 0) {
         glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
@@ -46,17 +52,6 @@ bool canReadTexels(unsigned int contextId, std::size_t texels) {
     }
     return most > 0 && texels <= static_cast<std::size_t>(most);
 }
-
-} // namespace osgSkin
-
-#ifndef GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT
-#define GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT 0x00000001
-#endif
-#ifndef GL_BUFFER_UPDATE_BARRIER_BIT
-#define GL_BUFFER_UPDATE_BARRIER_BIT 0x00000200
-#endif
-
-namespace osgSkin {
 
 SharedBarrier& SharedBarrier::instance() {
     // Never deleted: contexts may be gone when a process ends.
@@ -77,7 +72,7 @@ void SharedBarrier::addTo(osgUtil::CullVisitor& cv) {
 void SharedBarrier::drawImplementation(osg::RenderInfo& renderInfo) const {
     const unsigned int id = renderInfo.getContextID();
     if (id >= kMostContexts || !_needed[id].exchange(false)) return;
-    // Vertex fetches read what was computed; so may an application that reads buffers back.
+    // For vertex fetches, and applications that read buffers back.
     renderInfo.getState()->get<osg::GLExtensions>()->glMemoryBarrier(
         GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     ++_count;

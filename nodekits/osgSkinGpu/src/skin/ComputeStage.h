@@ -16,35 +16,31 @@ class State;
 
 namespace osgSkin {
 
-/// Contexts that skins are computed in; what others draw is deformed by the processor.
+/// The most contexts in which skins are computed; in others the processor deforms.
 constexpr unsigned int kMostContexts = 64;
 
-/// Whether a context can run our compute shaders. From any thread; false before the context has
-/// looked at its own extensions, which it does at its first draw.
+/// Whether a context can run the compute shaders; thread-safe. False before the context's first
+/// draw, which finds its extensions.
 bool canCompute(const osg::State& state);
 
-/// Notes that a context cannot, whatever it says of itself.
+/// Notes that a context cannot, whatever it reports.
 void noteCannotCompute(unsigned int contextId);
 
-/// Whether a buffer of so many texels can be read by the shaders of a context, the current one.
+/// Whether shaders of the current context can read a buffer of so many texels.
 bool canReadTexels(unsigned int contextId, std::size_t texels);
 
-} // namespace osgSkin
-
-namespace osgSkin {
-
-/// What makes the draws of a frame wait for all skins that were computed before them: one leaf
-/// for all skins, which does nothing in a context where nothing has been computed since.
+/// Makes the draws of a frame wait for the skins that were computed before: one leaf for all skins,
+/// which does nothing where nothing has been computed.
 class SharedBarrier : public osg::Drawable {
 public:
     static SharedBarrier& instance();
 
     SharedBarrier();
 
-    /// Puts it behind the dispatches of a cull's render stage and before all else; any thread.
+    /// Adds it to a cull's render stage, after the dispatches and before all else; thread-safe.
     void addTo(osgUtil::CullVisitor& cv);
 
-    /// Called in the context's draw: it has computed something.
+    /// To be called in a context's draw after a dispatch.
     void need(unsigned int contextId) { _needed[contextId] = true; }
 
     unsigned int count() const { return _count; }
@@ -59,13 +55,13 @@ private:
     mutable std::atomic<unsigned int> _count{0};
 };
 
-/// The render bins of what is computed before a stage's draws, and of what makes these wait.
+/// The render bins of dispatches and of the barrier, before all other bins of a stage.
 enum ComputeBin { kComputeBin = -1000, kBarrierBin };
 
-/// Lets what has a state be drawn in one of them, whatever a state above it says of bins.
+/// Puts a state's drawables into one of these bins, whatever the states above set.
 void setUpBin(osg::StateSet& state, ComputeBin bin);
 
-/// Puts a drawable, which no camera moves, into a cull's render stage by its own state alone.
+/// Adds a drawable with a state to a cull's render stage.
 void addToStage(osgUtil::CullVisitor& cv, osg::Drawable& drawable, osg::StateSet& state);
 
 } // namespace osgSkin

@@ -4,7 +4,7 @@
 namespace osgSkin {
 namespace {
 
-// Where things stand in osgSkinModel: GpuModel. In the palette: GpuPalette.
+// The layout of osgSkinModel: see GpuModel; of the palette: see GpuPalette.
 const char* const kFetch = R"(
 uniform usamplerBuffer osgSkinModel;
 
@@ -13,8 +13,8 @@ uvec4 osgSkin_words(int texel) {
 }
 )";
 
-// Own sine and cosine: APIs let the built-in ones be wrong by 1e-3. Minimax up to pi / 2, errors
-// 3.3e-9 and 5.3e-8, and exact at 0, so that the rest pose is the rest skin.
+// Built-in sines and cosines may be off by 1e-3. Minimax up to pi / 2, errors 3.3e-9 and 5.3e-8,
+// and exact at 0, for the rest pose.
 const char* const kTurns = R"(
 vec2 osgSkin_sineByAngleAndCosine(float t) {
   float s = 2.5904852963e-06;
@@ -29,13 +29,13 @@ vec2 osgSkin_sineByAngleAndCosine(float t) {
   return vec2(s, c * t + 1.0);
 }
 
-/// The turn by twice the length of `halfTurn`, up to pi / 2, about it.
+/// The rotation about `halfTurn` by twice its length, which is up to pi / 2.
 vec4 osgSkin_turn(vec3 halfTurn) {
   vec2 sc = osgSkin_sineByAngleAndCosine(dot(halfTurn, halfTurn));
   return vec4(sc.x * halfTurn, sc.y);
 }
 
-/// The turn by four times `quarter`, up to pi / 2, about a unit axis.
+/// The rotation about a unit axis by four times `quarter`, which is up to pi / 2.
 vec4 osgSkin_twist(vec3 axis, float quarter) {
   vec2 sc = osgSkin_sineByAngleAndCosine(quarter * quarter);
   float s = sc.x * quarter;
@@ -57,10 +57,9 @@ vec3 osgSkin_scaledTo(vec3 x, float size) {
 }
 )";
 
-// Two directions along the skin go through the chain where the model has its ratios' gradients and
-// a joint tilts the group's normals; else normals turn as their vertices do. A vertex's place is
-// told from the centre of the joint that it is about to turn about: the levers of folded skin's
-// normals need the digits that its distance from rest space's origin would take.
+// Where the model has gradients and a joint tilts the group's normals, two directions along the
+// skin go through the chain; else normals rotate as their vertices do. Positions are relative to
+// the centre of the next joint: normals of folded skin need the digits.
 const char* const kDeform = R"(
 /// By the skinning matrix G of a joint.
 void osgSkin_follow(int joint, inout vec3 x, inout vec3 n, inout vec3 t) {
@@ -71,7 +70,7 @@ void osgSkin_follow(int joint, inout vec3 x, inout vec3 n, inout vec3 t) {
   t = osgSkin_rotate(q, t);
 }
 
-/// Two directions along the skin, of which the model has the gradients' parts.
+/// The two directions along the skin of the gradients' components.
 void osgSkin_directions(vec3 n, out vec3 u, out vec3 v) {
   float s = n.z >= 0.0 ? 1.0 : -1.0;
   float a = -1.0 / (s + n.z);
@@ -100,7 +99,7 @@ void osgSkin_correct(int texel, out vec3 correction, out vec3 tilt) {
   }
 }
 
-/// Poses a vertex of the model: out position and normal, and the tangent, on entry at rest.
+/// Poses a vertex of the model. The tangent is at rest on entry.
 void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 tangent) {
   uvec4 head = osgSkin_words(0);
   uvec4 a = osgSkin_words(int(head.y) + 2 * vertex);
@@ -152,14 +151,13 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
     float factor = 1.0 + ratio.x * move.w;
     vec3 from = osgSkin_rotate(q, x);
     if (tilts) {
-      // Added before the turn: where skin folds little is left, which turning then keeps the digits
-      // of.
+      // Added before the rotation: where skin folds, the sum is small, and keeps its digits.
       vec2 reach = uintBitsToFloat(link.yz);
       vec3 byBend = vec3(0.0), byTwist = vec3(0.0);
       if (length(turn.xyz) * reach.x > 1e-3)
         byBend = cross(osgSkin_rotate(vec4(-twist.xyz, twist.w), turn.xyz), x);
       if (abs(turn.w) * reach.y > 1e-3) byTwist = turn.w * cross(pole, x);
-      // Of the bend ratio along u and along v, of the twist ratio the same.
+      // The bend ratio's along u and v, the twist ratio's along u and v.
       vec4 slope = uintBitsToFloat(osgSkin_words(int(b.w) + links + i));
       u += slope.z * byTwist + slope.x * byBend;
       v += slope.w * byTwist + slope.y * byBend;
@@ -176,7 +174,7 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
   if (tilts) {
     vec3 most = max(abs(u), abs(v));
     float size = max(most.x, max(most.y, most.z));
-    if (size > 1e4 || (size > 0.0 && size < 1e-4)) { // whose squares' squares may be no floats
+    if (size > 1e4 || (size > 0.0 && size < 1e-4)) { // squares of squares may overflow
       u /= size;
       v /= size;
     }
@@ -193,7 +191,7 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
 } // namespace
 
 const std::string& deformText() {
-    // What differs between one pose and a crowd's comes with the shader that includes this.
+    // Functions that differ between single skins and crowds come with the including shader.
     static const std::string text =
         std::string(kFetch) + kTurns +
         "vec4 osgSkin_palette(int texel);\n"

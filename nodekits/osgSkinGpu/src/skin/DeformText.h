@@ -5,8 +5,8 @@
 
 namespace osgSkin {
 
-/// The deformation in GLSL 3.30, without a `#version`: osgSkin_deform() and what it calls. Compute
-/// and vertex shaders get the same text, so that they give the same bits.
+/// The deformation in GLSL 3.30, without a `#version`: osgSkin_deform() and its helpers. Compute
+/// and vertex shaders share it, so that their results are equal bit by bit.
 const std::string& deformText();
 
 } // namespace osgSkin

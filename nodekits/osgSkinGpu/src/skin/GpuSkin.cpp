@@ -30,7 +30,6 @@
 #include <vector>
 
 namespace osgSkin {
-
 namespace {
 
 /// The texture units and buffer indices of the compute shaders.
@@ -91,7 +90,7 @@ osg::ref_ptr<osg::Program> make(const char* name, const char* defines) {
     return program;
 }
 
-/// Deforms the vertices of one skin, one a thread; shared by all. 64 threads a group.
+/// Deforms the vertices of a skin, one per thread; shared by all skins.
 ///
 /// \param withTangents reads osgSkinTangents and writes tangents, too
 osg::Program* computeProgram(bool withTangents) {
@@ -107,8 +106,7 @@ std::atomic<unsigned int>& dispatches() {
     return count;
 }
 
-/// Computes a skin's vertices when it is drawn, in each context once for each pose that it is
-/// given.
+/// Computes a skin's vertices when drawn, once per pose and context.
 class SkinDispatch : public osg::Drawable {
 public:
     explicit SkinDispatch(const osg::ref_ptr<const GpuModel>& model) : _model(model) {
@@ -116,7 +114,7 @@ public:
         setSupportsDisplayList(false);
     }
 
-    /// In no thread's draw: its next draw computes.
+    /// Sets a new pose for the next draw. Not while any thread draws.
     void setPose(unsigned int number) { _pose = number; }
 
     bool isDone(unsigned int contextId) const { return _done[contextId] == _pose; }
@@ -139,7 +137,7 @@ public:
         }
         const auto vertices = static_cast<unsigned int>(_model->model().vertexCount());
         extensions->glDispatchCompute((vertices + kComputeThreads - 1) / kComputeThreads, 1, 1);
-        // Our buffers came to be bound as vertex buffers while they were filled; OSG does not know.
+        // Filling our buffers bound them as vertex buffers, behind OSG's back.
         state.unbindVertexBufferObject();
         extensions->glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
         SharedBarrier::instance().need(id);
@@ -158,11 +156,11 @@ private:
     mutable std::array<std::atomic<unsigned int>, kMostContexts> _done{};
 };
 
-/// Whatever the scene above a skin sets or overrides is for drawing, not for this.
+/// States above a skin must not affect its dispatch.
 constexpr osg::StateAttribute::GLModeValue kOurs =
     osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
 
-/// A buffer object of the array's own, so that it begins where the buffer does.
+/// Gives an array a buffer object of its own, so that it starts at offset 0.
 void ownBuffer(osg::Array& array, GLenum usage) {
     const osg::ref_ptr<osg::VertexBufferObject> buffer = new osg::VertexBufferObject;
     buffer->setUsage(usage);
@@ -185,10 +183,10 @@ osg::ref_ptr<osg::Vec4Array> restTangents(const osg::Array& from) {
     return tangents;
 }
 
-/// All that one pose of a skin is computed and drawn with.
+/// The buffers and states to compute and draw one pose of a skin.
 class SkinSlot {
 public:
-    /// \pre the skin has the model
+    /// \param model the skin's
     SkinSlot(const DeformableSkin& skin, const osg::ref_ptr<const GpuModel>& model)
         : _geometry(skin.makeDrawnGeometry()),
           _palette(new osg::Vec4Array(static_cast<unsigned int>(model->paletteSize()))),
@@ -208,7 +206,7 @@ public:
         addOutput(kTangentBuffer, *_geometry->getVertexAttribArray(index));
     }
 
-    /// Writes the pose that the next draw computes.
+    /// Sets the pose that the next draw computes.
     void setPose(const GpuModel& model, const Pose& pose, unsigned int number) {
         writePalette(model, pose, _palette->asVector().data());
         _palette->dirty();
@@ -249,10 +247,9 @@ private:
     osg::ref_ptr<osg::StateSet> _state;
 };
 
-/// Draws a skin from what compute shaders make of it, see setGpu().
+/// Draws a skin deformed by compute shaders, see setGpu().
 ///
-/// Two slots are used in turn: a draw thread may still read what the frame before has handed to it
-/// while the next one is written.
+/// Two slots alternate: a draw thread may still read the one of the frame before.
 class ComputeDrawer : public DeformableSkin::Drawer {
 public:
     osg::ref_ptr<Drawer> clone() const override { return new ComputeDrawer; }
@@ -260,7 +257,7 @@ public:
         const std::lock_guard<std::mutex> lock(_mutex);
         _model = GpuModel::of(*skin.getModel());
         _slots.clear();
-        // Now: state sets that several cull threads share are not to be made by one of them.
+        // Now, rather than in one of several cull threads.
         for (int i = 0; i < 2; ++i) _slots.push_back(std::make_unique<SkinSlot>(skin, _model));
         SharedBarrier::instance();
         _current = 0;
@@ -304,7 +301,7 @@ private:
     SkinSlot& current(const DeformableSkin& skin) {
         const std::lock_guard<std::mutex> lock(_mutex);
         if (_isDirty) {
-            // No update begins before the draw of the frame before the last one has ended.
+            // No update begins before the draw of the last frame but one has ended.
             if (_isHandedOut) _current = 1 - _current;
             _slots[_current]->setPose(*_model, skin.getPose(), ++_pose);
             _isDirty = false;
@@ -317,7 +314,7 @@ private:
     osg::ref_ptr<const GpuModel> _model;
     std::vector<std::unique_ptr<SkinSlot>> _slots;
     std::size_t _current = 0;
-    unsigned int _pose = 0; ///< counts those that were handed to a slot
+    unsigned int _pose = 0; ///< the number of poses given to slots
     bool _isDirty = true, _isHandedOut = false;
 };
 
