@@ -117,7 +117,7 @@ struct Chain {
             const glm::vec3 u = (sa * cb) * joint.bendAxis + (ca * sb) * joint.twistAxis +
                                 (sa * sb) * joint.crossAxis;
             const float s = ca * cb;
-                // A translation and a scale of the joint come in with the bend.
+            // A translation and a scale of the joint come in with the bend.
             x = joint.centre + ratios[k].bend * joint.translation +
                 (1.0f + ratios[k].bend * joint.growth) * rotate(s, u, x - joint.centre);
             x = full[k] * x;
@@ -135,8 +135,8 @@ struct Chain {
 };
 
 /// Adds what correctives add to a rest normal, which keeps its length, and keeps its tangent
-/// upright.
-/// Adds a corrective tilt to a rest normal, keeps it unit, and keeps the tangent perpendicular.
+/// upright. Adds a corrective tilt to a rest normal, keeps it unit, and keeps the tangent
+/// perpendicular.
 void tiltNormal(const glm::dvec3& tilt, glm::vec3& normal, glm::vec3& tangent) noexcept;
 
 bool isMoved(const SkinModel& model, const JointTransform& turn) noexcept {

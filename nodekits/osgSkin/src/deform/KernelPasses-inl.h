@@ -287,7 +287,8 @@ HWY_NOINLINE void passDirection(const KernelCall& call, const Chunk& chunk, cons
 }
 
 /// Computes normals and tangents from the directions along the skin, behind the last link that
-/// tilts them. \param scaled whether joints may be scaled
+/// tilts them.
+/// \param scaled whether joints may be scaled
 template <bool kTangents>
 HWY_NOINLINE void crossChunk(const Chunk& chunk, const ChunkSurface& surface, bool scaled,
                              ChunkStream& normals, ChunkStream& tangents) {

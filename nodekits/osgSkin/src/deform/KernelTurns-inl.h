@@ -62,8 +62,8 @@ HWY_INLINE V polynomial(V t, const float (&c)[kTerms]) {
 }
 
 /// Minimax polynomials for sin(h) / h and (cos(h) - 1) / h^2 in h^2; exact at 0, for the rest pose.
-/// Errors of sine and cosine: 1.6e-9 and 8.2e-8 up to 0.34, 4.1e-9
-/// and 9.5e-8 up to 0.9, 3.3e-9 and 5.3e-8 up to pi / 2.
+/// Errors of sine and cosine: 1.6e-9 and 8.2e-8 up to 0.34, 4.1e-9 and 9.5e-8 up to 0.9, 3.3e-9 and
+/// 5.3e-8 up to pi / 2.
 constexpr float kSmallSine[] = {9.9999996659e-01f, -1.6666435335e-01f, 8.2932794990e-03f};
 constexpr float kSmallCosine[] = {-4.9999203090e-01f, 4.1443658191e-02f};
 constexpr float kMediumSine[] = {9.9999995910e-01f, -1.6666599225e-01f, 8.3303291252e-03f,

@@ -16,10 +16,10 @@ namespace osgSkin {
 /// Pieces of skin that represent their vertices when a pose's bounds are computed.
 ///
 /// A piece is a cylinder around its rest vertices that moves rigidly: fully with one joint (its
-/// anchor) and all above, then with further joints by fixed ratios. A vertex x becomes
-/// P_1(r_1) ... P_n(r_n) x, a point of the cylinder the same with the piece's ratios s. With z the
-/// vertex before joint k rotates it, at most `high` from the joint's centre and `wide` from its
-/// twist axis, it deviates by at most
+/// anchor) and all above, then with further joints by fixed ratios. A vertex x becomes P_1(r_1) ...
+/// P_n(r_n) x, a point of the cylinder the same with the piece's ratios s. With z the vertex before
+/// joint k rotates it, at most `high` from the joint's centre and `wide` from its twist axis, it
+/// deviates by at most
 ///
 ///   |P_k(r) z - P_k(s) z| <= |bend of r - s| psi high + |twist of r - s| |phi| wide
 ///
@@ -28,8 +28,8 @@ namespace osgSkin {
 ///
 /// Most pieces are well inside the box. A cheaper bound shows that, for several pieces at once: the
 /// distance of vertices from linear blending with one ratio s_k per joint (the bend's, which moves
-/// vertices further than the twist). With `far` the largest `high` of all poses, and
-/// t_k = psi_k + |phi_k|, that distance is at most the sum of
+/// vertices further than the twist). With `far` the largest `high` of all poses, and t_k = psi_k +
+/// |phi_k|, that distance is at most the sum of
 ///
 /// - for ratios other than s_k: |bend of r - s_k| psi_k high + |twist of r - s_k| |phi_k| wide at
 ///   rest, and for the joints i applied before: |r - s_k| t_k r_i t_i far;
