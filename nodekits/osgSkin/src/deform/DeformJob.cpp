@@ -50,7 +50,7 @@ public:
         };
         const std::size_t first = blocks.groups[firstGroup].firstLink;
         while (endOf(endGroup - 1) > first + LinkTilts::kMost) --endGroup;
-        // Reach stands as the plan's links do.
+        // `reach` is in the order of the plan's links.
         _tilts.find(blocks.plan.links.data() + first, _blocks->reach.data() + first,
                     endOf(endGroup - 1) - first, *_joints);
         run.tilts = &_tilts;

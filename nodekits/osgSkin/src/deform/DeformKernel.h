@@ -35,29 +35,29 @@ struct LinkTilts {
 /// partial joint outwards, or to rest space.
 using KernelLink = ChainPlan::Link;
 
-/// Groups that are deformed one after the other, and what they have in common.
+/// Groups to deform, and their common arguments.
 struct KernelRun {
     const SkinBlocks* blocks;
-    const SkinBlocks::Group* groups; ///< the first of them; of a part of a group, a copy
+    const SkinBlocks::Group* groups; ///< the first one; for a part of a group, a copy
     std::size_t groupCount;
-    std::size_t firstGroup;      ///< the number of the first one
-    std::size_t skippedBlocks;   ///< of the first group, where there is one: in front of `groups`
+    std::size_t firstGroup;      ///< the index of the first one
+    std::size_t skippedBlocks;   ///< the blocks of the first group before its part
     const BlockRow* tangentRows; ///< SkinModelAccess::blocks(); where tangents is not null
     const KernelJoints* joints;
     const KernelMap* outs;
     const CorrectiveBlocks* corrections;              ///< null where the model has none
     const CorrectiveWeights::Weights* const* weights; ///< of all joints that these groups name
-    const GradientBlocks* gradients;                  ///< null where normals turn as vertices do
-    const LinkTilts* tilts;                           ///< from this link of the plan on:
+    const GradientBlocks* gradients;                  ///< null: normals rotate as vertices do
+    const LinkTilts* tilts;                           ///< of the plan's links from firstTilt on
     std::size_t firstTilt;
     const float* bendSlopes;      ///< psi of each joint, in units of the gradients
     const float* twistSlopes;     ///< phi, the same
-    float slopeUnit;              ///< 1, the same
+    float slopeUnit;              ///< the unit of the gradients
     float* positions;             ///< x, y, z of vertex 0
     float* normals;               ///< may be null
     float* tangents;              ///< x, y, z, w; may be null; null where normals is
     std::size_t endVertex;        ///< without scatter: vertices before this one may be overwritten
-    const std::uint32_t* scatter; ///< the model's order(), where output is not in order; else null
+    const std::uint32_t* scatter; ///< the model's order(); null where output is in order
 };
 
 /// A group and the constants of its vertices.

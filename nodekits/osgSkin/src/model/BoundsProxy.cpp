@@ -574,7 +574,7 @@ private:
     void addStrays(std::size_t k, const std::vector<float>& ratios, std::vector<Share>& all) const {
         const BoundJoint& joint = _joints[_ranges[k].joint];
         float high = 0.0f, far = 0.0f;
-        std::vector<float> pairs(_ranges.size(), 0.0f); // with joints that turn earlier or later
+        std::vector<float> pairs(_ranges.size(), 0.0f); // with other joints
         for (std::size_t row = 0; row < _rows.size(); ++row) {
             const glm::vec3& x = _vertices.position(_rows[row]);
             const SkinModel::Ratio* const own = ratiosOf(row);
@@ -651,7 +651,7 @@ private:
     const Rows& _rows;
     std::vector<PieceRatios> _ranges;
     std::vector<std::size_t> _above;       ///< by range: the place of the joint's parent
-    std::size_t _anchor = 0, _first = 1;   ///< the first one that any vertex does not follow wholly
+    std::size_t _anchor = 0, _first = 1;   ///< `_first`: not followed fully by all vertices
     std::vector<SkinModel::Ratio> _ratios; ///< by vertex, then by range
     std::vector<float> _far; ///< the same: from a joint's centre, whatever is done before it
     std::vector<BoundsProxy::Term> _terms;
