@@ -41,7 +41,7 @@ function(osgskin_nodekit name)
   target_include_directories(${name} PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
     "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
-  # Sources name each other by room: "pose/SplitUnit.h".
+  # Sources name each other by room: "pose/PoseKernel.h".
   target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/src")
   set_target_properties(${name} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${OSGSKIN_SOVERSION} INSTALL_RPATH "$ORIGIN")

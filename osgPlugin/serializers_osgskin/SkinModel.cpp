@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "RegisterWrapper.h"
-#include "words/SkinModelBlock.h"
+#include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/SkinModel>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any words as a saved model (SkinModel::create() behind them), and any numbers as a rotation to be
 // split.
-#include "words/SkinModelBlock.h"
+#include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/BendTwist>
 #include <osgSkin/Error>

@@ -2,7 +2,7 @@
 // Crowds that are larger than a driver reads, or than one dispatch looks at.
 #include "CrowdPicture.h"
 
-#include "crowd/TexelCheck.h"
+#include "crowd/CrowdDraws.h"
 
 #include <osg/Geode>
 #include <osg/Shape>

@@ -5,7 +5,7 @@
 #include "EglWindow.h"
 #include "FindNodes.h"
 
-#include "shader/DeformText.h"
+#include "skin/DeformText.h"
 
 #include <osgSkinGpu/GpuModel>
 #include <osgSkinGpu/GpuPalette>

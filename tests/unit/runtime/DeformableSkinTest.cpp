@@ -272,7 +272,7 @@ TEST(UpdateDeformableSkin, SeveralSkeletonsOfOneSkinAreToldOf) {
     first->addChild(skin);
     scene->accept(update);
     scene->accept(update);
-    EXPECT_TRUE(notices.say("stands under several skeletons")) << notices.text();
+    EXPECT_TRUE(notices.say("is below several skeletons")) << notices.text();
     EXPECT_EQ(notices.lines(), 1u);
 }
 

@@ -3,7 +3,7 @@
 #include "SlopedTube.h"
 #include "SomeCorrectives.h"
 #include "Tube.h"
-#include "words/SkinModelBlock.h"
+#include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/Error>
 

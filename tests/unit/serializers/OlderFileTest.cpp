@@ -3,7 +3,7 @@
 // osgSkin::SharedSkinModel. Such files are read as ever, and written with today's names.
 #include "SavedScene.h"
 #include "TextFile.h"
-#include "words/SkinModelBlock.h"
+#include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/UpdateDeformableSkin>

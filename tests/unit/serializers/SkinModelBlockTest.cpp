@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "words/SkinModelBlock.h"
+#include "serialize/SkinModelBlock.h"
 #include "SlopedTube.h"
 #include "SomeCorrectives.h"
 #include "Tube.h"

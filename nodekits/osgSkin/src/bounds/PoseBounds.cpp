@@ -2,19 +2,45 @@
 #include <osgSkin/PoseBounds>
 
 #include "bounds/BoundsKernel.h"
-#include "bounds/CorrectiveStray.h"
-#include "model/SkinModelAccess.h"
+#include "model/BoundsProxy.h"
+#include "model/SkinBlocks.h"
+#include "pose/CorrectiveWeights.h"
 
 #include <osgSkin/GlmTypes>
+#include <osgSkin/Pose>
 
 #include <array>
 #include <cmath>
 #include <vector>
 
 namespace osgSkin {
+
 namespace {
 
-/// A side of the box where it is a number, else as far out as poses may reach.
+/// The absolute weights of corrective modes in a pose; times BoundsProxy::Reach, they bound how far
+/// correctives move vertices.
+class CorrectiveStray {
+public:
+    /// \pre the model has correctives
+    CorrectiveStray(const SkinModel& model, const Pose& pose) noexcept {
+        CorrectiveWeights weights(model, pose);
+        const std::size_t joints = SkinModelAccess::correctives(model)->joints.size();
+        for (std::uint32_t joint = 0; joint < joints; ++joint) {
+            const CorrectiveWeights::Weights* now = weights.of(joint);
+            float* const to = &_weights[BoundsProxy::weightOf(joint, 0)];
+            for (std::size_t k = 0; k < weights.modesOf(joint); ++k)
+                to[k] = now ? std::abs(now->positions[k]) : 0.0f;
+        }
+    }
+
+    /// By BoundsProxy::weightOf().
+    const float* weights() const { return _weights.data(); }
+
+private:
+    std::array<float, BoundsProxy::kMostWeights> _weights;
+};
+
+/// A side of the box, limited to the range of poses.
 float bounded(float side, float otherwise) {
     return std::abs(side) <= static_cast<float>(kLargestCoordinate) ? side : otherwise; // NaN too
 }

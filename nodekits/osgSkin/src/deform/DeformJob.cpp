@@ -1,33 +1,80 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/DeformJob>
 
-#include <osgSkin/Error>
-
-#include "chains/PosedChains.h"
-#include "correctives/CorrectiveWeights.h"
-#include "correctives/ReferenceCorrections.h"
-#include "deform/Chain.h"
 #include "deform/DeformKernel.h"
-#include "deform/KernelSlopes.h"
+#include "deform/PosedChains.h"
 #include "deform/RestCopy.h"
-#include "deform/SurfaceChain.h"
-#include "model/SkinModelAccess.h"
+#include "model/SkinBlocks.h"
+#include "pose/CorrectiveWeights.h"
+
+#include <osgSkin/Error>
+#include <osgSkin/SkinModel>
 
 #include <algorithm>
-#include <optional>
+#include <cstddef>
 
 namespace osgSkin {
 namespace {
 
+/// Finds for the kernel which links tilt normals in one pose, and by how much; on the stack.
+class KernelSlopes {
+public:
+    explicit KernelSlopes(const SkinModel& model) noexcept
+        : _model(model), _blocks(SkinModelAccess::gradients(model)) {}
+
+    /// Takes the joints of a section.
+    ///
+    /// \param joints must outlive this
+    /// \param run its slopes are set, until the next call
+    void take(const KernelJoints& joints, std::size_t jointCount, KernelRun& run) noexcept {
+        const auto unit = static_cast<float>(_blocks->unit);
+        for (std::size_t j = 0; j < jointCount; ++j) {
+            _bendSlopes[j] = unit * joints.wholeBend[j]; // exact: a power of two
+            _twistSlopes[j] = unit * joints.wholeTwist[j];
+        }
+        run.bendSlopes = _bendSlopes;
+        run.twistSlopes = _twistSlopes;
+        run.slopeUnit = unit;
+        _joints = &joints;
+    }
+
+    /// Finds the links that tilt normals, of as many groups as there is room for.
+    ///
+    /// \param endGroup the end of the wanted groups, in the section
+    /// \param run its tilts are set, until the next call
+    /// \return the end of the groups that were found
+    std::size_t find(std::size_t firstGroup, std::size_t endGroup, KernelRun& run) noexcept {
+        const SkinBlocks& blocks = SkinModelAccess::blocks(_model);
+        const auto endOf = [&](std::size_t g) {
+            return std::size_t(blocks.groups[g].firstLink) + blocks.groups[g].linkCount;
+        };
+        const std::size_t first = blocks.groups[firstGroup].firstLink;
+        while (endOf(endGroup - 1) > first + LinkTilts::kMost) --endGroup;
+        // `reach` is in the order of the plan's links.
+        _tilts.find(blocks.plan.links.data() + first, _blocks->reach.data() + first,
+                    endOf(endGroup - 1) - first, *_joints);
+        run.tilts = &_tilts;
+        run.firstTilt = first;
+        return endGroup;
+    }
+
+private:
+    const SkinModel& _model;
+    const GradientBlocks* _blocks; ///< null where the model has none
+    const KernelJoints* _joints;
+    LinkTilts _tilts;
+    float _bendSlopes[KernelJoints::kMost], _twistSlopes[KernelJoints::kMost];
+};
+
 constexpr std::size_t kPartBlocks = 256;
 
-/// The group that a block belongs to.
+/// The group of a block.
 std::size_t groupOf(const SkinBlocks& blocks, std::size_t block) noexcept {
     const auto behind = std::upper_bound(blocks.firstBlock.begin(), blocks.firstBlock.end(), block);
     return static_cast<std::size_t>(behind - blocks.firstBlock.begin()) - 1;
 }
 
-/// The vertex, in the model's order, that a block begins with; all of them for the end.
+/// The first vertex of a block, in the model's order; their number for the end.
 std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
     const SkinBlocks& blocks = SkinModelAccess::blocks(model);
     if (block >= blocks.firstBlock.back()) return model.vertexCount();
@@ -35,7 +82,7 @@ std::size_t firstVertexOf(const SkinModel& model, std::size_t block) noexcept {
     return model.groups()[group].firstVertex + (block - blocks.firstBlock[group]) * kBlock;
 }
 
-/// What all groups of a job have in common, whatever the pose.
+/// The part of a run that does not depend on the pose.
 KernelRun runOf(const DeformJob& job, std::size_t endVertex) noexcept {
     const SkinBlocks& blocks = SkinModelAccess::blocks(*job.model);
     KernelRun run{};
@@ -51,17 +98,17 @@ KernelRun runOf(const DeformJob& job, std::size_t endVertex) noexcept {
     return run;
 }
 
-/// Deforms of a group, and those behind it, the blocks from `first` to before `end`.
+/// Deforms the blocks from `first` to before `end` of group `g` and groups after it.
 ///
-/// \param endGroup where the groups end that may be deformed in one go
-/// \return the group behind the last that was deformed
+/// \param endGroup the end of the groups that may be deformed together
+/// \return the end of the groups that were deformed
 std::size_t runGroups(Kernel kernel, std::size_t g, std::size_t endGroup, std::size_t first,
                       std::size_t end, KernelRun& run) noexcept {
     const SkinBlocks& blocks = *run.blocks;
     run.firstGroup = g;
     run.skippedBlocks = 0;
     if (first <= blocks.firstBlock[g] && end >= blocks.firstBlock[g + 1]) {
-        if (end < blocks.firstBlock[endGroup]) --endGroup; // a part of the last one comes next
+        if (end < blocks.firstBlock[endGroup]) --endGroup; // only part of the last one: next
         run.groups = blocks.groups.data() + g;
         run.groupCount = endGroup - g;
         kernel(run);
@@ -82,7 +129,7 @@ std::size_t runGroups(Kernel kernel, std::size_t g, std::size_t endGroup, std::s
     return g + 1;
 }
 
-/// Deforms the blocks from `first` to before `end`, and no other vertex is written.
+/// Deforms the blocks from `first` to before `end`; writes no other vertex.
 void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
     if (first >= end) return;
     const SkinModel& model = *job.model;
@@ -94,7 +141,7 @@ void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcep
     run.joints = &chains.joints;
     run.outs = chains.outs;
     const std::size_t firstGroup = groupOf(blocks, first), endGroup = groupOf(blocks, end - 1) + 1;
-    // Not std::optional: GCC 12 fills one with zeros where it begins.
+    // Not std::optional: GCC 12 would fill it with zeros.
     CorrectiveWeights weights(model, *job.pose);
     if (run.corrections) weights.workOut(firstGroup, endGroup);
     run.weights = weights.known();
@@ -158,47 +205,6 @@ bool DeformJob::runPart(std::size_t part) const noexcept {
     const std::size_t first = part * kPartBlocks;
     runBlocks(*this, first,
               std::min(first + kPartBlocks, SkinModelAccess::blocks(*model).firstBlock.back()));
-    return true;
-}
-
-bool DeformJob::runReference() const noexcept {
-    if (!isValid()) return false;
-    if (isAtRest(*model, *pose)) {
-        copyRest(*this, 0, model->vertexCount());
-        return true;
-    }
-    std::optional<ReferenceCorrections> corrections;
-    if (SkinModelAccess::correctives(*model)) corrections.emplace(*model, *pose);
-    for (std::size_t g = 0; g < model->groups().size(); ++g) {
-        const SkinModel::Group& group = model->groups()[g];
-        const Chain chain(*model, group, *pose);
-        std::optional<SurfaceChain> surface;
-        if (SkinModelAccess::gradients(*model)) surface.emplace(*model, g, *pose);
-        if (surface && !surface->tilts()) surface.reset();
-        const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;
-        const std::uint32_t* order = model->order().data() + group.firstVertex;
-        for (std::uint32_t i = 0; i < group.vertexCount; ++i, ratios += group.partialCount) {
-            const std::uint32_t v = order[i];
-            glm::dvec3 rest = model->positions()[v];
-            glm::dvec3 tilt(0.0); // of the rest normal
-            if (corrections) corrections->apply(g, i, rest, tilt);
-            glm::vec3 position = rest;
-            glm::vec3 normal = model->normals()[v];
-            const glm::vec4 restTangent = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
-            glm::vec3 tangent(restTangent);
-            if (normals && surface) {
-                surface->apply(i, ratios, rest, normal, tilt, tangents ? &tangent : nullptr);
-                chain.apply(ratios, position, nullptr);
-            } else {
-                if (tilt != glm::dvec3(0.0)) tiltNormal(tilt, normal, tangent);
-                chain.apply(ratios, position, normals ? &normal : nullptr,
-                            tangents ? &tangent : nullptr);
-            }
-            positions[v] = position;
-            if (normals) normals[v] = normal;
-            if (tangents) tangents[v] = glm::vec4(tangent, restTangent.w);
-        }
-    }
     return true;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Compiled once for each instruction set by foreach_target.h, which includes this file again and
-// again; the best one is chosen at run time.
+// Compiled once for each instruction set, through foreach_target.h; the best is chosen at run time.
 #include "deform/DeformKernel.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -13,7 +12,6 @@
 #include <hwy/cache_control.h>
 
 #include "deform/KernelCorrect-inl.h"
-#include "deform/KernelGroups-inl.h"
 #include "deform/KernelPasses-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelSurface-inl.h"
@@ -23,20 +21,17 @@ HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
-/// How far ahead of what is being written the outputs' lines are asked for, in floats: a crowd's
-/// outputs are in no cache.
+/// The prefetch distance of the outputs, in floats: a crowd's outputs are in no cache.
 constexpr std::size_t kAhead = 512;
 
-/// The same for the skin's rows, this group's and the next one's, where a skin is larger than the
-/// caches.
+/// The prefetch distance of the skin's rows, for skins larger than the caches.
 constexpr std::size_t kRowsAhead = 32;
 constexpr std::size_t kSlopesAhead = 32;
 
-/// Asks for a vector's share of the next `kRows` rows of a block, some rows ahead. Without a loop,
-/// of which processors would have to guess where it ends.
+/// Prefetches a vector's part of `kRows` rows of a block, some rows ahead.
 ///
-/// \param at the first of those rows, at the vector's lanes
-/// \param lane the first of the vector, of the block
+/// \param at the first row, at the vector's lanes
+/// \param lane the vector's first lane in the block
 template <std::size_t kRows, typename T>
 HWY_INLINE void prefetchRows(const T* at, std::size_t rowsAhead, std::size_t lane) {
     constexpr std::size_t kLine = 64 / sizeof(T);
@@ -113,7 +108,7 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
 }
 
 /// The same with normals and tangents of the deformed surface: two directions along the skin go
-/// through the chain up to the last link that tilts it, what they span behind that.
+/// through the chain up to the last link that tilts it, normal and tangent from there on.
 template <bool kTangents>
 HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::size_t first,
                               const float* HWY_RESTRICT rows,
@@ -207,7 +202,7 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         slopes += kSlopeRows * kBlock;
         inJointFrame = false;
     }
-    // Nothing waits for the lengths until all is stored.
+    // Starts the roots early: they are needed only at the end.
     const V length = inverseRoot(dot(nx, ny, nz, nx, ny, nz));
     turn(call.outs[last->out], nx, ny, nz);
     if (kTangents) {
@@ -241,7 +236,7 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
     if (kTangents) store(out.tangents, first, tx, ty, tz, hn::Load(d, tangentRows + 3 * kBlock));
 }
 
-/// Deforms a vector of the block of `rows`.
+/// Deforms a vector of a block.
 template <bool kNormals, bool kTangents, bool kSurface>
 HWY_INLINE void deformAt(const KernelCall& call, const Outputs& out, std::size_t first,
                          const BlockRow* rows) {
@@ -261,7 +256,7 @@ HWY_INLINE void deformByVectors(const KernelCall& call) {
     const std::size_t blockRows = SkinBlocks::rowsPerBlock(call.linkCount);
     const BlockRow* rows = call.rows;
     for (std::size_t first = 0; first < call.vertexCount; first += kBlock, rows += blockRows) {
-        if (hn::MaxLanes(D()) == kBlock) { // no loop within the loop
+        if (hn::MaxLanes(D()) == kBlock) { // no inner loop
             deformAt<kNormals, kTangents, kSurface>(call, out, first, rows);
             continue;
         }
@@ -269,6 +264,77 @@ HWY_INLINE void deformByVectors(const KernelCall& call) {
         for (std::size_t v = first; v < end; v += hn::Lanes(D()))
             deformAt<kNormals, kTangents, kSurface>(call, out, v, rows);
     }
+}
+
+/// Sets the constants of a run's groups.
+HWY_INLINE void startRun(const KernelRun& run, KernelCall& call) {
+    call.joints = run.joints;
+    call.outs = run.outs;
+    call.weights = run.weights;
+    call.correctionCount = 0;
+    call.corrections = nullptr;
+    call.shareFrame = call.normalShareFrame = nullptr;
+    call.firstBlock = run.skippedBlocks;
+    call.gradients = nullptr;
+    call.bendSlopes = run.bendSlopes;
+    call.twistSlopes = run.twistSlopes;
+    call.slopeUnit = run.slopeUnit;
+}
+
+/// Sets the correctives of a group.
+HWY_INLINE void startCorrections(const KernelRun& run, std::size_t number,
+                                 const SkinBlocks::Group& group, KernelCall& call) {
+    const CorrectiveBlocks& of = *run.corrections;
+    const std::uint32_t* const range = of.firstRange.data() + number;
+    call.corrections = of.corrected.data() + range[0];
+    const std::size_t count = range[1] - range[0];
+    call.correctionCount = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        if (run.weights[call.corrections[i].joint]) call.correctionCount = count;
+    call.shareFrame = of.shareFrames[number];
+    call.normalShareFrame =
+        group.frame == SkinBlocks::kRestFrame ? nullptr : of.frames.data() + group.frame;
+}
+
+/// Sets the constants of a group, without its gradients.
+HWY_INLINE void startGroup(const KernelRun& run, std::size_t i, KernelCall& call) {
+    const SkinBlocks::Group& group = run.groups[i];
+    call.linkCount = group.linkCount;
+    call.links = run.blocks->plan.links.data() + group.firstLink;
+    call.lead = group.lead == ChainPlan::kNoLead ? nullptr : run.outs + group.lead;
+    call.rows = run.blocks->rows.data() + group.firstRow;
+    call.vertexCount = group.vertexCount;
+    call.room = run.endVertex - group.firstVertex;
+    call.scatter = run.scatter ? run.scatter + group.firstVertex : nullptr;
+    const std::size_t vertex = run.scatter ? 0 : group.firstVertex;
+    call.positions = run.positions + 3 * vertex;
+    call.normals = run.normals ? run.normals + 3 * vertex : nullptr;
+    call.tangents = run.tangents ? run.tangents + 4 * vertex : nullptr;
+    call.tangentRows =
+        run.tangents ? run.tangentRows + group.firstBlock * SkinBlocks::kTangentRows : nullptr;
+    if (run.corrections) startCorrections(run, run.firstGroup + i, group, call);
+}
+
+/// Sets a group's gradients, and which of its links tilt normals in this pose.
+///
+/// \return false where none does: normals then rotate as their vertices do
+HWY_INLINE bool startSlopes(const KernelRun& run, std::size_t i, KernelCall& call) {
+    const SkinBlocks::Group& group = run.groups[i];
+    const std::size_t first = group.firstLink - run.firstTilt;
+    call.bendTilts = LinkTilts::some(run.tilts->bends, first, call.linkCount);
+    call.twistTilts = LinkTilts::some(run.tilts->twists, first, call.linkCount);
+    std::uint32_t tilts = call.bendTilts | call.twistTilts;
+    if (HWY_UNLIKELY(run.joints->anyAdjusted))
+        for (std::size_t k = 0; k < call.linkCount; ++k)
+            tilts |= std::uint32_t(call.isAdjusted(call.links[k])) << k;
+    if (tilts == 0) return false;
+    call.lastSlope = hwy::Num0BitsBelowLS1Bit_Nonzero32(tilts);
+    const GradientBlocks& of = *run.gradients;
+    const std::size_t row = of.firstRow[run.firstGroup + i] +
+                            run.skippedBlocks * GradientBlocks::rowsPerBlock(call.linkCount);
+    call.gradients = of.rows[row].lane;
+    call.across = of.across.data() + group.firstBlock;
+    return true;
 }
 
 template <bool kNormals, bool kTangents, bool kSurface>
@@ -297,7 +363,7 @@ void deformGroupsByLinks(const KernelRun& run) {
 
 Kernel kernelFor(bool normals, bool tangents, bool surface) {
 #if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
-    (void)normals, (void)tangents, (void)surface; // a run's own
+    (void)normals, (void)tangents, (void)surface; // the run tells
     return deformGroupsByLinks;
 #else
     if (tangents) return surface ? deformGroups<true, true, true> : deformGroups<true, true, false>;

@@ -15,22 +15,22 @@ namespace osgSkin {
 
 #ifdef OSGSKIN_HAS_TBB
 
-/// An arena has room for each of its threads from the beginning.
+/// An arena allocates for all of its threads.
 constexpr unsigned int kMostThreads = 1024;
 
-/// At most so many threads at a time in what is run within it, the caller's among them.
+/// Limits the number of threads, including the caller's.
 struct DeformPool::Arena {
     explicit Arena(unsigned int count) : threads(count), arena(static_cast<int>(count)) {
         if (count > 1) arena.initialize();
     }
     unsigned int threads;
     tbb::task_arena arena;
-    std::atomic<bool> taken{false}; ///< by a caller from without
+    std::atomic<bool> taken{false}; ///< by a thread outside the pool
 };
 
 namespace {
 
-/// In which pool this thread is at work; for as long as this lives.
+/// Marks, while it exists, the pool that this thread works for.
 class AtWork {
 public:
     explicit AtWork(const void* arena) : _before(current()) { current() = arena; }
@@ -63,13 +63,13 @@ void DeformPool::setThreadCount(unsigned int threads) {
 void DeformPool::callEach(std::size_t count, Call call, const void* function) const noexcept {
     Arena* const own = _arena.get();
     const bool within = AtWork::current() == own;
-    // Who waited for a thread might hold a skin's lock that those threads wait for: works alone.
+    // A caller never waits for threads: it may hold a skin's lock that they wait for.
     if (own->threads == 1 || count < 2 || (!within && own->taken.exchange(true))) {
         for (std::size_t i = 0; i < count; ++i) call(function, i);
         return;
     }
-    // Isolated: a thread that waits for the rest of a skin must not begin with another one, whose
-    // lock somebody may hold who waits for a thread.
+    // Isolated: a thread waiting for the rest of a skin must not start another one, whose lock may
+    // be held by a waiting thread.
     own->arena.execute([&] {
         tbb::this_task_arena::isolate([&] {
             tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {

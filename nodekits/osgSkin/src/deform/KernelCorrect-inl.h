@@ -27,8 +27,8 @@ HWY_INLINE V sharesAt(const float* HWY_RESTRICT from) {
     return hn::Load(D(), from);
 }
 
-/// Adds weight k times the k-th mode's shares for all modes; a block's rows lie side by side, also
-/// those of other vertices: the processor sees by itself what comes next.
+/// Adds weight k times the shares of mode k, for all modes. Rows are adjacent, so the processor
+/// prefetches them.
 template <typename Share>
 HWY_INLINE void addModes(const float* HWY_RESTRICT weights, std::size_t modes,
                          const Share* HWY_RESTRICT shares, V& x, V& y, V& z) {
@@ -40,9 +40,9 @@ HWY_INLINE void addModes(const float* HWY_RESTRICT weights, std::size_t modes,
     }
 }
 
-/// What the correctives add to rest positions, or to their normals, of the vertices from `first`
-/// on, a vector of them; in the blocks' frame.
-/// \return false where that is nothing
+/// The sum of the correctives of positions or normals, of a vector of vertices from `first` on, in
+/// the blocks' frame.
+/// \return false where it is 0
 template <bool kOfNormals>
 HWY_INLINE bool corrections(const KernelCall& call, std::size_t first, V& dx, V& dy, V& dz) {
     const std::size_t block = call.firstBlock + first / kBlock;
@@ -90,7 +90,7 @@ HWY_INLINE V inverseRoot(V square) {
     return hn::Mul(guess, hn::NegMulAdd(half, guess, hn::Set(d, 1.5f)));
 }
 
-/// Adds the correctives to rest normals, which keep their length; and keeps tangents upright.
+/// Adds the correctives to rest normals, keeps them unit, and keeps tangents perpendicular.
 template <bool kTangents>
 HWY_INLINE void correctNormals(const KernelCall& call, std::size_t first, V& nx, V& ny, V& nz,
                                V& tx, V& ty, V& tz) {

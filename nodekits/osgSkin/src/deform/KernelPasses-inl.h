@@ -23,38 +23,43 @@ namespace HWY_NAMESPACE {
 
 enum class Stream { Positions, Normals, Tangents };
 
-/// Vertices that go through a link together; what is kept of them between links stays in the
-/// first-level cache.
+/// Blocks that go through a link together; their intermediate results fit into the first-level
+/// cache.
 constexpr std::size_t kChunkBlocks = 8;
 constexpr std::size_t kChunk = kChunkBlocks * kBlock;
 
 struct alignas(64) Chunk {
     std::size_t first = 0;         ///< vertex of the group
     std::size_t blocks = 0;        ///< at most kChunkBlocks
-    std::size_t ratioStride = 0;   ///< floats from a block's ratios to the next one's
-    const float* ratios = nullptr; ///< of the link at hand: bend, behind it twist
+    std::size_t ratioStride = 0;   ///< floats between two blocks' ratios
+    const float* ratios = nullptr; ///< of the current link: bend, then twist
     std::size_t slopeStride = 0;
-    const std::int16_t* slopes = nullptr; ///< of the link at hand, see SlopeRow
+    const std::int16_t* slopes = nullptr; ///< of the current link, see SlopeRow
 
-    float twistSine[kChunk], twistCosine[kChunk]; ///< of the link at hand
+    float twistSine[kChunk], twistCosine[kChunk]; ///< of the current link
     float bendSine[kChunk], bendCosine[kChunk];
 };
 
-/// A stream of a chunk: x, y and z of a block, then of the next one.
+/// Positions, normals or tangents of a chunk: x, y and z of a block, then of the next one.
 struct alignas(64) ChunkStream {
-    const float* from = nullptr; ///< in the skin's blocks at first, then in `state`
+    const float* from = nullptr; ///< first in the skin's blocks, then in `state`
     std::size_t stride = 0;
     float state[3 * kChunk]; ///< between two links
+
+    HWY_INLINE void useState() {
+        from = state;
+        stride = 3 * kBlock;
+    }
 };
 
-/// What of a chunk's normals and tangents of the surface is kept on their way.
+/// A chunk's directions along the skin.
 struct alignas(64) ChunkSurface {
-    ChunkStream u, v;                                     ///< directions along the skin
+    ChunkStream u, v;
     float alongU[kChunk], alongV[kChunk], square[kChunk]; ///< of tangents at rest
 };
 
-/// Sines and cosines of an angle's shares, as sineCosine() has them; the polynomials are scaled so
-/// that they take the shares as they are. With kShifted, the call's azimuth is taken off.
+/// sineCosine() for a chunk, with the polynomials scaled to take the ratios directly. With
+/// kShifted, subtracts the azimuth.
 template <int kDoublings, bool kShifted, std::size_t kTerms>
 HWY_INLINE void turnShares(const float (&sineTerms)[kTerms], const float (&cosineTerms)[kTerms - 1],
                            float angle, const KernelCall& call, const KernelLink& link,
@@ -108,7 +113,7 @@ HWY_NOINLINE void turnShares(const KernelAngle& angle, const KernelCall& call,
     }
 }
 
-/// One stream through a link, or through a map alone; to the output where it is the last.
+/// Takes a stream through a link, or a map alone where there is none; the last goes to the output.
 template <Stream kStream, bool kTurns, bool kLast>
 HWY_NOINLINE void pass(const KernelCall& call, const Chunk& chunk, const KernelMap& map,
                        const KernelLink* link, const float* HWY_RESTRICT from, std::size_t stride,
@@ -159,8 +164,7 @@ HWY_INLINE void pass(const KernelCall& call, const Chunk& chunk, const KernelMap
     const auto run = link ? (last ? pass<kStream, true, true> : pass<kStream, true, false>)
                           : (last ? pass<kStream, false, true> : pass<kStream, false, false>);
     run(call, chunk, map, link, stream.from, stream.stride, stream.state);
-    stream.from = stream.state;
-    stream.stride = 3 * kBlock;
+    stream.useState();
 }
 
 HWY_INLINE void storeRows(V x, V y, V z, float* HWY_RESTRICT to) {
@@ -170,7 +174,7 @@ HWY_INLINE void storeRows(V x, V y, V z, float* HWY_RESTRICT to) {
     hn::Store(z, d, to + 2 * kBlock);
 }
 
-/// The chunk's rest positions with their correctives, from where the first link takes them.
+/// Adds correctives to a chunk's rest positions.
 inline HWY_NOINLINE void correctChunk(const KernelCall& call, const Chunk& chunk,
                                       ChunkStream& stream) {
     const D d;
@@ -181,15 +185,12 @@ inline HWY_NOINLINE void correctChunk(const KernelCall& call, const Chunk& chunk
             V x = hn::Load(d, from + lane), y = hn::Load(d, from + kBlock + lane),
               z = hn::Load(d, from + 2 * kBlock + lane);
             correct(call, chunk.first + b * kBlock + lane, x, y, z);
-            hn::Store(x, d, to + lane);
-            hn::Store(y, d, to + kBlock + lane);
-            hn::Store(z, d, to + 2 * kBlock + lane);
+            storeRows(x, y, z, to + lane);
         }
-    stream.from = stream.state;
-    stream.stride = 3 * kBlock;
+    stream.useState();
 }
 
-/// The same of rest normals and tangents.
+/// The same for rest normals and tangents.
 template <bool kTangents>
 HWY_NOINLINE void correctDirections(const KernelCall& call, const Chunk& chunk,
                                     ChunkStream& normals, ChunkStream& tangents) {
@@ -210,14 +211,12 @@ HWY_NOINLINE void correctDirections(const KernelCall& call, const Chunk& chunk,
             storeRows(nx, ny, nz, normals.state + 3 * b * kBlock + lane);
             if (kTangents) storeRows(tx, ty, tz, tangents.state + 3 * b * kBlock + lane);
         }
-    normals.from = normals.state;
-    normals.stride = 3 * kBlock;
+    normals.useState();
     if (!kTangents) return;
-    tangents.from = tangents.state;
-    tangents.stride = 3 * kBlock;
+    tangents.useState();
 }
 
-/// Sets out with the directions along a chunk's skin at rest.
+/// Computes the directions along a chunk's skin at rest.
 template <bool kTangents>
 HWY_NOINLINE void startSurface(const KernelCall& call, const Chunk& chunk,
                                const ChunkStream& normals, const ChunkStream& tangents,
@@ -245,13 +244,12 @@ HWY_NOINLINE void startSurface(const KernelCall& call, const Chunk& chunk,
             storeRows(ux, uy, uz, surface.u.state + 3 * b * kBlock + lane);
             storeRows(vx, vy, vz, surface.v.state + 3 * b * kBlock + lane);
         }
-    for (ChunkStream* stream : {&surface.u, &surface.v}) {
-        stream->from = stream->state;
-        stream->stride = 3 * kBlock;
-    }
+    surface.u.useState();
+    surface.v.useState();
 }
 
-/// A direction along the skin through a link, but for the map behind it; before the positions.
+/// Takes a direction along the skin through a link, without the map behind it; before the
+/// positions.
 template <SlopeRow kBend, SlopeRow kTwist>
 HWY_NOINLINE void passDirection(const KernelCall& call, const Chunk& chunk, const KernelLink& link,
                                 const ChunkStream& positions, ChunkStream& direction) {
@@ -288,9 +286,9 @@ HWY_NOINLINE void passDirection(const KernelCall& call, const Chunk& chunk, cons
         }
 }
 
-/// From the directions along the skin to normals and tangents, behind the last link that tilts
-/// them.
-/// \param scaled where a joint may be scaled by much
+/// Computes normals and tangents from the directions along the skin, behind the last link that
+/// tilts them.
+/// \param scaled whether joints may be scaled
 template <bool kTangents>
 HWY_NOINLINE void crossChunk(const Chunk& chunk, const ChunkSurface& surface, bool scaled,
                              ChunkStream& normals, ChunkStream& tangents) {
@@ -315,26 +313,24 @@ HWY_NOINLINE void crossChunk(const Chunk& chunk, const ChunkSurface& surface, bo
                     nx, ny, nz);
             storeRows(nx, ny, nz, tangents.state + at);
         }
-    normals.from = normals.state;
-    normals.stride = 3 * kBlock;
-    tangents.from = tangents.state;
-    tangents.stride = 3 * kBlock;
+    normals.useState();
+    tangents.useState();
 }
 
 /// Deforms a group link by link, a chunk of vertices at a time.
 ///
-/// Where there are 16 registers and no fused multiply-add, this is a quarter faster than taking
-/// each vertex through its whole chain: the processor finds more to do at the same time in short
-/// loops over many vertices. Elsewhere it is slower, because of what goes to memory in between.
+/// With 16 registers and no fused multiply-add, this is a quarter faster than taking each vertex
+/// through its whole chain, since short loops over many vertices overlap better. Elsewhere it is
+/// slower, because of the memory traffic in between.
 inline void deformByLinks(const KernelCall& call) {
     const std::size_t blockFloats = SkinBlocks::rowsPerBlock(call.linkCount) * kBlock;
     Chunk chunk;
     ChunkStream positions, normals, tangents;
     chunk.ratioStride = blockFloats;
     ChunkSurface surface;
-    bool alongSkin = false; // whether normals and tangents are still on their way as directions
+    bool alongSkin = false; // whether normals and tangents are still directions along the skin
     const auto streams = [&](const KernelMap& map, const KernelLink* link, bool last) HWY_ATTR {
-        const KernelLink* turned = link; // not yet turned by it: normals and tangents
+        const KernelLink* turned = link; // for normals and tangents
         if (alongSkin) {
             if (link) {
                 passDirection<kBendAlongU, kTwistAlongU>(call, chunk, *link, positions, surface.u);

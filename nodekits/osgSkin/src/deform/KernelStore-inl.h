@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, kBlock>;
 using V = hn::Vec<D>;
 
-/// Stores x0 y0 z0 x1 y1 z1 ... Highway's own way takes twice as many shuffles on x86.
+/// Stores x0 y0 z0 x1 y1 z1 ... Highway's StoreInterleaved3() takes twice as many shuffles on x86.
 HWY_INLINE void storeTriples(V x, V y, V z, float* HWY_RESTRICT to) {
 #if HWY_TARGET == HWY_SCALAR
     to[0] = hn::GetLane(x);
@@ -67,10 +67,10 @@ HWY_INLINE void storeTriples(V x, V y, V z, float* HWY_RESTRICT to) {
 #endif
 }
 
-/// Where one stream of a group goes.
+/// An output array of a group.
 struct Output {
     float* to;            ///< of the group's first vertex; with scatter, of vertex 0
-    std::size_t straight; ///< a vector that starts at a vertex before this one is stored whole
+    std::size_t straight; ///< vectors that start before this vertex are stored whole
     std::size_t vertexCount;
     const std::uint32_t* scatter;
 
@@ -81,8 +81,8 @@ struct Output {
     }
 };
 
-/// Stores what cannot be stored whole: a vector that ends too late, or one not in order. Takes it
-/// by way of memory: GCC 12 forgets to leave AVX mode behind a call with vectors as arguments.
+/// Stores a vector past the end, or not in order, vertex by vertex. From memory: GCC 12 omits
+/// vzeroupper after calls with vectors as arguments.
 template <std::size_t kParts>
 HWY_NOINLINE void storeSingly(float* to, const std::uint32_t* scatter, std::size_t first,
                               std::size_t end, const float* from) {
@@ -96,7 +96,7 @@ HWY_INLINE void storeSingly(const Output& out, std::size_t first, const float* f
                         HWY_MIN(first + hn::Lanes(D()), out.vertexCount), from);
 }
 
-/// Stores the vertices of a vector, the first of which is the group's `first`.
+/// Stores a vector of vertices from the group's `first` on.
 HWY_INLINE void store(const Output& out, std::size_t first, V x, V y, V z) {
     if (HWY_LIKELY(first < out.straight)) {
         storeTriples(x, y, z, out.to + 3 * first);
@@ -118,7 +118,7 @@ HWY_INLINE void store(const Output& out, std::size_t first, V x, V y, V z, V w) 
     storeSingly<4>(out, first, buffer);
 }
 
-/// The lanes of the vertices from `first` on in the tangents' blocks: x; y, z, w a block further.
+/// The x row of a vector of tangents, from `first` on; y, z and w follow.
 HWY_INLINE const float* tangentLanes(const KernelCall& call, std::size_t first) {
     return call.tangentRows[first / kBlock * SkinBlocks::kTangentRows].lane + first % kBlock;
 }

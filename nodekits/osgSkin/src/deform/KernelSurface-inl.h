@@ -18,8 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
-/// Where a link's gradients stand in a block of GradientBlocks: of the bend ratio along u and along
-/// v, of the twist ratio the same.
+/// A link's rows in a block of GradientBlocks.
 enum SlopeRow : std::size_t { kBendAlongU, kBendAlongV, kTwistAlongU, kTwistAlongV, kSlopeRows };
 
 /// The lanes of the vertices from `first` on in the gradients' blocks.
@@ -28,19 +27,19 @@ HWY_INLINE const std::int16_t* gradientLanes(const KernelCall& call, std::size_t
            first % kBlock;
 }
 
-/// The gradient of a link's ratio along one direction, `row` of its rows, times `by`.
+/// A link's gradient in one row, times `by`.
 HWY_INLINE V slopeAt(const std::int16_t* HWY_RESTRICT slopes, SlopeRow row, const float& by) {
     return hn::Mul(sharesAt(slopes + row * kBlock), constant(by));
 }
 
-/// A turn by a growing share of its angle: what that adds to a direction along the skin in the
-/// turn's plane, where the vertex is at (a, b); before the turn, or behind it with all behind it.
+/// Adds to a direction along the skin what the gradient of a rotation's ratio adds in its plane,
+/// with the vertex at (a, b); all before the rotation, or all after it.
 HWY_INLINE void addSlope(V slope, V a, V b, V& alongA, V& alongB) {
     alongA = hn::NegMulAdd(slope, b, alongA);
     alongB = hn::MulAdd(slope, a, alongB);
 }
 
-/// The same of adjust(), which is yet to be applied to the vertex.
+/// The same for adjust(), before that is applied to the vertex.
 HWY_INLINE void adjustAlong(const KernelCall& call, const KernelLink& link, V bendRatio, V step,
                             V x, V y, V z, V& alongX, V& alongY, V& alongZ) {
     const KernelJoints& joints = *call.joints;
@@ -63,7 +62,7 @@ HWY_INLINE void cross(V ax, V ay, V az, V bx, V by, V bz, V& x, V& y, V& z) {
     z = hn::MulSub(ax, by, hn::Mul(ay, bx));
 }
 
-/// Makes the largest of two directions' coordinates 1, so that squares of squares are floats.
+/// Scales two directions by their largest coordinate, so that products do not overflow.
 HWY_INLINE void bringIntoRange(V& ux, V& uy, V& uz, V& vx, V& vy, V& vz) {
     const D d;
     const V u = hn::Max(hn::Abs(ux), hn::Max(hn::Abs(uy), hn::Abs(uz)));
@@ -73,8 +72,8 @@ HWY_INLINE void bringIntoRange(V& ux, V& uy, V& uz, V& vx, V& vy, V& vz) {
     scaleBy(by, vx, vy, vz);
 }
 
-/// What the correctives add to rest normals along u and along v.
-/// \return false where that is nothing
+/// The sum of the normal correctives along u and v.
+/// \return false where it is 0
 HWY_INLINE bool tilts(const KernelCall& call, std::size_t first, V& alongU, V& alongV) {
     const D d;
     alongU = alongV = hn::Zero(d);
@@ -96,14 +95,13 @@ HWY_INLINE bool tilts(const KernelCall& call, std::size_t first, V& alongU, V& a
     return any;
 }
 
-/// The directions u and v along the skin, as correctives tilt it at rest: u - (d . u) n and the
-/// same of v, where d is what they add to the normal; their cross product is along n + d then,
-/// but for what d has along n.
+/// The directions u and v along the skin, tilted by correctives: u - (d . u) n and v - (d . v) n,
+/// with d their sum for the normal. Their cross product is along n + d, without d's part along n.
 HWY_INLINE void skinDirections(const KernelCall& call, std::size_t first, V nx, V ny, V nz, V& ux,
                                V& uy, V& uz, V& vx, V& vy, V& vz) {
     const D d;
     const float* across = call.across[first / kBlock].across;
-    if (HWY_LIKELY(across[2] == kAlongFrame.across[2])) { // the same with fewer steps
+    if (HWY_LIKELY(across[2] == kAlongFrame.across[2])) { // needs fewer steps
         vx = hn::Neg(ny);
         vy = nx;
         vz = hn::Zero(d);
@@ -126,7 +124,7 @@ HWY_INLINE void skinDirections(const KernelCall& call, std::size_t first, V nx, 
     vz = hn::NegMulAdd(alongV, nz, vz);
 }
 
-/// A tangent by its parts along u and v, not yet as long as it was.
+/// A tangent from its components along u and v, not yet of its length.
 HWY_INLINE void combine(V alongU, V alongV, V ux, V uy, V uz, V vx, V vy, V vz, V& tx, V& ty,
                         V& tz) {
     tx = hn::MulAdd(alongU, ux, hn::Mul(alongV, vx));

@@ -24,8 +24,8 @@ HWY_INLINE V constant(const float& x) {
     return hn::Set(D(), x);
 }
 
-/// A map whose constants are as many times there as a vector has numbers, where instructions can
-/// read those as operands: such processors have few registers.
+/// A map with its numbers repeated in every lane, which instructions can read as operands: for
+/// processors with few registers.
 struct MapRows {
     HWY_INLINE explicit MapRows(const KernelMap& map) {
         const D d;
@@ -41,7 +41,7 @@ struct MapRows {
     alignas(64) float rows[3][4][hn::MaxLanes(D())];
 };
 
-/// A map whose constants are read once each.
+/// A map with its numbers broadcast when used.
 struct MapNumbers {
     HWY_INLINE explicit MapNumbers(const KernelMap& from) : map(from) {}
     HWY_INLINE V turn(std::size_t row, std::size_t column) const {
@@ -61,9 +61,9 @@ HWY_INLINE V polynomial(V t, const float (&c)[kTerms]) {
     return sum;
 }
 
-/// Minimax polynomials for sin(h) / h and (cos(h) - 1) / h^2 in h^2. Both are exact at 0, so that
-/// the rest pose is the rest skin. Errors of sine and cosine: 1.6e-9 and 8.2e-8 up to 0.34, 4.1e-9
-/// and 9.5e-8 up to 0.9, 3.3e-9 and 5.3e-8 up to pi / 2.
+/// Minimax polynomials for sin(h) / h and (cos(h) - 1) / h^2 in h^2; exact at 0, for the rest pose.
+/// Errors of sine and cosine: 1.6e-9 and 8.2e-8 up to 0.34, 4.1e-9 and 9.5e-8 up to 0.9, 3.3e-9 and
+/// 5.3e-8 up to pi / 2.
 constexpr float kSmallSine[] = {9.9999996659e-01f, -1.6666435335e-01f, 8.2932794990e-03f};
 constexpr float kSmallCosine[] = {-4.9999203090e-01f, 4.1443658191e-02f};
 constexpr float kMediumSine[] = {9.9999995910e-01f, -1.6666599225e-01f, 8.3303291252e-03f,
@@ -74,7 +74,7 @@ constexpr float kLargeSine[] = {9.9999997659e-01f, -1.6666647633e-01f, 8.3328997
 constexpr float kLargeCosine[] = {-4.9999932288e-01f, 4.1663989297e-02f, -1.3855925896e-03f,
                                   2.3194355375e-05f};
 
-/// From sine and cosine of an angle to those of twice the angle.
+/// Doubles an angle given by sine and cosine.
 HWY_INLINE void twice(V& sine, V& cosine) {
     const V s = sine;
     const V both = hn::Add(s, s);
@@ -82,8 +82,8 @@ HWY_INLINE void twice(V& sine, V& cosine) {
     cosine = hn::NegMulAdd(both, s, hn::Set(D(), 1.0f));
 }
 
-/// Sine and cosine of ratio * angle. The angle's range is the same for a whole group, so that each
-/// vertex pays only for as many terms as its group needs, and for no range reduction.
+/// Sine and cosine of ratio * angle. The range is the angle's, the same for a whole group: no range
+/// reduction per vertex, and no more terms than needed.
 HWY_INLINE void sineCosine(const KernelAngle& angle, V ratio, V& sine, V& cosine) {
     const V one = hn::Set(D(), 1.0f);
     const V h = hn::Mul(ratio, constant(angle.value));
@@ -102,8 +102,7 @@ HWY_INLINE void sineCosine(const KernelAngle& angle, V ratio, V& sine, V& cosine
     }
 }
 
-/// From the twist b to b - z: the rest data's fixed frame differs from (v, w x v, w) by v's azimuth
-/// z.
+/// Subtracts v's azimuth from the twist: rest data is in the fixed frame, not in (v, w x v, w).
 HWY_INLINE void takeAzimuthOff(const KernelCall& call, const KernelLink& link, V& sine, V& cosine) {
     const V old = cosine;
     const V of = constant(call.joints->azimuthCosine[link.joint]);
@@ -112,7 +111,7 @@ HWY_INLINE void takeAzimuthOff(const KernelCall& call, const KernelLink& link, V
     sine = hn::MulSub(sine, of, hn::Mul(old, by));
 }
 
-/// Turns (a, b) in its plane.
+/// Rotates (a, b) in its plane.
 HWY_INLINE void turnPlane(V sine, V cosine, V& a, V& b) {
     const V old = a;
     a = hn::MulSub(cosine, a, hn::Mul(sine, b));
@@ -164,8 +163,8 @@ HWY_INLINE void scaleBy(V factor, V& x, V& y, V& z) {
     z = hn::Mul(z, factor);
 }
 
-/// A translation and a scale of the joint, where the motion has them, come in with the bend; about
-/// its centre, the frame's origin.
+/// Applies the joint's translation and scale, which come in with the bend, about its centre, the
+/// frame's origin.
 HWY_INLINE void adjust(const KernelCall& call, const KernelLink& link, V bendRatio, V& x, V& y,
                        V& z) {
     const KernelJoints& joints = *call.joints;

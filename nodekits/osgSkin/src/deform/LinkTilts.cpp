@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Compiled once for each instruction set by foreach_target.h, which includes this file again and
-// again; the best one is chosen at run time.
-#include "deform/LinkTilts.h"
+// Compiled once for each instruction set, through foreach_target.h; the best is chosen at run time.
+#include "deform/DeformKernel.h"
 
-#include "pose/LinkTilt.h"
+#include "model/GradientBlocks.h"
 
 #include <cstring>
 
@@ -21,7 +20,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 16>;
 
-/// Of 16 links.
+/// Finds the tilts of 16 links.
 HWY_INLINE void findSome(const ChainPlan::Link* links, const GradientBlocks::Reach* reach,
                          const KernelJoints& joints, std::uint16_t& bends, std::uint16_t& twists) {
     const Tag d;
@@ -36,7 +35,7 @@ HWY_INLINE void findSome(const ChainPlan::Link* links, const GradientBlocks::Rea
         hn::LoadInterleaved2(d, &reach[i].bend, bendReach, twistReach);
         const auto tilts = [&](const float* angles, const hn::Vec<Tag>& of) HWY_ATTR {
             const auto angle = hn::Abs(hn::GatherIndex(d, angles, joint));
-            std::uint8_t bytes[8] = {}; // as many as may be written
+            std::uint8_t bytes[8] = {}; // the most that may be written
             hn::StoreMaskBits(d, hn::Gt(hn::Mul(angle, of), least), bytes);
             return (bytes[0] | std::uint32_t(bytes[1]) << 8) << i;
         };

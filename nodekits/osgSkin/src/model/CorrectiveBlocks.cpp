@@ -2,8 +2,7 @@
 #include "model/CorrectiveBlocks.h"
 
 #include "model/GradientBlocks.h"
-#include "model/SkinModelAccess.h"
-#include "points/QuadraticSplines.h"
+#include "model/SkinBlocks.h"
 
 #include <glm/geometric.hpp>
 
@@ -21,20 +20,20 @@ const Correctives::Entry* entryOf(const Correctives& correctives, std::uint32_t 
     return nullptr;
 }
 
-/// Writes shares into one lane of the last `count` rows of `rows`, `end` of which there are then.
+/// Resizes `rows` to `end` and writes shares into a lane of the last `count`.
 void writeLane(const std::int16_t* shares, std::size_t count, std::size_t lane, std::size_t end,
                std::vector<CorrectiveRow>& rows) {
     rows.resize(end, CorrectiveRow{});
     for (std::size_t i = 0; i < count; ++i) rows[end - count + i].lane[lane] = shares[i];
 }
 
-/// Whether nothing is in one lane of `count` rows; null: there are none.
+/// Whether a lane of `count` rows is 0; so are null rows.
 bool isEmpty(const CorrectiveRow* rows, std::size_t count, std::size_t lane) {
     return !rows || std::all_of(rows, rows + count,
                                 [lane](const CorrectiveRow& row) { return row.lane[lane] == 0; });
 }
 
-/// Appends the shares in one lane of `count` rows.
+/// Appends the shares in a lane of `count` rows.
 void readLane(const CorrectiveRow* rows, std::size_t count, std::size_t lane,
               std::vector<std::int16_t>& shares) {
     for (std::size_t i = 0; i < count; ++i) shares.push_back(rows[i].lane[lane]);
@@ -144,7 +143,7 @@ void CorrectiveBlocks::addCorrected(const SkinModel& model) {
         const glm::dmat3 frame = restFrame(model, groups[g]);
         for (std::size_t i = firstRange[g]; i < firstRange[g + 1]; ++i) addTurned(frame, ranges[i]);
     }
-    // What points into rows can do so now that there are all of them.
+    // Rows do not move any more.
     const BlockRow* nextTurned = turnedRows.data();
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const std::uint32_t frame = SkinModelAccess::blocks(model).groups[g].frame;
@@ -196,7 +195,7 @@ Correctives correctivesOf(const SkinModel& model) {
     if (!blocks) return result;
     result.joints = blocks->joints;
     result.inputs = blocks->inputs;
-    struct Place { // of a vertex: its group and row there
+    struct Place { // of a vertex
         std::size_t group;
         std::uint32_t row;
     };

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model/GradientBlocks.h"
 
-#include "model/SkinModelAccess.h"
-#include "model/VertexGroups.h"
+#include "model/SkinBlocks.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -14,7 +13,7 @@
 namespace osgSkin {
 namespace {
 
-/// Of a vertex without a normal there is nothing.
+/// A lower limit for lengths, for vertices without a normal.
 constexpr double kLeastLength = 1e-9;
 
 /// A ratio's gradient along a vertex's u and v.
@@ -41,7 +40,7 @@ std::vector<LinkComponents> componentsOf(const Binding& binding, std::uint32_t v
         if (!model.links()[i].partial) continue;
         LinkComponents& link = result.emplace_back();
         const Influence* own = influenceOf(binding, vertex, model.links()[i].joint);
-        if (!own || !own->isPartial()) continue; // of one that joined the group
+        if (!own || !own->isPartial()) continue; // of a group joined with another
         const RatioGradient& gradient =
             binding.gradients[static_cast<std::size_t>(own - binding.influences.data())];
         link = {along(directions, gradient.bend), along(directions, gradient.twist)};
@@ -49,7 +48,7 @@ std::vector<LinkComponents> componentsOf(const Binding& binding, std::uint32_t v
     return result;
 }
 
-/// So large that the largest component, rounded down, still fits; the same for what comes of that.
+/// The smallest power of two with which the largest component, rounded, fits into 16 bits.
 double unitFor(double largest) {
     if (!(largest > 0.0)) return 1.0;
     int exponent;
@@ -62,11 +61,11 @@ std::int16_t rounded(double value) {
     return static_cast<std::int16_t>(std::lrint(std::clamp(value, -kMost, kMost)));
 }
 
-/// Components steeper than so many times what nine of ten are below are cut: ratios that step
-/// within an edge would coarsen the normals of the whole skin.
+/// Components beyond this multiple of their ninth decile are clamped: a ratio that steps within an
+/// edge would coarsen the normals of the whole skin.
 constexpr double kSteep = 64.0;
 
-/// \param sizes of all components; those that are 0 are dropped
+/// \param sizes of all components; zeros are removed
 double unitOf(std::vector<double>& sizes) {
     sizes.erase(std::remove(sizes.begin(), sizes.end(), 0.0), sizes.end());
     if (sizes.empty()) return 1.0;
@@ -75,8 +74,8 @@ double unitOf(std::vector<double>& sizes) {
     return unitFor(std::min(*std::max_element(high, sizes.end()), kSteep * *high));
 }
 
-/// What components are rounded to, one after the other: to the first alone as a rule. What comes of
-/// the last one is rounded to itself, so that what is read from a model gives the same model.
+/// The units that components are rounded to, one after the other; usually one. Rounding by the last
+/// changes nothing any more, so that gradients read from a model give the same model again.
 std::vector<double> unitsOf(std::vector<double> sizes) {
     constexpr std::size_t kMost = 4;
     std::vector<double> units;
@@ -99,10 +98,10 @@ std::int16_t rounded(double component, const std::vector<double>& units) {
 }
 
 glm::dvec3 inFrame(const glm::vec3& normal, const glm::dmat3& frame) {
-    return glm::dvec3(glm::vec3(glm::dvec3(normal) * frame)); // as SkinBlocks has it
+    return glm::dvec3(glm::vec3(glm::dvec3(normal) * frame)); // as in SkinBlocks
 }
 
-/// The i-th of some directions all over half a sphere: a sunflower's spiral.
+/// The i-th of directions spread over half a sphere, in a sunflower's spiral.
 constexpr int kDirections = 24;
 BlockAcross directionAt(int i) {
     const double z = (i + 0.5) / kDirections, r = std::sqrt(1.0 - z * z);
@@ -115,7 +114,7 @@ glm::dvec3 vectorOf(const BlockAcross& across) {
     return {across.across[0], across.across[1], across.across[2]};
 }
 
-/// The least square of the sine of the angle between a direction and the normals.
+/// The square of the sine of the smallest angle between a direction and the normals.
 double leastAngle(const std::vector<glm::dvec3>& normals, const BlockAcross& direction) {
     double least = 1.0;
     for (const glm::dvec3& n : normals) {
@@ -125,8 +124,8 @@ double leastAngle(const std::vector<glm::dvec3>& normals, const BlockAcross& dir
     return least;
 }
 
-/// kAlongFrame where it is at least 30 degrees from being along any of the normals, else the
-/// direction that is farthest from it.
+/// kAlongFrame where it is at least 30 degrees from all normals, else the direction whose smallest
+/// angle to them is largest.
 BlockAcross acrossAll(const std::vector<glm::dvec3>& normals) {
     if (leastAngle(normals, kAlongFrame) >= 0.25) return kAlongFrame;
     BlockAcross best{};
@@ -211,7 +210,7 @@ GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
             };
             const std::vector<LinkComponents> links =
                 componentsOf(binding, source[v], model, group, at);
-            // Joints further in turn the vertex, too: what they keep is its distance from theirs.
+            // Inner joints rotate the vertex about their centres, so distances add up.
             double distance = 0.0;
             glm::dvec3 from(model.positions()[v]);
             std::size_t k = links.size();

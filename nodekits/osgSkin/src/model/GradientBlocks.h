@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,17 +20,17 @@ struct alignas(32) GradientRow {
     std::int16_t lane[kBlock];
 };
 
-/// A direction that is not along the normal of any vertex of a block; unit.
+/// A unit direction that is not parallel to the normal of any vertex of a block.
 struct BlockAcross {
     float across[3];
 };
 
-/// The one that blocks have where it is far enough from their normals: a limb's skin looks across
-/// the limb's axis, which is the third one of a joint's frame. The kernel needs fewer steps then.
+/// The preferred one, with which the kernel needs fewer steps: normals of a limb are mostly
+/// perpendicular to its axis, the third of a joint's frame.
 constexpr BlockAcross kAlongFrame{{0.0f, 0.0f, -1.0f}};
 
-/// Two directions along the skin at a vertex that its gradients are held by: v = n x across and
-/// u = v x n, perpendicular and of one length.
+/// Two directions along the skin at a vertex, of equal length and perpendicular: v = n x across and
+/// u = v x n. Gradients are stored as components along them.
 struct SkinDirections {
     glm::dvec3 u, v;
 };
@@ -41,16 +42,14 @@ struct SkinDirections {
 SkinDirections skinDirections(const glm::vec3& normal, const glm::dmat3& frame,
                               const BlockAcross& across);
 
-/// A SkinModel's ratio gradients as the kernel reads them, and the only place that a model has them
-/// in.
+/// A SkinModel's ratio gradients as the kernel reads them; the model's only copy.
 ///
-/// Block by block as SkinBlocks; a block is what is across its skin, in the blocks' frame, and
-/// rowsPerBlock(n) rows for n partial links, of each, innermost first: the bend ratio's gradient
-/// times u and times v, the twist ratio's times u and times v. Gradients of links that are followed
-/// wholly are left out.
+/// Block by block as SkinBlocks. A block has a BlockAcross, in the blocks' frame, and
+/// rowsPerBlock(n) rows for n partial links, innermost first: the bend ratio's gradient along u and
+/// along v, then the twist ratio's. Full links have none.
 struct GradientBlocks {
-    /// A bound of how far a turn by one radian can tilt a normal of the group, in radians: the
-    /// longest product of a gradient and the distance from what the link turns about.
+    /// A bound of how far a rotation by one radian tilts any normal of the group, in radians: the
+    /// largest product of a gradient and the distance from the link's centre.
     struct Reach {
         float bend, twist;
     };
@@ -61,8 +60,8 @@ struct GradientBlocks {
 
     static std::size_t rowsPerBlock(std::size_t partialCount) { return 4 * partialCount; }
 
-    /// What 1 in `rows` is, per rest unit; a few gradients that are far steeper than the others are
-    /// cut. A power of two: what is read from a model gives the same model again.
+    /// The value of 1 in `rows`, per rest unit; a few far steeper gradients are clamped. A power of
+    /// two, so that gradients read from a model give the same model again.
     double unit = 1.0;
     std::vector<BlockAcross> across; ///< of SkinBlocks::firstBlock's blocks
     std::vector<GradientRow> rows;
@@ -70,20 +69,40 @@ struct GradientBlocks {
     std::vector<Reach> reach;            ///< of each group's partial links, outermost first
     std::vector<std::size_t> firstReach; ///< of each group
 
-    /// The first row of the block in which a vertex stands.
+    /// The first row of a vertex's block.
     const GradientRow* blockOf(const SkinModel& model, std::size_t group,
                                std::uint32_t row) const noexcept {
         return &rows[firstRow[group] +
                      row / kBlock * rowsPerBlock(model.groups()[group].partialCount)];
     }
 
-    /// Of the block in which a vertex stands.
+    /// Of a vertex's block.
     const BlockAcross& acrossOf(const SkinModel& model, std::size_t group,
                                 std::uint32_t row) const noexcept;
 };
 
-/// The gradients of each vertex's links, a group's one after the other: as
-/// SkinModel::Group::linkCount a vertex, in the groups' order. Empty where the model has none.
+/// The gradients of a model: for each vertex, in the groups' order, one for each of its links.
+/// Empty where the model has none.
 std::vector<RatioGradient> gradientsOf(const SkinModel& model);
+
+/// Which gradients of a partial link tilt a group's normals visibly in a pose; others are left out.
+struct LinkTilt {
+    static constexpr double kLeast = 1e-3; ///< radians
+
+    bool bends = false;  ///< the bend ratio's
+    bool twists = false; ///< the twist ratio's
+    bool moves = false;  ///< the bend ratio's, by the joint's translation and scale
+
+    bool any() const { return bends || twists || moves; }
+};
+
+/// \param bendAngle psi
+/// \param twistAngle phi
+/// \param moves whether the joint is moved or scaled
+inline LinkTilt linkTilt(const GradientBlocks::Reach& reach, double bendAngle, double twistAngle,
+                         bool moves) noexcept {
+    return {std::abs(bendAngle) * static_cast<double>(reach.bend) > LinkTilt::kLeast,
+            std::abs(twistAngle) * static_cast<double>(reach.twist) > LinkTilt::kLeast, moves};
+}
 
 } // namespace osgSkin

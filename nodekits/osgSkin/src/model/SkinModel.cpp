@@ -5,17 +5,215 @@
 #include "model/CorrectiveBlocks.h"
 #include "model/GradientBlocks.h"
 #include "model/SkinBlocks.h"
-#include "model/VertexGroups.h"
 
+#include <osgSkin/Binding>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
 namespace osgSkin {
+
+/// A skin's vertices, checked against their binding and grouped for the deformation.
+///
+/// The vertices of a group have one signature: they follow the same joints fully and the same in
+/// part. Small groups join others, whose additional joints their vertices follow by ratios of 0 or
+/// 1, where that costs less than vectors with empty lanes.
+class VertexGroups {
+public:
+    struct Joint {
+        std::uint32_t index; ///< in Binding::joints
+        bool partial;        ///< whether some vertices follow it in part
+    };
+    struct Group {
+        std::vector<Joint> joints;     ///< that its vertices follow, in productOrder()
+        std::uint32_t firstVertex = 0; ///< in order()
+        std::uint32_t vertexCount = 0;
+    };
+
+    /// Checks and groups the vertices.
+    ///
+    /// \param binding must outlive this
+    /// \param source for each vertex, the vertex of `binding` whose ratios it takes
+    /// \throw osgSkin::Error where the binding is not valid, a source is not one of its vertices,
+    ///        or a vertex follows more than SkinModel::kMaxPartialInfluences joints in part
+    VertexGroups(const Binding& binding, std::vector<std::uint32_t> source);
+
+    const Binding& binding() const { return *_binding; }
+    /// For each vertex, the vertex of the binding.
+    const std::vector<std::uint32_t>& source() const { return _source; }
+
+    /// Sorted by signature, so that groups side by side begin with the same joints.
+    const std::vector<Group>& groups() const { return _groups; }
+
+    /// The order in which the deformation writes vertices: group by group, within a group sorted by
+    /// the joints' correctives that they follow, otherwise as before.
+    const std::vector<std::uint32_t>& order() const { return _order; }
+
+    /// Renumbers the vertices: vertex order()[i] becomes vertex i, and order() the identity.
+    void reorder();
+
+private:
+    const Binding* _binding;
+    std::vector<std::uint32_t> _source;
+    std::vector<Group> _groups;
+    std::vector<std::uint32_t> _order;
+};
+
 namespace {
 
-/// The ratios of a group's vertices, those of partial joints only.
+/// The most joints that a joined group follows in part; as many as bindings have.
+constexpr std::size_t kMostJoined = 4;
+
+/// For each joint that a group's vertices follow, twice its position in the product, plus 1 where
+/// they follow it in part. Sorted.
+using Signature = std::vector<std::uint32_t>;
+
+/// \param places of the joints in the product
+Signature signatureOf(const Binding& binding, const std::vector<std::uint32_t>& places,
+                      std::uint32_t vertex) {
+    Signature signature;
+    for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
+         ++i) {
+        const Influence& influence = binding.influences[i];
+        if (influence.bend == 0.0f && influence.twist == 0.0f) continue;
+        signature.push_back(2 * places[influence.joint] + (influence.isPartial() ? 1u : 0u));
+    }
+    std::sort(signature.begin(), signature.end());
+    return signature;
+}
+
+std::size_t partialCount(const Signature& signature) {
+    return static_cast<std::size_t>(std::count_if(signature.begin(), signature.end(),
+                                                  [](std::uint32_t key) { return key % 2 == 1; }));
+}
+
+/// The signature for vertices of both: joints that not both follow fully are followed in part, by
+/// ratios 0 or 1.
+void unite(const Signature& a, const Signature& b, Signature& result) {
+    result.clear();
+    auto i = a.begin(), k = b.begin();
+    while (i != a.end() || k != b.end()) {
+        const std::uint32_t joint =
+            std::min(i != a.end() ? *i / 2 : *k / 2, k != b.end() ? *k / 2 : *i / 2);
+        const bool inA = i != a.end() && *i / 2 == joint, inB = k != b.end() && *k / 2 == joint;
+        const bool whole = inA && inB && *i % 2 == 0 && *k % 2 == 0;
+        result.push_back(2 * joint + (whole ? 0u : 1u));
+        if (inA) ++i;
+        if (inB) ++k;
+    }
+}
+
+/// The vertices of each signature. Sorted, so that groups side by side share their outer links.
+using Members = std::map<Signature, std::vector<std::uint32_t>>;
+
+/// The approximate time to deform a group, in units of one link of one block.
+double costOf(const Signature& signature, std::size_t vertices) {
+    constexpr double kGroup = 2.0; // to begin one
+    const std::size_t count = (vertices + kBlock - 1) / kBlock;
+    const auto blocks = static_cast<double>(count);
+    return kGroup + blocks * (1.0 + static_cast<double>(partialCount(signature)));
+}
+
+/// Joins small groups with others where that saves time. Each tries only the groups next to it in
+/// order, and fewer of those for long chains: painted weights make thousands of groups.
+void joinSmall(Members& members) {
+    constexpr std::size_t kSmall = 2 * kBlock;
+    constexpr std::size_t kTriedOnASide = 64, kJointsTried = 64 * kTriedOnASide;
+    struct Small {
+        std::size_t vertices;
+        Signature signature;
+        bool operator<(const Small& other) const {
+            return std::tie(vertices, signature) < std::tie(other.vertices, other.signature);
+        }
+    };
+    std::vector<Small> small;
+    for (const auto& [signature, vertices] : members)
+        if (vertices.size() < kSmall) small.push_back({vertices.size(), signature});
+    std::sort(small.begin(), small.end());
+    Signature united, best;
+    for (const Small& one : small) {
+        const auto own = members.find(one.signature);
+        if (own == members.end() || own->second.size() >= kSmall) continue;
+        const std::size_t count = own->second.size();
+        const std::size_t tried =
+            std::min(kTriedOnASide, kJointsTried / std::max<std::size_t>(one.signature.size(), 1));
+        double most = 0.0;
+        auto with = members.end();
+        auto other = own, last = own;
+        for (std::size_t i = 0; i < tried && other != members.begin(); ++i) --other;
+        for (std::size_t i = 0; i <= tried && last != members.end(); ++i) ++last;
+        for (; other != last; ++other) {
+            if (other == own) continue;
+            unite(one.signature, other->first, united);
+            if (partialCount(united) > kMostJoined &&
+                partialCount(united) > partialCount(other->first))
+                continue;
+            const std::size_t others = other->second.size();
+            const double saved = costOf(one.signature, count) + costOf(other->first, others) -
+                                 costOf(united, count + others);
+            if (saved <= most) continue;
+            most = saved;
+            with = other;
+            best = united;
+        }
+        if (with == members.end()) continue;
+        std::vector<std::uint32_t> all = std::move(with->second);
+        all.insert(all.end(), own->second.begin(), own->second.end());
+        members.erase(own);
+        members.erase(with);
+        std::vector<std::uint32_t>& to = members[best]; // may exist already
+        if (to.size() < all.size()) to.swap(all);
+        to.insert(to.end(), all.begin(), all.end());
+    }
+}
+
+/// \param order productOrder() of the binding's joints
+Members groupVertices(const Binding& binding, const std::vector<std::uint32_t>& order,
+                      const std::vector<std::uint32_t>& source) {
+    const std::vector<std::uint32_t> places = productPlaces(order);
+    Members members;
+    for (std::uint32_t v = 0; v < source.size(); ++v) {
+        if (source[v] >= binding.vertexCount())
+            throw Error("skin model: vertex " + std::to_string(v) + " comes from no bound vertex");
+        members[signatureOf(binding, places, source[v])].push_back(v);
+    }
+    joinSmall(members);
+    for (auto& [signature, vertices] : members) {
+        std::sort(vertices.begin(), vertices.end());
+        if (binding.correctives.empty()) continue;
+        std::stable_sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return correctedBy(binding, source[a]) < correctedBy(binding, source[b]);
+        });
+    }
+    return members;
+}
+
+std::vector<VertexGroups::Joint> jointsOf(const std::vector<std::uint32_t>& order,
+                                          const Signature& signature) {
+    std::vector<VertexGroups::Joint> joints;
+    for (const std::uint32_t key : signature) joints.push_back({order[key / 2], key % 2 == 1});
+    return joints;
+}
+
+void checkPartial(const std::vector<VertexGroups::Joint>& joints, std::uint32_t vertex) {
+    const auto partial = static_cast<std::size_t>(std::count_if(
+        joints.begin(), joints.end(), [](const VertexGroups::Joint& j) { return j.partial; }));
+    if (partial > SkinModel::kMaxPartialInfluences)
+        throw Error("skin model: vertex " + std::to_string(vertex) + " follows " +
+                    std::to_string(partial) + " joints partly, expected at most " +
+                    std::to_string(SkinModel::kMaxPartialInfluences));
+}
+
+/// Appends the ratios of a group's vertices for its partial joints.
 void addRatios(const VertexGroups& vertices, const VertexGroups::Group& group,
                std::vector<SkinModel::Ratio>& ratios) {
     const Binding& binding = vertices.binding();
@@ -57,6 +255,28 @@ std::vector<glm::vec3> gather(const std::vector<glm::vec3>& vectors,
 
 } // namespace
 
+VertexGroups::VertexGroups(const Binding& binding, std::vector<std::uint32_t> source)
+    : _binding(&binding), _source(std::move(source)) {
+    binding.validate();
+    _order.reserve(_source.size());
+    const std::vector<std::uint32_t> order = productOrder(binding.joints);
+    for (const auto& [signature, vertices] : groupVertices(binding, order, _source)) {
+        const std::vector<Joint> joints = jointsOf(order, signature);
+        checkPartial(joints, vertices.front());
+        _groups.push_back({joints, static_cast<std::uint32_t>(_order.size()),
+                           static_cast<std::uint32_t>(vertices.size())});
+        _order.insert(_order.end(), vertices.begin(), vertices.end());
+    }
+}
+
+void VertexGroups::reorder() {
+    std::vector<std::uint32_t> source;
+    source.reserve(_source.size());
+    for (const std::uint32_t v : _order) source.push_back(_source[v]);
+    _source.swap(source);
+    std::iota(_order.begin(), _order.end(), 0u);
+}
+
 std::vector<std::uint32_t> SkinModel::bestOrder(const Binding& binding,
                                                 const std::vector<std::uint32_t>& source) {
     return VertexGroups(binding, source).order();
@@ -64,7 +284,7 @@ std::vector<std::uint32_t> SkinModel::bestOrder(const Binding& binding,
 
 SkinModel::SkinModel() : _blocks(std::make_shared<SkinBlocks>(*this)) {}
 
-// What the two share of it never changes.
+// Copies share the immutable data.
 SkinModel::SkinModel(const SkinModel& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), _joints(other._joints), _positions(other._positions),
       _normals(other._normals), _order(other._order), _groups(other._groups), _links(other._links),
@@ -144,7 +364,7 @@ osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
     if (!vertices.binding().gradients.empty())
         model->_gradients =
             std::make_shared<GradientBlocks>(*model, vertices.binding(), vertices.source());
-    if (!vertices.binding().correctives.empty()) // which look at the gradients
+    if (!vertices.binding().correctives.empty()) // after the gradients, which these read
         model->_correctives =
             std::make_shared<CorrectiveBlocks>(*model, vertices.binding(), vertices.source());
     return model;

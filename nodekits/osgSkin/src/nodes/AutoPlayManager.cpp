@@ -1,17 +1,84 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/AutoPlayManager>
 
-#include "nodes/NameLinker.h"
+#include <osgAnimation/Animation>
+#include <osgAnimation/AnimationManagerBase>
+#include <osgAnimation/LinkVisitor>
+#include <osgAnimation/Skeleton>
+#include <osgAnimation/UpdateBone>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <typeinfo>
+#include <unordered_map>
+#include <vector>
 
 namespace osgSkin {
+namespace {
+
+/// The callback as one that links channels by its name. Null for derived classes: they may link
+/// otherwise, as OSG's for morph targets does.
+osgAnimation::UpdateMatrixTransform* linkedByName(osg::Callback& callback) {
+    const std::type_info& type = typeid(callback);
+    const bool plain = type == typeid(osgAnimation::UpdateBone) ||
+                       type == typeid(osgAnimation::UpdateMatrixTransform);
+    return plain && !callback.getName().empty()
+               ? dynamic_cast<osgAnimation::UpdateMatrixTransform*>(&callback)
+               : nullptr;
+}
+
+/// Whether a node below a skeleton has a manager of its own, as a rider has. Its bones must not be
+/// linked: a channel has one target, and would lose this character's bone of the same name.
+bool isAnotherCharacter(osg::Node& node, const osg::NodePath& path) {
+    osg::Callback* callback = node.getUpdateCallback();
+    while (callback && !dynamic_cast<osgAnimation::AnimationManagerBase*>(callback))
+        callback = callback->getNestedCallback();
+    return callback && std::any_of(path.begin(), path.end(), [&node](const osg::Node* above) {
+               return above != &node && dynamic_cast<const osgAnimation::Skeleton*>(above);
+           });
+}
+
+/// Links bones and transforms with the channels of their names. OSG's visitor compares (and copies)
+/// each name with that of every channel: many seconds for thousands of bones.
+class NameLinker : public osgAnimation::LinkVisitor {
+public:
+    /// \param animations none of them null
+    explicit NameLinker(const osgAnimation::AnimationList& animations) {
+        _animations = animations;
+        for (const auto& animation : animations)
+            for (const auto& channel : animation->getChannels())
+                m_channels[channel->getTargetName()].push_back(channel.get());
+    }
+
+    void apply(osg::Node& node) override {
+        if (isAnotherCharacter(node, getNodePath())) return;
+        if (osg::StateSet* states = node.getStateSet()) handle_stateset(states);
+        for (osg::Callback* callback = node.getUpdateCallback(); callback != nullptr;
+             callback = callback->getNestedCallback()) {
+            if (auto* transform = linkedByName(*callback)) {
+                const auto channels = m_channels.find(transform->getName());
+                if (channels == m_channels.end()) continue;
+                for (osgAnimation::Channel* channel : channels->second) transform->link(channel);
+                _nbLinkedTarget += static_cast<unsigned int>(channels->second.size());
+            } else if (auto* other =
+                           dynamic_cast<osgAnimation::AnimationUpdateCallbackBase*>(callback)) {
+                link(other);
+            }
+        }
+        traverse(node);
+    }
+
+private:
+    std::unordered_map<std::string, std::vector<osgAnimation::Channel*>> m_channels;
+};
+
+} // namespace
 
 AutoPlayManager::AutoPlayManager(const AutoPlayManager& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop), osgAnimation::BasicAnimationManager(
                                                                     other, copyop) {
-    // A copy plays nothing yet, so it starts by itself too.
+    // A copy plays nothing yet, so it starts itself, too.
 }
 
 void AutoPlayManager::registerAnimations(const osgAnimation::AnimationList& animations) {
@@ -21,7 +88,7 @@ void AutoPlayManager::registerAnimations(const osgAnimation::AnimationList& anim
 }
 
 void AutoPlayManager::link(osg::Node* subgraph) {
-    if (_linker.valid()) { // an application's own
+    if (_linker.valid()) { // the application's
         osgAnimation::BasicAnimationManager::link(subgraph);
         return;
     }
@@ -32,15 +99,15 @@ void AutoPlayManager::link(osg::Node* subgraph) {
 }
 
 void AutoPlayManager::update(double time) {
-    if (!std::isfinite(time)) return; // OSG would add to it from then on
+    if (!std::isfinite(time)) return; // OSG would never recover
     if (!_started) {
         _started = true;
         const bool playing = std::any_of(_animationsPlaying.begin(), _animationsPlaying.end(),
                                          [](const auto& layer) { return !layer.second.empty(); });
-        _lastUpdate = time; // when what is played begins
+        _lastUpdate = time;
         if (!playing && !_animations.empty()) playAnimation(_animations.front());
     }
-    // OSG divides by a pose's length, unless it is repeated, and looks behind its only key then.
+    // Unless it loops, OSG divides by the duration of a clip with a single key.
     for (const auto& layer : _animationsPlaying)
         for (const osg::ref_ptr<osgAnimation::Animation>& clip : layer.second)
             if (clip->getPlayMode() != osgAnimation::Animation::LOOP &&

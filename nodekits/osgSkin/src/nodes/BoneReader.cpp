@@ -84,7 +84,7 @@ bool BoneReader::isOutdated(const osg::Node* skin) const {
 }
 
 const std::vector<glm::dmat4>& BoneReader::read() const {
-    // Not the reader's own: a crowd has many of them.
+    // Shared by the readers of a thread: a crowd has many.
     static thread_local std::vector<glm::dmat4> skinning;
     skinning.assign(_bones.size(), glm::dmat4(1.0));
     for (std::size_t j = 0; j < _bones.size(); ++j)

@@ -1,30 +1,129 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/DeformableSkin>
 
-#include "nodes/PrimitiveCheck.h"
-
 #include <osgSkin/DeformJob>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/PoseBounds>
 
+#include <osg/Geometry>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <utility>
 
 namespace osgSkin {
 namespace {
 
-/// The size of `names` where it is not among them.
+std::string beyond(std::int64_t vertex, std::size_t vertexCount) {
+    return "a primitive that names vertex " + std::to_string(vertex) + ", expected less than " +
+           std::to_string(vertexCount);
+}
+
+/// Checks `count` vertices from `first` on.
+std::string whatIsWrongWith(std::int64_t first, std::int64_t count, std::size_t vertexCount) {
+    if (count < 0) return "a primitive of " + std::to_string(count) + " corners";
+    if (first < 0) return beyond(first, vertexCount);
+    const bool fits = first + count <= static_cast<std::int64_t>(vertexCount);
+    return fits ? "" : beyond(first + count - 1, vertexCount);
+}
+
+/// Not by getNumIndices(): OSG adds the counts up in a number that may wrap.
+std::string whatIsWrongWith(const osg::DrawArrayLengths& runs, std::size_t vertexCount) {
+    std::int64_t first = runs.getFirst();
+    for (const GLsizei count : runs) {
+        std::string wrong = whatIsWrongWith(first, count, vertexCount);
+        if (!wrong.empty()) return wrong;
+        first += count;
+    }
+    return {};
+}
+
+/// OSG does not check that both lists are of the same length.
+std::string whatIsWrongWith(const osg::MultiDrawArrays& runs, std::size_t vertexCount) {
+    if (runs.getFirsts().size() != runs.getCounts().size())
+        return std::to_string(runs.getFirsts().size()) + " first vertices of " +
+               std::to_string(runs.getCounts().size()) + " runs";
+    for (std::size_t i = 0; i < runs.getCounts().size(); ++i) {
+        std::string wrong = whatIsWrongWith(runs.getFirsts()[i], runs.getCounts()[i], vertexCount);
+        if (!wrong.empty()) return wrong;
+    }
+    return {};
+}
+
+std::string whatIsWrongWith(const osg::PrimitiveSet* primitives, std::size_t vertexCount) {
+    if (!primitives) return "a null primitive set";
+    if (const auto* runs = dynamic_cast<const osg::DrawArrayLengths*>(primitives))
+        return whatIsWrongWith(*runs, vertexCount);
+    if (const auto* runs = dynamic_cast<const osg::MultiDrawArrays*>(primitives))
+        return whatIsWrongWith(*runs, vertexCount);
+    const unsigned int count = primitives->getNumIndices();
+    // Stops at the first bad one, so that a wrong count does not take long.
+    for (unsigned int i = 0; i < count; ++i)
+        if (primitives->index(i) >= vertexCount) return beyond(primitives->index(i), vertexCount);
+    // OSG reads all three corners of an incomplete triangle.
+    if (primitives->getDrawElements() && primitives->getMode() == GL_TRIANGLES && count % 3 != 0)
+        return std::to_string(count) + " corners of triangles, expected a multiple of 3";
+    return {};
+}
+
+std::size_t fewest(const osg::Array& array, const osg::Geometry& geometry,
+                   std::size_t vertexCount) {
+    switch (array.getBinding()) {
+    case osg::Array::BIND_PER_VERTEX:
+        return vertexCount;
+    case osg::Array::BIND_PER_PRIMITIVE_SET:
+        return geometry.getNumPrimitiveSets();
+    case osg::Array::BIND_OVERALL:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+/// The first array with fewer elements than its binding needs; empty where there is none.
+std::string findShort(const osg::Geometry& geometry, std::size_t vertices) {
+    osg::Geometry::ArrayList arrays;
+    geometry.getArrayList(arrays);
+    for (const osg::ref_ptr<osg::Array>& array : arrays)
+        if (array->getNumElements() < fewest(*array, geometry, vertices))
+            return "an array with " + std::to_string(array->getNumElements()) +
+                   " elements, expected at least " +
+                   std::to_string(fewest(*array, geometry, vertices)) + " for " +
+                   std::to_string(vertices) + " vertices";
+    return {};
+}
+
+/// \return the size of `names` where it is not among them
 std::size_t indexOf(const std::string& name, const std::vector<std::string>& names) {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+/// Copies an array to memory that a deformation may write, in a buffer object.
+/// \param source null, or not as setSkin() has seen it, where the application has replaced it
+template <typename Array>
+osg::ref_ptr<Array> stream(const osg::Array* source, std::size_t count,
+                           osg::VertexBufferObject& vbo) {
+    osg::ref_ptr<Array> array =
+        new Array(osg::Array::BIND_PER_VERTEX, static_cast<unsigned int>(count));
+    const auto* same = dynamic_cast<const Array*>(source);
+    if (same && same->size() == count) array->asVector() = same->asVector();
+    if (source) array->setNormalize(source->getNormalize());
+    array->setVertexBufferObject(&vbo);
+    return array;
 }
 
 } // namespace
 
 std::string brokenPrimitive(const osg::Geometry& geometry, std::size_t vertices) {
-    return findBroken(geometry, vertices);
+    for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i) {
+        std::string wrong = whatIsWrongWith(geometry.getPrimitiveSet(i), vertices);
+        if (!wrong.empty()) return wrong;
+    }
+    return {};
 }
 
 DeformableSkin::Drawer::~Drawer() = default;
@@ -97,36 +196,18 @@ void DeformableSkin::setTangentAttribute(int index) {
     poseChanged();
 }
 
-namespace {
-
-/// Copies `source` into memory that a deformation may write, in the given buffer object. It may be
-/// another one than setSkin() has seen, or null: the application may have dropped what is in it.
-template <typename Array>
-osg::ref_ptr<Array> stream(const osg::Array* source, std::size_t count,
-                           osg::VertexBufferObject& vbo) {
-    osg::ref_ptr<Array> array =
-        new Array(osg::Array::BIND_PER_VERTEX, static_cast<unsigned int>(count));
-    const auto* same = dynamic_cast<const Array*>(source);
-    if (same && same->size() == count) array->asVector() = same->asVector();
-    if (source) array->setNormalize(source->getNormalize());
-    array->setVertexBufferObject(&vbo);
-    return array;
-}
-
-} // namespace
-
 osg::ref_ptr<osg::Geometry> DeformableSkin::makeDrawnGeometry() const {
     osg::ref_ptr<osg::Geometry> buffer = new osg::Geometry(*_rest, osg::CopyOp::SHALLOW_COPY);
-    buffer->setStateSet(nullptr); // the outer drawable's stands above it while culling
+    buffer->setStateSet(nullptr); // cull() applies the skin's own
     buffer->setUpdateCallback(nullptr);
     buffer->setEventCallback(nullptr);
     buffer->setCullCallback(nullptr);
     buffer->setNodeMask(~0u);
-    buffer->setDataVariance(osg::Object::UNSPECIFIED); // DYNAMIC would hold up the next update
+    buffer->setDataVariance(osg::Object::UNSPECIFIED); // DYNAMIC would delay the next update
     buffer->setUseDisplayList(false);
     buffer->setSupportsDisplayList(false);
     buffer->setUseVertexBufferObjects(getUseVertexBufferObjects());
-    // Each buffer streams from memory of its own: a draw thread may still read the other one.
+    // Each buffer has memory of its own: a draw thread may still read the other one.
     const osg::ref_ptr<osg::VertexBufferObject> vbo = new osg::VertexBufferObject;
     vbo->setUsage(GL_DYNAMIC_DRAW);
     const std::size_t count = _model->vertexCount();
@@ -137,19 +218,19 @@ osg::ref_ptr<osg::Geometry> DeformableSkin::makeDrawnGeometry() const {
         buffer->setVertexAttribArray(
             index, stream<osg::Vec4Array>(_rest->getVertexAttribArray(index), count, *vbo));
     }
-    // Bounds are the skin's, known from the pose before any vertex is deformed: set as initial
-    // ones, to which the callback adds nothing.
+    // Bounds are found from the pose, before vertices are deformed, and set as initial bounds; this
+    // callback adds nothing to them.
     static const osg::ref_ptr<osg::Drawable::ComputeBoundingBoxCallback> nothing =
         new osg::Drawable::ComputeBoundingBoxCallback;
     buffer->setComputeBoundingBoxCallback(nothing);
-    // Culled by the outer drawable already, before it was deformed.
+    // The skin itself is culled before it is deformed.
     buffer->setCullingActive(false);
     return buffer;
 }
 
 void DeformableSkin::makeBuffers() {
-    // The buffers' own objects go with them. Textures, programs and arrays may be others' too, and
-    // a draw thread may be using them: nothing is released here.
+    // The buffers' own GL objects go with them. Textures, programs and arrays may be shared, and a
+    // draw thread may be using them: nothing is released here.
     _buffers = {};
     _current = 0;
     _handedOut = false;
@@ -211,7 +292,7 @@ float DeformableSkin::getActivation(const std::string& input) const {
     return _model ? _pose.input(indexOf(input, _model->inputs())) : 0.0f;
 }
 
-/// Makes the buffers draw as the outer drawable is set to.
+/// Copies the skin's draw settings to its buffers.
 void DeformableSkin::applyDrawSettings() {
     if (!_rest) return;
     osg::Drawable::DrawCallback* const callback =
@@ -241,7 +322,7 @@ void DeformableSkin::poseChanged(const osg::BoundingBox& bounds) {
         buffer->getBound(); // now: several cull threads may ask for it at once
     }
     dirtyBound();
-    getBound(); // as the buffers'
+    getBound(); // now, as above
     if (_drawer) _drawer->poseChanged(*this);
     if (_eager) deform();
 }
@@ -250,8 +331,8 @@ void DeformableSkin::deform() const {
     if (!_dirty.load(std::memory_order_acquire)) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     if (!_dirty.load(std::memory_order_relaxed) || !_model) return;
-    // A draw may still read the buffer that a cull has handed out last; any other is free, since no
-    // update begins before the draw of the frame before the last one has ended.
+    // A draw may still read the buffer that a cull handed out last. The other one is free: no
+    // update begins before the draw of the last frame but one has ended.
     const unsigned int next = _handedOut ? 1 - _current : _current.load();
     osg::Geometry& buffer = *_buffers[next];
     auto& vertices = static_cast<osg::Vec3Array&>(*buffer.getVertexArray());
@@ -277,7 +358,7 @@ void DeformableSkin::deform() const {
         job.run();
     vertices.dirty();
     normals.dirty();
-    buffer.dirtyGLObjects(); // a vertex array object looks at its arrays only when told to
+    buffer.dirtyGLObjects(); // else a vertex array object does not upload them
     _current = next;
     _handedOut = false;
     ++_deformCount;

@@ -35,7 +35,7 @@ ParallelDeformCallback::ParallelDeformCallback(DeformPool* pool)
 
 ParallelDeformCallback::ParallelDeformCallback(const ParallelDeformCallback& other,
                                                const osg::CopyOp& copyop)
-    // Skins are not copied: the copy finds those below the node that it comes to be set on.
+    // Skins are not copied: the copy finds those below its own node.
     : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
       _pool(other._pool), _onlySeen(other._onlySeen) {}
 
@@ -45,7 +45,7 @@ void ParallelDeformCallback::find(osg::Node& node) {
     _skins.clear();
     FindSkins visitor(_skins);
     node.accept(visitor);
-    // One that stands in several places is deformed once.
+    // A skin with several parents is deformed once.
     std::sort(_skins.begin(), _skins.end());
     _skins.erase(std::unique(_skins.begin(), _skins.end()), _skins.end());
     _now.reserve(_skins.size());

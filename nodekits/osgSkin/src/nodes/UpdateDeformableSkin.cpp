@@ -31,7 +31,7 @@ bool standsUnderAnother(const osg::Drawable& skin, const osgAnimation::Skeleton&
 
 UpdateDeformableSkin::UpdateDeformableSkin(const UpdateDeformableSkin& other,
                                            const osg::CopyOp& copyop)
-    // Bones are not copied: the copy finds those of the skeleton that it comes to stand under.
+    // Bones are not copied: the copy finds those of its own skeleton.
     : osg::Object(other, copyop), osg::Callback(other, copyop), osg::DrawableUpdateCallback(other,
                                                                                             copyop),
       _unwrapTwist(other._unwrapTwist) {}
@@ -50,7 +50,7 @@ void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable)
         const bool another = _skeleton.valid() && _skeleton.get() != skeleton;
         if (another && !_toldSeveral && standsUnderAnother(*skin, *skeleton)) {
             OSG_WARN << onOneLine("osgSkin: skin \"" + skin->getName() +
-                                  "\" stands under several skeletons and follows one of them, "
+                                  "\" is below several skeletons and follows only one of them, "
                                   "expected a copy of the skin under each")
                      << std::endl;
             _toldSeveral = true;
@@ -59,7 +59,7 @@ void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable)
         if (poseAs(_twist, *skin, *skeleton))
             _twist = _unwrapTwist ? Pose::Twist::Continued : Pose::Twist::Shortest;
     }
-    traverse(drawable, nv); // callbacks that were added to this one
+    traverse(drawable, nv); // nested callbacks
 }
 
 bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
@@ -75,7 +75,7 @@ bool UpdateDeformableSkin::poseAs(Pose::Twist twist, DeformableSkin& skin,
         _skeleton = &skeleton;
         _model = model;
         twist = Pose::Twist::Shortest;
-        // A root over several bones, as readSkeleton() adds one, has none and stays at rest.
+        // A root joint above several bones (readSkeleton()) has no bone and stays at rest.
         const bool toldMissing = _toldMissing;
         for (const std::string& joint : _reader.missing()) {
             if (joint == model->joints().front().name) continue;

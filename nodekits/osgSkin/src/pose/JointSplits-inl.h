@@ -10,23 +10,142 @@
 
 #include <hwy/highway.h>
 
-#include "pose/JointLanes-inl.h"
-#include "pose/SplitUnit.h"
+#include "core/Doubles-inl.h"
+#include "pose/PoseKernel.h"
 
+#include <cmath>
 #include <cstddef>
 
 HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
+/// One number of each of up to eight joints, so that roots and divisions overlap.
+using JointTag = hn::CappedTag<double, PoseCall::kAtOnce>;
+using Joints = hn::Vec<JointTag>;
+using JointMask = hn::Mask<JointTag>;
+
+HWY_INLINE Joints each(double x) {
+    return hn::Set(JointTag(), x);
+}
+
+/// loadFour() of all lanes.
+HWY_INLINE void loadFourOf(const double* const* from, std::size_t at, Joints (&to)[4]) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    Doubles low[4], high[4];
+    loadFour(from, at, low);
+    loadFour(from + 4, at, high);
+    for (std::size_t i = 0; i < 4; ++i) to[i] = hn::Combine(JointTag(), high[i], low[i]);
+#else
+    loadFour(from, at, to);
+#endif
+}
+
+/// loadEach() of all lanes.
+HWY_INLINE Joints loadEachOf(const double* row, const int* at) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    return hn::Combine(JointTag(), loadEach(row, at + 4), loadEach(row, at));
+#else
+    return loadEach(row, at);
+#endif
+}
+
+/// Reads the parents' numbers of the joints from `first` on.
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+/// Most joints directly follow their parents, whose numbers are then adjacent; others are inserted.
+class ParentRows {
+public:
+    HWY_INLINE ParentRows(const int* parents, std::size_t first)
+        : _parents(parents), _before(first) {
+        const JointTag d;
+        const hn::Rebind<std::int32_t, JointTag> steps;
+        const Joints numbers = hn::Iota(d, 0.0);
+        const Joints follow = hn::Add(numbers, each(double(first) - 1.0));
+        std::uint8_t bytes[8] = {}; // the most that may be written
+        hn::StoreMaskBits(d, hn::Ne(hn::PromoteTo(d, hn::LoadU(steps, parents)), follow), bytes);
+        std::uint32_t bits = bytes[0] | 1u << hn::Lanes(d);
+        for (std::size_t i = 0; i < kOthers; ++i) {
+            const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits); // or past the end
+            _isOther[i] = hn::Eq(numbers, each(double(lane)));
+            _others[i] = parents[HWY_MIN(lane, hn::Lanes(d) - 1)];
+            if (lane < hn::Lanes(d)) bits &= bits - 1;
+        }
+        _few = bits == 1u << hn::Lanes(d);
+    }
+
+    HWY_INLINE Joints operator()(const double* row) const {
+        if (HWY_UNLIKELY(!_few)) return loadEachOf(row, _parents);
+        Joints result = hn::LoadU(JointTag(), row + _before - 1);
+        for (std::size_t i = 0; i < kOthers; ++i)
+            result = hn::IfThenElse(_isOther[i], each(row[_others[i]]), result);
+        return result;
+    }
+
+private:
+    static constexpr std::size_t kOthers = 2;
+
+    const int* _parents;
+    std::size_t _before;
+    int _others[kOthers];
+    JointMask _isOther[kOthers];
+    bool _few;
+};
+#else
+class ParentRows {
+public:
+    HWY_INLINE ParentRows(const int* parents, std::size_t) : _parents(parents) {}
+    HWY_INLINE Joints operator()(const double* row) const { return loadEachOf(row, _parents); }
+
+private:
+    const int* _parents;
+};
+#endif
+
+/// A frame or a map.
+struct Turns {
+    Joints turn[3][3]; ///< columns
+    Joints offset[3];
+    Joints scale;
+};
+
+struct Quaternions {
+    Joints w, x, y, z;
+};
+
+struct Angles {
+    Joints bend, twist, cosine, sine; ///< the latter of the bend axis, from e1 towards e2
+};
+
+/// The cube root, but 1 for volumes within rounding errors of 1.
+HWY_INLINE Joints scaleOf(const Joints& volume) {
+    const JointTag d;
+    const Joints one = each(1.0);
+    const JointMask even = hn::Lt(hn::Abs(hn::Sub(volume, one)), each(3e-6));
+    if (HWY_LIKELY(hn::AllTrue(d, even))) return one;
+    double lanes[PoseCall::kAtOnce];
+    hn::StoreU(volume, d, lanes);
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) lanes[lane] = std::cbrt(lanes[lane]);
+    return hn::IfThenElse(even, one, hn::LoadU(d, lanes));
+}
+
+/// 1 / sqrt(square), to the last few bits; exact for 1. Near 1, as without scale, it needs no root.
+HWY_INLINE Joints inverseRoot(const Joints& square) {
+    const JointTag d;
+    const Joints one = each(1.0), more = hn::Sub(square, one);
+    if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Lt(hn::Abs(more), each(1e-4))))) // NaN too
+        return hn::Div(one, hn::Sqrt(square));
+    const Joints terms = hn::MulAdd(more, hn::MulAdd(more, each(-0.3125), each(0.375)), each(-0.5));
+    return hn::MulAdd(more, terms, one);
+}
+
 struct Root {
     Joints root, inverse;
 };
 
-/// Of what is not 0, nor denormal; to the last digits.
+/// The root of a normal number, to the last digits.
 HWY_INLINE Root rootOf(const Joints& square) {
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-    // Two of Newton's steps: the instructions for it take three times as long.
+    // Two Newton steps: the exact instructions take three times as long.
     Joints inverse{_mm512_rsqrt14_pd(square.raw)};
     const Joints half = hn::Mul(each(0.5), square), more = each(1.5);
     for (int i = 0; i < 2; ++i)
@@ -38,7 +157,7 @@ HWY_INLINE Root rootOf(const Joints& square) {
 #endif
 }
 
-/// Of a rotation, with that part found first which is largest.
+/// The quaternions of rotations, starting from the largest component.
 HWY_INLINE Quaternions quaternionsOf(const Joints (&m)[3][3]) {
     const JointTag d;
     const Joints one = each(1.0), half = each(0.5);
@@ -69,7 +188,7 @@ HWY_INLINE Quaternions quaternionsOf(const Joints (&m)[3][3]) {
     return q;
 }
 
-/// What is too near to a half turn for the arithmetic of the others.
+/// splitUnit() of a joint too close to a half turn for the code below.
 inline HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t joint, const double (&q)[4],
                                     double (&angles)[4]) {
     const auto rest = [&](std::size_t row) {
@@ -96,9 +215,9 @@ inline HWY_NOINLINE void splitAlone(const PoseCall& call, std::size_t first,
 
 /// splitUnit() of several joints.
 HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternions& q) {
-    /// Bend axes are nothing below this sine of half the bend.
+    /// Below this sine of half the bend, there is no bend axis.
     constexpr double kNoBend = 1e-100;
-    /// Below this cosine of half the bend, its axis and the twist are not told apart.
+    /// Below this cosine of half the bend, the twist is not determined.
     constexpr double kHalfTurn = 1e-12;
     const JointTag d;
     const Joints zero = hn::Zero(d), one = each(1.0), two = each(2.0);
@@ -109,8 +228,8 @@ HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternio
                                 hn::LoadU(d, at + 2 * call.count)};
         return dot(xyz, axis);
     };
-    // c + s w is the twist, u1 e1 + u2 e2 what is perpendicular to w; of q and -q the one where c
-    // is positive.
+    // c + s w is the twist, u1 e1 + u2 e2 the part perpendicular to w; of q and -q the one with
+    // positive c.
     const Joints sign = hn::And(q.w, hn::SignBit(d));
     const Joints c = hn::Xor(q.w, sign);
     const Joints s = hn::Xor(along(PoseAccess::RestRow::kPole), sign);
@@ -155,7 +274,7 @@ HWY_INLINE Joints continued(const Joints& before, const Joints& twist) {
             hn::And(hn::Lt(hn::Abs(angle), limit), hn::Le(hn::Abs(hn::Sub(angle, before)), near));
         result = hn::IfThenElse(good, angle, result);
     };
-    // The first that is good is to be taken, so it comes last.
+    // The last one in range wins.
     choose(hn::Sub(twist, turn));
     choose(hn::Add(twist, turn));
     choose(twist);

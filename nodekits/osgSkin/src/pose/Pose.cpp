@@ -23,14 +23,14 @@ namespace {
 
 constexpr double kSmallestScale = 1e-9; ///< and the largest is its inverse
 
-/// How far a joint's map can move the origin, at most, and how it scales, all above it included.
+/// A bound of how far a joint's map moves the origin, and its scale, with all joints above.
 struct Reach {
     double length;
     double scale;
 };
 constexpr Reach kNoReach{0.0, 1.0};
 
-/// Not below the length of a vector, in less time.
+/// An upper bound of a vector's length, without a root.
 double lengthOf(const glm::dvec3& v) noexcept {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
@@ -39,13 +39,13 @@ bool isScale(double scale) noexcept {
     return scale >= kSmallestScale && scale <= 1.0 / kSmallestScale; // false for NaN
 }
 
-/// How far a pose can bring vertices, which follow any of its joints by shares.
+/// How far a pose can move vertices, which may follow any of its joints in part.
 struct Spread {
-    /// Beside what is moved, a place at rest is farther away by no more than that.
+    /// The limit for the product of all growing scales.
     static constexpr double kMostGrown = 1e12;
 
-    double grown = 1.0; ///< by all joints that are larger than their parents
-    double moved = 0.0; ///< by all joints, before they are grown
+    double grown = 1.0; ///< the product of all scales above 1
+    double moved = 0.0; ///< the sum of all translations, before scaling
 
     void add(const Reach& own) noexcept {
         moved += own.scale > 1.0 ? own.length / own.scale : own.length;
@@ -56,7 +56,7 @@ struct Spread {
     }
 };
 
-/// The same of frames, of which each by itself is in range.
+/// Whether frames, each of which is in range, are in range together.
 bool isInRange(const PoseFrames& frames, const int* parents, std::size_t count) noexcept {
     const auto row = [&](std::size_t number) { return frames.rows + number * frames.stride; };
     const double* const scales = row(12);
@@ -71,7 +71,7 @@ bool isInRange(const PoseFrames& frames, const int* parents, std::size_t count) 
     return spread.isInRange();
 }
 
-/// Fewer joints than are worked on at a time: a copy, with the last one over again.
+/// A padded copy of a pose with fewer joints than are processed at a time; repeats the last one.
 class FewJoints {
     static constexpr std::size_t kAtOnce = PoseCall::kAtOnce;
 
@@ -118,8 +118,8 @@ private:
     std::array<double, PoseAccess::kRows * kAtOnce> _rows;
 };
 
-/// \param count the joints, without those over again
-/// \return false where the matrices cannot be followed
+/// \param count of the joints, without padding
+/// \return false where the matrices cannot be used
 bool setFrom(const glm::dmat4* skinning, const PoseCall& call, std::size_t count,
              bool& other) noexcept {
     static thread_local std::vector<double> room;
@@ -189,7 +189,7 @@ bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* change
         const Reach reach{lengthOf(map.offset), map.scale};
         reaches[j] = {above.length + above.scale * reach.length, above.scale * reach.scale};
         spread.add(reach);
-        // Written so that NaN is refused.
+        // Rejects NaN.
         const glm::dquat& q = map.rotation;
         if (!(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < 1e-6) ||
             !isInRange(map.offset) || !(reaches[j].length <= kLargestCoordinate) ||
@@ -212,7 +212,7 @@ bool Pose::set(const JointMap* own, std::size_t count, Twist twist, bool* change
 bool Pose::setJoints(const Pose& other, bool* changed) noexcept {
     const std::size_t count = size();
     if (other.size() != count) return false;
-    // What bends are follows from the rotations.
+    // Bends follow from the rotations.
     const auto isSame = [&](Row first, Row end) {
         return std::equal(_rows.begin() + static_cast<std::ptrdiff_t>(first * count),
                           _rows.begin() + static_cast<std::ptrdiff_t>(end * count),

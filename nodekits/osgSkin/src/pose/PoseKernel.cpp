@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Compiled once for each instruction set by foreach_target.h, which includes this file again and
-// again; the best one is chosen at run time.
+// Compiled once for each instruction set, through foreach_target.h; the best is chosen at run time.
 #include "pose/PoseKernel.h"
-
-#include "pose/SplitUnit.h"
 
 #include <cfloat>
 #include <cmath>
@@ -15,7 +12,6 @@
 // Must follow foreach_target.h.
 #include <hwy/highway.h>
 
-#include "pose/JointLanes-inl.h"
 #include "pose/JointSplits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,7 +25,7 @@ bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFram
     const Joints rounding = each(1e-3), farthest = each(kLargestCoordinate);
     JointMask good = hn::Eq(zero, zero);
     const auto require = [&good](const JointMask& that) HWY_ATTR { good = hn::And(good, that); };
-    for (std::size_t row = 0; row < kFrameRows; ++row) // no turn
+    for (std::size_t row = 0; row < kFrameRows; ++row) // the identity
         *(frames.rows + row * frames.stride - 1) = row == 0 || row == 4 || row == 8 || row == 12;
     for (std::size_t next = 0; next < call.count; next += lanes) {
         const std::size_t first = HWY_MIN(next, call.count - lanes); // the last ones overlap
@@ -37,7 +33,7 @@ bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFram
         for (std::size_t lane = 0; lane < lanes; ++lane) from[lane] = &skinning[first + lane][0][0];
         Joints m[4][4];
         for (std::size_t column = 0; column < 4; ++column) loadFourOf(from, 4 * column, m[column]);
-        // Written so that NaN is refused.
+        // Rejects NaN.
         for (std::size_t column = 0; column < 3; ++column)
             require(hn::Lt(hn::Abs(m[column][3]), rounding));
         require(hn::Lt(hn::Abs(hn::Sub(m[3][3], one)), rounding));
@@ -75,7 +71,7 @@ bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFram
                                   rest(PoseAccess::RestRow::kCentre + 1),
                                   rest(PoseAccess::RestRow::kCentre + 2)};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            // The joint centre goes where the whole matrix, non-uniform scale included, puts it.
+            // The joint centre moves as by the whole matrix, non-uniform scale included.
             const Joints all[3] = {m[0][axis], m[1][axis], m[2][axis]};
             const Joints turn[3] = {x[axis], y[axis], across[axis]};
             const Joints offset =
@@ -91,7 +87,7 @@ bool readFrames(const glm::dmat4* skinning, const PoseCall& call, const PoseFram
     return hn::AllTrue(d, good);
 }
 
-/// Writes numbers of joints; returns where they are others than before.
+/// Stores numbers of joints; returns which of them have changed.
 HWY_INLINE JointMask put(const Joints& value, double* to) {
     const JointTag d;
     const JointMask other = hn::Ne(value, hn::LoadU(d, to));
@@ -99,7 +95,7 @@ HWY_INLINE JointMask put(const Joints& value, double* to) {
     return other;
 }
 
-/// Writes how joints turn and move; returns where they do otherwise than before.
+/// Stores the joints' maps; returns which of them have changed.
 HWY_INLINE JointMask writeMaps(const PoseCall& call, std::size_t first, const Quaternions& q,
                                const Joints (&offset)[3], const Joints& scale) {
     using Access = PoseAccess::Row;
@@ -113,8 +109,8 @@ HWY_INLINE JointMask writeMaps(const PoseCall& call, std::size_t first, const Qu
     return hn::Or(other, put(scale, row(Access::kScale)));
 }
 
-/// Splits what joints' rows turn by; returns where twists are others than before. A loop of its
-/// own: much waits for roots and quotients, and the shorter that is, the more joints wait together.
+/// Splits the joints' rotations; returns which twists have changed. A separate, short loop, so that
+/// the roots and divisions of many joints overlap.
 JointMask splitRows(const PoseCall& call) {
     using Access = PoseAccess::Row;
     const JointTag d;
@@ -131,12 +127,12 @@ JointMask splitRows(const PoseCall& call) {
             angles.twist = continued(own(Access::kTwist), angles.twist);
         hn::StoreU(angles.bend, d, at + Access::kBend * call.count);
         other = hn::Or(other, put(angles.twist, at + Access::kTwist * call.count));
-        // As good as the kernel's floats, in half of a double's room.
+        // As precise as the kernel's floats, in half the size of a double.
         const auto inSteps = [&](const Joints& x) HWY_ATTR {
             const Joints of = hn::Mul(x, each(1.0 / PoseAccess::kAzimuthStep));
             return hn::DemoteTo(steps, hn::Add(of, hn::CopySign(each(0.5), of)));
         };
-        // Read and written as vectors and bytes only, which may be anything.
+        // Accessed as vectors and bytes only, which may alias anything.
         auto* const azimuths =
             reinterpret_cast<std::int32_t*>(call.rows + Access::kAzimuth * call.count);
         hn::StoreU(inSteps(angles.cosine), steps, azimuths + first);

@@ -1,29 +1,103 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinGpu/CrowdCharacter>
 
-#include "crowd/Levels.h"
-#include "model/PackRigid.h"
-#include "shader/CrowdText.h"
+#include "crowd/CrowdText.h"
+#include "model/PackTexels.h"
 
-#include <osgSkinGpu/GpuCrowd>
-#include <osgSkinGpu/GpuPalette>
-
+#include <osgSkin/Binding>
+#include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/PoseBounds>
+#include <osgSkinGpu/GpuCrowd>
+#include <osgSkinGpu/GpuPalette>
 
+#include <osg/Array>
 #include <osg/BufferObject>
+#include <osg/Geometry>
+#include <osg/TriangleIndexFunctor>
+#include <osg/Vec3>
+#include <osg/ref_ptr>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
+
+#ifdef OSGSKIN_HAS_MESHOPTIMIZER
+#include <meshoptimizer.h>
+#endif
 
 namespace osgSkin {
 namespace {
 
-/// Texels that floats can number.
+/// The texels of a GpuModel whose vertices all follow one joint fully.
+///
+/// \param joints of the palettes that it will be drawn with
+/// \param positions rest space, as are the normals
+osg::ref_ptr<osg::Vec4uiArray> packRigid(const std::vector<BoundJoint>& joints, unsigned int joint,
+                                         const osg::Vec3Array& positions,
+                                         const osg::Vec3Array& normals) {
+    osg::ref_ptr<osg::Vec4uiArray> texels = new osg::Vec4uiArray;
+    packJoints(joints, *texels);
+    const auto chain = static_cast<unsigned int>(texels->size());
+    texels->push_back(osg::Vec4ui(joint, 0, 0, 0));
+    texels->front() = osg::Vec4ui(static_cast<unsigned int>(joints.size()), chain + 1,
+                                  static_cast<unsigned int>(positions.size()), 0u);
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        texels->push_back(packedTexel(*asGlm(&positions[v]), chain));
+        texels->push_back(packedTexel(*asGlm(&normals[v]), 0));
+    }
+    return texels;
+}
+
+struct CollectTriangles {
+    std::vector<GLuint> indices;
+    void operator()(unsigned int a, unsigned int b, unsigned int c) {
+        if (a != b && b != c && c != a) indices.insert(indices.end(), {a, b, c});
+    }
+};
+
+/// Indices of the triangles that a geometry draws.
+///
+/// \throw osgSkin::Error where a primitive is broken (brokenPrimitive())
+std::vector<GLuint> trianglesOf(const osg::Geometry& geometry) {
+    const std::string broken =
+        brokenPrimitive(geometry, geometry.getVertexArray()->getNumElements());
+    if (!broken.empty())
+        throw Error("crowd: the geometry \"" + geometry.getName() + "\" has " + broken);
+    osg::TriangleIndexFunctor<CollectTriangles> collect;
+    geometry.accept(collect);
+    return collect.indices;
+}
+
+/// Simplifies triangles, without moving vertices.
+///
+/// \param positions of the vertices; equal ones stay joined
+/// \param most the wanted number of indices
+/// \throw osgSkin::Error where this kit was built without meshoptimizer
+std::vector<GLuint> simplified([[maybe_unused]] const std::vector<osg::Vec3>& positions,
+                               [[maybe_unused]] const std::vector<GLuint>& indices,
+                               [[maybe_unused]] std::size_t most) {
+#ifdef OSGSKIN_HAS_MESHOPTIMIZER
+    std::vector<GLuint> result(indices.size());
+    if (indices.empty()) return result;
+    // Relative to the extent; allowed, since the character is small in the picture.
+    const float error = 0.05f;
+    const std::size_t size =
+        meshopt_simplify(result.data(), indices.data(), indices.size(), positions.front().ptr(),
+                         positions.size(), sizeof(osg::Vec3), most, error, 0, nullptr);
+    result.resize(size);
+    return result;
+#else
+    throw Error("levels of detail: this osgSkinGpu was built without meshoptimizer");
+#endif
+}
+
+/// Texel indices that are exact in a float.
 constexpr std::size_t kMostTexels = std::size_t(1) << 24;
-/// Clips that a CrowdInstance can name.
+/// Clip numbers of CrowdInstance.
 constexpr std::size_t kMostClips = 65536;
 
 osg::ref_ptr<osg::TextureBuffer> textureOf(osg::Array& array, GLint format) {
@@ -58,7 +132,7 @@ CrowdCharacter::~CrowdCharacter() = default;
 std::size_t CrowdCharacter::addSkin(const DeformableSkin& skin, const osg::Matrixd& toCharacter) {
     requireNoCrowd();
     if (!skin.getModel()) throw Error("crowd: the skin \"" + skin.getName() + "\" has no model");
-    if (!_clips.empty()) throw Error("crowd: skins are added before clips");
+    if (!_clips.empty()) throw Error("crowd: add skins before clips");
     if (!isUsable(toCharacter))
         throw Error("crowd: the matrix of the skin \"" + skin.getName() +
                     "\" is singular or not finite");
@@ -98,7 +172,7 @@ void CrowdCharacter::addRigid(const osg::Geometry& geometry, osg::StateSet* stat
 }
 
 void CrowdCharacter::addPart(Part part) {
-    if (_sizes.size() > 1) throw Error("crowd: parts are added before levels of detail");
+    if (_sizes.size() > 1) throw Error("crowd: add parts before levels of detail");
     part.indices.push_back(trianglesOf(*part.rest));
     _parts.push_back(std::move(part));
 }
@@ -132,7 +206,7 @@ CrowdCharacter::Clip CrowdCharacter::bake(const Samples& samples, double samples
         clip.palettes.emplace_back(clip.samples * model.paletteSize());
         for (std::size_t i = 0; i < clip.samples; ++i) {
             const std::vector<glm::dmat4>& skinning = samples[s][i];
-            // So that what lies between two samples does not turn the long way round.
+            // Continued, so that interpolation takes the short way.
             if (!pose.set(skinning.data(), skinning.size(),
                           i == 0 ? Pose::Twist::Shortest : Pose::Twist::Continued))
                 throw Error("crowd: sample " + std::to_string(i) + " of a clip cannot be used");
@@ -149,10 +223,10 @@ unsigned int CrowdCharacter::addClip(const Samples& samples, double samplesPerSe
     const auto rate = static_cast<float>(samplesPerSecond); // as shaders have it
     if (_skins.empty() || samples.size() != _skins.size() || samples.front().empty() ||
         !std::isnormal(rate) || rate < 0.0f)
-        throw Error("crowd: a clip needs samples of each skin, and some a second");
+        throw Error("crowd: a clip needs samples for each skin, and a rate above 0");
     for (const auto& ofSkin : samples)
         if (ofSkin.size() != samples.front().size())
-            throw Error("crowd: a clip needs as many samples of each skin");
+            throw Error("crowd: a clip needs equally many samples for each skin");
     requireRoomFor(samples.front().size());
     osg::BoundingBox bounds = _bounds;
     Clip clip = bake(samples, double(rate), loops, bounds);
@@ -210,7 +284,7 @@ bool CrowdCharacter::setSample(unsigned int clip, std::size_t sample, std::size_
 
 void CrowdCharacter::requireNoCrowd() const {
     const std::lock_guard<std::mutex> lock(_mutex);
-    if (_hasCrowd) throw Error("crowd: a character that a crowd is made of stays as it is");
+    if (_hasCrowd) throw Error("crowd: a character with a crowd cannot be changed");
 }
 
 void CrowdCharacter::addCrowd(GpuCrowd& crowd) {

@@ -1,21 +1,37 @@
 // SPDX-License-Identifier: MIT
 #include "crowd/CrowdDraws.h"
 
-#include "crowd/TexelCheck.h"
-#include "shader/CrowdText.h"
+#include "crowd/CrowdText.h"
+#include "skin/ComputeStage.h"
 
 #include <osgSkinGpu/CrowdInstance>
 
 #include <osg/BufferObject>
+#include <osg/Notify>
+#include <osg/RenderInfo>
 #include <osg/Uniform>
 
 #include <algorithm>
+#include <atomic>
 
 #ifndef GL_R32UI
 #define GL_R32UI 0x8236
 #endif
 
 namespace osgSkin {
+
+void TexelCheck::drawImplementation(osg::RenderInfo& renderInfo,
+                                    const osg::Drawable* drawable) const {
+    if (canReadTexels(renderInfo.getContextID(), _texels)) {
+        _draw ? _draw->drawImplementation(renderInfo, drawable)
+              : drawable->drawImplementation(renderInfo);
+        return;
+    }
+    static std::atomic<bool> isTold{false};
+    if (!isTold.exchange(true))
+        OSG_WARN << "osgSkin: a crowd has a buffer of " << _texels
+                 << " texels, more than this driver reads; the crowd is not drawn" << std::endl;
+}
 namespace {
 
 bool hasTexture(const osg::StateSet* state) {
@@ -80,7 +96,7 @@ CrowdDraws::Draw CrowdDraws::makeDraw(const CrowdCharacter& character,
     state->addUniform(
         new osg::Uniform("osgSkinPaletteSize", static_cast<int>(skin.model->paletteSize())));
     state->addUniform(new osg::Uniform("osgSkinStand", osg::Matrixf(skin.toCharacter)));
-    // A skin's rest geometry has the state that the skin took from it, unless it has another one.
+    // The state of a skin's rest geometry is already the skin's.
     const osg::ref_ptr<osg::StateSet> own =
         part.joint >= 0 && part.rest->getStateSet() != part.state ? part.rest->getStateSet()
                                                                   : nullptr;
@@ -93,7 +109,7 @@ void CrowdDraws::setCount(std::size_t level, std::size_t members) {
     for (Draw& draw : _draws) {
         if (draw.level != level) continue;
         osg::PrimitiveSet& elements = *draw.geometry->getPrimitiveSet(0);
-        elements.setNumInstances(static_cast<int>(members)); // 0 would be one, without instances
+        elements.setNumInstances(static_cast<int>(members)); // 0 would mean one, not instanced
         draw.isEmpty = members == 0 || elements.getNumIndices() == 0;
     }
 }
@@ -111,7 +127,7 @@ bool CrowdDraws::isFree() const {
 }
 
 void CrowdDraws::cull(osgUtil::CullVisitor& cv) const {
-    // Its primitives are those of the rest pose at the origin: they say nothing of near and far.
+    // The primitives are of the rest pose at the origin, so they must not set near and far.
     const osg::CullSettings::ComputeNearFarMode mode = cv.getComputeNearFarMode();
     const auto inherited = cv.getInheritanceMask();
     cv.setComputeNearFarMode(

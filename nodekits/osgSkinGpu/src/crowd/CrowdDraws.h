@@ -4,33 +4,50 @@
 #include <osgSkinGpu/CrowdCharacter>
 
 #include <osg/Array>
+#include <osg/Drawable>
 #include <osg/PrimitiveSetIndirect>
 #include <osgUtil/CullVisitor>
 
+#include <cstddef>
 #include <vector>
 
 namespace osgSkin {
 
-/// The geometries of a crowd, each of one part in one level of detail, and the list of members that
-/// they draw.
+/// Draws a drawable only where the context supports buffers as large as the drawable's, where else
+/// shaders would read zeros, and warns once.
+class TexelCheck : public osg::Drawable::DrawCallback {
+public:
+    /// \param texels of the largest buffer
+    /// \param draw the drawable's own draw callback; may be null
+    TexelCheck(std::size_t texels, osg::Drawable::DrawCallback* draw)
+        : _texels(texels), _draw(draw) {}
+
+    void drawImplementation(osg::RenderInfo& renderInfo,
+                            const osg::Drawable* drawable) const override;
+
+private:
+    std::size_t _texels;
+    osg::ref_ptr<osg::Drawable::DrawCallback> _draw;
+};
+
+/// The geometries of a crowd, one for each part and level of detail, and the list of the members to
+/// draw.
 class CrowdDraws {
 public:
     enum class Count { Direct, Indirect };
 
-    /// \param capacity most members
-    /// \param count who knows how many members there are of a level: the processor, or commands in
-    ///        a buffer
+    /// \param capacity the most members
+    /// \param count where the counts of members come from: the processor, or a buffer of commands
     CrowdDraws(const CrowdCharacter& character, std::size_t capacity, Count count);
 
-    /// Of each level, so many places one level after the other.
+    /// `capacity` entries for each level.
     osg::UIntArray& list() const { return *_list; }
-    /// How many there are of a level; Direct alone.
+    /// Sets the number of members drawn in a level; Direct only.
     void setCount(std::size_t level, std::size_t members);
-    /// A command for each part in each level, all of no member; Indirect alone.
+    /// A command for each part and level, without members; Indirect only.
     osg::DefaultIndirectCommandDrawElements* commands() const { return _commands.get(); }
 
-    /// Whether no cull's leaves hold them any more: they are let go when the cull traversal that
-    /// they were added by begins anew, after its draw.
+    /// Whether no cull's render leaves hold them any more; a cull releases those of its last frame.
     bool isFree() const;
 
     void setBound(const osg::BoundingBox& box);

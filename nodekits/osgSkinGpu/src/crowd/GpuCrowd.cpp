@@ -1,33 +1,378 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinGpu/GpuCrowd>
 
-#include "crowd/CrowdCull.h"
 #include "crowd/CrowdDraws.h"
-#include "crowd/CrowdMembers.h"
-#include "crowd/ListedDraws.h"
-#include "shader/CrowdText.h"
-#include "skin/ContextSupport.h"
-#include "skin/SharedBarrier.h"
+#include "crowd/CrowdText.h"
+#include "skin/ComputeStage.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmTypes>
 
+#include <osg/BufferIndexBinding>
+#include <osg/BufferObject>
 #include <osg/GLExtensions>
 #include <osg/Notify>
+#include <osg/State>
 #include <osg/Uniform>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <mutex>
 
-namespace osgSkin {
+#ifndef GL_COMMAND_BARRIER_BIT
+#define GL_COMMAND_BARRIER_BIT 0x00000040
+#endif
+#ifndef GL_TEXTURE_FETCH_BARRIER_BIT
+#define GL_TEXTURE_FETCH_BARRIER_BIT 0x00000008
+#endif
 
+namespace osgSkin {
 namespace {
 
-/// Seconds of single precision: after so many, shaders count from another time. A step of it is
-/// then 15 us.
+/// Shaders count seconds in single precision, from a time that moves on after this many; their
+/// steps are then at most 15 us.
 constexpr double kMostSeconds = 256.0;
+constexpr float kLargestScale = 1e9f; ///< as in a Pose
+
+unsigned int bitsOf(double number) {
+    const auto rounded = static_cast<float>(number);
+    unsigned int word;
+    std::memcpy(&word, &rounded, sizeof word);
+    return word;
+}
+
+unsigned int byteOf(float share) {
+    return static_cast<unsigned int>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
+}
+
+/// Whether all are finite in single precision, which shaders use.
+bool areFinite(std::initializer_list<double> numbers) {
+    return std::all_of(numbers.begin(), numbers.end(),
+                       [](double x) { return std::isfinite(static_cast<float>(x)); });
+}
+
+/// Whether every vertex and sphere of the member stays finite.
+bool isPlaceable(const CrowdInstance& one) {
+    const glm::dvec3 position(one.position.x(), one.position.y(), one.position.z());
+    return isInRange(position) && std::abs(one.scale) <= kLargestScale &&
+           std::abs(one.rotation.length2() - 1.0) <= 0.02; // false for NaN
+}
+
+bool isPlayable(const CrowdInstance& one) {
+    const osg::Vec4d colour(one.colour);
+    return areFinite({one.phase, double(one.speed), one.otherPhase, double(one.otherSpeed),
+                      colour.x(), colour.y(), colour.z(), colour.w()}) &&
+           one.blend >= 0.0f && one.blend <= 1.0f;
+}
+
+/// \throw osgSkin::Error as GpuCrowd::setInstances()
+void checkMembers(const CrowdCharacter& character, const std::vector<CrowdInstance>& instances) {
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const CrowdInstance& one = instances[i];
+        const std::string label = "crowd: member " + std::to_string(i);
+        for (const unsigned int clip : {one.clip, one.blend != 0.0f ? one.otherClip : 0u})
+            if (clip >= character.clipCount())
+                throw Error(label + " plays clip " + std::to_string(clip) +
+                            ", expected less than " + std::to_string(character.clipCount()));
+        if (!isPlaceable(one))
+            throw Error(label +
+                        " is beyond 1e18, scaled by more than 1e9 or has a rotation that is "
+                        "not a unit quaternion");
+        if (!isPlayable(one))
+            throw Error(label + " has a number that is not finite, or a blend outside 0..1");
+    }
+}
+
+/// The members of a crowd, for shaders and for culling on the processor.
+class CrowdMembers {
+public:
+    /// \param character must outlive this
+    /// \param since the time that shaders count from, seconds
+    CrowdMembers(const CrowdCharacter& character, const std::vector<CrowdInstance>& instances,
+                 double since)
+        : _character(character), _since(since), _texels(new osg::Vec4uiArray) {
+        const osg::ref_ptr<osg::VertexBufferObject> buffer = new osg::VertexBufferObject;
+        buffer->setUsage(GL_DYNAMIC_DRAW_ARB);
+        _texels->setVertexBufferObject(buffer);
+        _texels->resize(std::max<std::size_t>(1, instances.size()) * CrowdInstance::kTexels);
+        _texture = new osg::TextureBuffer(_texels);
+        _texture->setInternalFormat(GL_RGBA32UI_EXT);
+        set(instances);
+    }
+
+    std::size_t size() const { return _instances.size(); }
+    osg::TextureBuffer* texture() const { return _texture.get(); }
+    const std::vector<CrowdInstance>& instances() const { return _instances; }
+    /// \param instances as many as before
+    void set(const std::vector<CrowdInstance>& instances) {
+        _instances = instances;
+        pack();
+        findSpheres();
+    }
+
+    double since() const { return _since; }
+    void setSince(double seconds) {
+        _since = seconds;
+        pack();
+    }
+
+    /// Updates spheres and box from the character's bounds.
+    void findSpheres() {
+        const osg::Vec3d centre = _character.bounds().center();
+        const float radius = _character.bounds().radius();
+        _spheres.clear();
+        _box.init();
+        for (const CrowdInstance& one : _instances) {
+            const osg::Vec3f place(one.position + one.rotation * (centre * double(one.scale)));
+            _spheres.emplace_back(place, radius * std::abs(one.scale));
+            _box.expandBy(osg::BoundingSphere(place, _spheres.back().w()));
+        }
+    }
+    const std::vector<osg::Vec4f>& spheres() const { return _spheres; } ///< centre, radius
+    const osg::BoundingBox& box() const { return _box; }                ///< around all spheres
+
+private:
+    double phaseOf(unsigned int clip, double phase, float speed) const {
+        const double at = phase + double(speed) * _since;
+        const double loop = clip < _character.clipCount() ? _character.loopSeconds(clip) : 0.0;
+        return loop > 0.0 ? at - loop * std::floor(at / loop) : at;
+    }
+    void pack() {
+        for (std::size_t i = 0; i < _instances.size(); ++i) {
+            CrowdInstance one = _instances[i];
+            one.phase = phaseOf(one.clip, one.phase, one.speed);
+            one.otherPhase = phaseOf(one.otherClip, one.otherPhase, one.otherSpeed);
+            one.pack(&(*_texels)[i * CrowdInstance::kTexels]);
+        }
+        _texels->dirty();
+    }
+
+    const CrowdCharacter& _character;
+    std::vector<CrowdInstance> _instances;
+    double _since;
+    osg::ref_ptr<osg::Vec4uiArray> _texels;
+    osg::ref_ptr<osg::TextureBuffer> _texture;
+    std::vector<osg::Vec4f> _spheres;
+    osg::BoundingBox _box;
+};
+
+/// A camera's view in the crowd's space: the four side planes, without near and far, which depend
+/// on what is seen.
+struct CrowdView {
+    CrowdView(const osg::Matrixd& modelView, const osg::Matrixd& projection) {
+        const osg::Matrixd clip = modelView * projection;
+        for (unsigned int i = 0; i < planes.size(); ++i) {
+            const int axis = static_cast<int>(i / 2);
+            const double sign = i % 2 == 0 ? 1.0 : -1.0;
+            osg::Vec4d plane;
+            for (int row = 0; row < 4; ++row)
+                plane[static_cast<unsigned int>(row)] = clip(row, 3) + sign * clip(row, axis);
+            const double length = osg::Vec3d(plane.x(), plane.y(), plane.z()).length();
+            planes[i] = length > 0.0 ? plane / length : osg::Vec4d(0, 0, 0, 1);
+        }
+        eye = osg::Matrixd::inverse(modelView).getTrans();
+        sizeAtOne = static_cast<float>(std::abs(projection(1, 1)));
+        isFlat = projection(3, 3) != 0.0;
+    }
+
+    std::array<osg::Vec4f, 4> planes; ///< inside: x a + y b + z c + d >= 0; unit normals
+    osg::Vec3f eye;
+    float sizeAtOne; ///< of a sphere of radius 1 at distance 1, in half heights of the picture
+    bool isFlat;     ///< orthographic: the size does not depend on the distance
+
+    bool sees(const osg::Vec4f& sphere) const {
+        return std::all_of(planes.begin(), planes.end(), [&](const osg::Vec4f& plane) {
+            return plane.x() * sphere.x() + plane.y() * sphere.y() + plane.z() * sphere.z() +
+                       plane.w() >=
+                   -sphere.w();
+        });
+    }
+    /// The level of detail in which a sphere is drawn.
+    /// \param sizes of the levels; the first is infinite
+    std::size_t levelOf(const osg::Vec4f& sphere, const std::vector<float>& sizes) const {
+        float size = sphere.w() * sizeAtOne;
+        const osg::Vec3f centre(sphere.x(), sphere.y(), sphere.z());
+        if (!isFlat) size /= std::max((eye - centre).length(), 1e-6f);
+        std::size_t level = 0;
+        while (level + 1 < sizes.size() && size < sizes[level + 1]) ++level;
+        return level;
+    }
+};
+
+/// Draws of a crowd culled on the processor: one set of draws for each cull, kept until drawn.
+class ListedDraws {
+public:
+    /// \param character must outlive this, as must the members
+    ListedDraws(const CrowdCharacter& character, const CrowdMembers& members)
+        : _character(character), _members(members) {}
+
+    /// Lists the visible members and adds their draws to a cull; thread-safe.
+    void cull(osgUtil::CullVisitor& cv) {
+        Listed& listed = take();
+        list(CrowdView(*cv.getModelViewMatrix(), *cv.getProjectionMatrix()), listed.draws);
+        listed.draws.setBound(_members.box());
+        listed.draws.cull(cv);
+        const std::lock_guard<std::mutex> lock(_mutex);
+        listed.isTaken = false;
+    }
+
+    void resizeGLObjectBuffers(unsigned int maxSize) {
+        for (const std::unique_ptr<Listed>& listed : _all)
+            listed->draws.resizeGLObjectBuffers(maxSize);
+    }
+    void releaseGLObjects(osg::State* state) const {
+        for (const std::unique_ptr<Listed>& listed : _all) listed->draws.releaseGLObjects(state);
+    }
+
+private:
+    struct Listed {
+        CrowdDraws draws;
+        bool isTaken; ///< by a cull that is still adding them
+    };
+
+    Listed& take() {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        for (const std::unique_ptr<Listed>& old : _all)
+            if (!old->isTaken && old->draws.isFree()) {
+                old->isTaken = true;
+                return *old;
+            }
+        _all.push_back(std::make_unique<Listed>(
+            Listed{CrowdDraws(_character, _members.size(), CrowdDraws::Count::Direct), true}));
+        return *_all.back();
+    }
+    void list(const CrowdView& view, CrowdDraws& draws) const {
+        const std::vector<osg::Vec4f>& spheres = _members.spheres();
+        std::vector<std::size_t> counts(_character.levelCount(), 0);
+        osg::UIntArray& places = draws.list();
+        for (std::size_t i = 0; i < spheres.size(); ++i) {
+            if (!view.sees(spheres[i])) continue;
+            const std::size_t level = view.levelOf(spheres[i], _character.levelSizes());
+            places[level * spheres.size() + counts[level]++] = static_cast<GLuint>(i);
+        }
+        places.dirty();
+        for (std::size_t level = 0; level < counts.size(); ++level)
+            draws.setCount(level, counts[level]);
+    }
+
+    const CrowdCharacter& _character;
+    const CrowdMembers& _members;
+    std::mutex _mutex;
+    std::vector<std::unique_ptr<Listed>> _all;
+};
+
+/// Culls on the graphics card: when drawn, fills the commands and the list of a crowd's indirect
+/// draws for the current camera.
+class CrowdCull : public osg::Drawable {
+public:
+    CrowdCull(const CrowdCharacter& character, const CrowdDraws& draws,
+              osg::TextureBuffer* instances)
+        : _commands(draws.commands()), _sizes(character.levelSizes()),
+          _parts(static_cast<int>(character.parts().size())),
+          _capacity(static_cast<int>(draws.list().size() / character.levelCount())),
+          _state(new osg::StateSet) {
+        setUseDisplayList(false);
+        setSupportsDisplayList(false);
+        const auto ours = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE |
+                          osg::StateAttribute::PROTECTED;
+        setBounds(character.bounds());
+        setUpBin(*_state, kComputeBin);
+        _state->setAttribute(cullProgram(), ours);
+        _state->setTextureAttribute(kCrowdInstanceUnit, instances, ours);
+        _state->addUniform(
+            new osg::Uniform("osgSkinInstances", static_cast<int>(kCrowdInstanceUnit)), ours);
+        _state->setAttribute(new osg::ShaderStorageBufferBinding(kCommandBuffer, _commands), ours);
+        _state->setAttribute(new osg::ShaderStorageBufferBinding(kVisibleBuffer, &draws.list()),
+                             ours);
+    }
+
+    /// The most that one dispatch can test, in every driver.
+    static constexpr std::size_t kMostMembers = std::size_t{65535} * kCullThreads;
+
+    osg::StateSet& state() const { return *_state; }
+
+    /// Not while any thread draws; so setBounds().
+    void setCount(std::size_t members) { _count = static_cast<int>(members); }
+    /// \param bounds of a member, in its own space
+    void setBounds(const osg::BoundingBox& bounds) {
+        _sphere = osg::Vec4f(bounds.center(), bounds.radius());
+    }
+
+    /// Whether a cull's render stage holds this already: it has one list, so it serves one place.
+    bool isIn(osgUtil::CullVisitor& cv) const {
+        const auto& bins = cv.getCurrentRenderBin()->getStage()->getRenderBinList();
+        const auto bin = bins.find(kComputeBin);
+        if (bin == bins.end()) return false;
+        for (const osgUtil::StateGraph* graph : bin->second->getStateGraphList())
+            for (const auto& leaf : graph->_leaves)
+                if (leaf->getDrawable() == this) return true;
+        return false;
+    }
+
+    osg::Object* cloneType() const override { return nullptr; }
+    osg::Object* clone(const osg::CopyOp&) const override { return nullptr; }
+    void drawImplementation(osg::RenderInfo& renderInfo) const override;
+
+private:
+    osg::ref_ptr<osg::DefaultIndirectCommandDrawElements> _commands;
+    osg::Vec4f _sphere;
+    std::vector<float> _sizes;
+    int _parts, _capacity, _count = 0;
+    osg::ref_ptr<osg::StateSet> _state;
+};
+
+void CrowdCull::drawImplementation(osg::RenderInfo& renderInfo) const {
+    osg::State& state = *renderInfo.getState();
+    const osg::GLExtensions& gl = *state.get<osg::GLExtensions>();
+    const osg::Program::PerContextProgram* program = state.getLastAppliedProgramObject();
+    if (!program) {
+        OSG_WARN << "osgSkin: this driver cannot run the culling shader; the processor culls"
+                 << std::endl;
+        noteCannotCompute(state.getContextID());
+        return;
+    }
+    const osg::GLBufferObject* commands =
+        _commands->getBufferObject()->getGLBufferObject(state.getContextID());
+    if (!commands) return;
+    state.unbindVertexBufferObject();
+    gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, commands->getGLObjectID());
+    gl.glBufferSubData(GL_ARRAY_BUFFER_ARB, 0, _commands->getTotalDataSize(),
+                       _commands->getDataPointer());
+    gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
+
+    const CrowdView view(state.getModelViewMatrix(), state.getProjectionMatrix());
+    const auto at = [&](const std::string& name) {
+        const GLint place = program->getUniformLocation(name);
+        return place >= 0 ? place : program->getUniformLocation(name + "[0]");
+    };
+    gl.glUniform4fv(at("osgSkinPlanes"), 4, view.planes.front().ptr());
+    gl.glUniform4fv(at("osgSkinSphere"), 1, _sphere.ptr());
+    gl.glUniform4fv(at("osgSkinEye"), 1, osg::Vec4f(view.eye, view.sizeAtOne).ptr());
+    gl.glUniform1i(at("osgSkinIsFlat"), view.isFlat ? 1 : 0);
+    const GLint counts[] = {_count, static_cast<GLint>(_sizes.size()), _parts, _capacity};
+    gl.glUniform4iv(at("osgSkinCounts"), 1, counts);
+    gl.glUniform1fv(at("osgSkinSizes"), static_cast<GLsizei>(_sizes.size()), _sizes.data());
+    gl.glDispatchCompute((static_cast<GLuint>(_count) + kCullThreads - 1) / kCullThreads, 1, 1);
+    gl.glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
 
 } // namespace
+
+void CrowdInstance::pack(osg::Vec4ui* texels) const {
+    texels[0] = {bitsOf(position.x()), bitsOf(position.y()), bitsOf(position.z()),
+                 bitsOf(double(scale))};
+    texels[1] = {bitsOf(rotation.x()), bitsOf(rotation.y()), bitsOf(rotation.z()),
+                 bitsOf(rotation.w())};
+    texels[2] = {bitsOf(phase), bitsOf(double(speed)), bitsOf(otherPhase),
+                 bitsOf(double(otherSpeed))};
+    texels[3] = {(clip & 0xffffu) | otherClip << 16, bitsOf(double(blend)),
+                 byteOf(colour.x()) | byteOf(colour.y()) << 8 | byteOf(colour.z()) << 16 |
+                     byteOf(colour.w()) << 24,
+                 0};
+}
 
 struct GpuCrowd::Inside {
     osg::ref_ptr<CrowdCharacter> character;

@@ -21,7 +21,7 @@ inline osg::Vec4ui packedTexel(const glm::vec3& v, unsigned int word) {
     return {floatBits(v.x), floatBits(v.y), floatBits(v.z), word};
 }
 
-/// The first texels of a GpuModel: one for what is yet to be known, and its joints.
+/// Appends the first texels of a GpuModel: one to be filled in later, and the joints.
 inline void packJoints(const std::vector<BoundJoint>& joints, osg::Vec4uiArray& texels) {
     texels.push_back(osg::Vec4ui(0, 0, 0, 0));
     for (const BoundJoint& joint : joints) {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "skin/ComputeStage.h"
+
+#include <osg/GLExtensions>
+#include <osg/State>
+
+#include <array>
+#include <atomic>
+
+#ifndef GL_MAX_TEXTURE_BUFFER_SIZE
+#define GL_MAX_TEXTURE_BUFFER_SIZE 0x8C2B
+#endif
+#ifndef GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT
+#define GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT 0x00000001
+#endif
+#ifndef GL_BUFFER_UPDATE_BARRIER_BIT
+#define GL_BUFFER_UPDATE_BARRIER_BIT 0x00000200
+#endif
+
+namespace osgSkin {
+namespace {
+
+std::array<std::atomic<bool>, kMostContexts>& failed() {
+    static std::array<std::atomic<bool>, kMostContexts> contexts{};
+    return contexts;
+}
+
+} // namespace
+
+bool canCompute(const osg::State& state) {
+    const unsigned int id = state.getContextID();
+    if (id >= kMostContexts || failed()[id]) return false;
+    // Finding the extensions needs the context; known ones may be read by any thread.
+    const osg::GLExtensions* extensions = osg::GLExtensions::Get(id, false);
+    // A driver without compute shaders may still have their functions.
+    return extensions && extensions->glslLanguageVersion >= 4.3f &&
+           osg::isGLExtensionOrVersionSupported(id, "GL_ARB_compute_shader", 4.3f) &&
+           osg::isGLExtensionOrVersionSupported(id, "GL_ARB_shader_storage_buffer_object", 4.3f) &&
+           extensions->glDispatchCompute && extensions->glMemoryBarrier;
+}
+
+void noteCannotCompute(unsigned int contextId) {
+    if (contextId < kMostContexts) failed()[contextId] = true;
+}
+
+bool canReadTexels(unsigned int contextId, std::size_t texels) {
+    static std::array<std::atomic<GLint>, kMostContexts> known{}; // the query may be slow
+    GLint most = contextId < kMostContexts ? known[contextId].load() : 0;
+    if (most == 0) {
+        glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+        if (contextId < kMostContexts) known[contextId] = most;
+    }
+    return most > 0 && texels <= static_cast<std::size_t>(most);
+}
+
+SharedBarrier& SharedBarrier::instance() {
+    // Never deleted: contexts may be gone when a process ends.
+    static const auto& barrier = *new osg::ref_ptr<SharedBarrier>(new SharedBarrier);
+    return *barrier;
+}
+
+SharedBarrier::SharedBarrier() : _place(new osg::StateSet) {
+    setUseDisplayList(false);
+    setSupportsDisplayList(false);
+    setUpBin(*_place, kBarrierBin);
+}
+
+void SharedBarrier::addTo(osgUtil::CullVisitor& cv) {
+    addToStage(cv, *this, *_place);
+}
+
+void SharedBarrier::drawImplementation(osg::RenderInfo& renderInfo) const {
+    const unsigned int id = renderInfo.getContextID();
+    if (id >= kMostContexts || !_needed[id].exchange(false)) return;
+    // For vertex fetches, and applications that read buffers back.
+    renderInfo.getState()->get<osg::GLExtensions>()->glMemoryBarrier(
+        GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    ++_count;
+}
+
+void setUpBin(osg::StateSet& state, ComputeBin bin) {
+    state.setRenderBinDetails(bin, "RenderBin", osg::StateSet::PROTECTED_RENDERBIN_DETAILS);
+    state.setNestRenderBins(false);
+}
+
+void addToStage(osgUtil::CullVisitor& cv, osg::Drawable& drawable, osg::StateSet& state) {
+    cv.pushStateSet(&state);
+    cv.addDrawable(&drawable, cv.getModelViewMatrix());
+    cv.popStateSet();
+}
+
+} // namespace osgSkin

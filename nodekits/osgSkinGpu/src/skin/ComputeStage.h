@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Drawable>
+#include <osg/StateSet>
+#include <osg/ref_ptr>
+#include <osgUtil/CullVisitor>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+
+namespace osg {
+class State;
+} // namespace osg
+
+namespace osgSkin {
+
+/// The most contexts in which skins are computed; in others the processor deforms.
+constexpr unsigned int kMostContexts = 64;
+
+/// Whether a context can run the compute shaders; thread-safe. False before the context's first
+/// draw, which finds its extensions.
+bool canCompute(const osg::State& state);
+
+/// Notes that a context cannot, whatever it reports.
+void noteCannotCompute(unsigned int contextId);
+
+/// Whether shaders of the current context can read a buffer of so many texels.
+bool canReadTexels(unsigned int contextId, std::size_t texels);
+
+/// Makes the draws of a frame wait for the skins that were computed before: one leaf for all skins,
+/// which does nothing where nothing has been computed.
+class SharedBarrier : public osg::Drawable {
+public:
+    static SharedBarrier& instance();
+
+    SharedBarrier();
+
+    /// Adds it to a cull's render stage, after the dispatches and before all else; thread-safe.
+    void addTo(osgUtil::CullVisitor& cv);
+
+    /// To be called in a context's draw after a dispatch.
+    void need(unsigned int contextId) { _needed[contextId] = true; }
+
+    unsigned int count() const { return _count; }
+
+    osg::Object* cloneType() const override { return nullptr; }
+    osg::Object* clone(const osg::CopyOp&) const override { return nullptr; }
+    void drawImplementation(osg::RenderInfo& renderInfo) const override;
+
+private:
+    osg::ref_ptr<osg::StateSet> _place;
+    mutable std::array<std::atomic<bool>, kMostContexts> _needed{};
+    mutable std::atomic<unsigned int> _count{0};
+};
+
+/// The render bins of dispatches and of the barrier, before all other bins of a stage.
+enum ComputeBin { kComputeBin = -1000, kBarrierBin };
+
+/// Puts a state's drawables into one of these bins, whatever the states above set.
+void setUpBin(osg::StateSet& state, ComputeBin bin);
+
+/// Adds a drawable with a state to a cull's render stage.
+void addToStage(osgUtil::CullVisitor& cv, osg::Drawable& drawable, osg::StateSet& state);
+
+} // namespace osgSkin
