@@ -3,7 +3,7 @@
 #define OSGSKINBIND_ELASTIC_MAKEELASTICSHAPES_H
 
 #include "joints/JointPlan.h"
-#include "layers/SkinLayers.h"
+#include "garments/SkinLayers.h"
 #include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Binding>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/ShapedJoint.h"
 
-#include "joints/TrunkByShape.h"
-#include "limbs/HermiteRatio.h"
+#include "joints/BodyAxes.h"
+#include "regions/HermiteRatio.h"
 #include "ratios/JointRatios.h"
 #include "shapes/BendRange.h"
 #include "shapes/MainAxis.h"
