@@ -104,7 +104,7 @@ std::vector<std::size_t> extremities(const RestSkeleton& skeleton, const JointRo
     std::vector<std::size_t> result;
     std::vector<bool> inside(skeleton.joints.size(), false);
     for (std::size_t j = 1; j < skeleton.joints.size(); ++j) {
-        inside[j] = inside[static_cast<std::size_t>(skeleton.joints[j].parent)];
+        inside[j] = inside[at(skeleton.joints[j].parent)];
         if (inside[j]) continue;
         for (const JointPart part : {JointPart::Head, JointPart::Hand, JointPart::Foot})
             if (roles.is(j, part)) inside[j] = true;
@@ -124,12 +124,12 @@ std::vector<int> rigidJoints(const RestSkeleton& skeleton, const BindOptions& op
         if (joint == jointOf.end())
             throw Error("bind: rigid joint \"" + name +
                         "\" is not in the skeleton, expected one of its joints");
-        named[static_cast<std::size_t>(joint->second)] = true;
+        named[at(joint->second)] = true;
     }
     std::vector<int> result(skeleton.joints.size(), -1);
     for (std::size_t j = 0; j < result.size(); ++j) {
         const int parent = skeleton.joints[j].parent;
-        if (parent >= 0) result[j] = result[static_cast<std::size_t>(parent)];
+        if (parent >= 0) result[j] = result[at(parent)];
         if (result[j] < 0 && named[j]) result[j] = static_cast<int>(j);
     }
     return result;
@@ -211,7 +211,7 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
     if (!rivals.empty()) notes.push_back(note);
     // Joints below a helper are helpers, too, such as further links of a twist.
     for (std::size_t j = 1; j < joints.size(); ++j) {
-        if (!helps[static_cast<std::size_t>(skeleton.joints[j].parent)]) continue;
+        if (!helps[at(skeleton.joints[j].parent)]) continue;
         if (!roles.roles[j].empty()) continue;
         helps[j] = true;
         joints[j].holdsRegion = false;
@@ -223,7 +223,7 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
 void giveRegionsToRigidJoints(std::vector<PlannedJoint>& joints) {
     for (std::size_t j = 0; j < joints.size(); ++j)
         if (joints[j].rigid >= 0 && joints[j].holdsRegion)
-            joints[static_cast<std::size_t>(joints[j].rigid)].holdsRegion = true;
+            joints[at(joints[j].rigid)].holdsRegion = true;
     for (std::size_t j = 0; j < joints.size(); ++j)
         if (joints[j].belowRigid(static_cast<int>(j))) joints[j].holdsRegion = false;
 }
@@ -272,14 +272,13 @@ std::vector<bool> subtreeOf(const std::vector<PlannedJoint>& joints, std::size_t
     std::vector<bool> inside(joints.size(), false);
     inside[joint] = true;
     for (std::size_t j = joint + 1; j < joints.size(); ++j) // parents first
-        if (joints[j].parent >= 0) inside[j] = inside[static_cast<std::size_t>(joints[j].parent)];
+        if (joints[j].parent >= 0) inside[j] = inside[at(joints[j].parent)];
     return inside;
 }
 
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint) {
     int above = joints[joint].parent;
-    while (above > 0 && !joints[static_cast<std::size_t>(above)].holdsRegion)
-        above = joints[static_cast<std::size_t>(above)].parent;
+    while (above > 0 && !joints[at(above)].holdsRegion) above = joints[at(above)].parent;
     return static_cast<std::size_t>(std::max(above, 0));
 }
 
@@ -302,7 +301,7 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     }
     for (const std::size_t joint : extremities(skeleton, roles)) joints[joint].extremity = true;
     for (std::size_t j = 1; j < joints.size(); ++j) {
-        const PlannedJoint& above = joints[static_cast<std::size_t>(skeleton.joints[j].parent)];
+        const PlannedJoint& above = joints[at(skeleton.joints[j].parent)];
         joints[j].digit = joints[j].rigid < 0 && (above.extremity || above.digit);
     }
     setJointAxes(skeleton, tolerance, joints);

@@ -156,11 +156,8 @@ CorrectiveJoint functionOf(std::size_t input) {
     return functions;
 }
 
-/// The correctives of the muscles that options ask for: for each muscle one mode that follows its
-/// hinge's bend and one that follows an input of its name. None where there are no muscles.
-/// \param binding of the mesh as given; its correctives do not count
-/// \param notes gets a line for each muscle that cannot be made
-/// \throw osgSkin::Error as findMuscles() does
+} // namespace
+
 Correctives makeMuscles(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                         const WeldedMesh& mesh, const Binding& binding, const BindOptions& options,
                         std::vector<std::string>& notes) {
@@ -212,7 +209,5 @@ Correctives makeMuscles(const RestSkeleton& skeleton, const std::vector<PlannedJ
     if (!result.empty()) result.inputs = inputs;
     return result;
 }
-
-} // namespace
 
 } // namespace osgSkin
