@@ -42,7 +42,7 @@ struct PlannedJoint {
     double armDistance = 0.0; ///< from a collar bone's joint to the upper arm's
     bool helper = false;      ///< at or below another joint's point, and without a region
     bool inside = false;      ///< the centre is inside the skin
-    bool outside = false;     ///< the centre is outside, and no rigid part contains the joint
+    bool outside = false;     ///< the centre is outside, and the joint is not below a rigid one
     bool claims = false;      ///< outside the skin: takes the nearest skin
     bool holdsRegion = false; ///< has a region, and so a field of its own; else its children's
 
