@@ -2,8 +2,8 @@
 #include "shapes/ShapedJoint.h"
 
 #include "joints/BodyAxes.h"
-#include "regions/HermiteRatio.h"
 #include "ratios/JointRatios.h"
+#include "regions/HermiteRatio.h"
 #include "shapes/BendRange.h"
 #include "shapes/MainAxis.h"
 
