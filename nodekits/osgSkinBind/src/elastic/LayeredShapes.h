@@ -2,7 +2,7 @@
 #ifndef OSGSKINBIND_ELASTIC_LAYEREDSHAPES_H
 #define OSGSKINBIND_ELASTIC_LAYEREDSHAPES_H
 
-#include "layers/SkinLayers.h"
+#include "garments/SkinLayers.h"
 #include "shapes/ShapeFit.h"
 
 #include <cstddef>

@@ -2,8 +2,8 @@
 #ifndef OSGSKINBIND_ELASTIC_MAKEELASTICSHAPES_H
 #define OSGSKINBIND_ELASTIC_MAKEELASTICSHAPES_H
 
+#include "garments/SkinLayers.h"
 #include "joints/JointPlan.h"
-#include "layers/SkinLayers.h"
 #include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Binding>

@@ -9,7 +9,7 @@
 #include "fit/place/PlaceTrunk.h"
 #include "fit/place/PushInside.h"
 #include "fit/place/Symmetrise.h"
-#include "mesh/RequireSurface.h"
+#include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/BentSkin.h"
 
-#include "limbs/HermiteRatio.h"
+#include "regions/HermiteRatio.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

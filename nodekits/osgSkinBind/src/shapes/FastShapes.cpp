@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/FastShapes.h"
 
-#include "limbs/HermiteRatio.h"
+#include "regions/HermiteRatio.h"
 #include "shapes/BendRange.h"
 #include "shapes/BentSkin.h"
 #include "shapes/PackShapes.h"

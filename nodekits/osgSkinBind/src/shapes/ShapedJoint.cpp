@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/ShapedJoint.h"
 
-#include "joints/TrunkByShape.h"
-#include "limbs/HermiteRatio.h"
+#include "joints/BodyAxes.h"
 #include "ratios/JointRatios.h"
+#include "regions/HermiteRatio.h"
 #include "shapes/BendRange.h"
 #include "shapes/MainAxis.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "elastic/lattice/VoxelLattice.h"
 
-#include "elastic/lattice/DisjointSets.h"
 #include "elastic/lattice/Unsolvable.h"
+#include "mesh/DisjointSets.h"
 
 #include <map>
 
