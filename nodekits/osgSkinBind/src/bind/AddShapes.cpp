@@ -4,11 +4,10 @@
 #include "bind/NormalCorrectives.h"
 #include "cache/Digest.h"
 #include "cache/ShapesCache.h"
-#include "elastic/MakeElasticShapes.h"
 #include "muscles/MakeMuscles.h"
 #include "ratios/RatioGradients.h"
-#include "shapes/FastShapes.h"
-#include "shapes/MergeCorrectives.h"
+#include "shapes/MakeShapes.h"
+#include "shapes/ShapeFit.h"
 
 #include <optional>
 #include <utility>

@@ -5,7 +5,7 @@
 #include "muscles/Contraction.h"
 #include "muscles/FindMuscles.h"
 #include "muscles/MuscleSkin.h"
-#include "shapes/PackShapes.h"
+#include "shapes/ShapeFit.h"
 
 #include <glm/trigonometric.hpp>
 
