@@ -4,7 +4,7 @@
 #include "Methods.h"
 #include "SelfIntersections.h"
 
-#include "elastic/SolveElastic.h"
+#include <elastic/SolveElastic.h>
 #include <osgSkinBind/Bind>
 
 #include <glm/geometric.hpp>

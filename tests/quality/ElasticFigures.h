@@ -3,7 +3,7 @@
 
 #include "Subject.h"
 
-#include "elastic/SolveElastic.h"
+#include <elastic/SolveElastic.h>
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ElasticFigures.h"
 
-#include "elastic/SolveElastic.h"
+#include <elastic/SolveElastic.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
