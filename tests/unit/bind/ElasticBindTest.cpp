@@ -98,10 +98,10 @@ TEST(ElasticBind, ShapesAHingeAndKeepsWhatItMade) {
 
     std::ofstream(files[0], std::ios::trunc) << "broken";
     const Binding third = bind(arm(), bones(), options, &report);
-    EXPECT_TRUE(hasNote(report, "made anew"));
+    EXPECT_TRUE(hasNote(report, "computed again"));
     EXPECT_EQ(third.correctives.shares, first.correctives.shares);
     bind(arm(), bones(), again, &report);
-    EXPECT_FALSE(hasNote(report, "made anew"));
+    EXPECT_FALSE(hasNote(report, "computed again"));
 }
 
 TEST(ElasticBind, TellsHowFarItIsAndGivesUpWhenTold) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Which parts of a skin are drawn out, on a ring: closed, cut, and alone.
-#include "ratios/HeldSkin.h"
+#include "ratios/EvenStretch.h"
 #include "mesh/HeatGraph.h"
 #include "mesh/WeldedMesh.h"
 

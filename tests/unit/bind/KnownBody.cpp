@@ -2,7 +2,7 @@
 #include "KnownBody.h"
 
 #include "SharedBody.h"
-#include "mesh/InsideSkin.h"
+#include "mesh/SurfaceQueries.h"
 
 #include <osgSkin/DeformJob>
 #include <osgSkinBind/Bind>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "paper/PhiloSegment.h"
+#include "ratios/PaperFields.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

@@ -234,7 +234,7 @@ TEST(Regions, JointsBesideEachOtherInOnePointHaveThatOfTheirBones) {
     bind(shapes::hangingArms(), skeleton, printed, &report);
     EXPECT_EQ(regionOf(report, "leftHip"), nullptr);
     EXPECT_EQ(regionOf(report, "rightHip"), nullptr);
-    EXPECT_NE(report.text().find("\"leftHip\" and \"rightHip\" are in one place"),
+    EXPECT_NE(report.text().find("\"leftHip\" and \"rightHip\" are at one point"),
               std::string::npos);
 }
 

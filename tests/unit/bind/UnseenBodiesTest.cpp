@@ -5,8 +5,8 @@
 #include "Ratios.h"
 #include "Stretches.h"
 #include "mesh/WeldedMesh.h"
-#include "ratios/SlopeShare.h"
-#include "regions/FacesLimb.h"
+#include "ratios/RatioFields.h"
+#include "regions/Regions.h"
 
 #include <osgSkinBind/Bind>
 

@@ -1,43 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bind/AddShapes.h"
 
-#include "bind/NormalCorrectives.h"
-#include "cache/Digest.h"
-#include "cache/ShapesCache.h"
-#include "muscles/MakeMuscles.h"
-#include "ratios/RatioGradients.h"
+#include "muscles/Muscles.h"
+#include "ratios/JointRatios.h"
 #include "shapes/MakeShapes.h"
 #include "shapes/ShapeFit.h"
 
-#include <optional>
-#include <utility>
-
 namespace osgSkin {
-namespace {
 
 using Shapes = BindOptions::Shapes;
-
-Correctives elasticShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
-                          const WeldedMesh& mesh, const SkinLayers* layers,
-                          const BindOptions& options, const Progress& progress,
-                          const Binding& binding, std::vector<std::string>& notes) {
-    std::optional<ShapesCache> cache;
-    if (!options.cacheFolder.empty()) {
-        cache.emplace(options.cacheFolder, digestOf(skeleton, joints, mesh, binding));
-        if (std::optional<MadeShapes> known = cache->read(binding, notes)) {
-            notes.insert(notes.end(), known->notes.begin(), known->notes.end());
-            return std::move(known->correctives);
-        }
-    }
-    MadeShapes made;
-    made.correctives =
-        makeElasticShapes(skeleton, joints, mesh, layers, binding, progress, made.notes);
-    notes.insert(notes.end(), made.notes.begin(), made.notes.end());
-    if (cache) cache->write(made, notes);
-    return made.correctives;
-}
-
-} // namespace
 
 BindOptions decided(BindOptions options, bool ownRatios) {
     const bool beyondPaper = ownRatios && options.method == BindOptions::Method::Smooth;
@@ -51,10 +22,10 @@ void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& jo
                const Progress& progress, Binding& binding, std::vector<std::string>& notes) {
     if (options.shapes != Shapes::None) {
         if (progress) progress({"shapes", 0.0});
-        binding.correctives =
-            options.shapes == Shapes::Fast
-                ? makeFastShapes(skeleton, joints, mesh, binding)
-                : elasticShapes(skeleton, joints, mesh, layers, options, progress, binding, notes);
+        binding.correctives = options.shapes == Shapes::Fast
+                                  ? makeFastShapes(skeleton, joints, mesh, binding)
+                                  : cachedElasticShapes(skeleton, joints, mesh, layers, options,
+                                                        progress, binding, notes);
         if (progress) progress({"shapes", 1.0});
     }
     if (options.muscles || !options.ownMuscles.empty())

@@ -2,8 +2,8 @@
 #ifndef OSGSKINBIND_ADDSHAPES_H
 #define OSGSKINBIND_ADDSHAPES_H
 
+#include "garments/SkinLayers.h"
 #include "joints/JointPlan.h"
-#include "layers/SkinLayers.h"
 #include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Binding>
@@ -13,23 +13,38 @@
 
 namespace osgSkin {
 
-/// The options with what is unset decided.
-/// \param ownRatios whether ratios are found by us, instead of an artist's weights
+/// The options with defaults for the unset ones.
+/// \param ownRatios true if bind() computes the ratios, false for an artist's weights
 BindOptions decided(BindOptions options, bool ownRatios);
 
 /// Adds what goes beyond the paper: correctives for shapes and muscles, gradients for normals.
-/// \param layers what of the mesh lies on other skin; null: nothing
+/// \param layers the shells that lie on others; may be null
 /// \param options with shapes and normals decided()
-/// \param binding of the mesh as given, whose vertices `mesh` has welded
+/// \param binding of the mesh that `mesh` was welded from
 /// \param progress of this part of the work
-/// \param notes gets a line for what is not as asked for
+/// \param notes gets a line for each request that could not be met
 void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                const WeldedMesh& mesh, const SkinLayers* layers, const BindOptions& options,
                const Progress& progress, Binding& binding, std::vector<std::string>& notes);
 
-/// The fraction of the time that binding takes without shapes, about.
+/// The approximate fraction of binding's time that is spent before addShapes().
 /// \param options with shapes decided()
 double shareWithoutShapes(const BindOptions& options);
+
+/// Elastic shapes, from the cache in `options.cacheFolder` if they are there. Without a folder they
+/// are always computed.
+/// \param notes gets those of makeElasticShapes(), and a line if a file cannot be used or written
+Correctives cachedElasticShapes(const RestSkeleton& skeleton,
+                                const std::vector<PlannedJoint>& joints, const WeldedMesh& mesh,
+                                const SkinLayers* layers, const BindOptions& options,
+                                const Progress& progress, const Binding& binding,
+                                std::vector<std::string>& notes);
+
+/// Adds normals' correctives to a binding that has correctives and gradients: each joint is bent
+/// over its whole range, and the remaining error of the corrected skin's normals is fitted by the
+/// functions that the joint already has.
+/// \param binding of the mesh that `mesh` was welded from; changed
+void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding);
 
 } // namespace osgSkin
 

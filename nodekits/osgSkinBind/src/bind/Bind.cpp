@@ -2,39 +2,35 @@
 #include <osgSkinBind/Bind>
 
 #include "bind/AddShapes.h"
-#include "bind/CheckInfluences.h"
 #include "bind/CheckOptions.h"
-#include "fields/VertexRatios.h"
-#include "joints/BoundJoints.h"
+#include "garments/SkinLayers.h"
 #include "joints/JointPlan.h"
-#include "layers/SkinLayers.h"
-#include "limbs/LimbRadius.h"
-#include "mesh/NearestPoints.h"
-#include "mesh/RequireSurface.h"
+#include "mesh/SurfaceQueries.h"
 #include "mesh/WeldedMesh.h"
-#include "paper/PaperBoundaries.h"
-#include "paper/PaperFields.h"
-#include "ratios/BendFields.h"
-#include "ratios/PackInfluences.h"
-#include "ratios/TwistFields.h"
-#include "regions/Extremities.h"
+#include "ratios/JointFields.h"
+#include "ratios/PaperFields.h"
+#include "ratios/RatioFields.h"
+#include "regions/BinaryField.h"
 #include "regions/Regions.h"
 
 #include <osgSkin/Error>
 
 #include <chrono>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 namespace osgSkin {
 namespace {
 
-/// Fractions of the time that have passed when the steps begin, measured at 280,000 vertices.
+/// Fractions of the total time at which steps begin, measured at 280,000 vertices.
 constexpr double kRegionsBegin = 0.2;
 constexpr double kBendsBegin = 0.8;
 constexpr double kTwistsBegin = 0.96;
 constexpr double kRatiosBegin = 0.98;
 
-/// Vertices that no face uses do as the nearest vertex of the skin does.
+/// For each vertex the one whose ratios it gets: itself, or the nearest vertex of the skin if no
+/// face uses it.
 std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
     std::vector<std::uint32_t> result(mesh.vertexCount()), used, unused;
     for (std::uint32_t v = 0; v < result.size(); ++v) {
@@ -47,8 +43,8 @@ std::vector<std::uint32_t> representatives(const WeldedMesh& mesh) {
     return result;
 }
 
-/// Adds each vertex's region and influences to a binding of joints alone. Of long chains fields
-/// are large: they are empty as soon as they are not needed.
+/// Adds each vertex's region and influences to a binding that has only joints. Frees the fields, as
+/// those of long chains are large.
 void addRatios(const WeldedMesh& mesh, const Regions& regions, JointFields&& bend,
                JointFields&& twist, std::size_t mostPartial, Binding& binding, BindReport& report) {
     const std::vector<std::uint32_t> shown = representatives(mesh);
@@ -68,14 +64,14 @@ void addRatios(const WeldedMesh& mesh, const Regions& regions, JointFields&& ben
         static_cast<double>(partial) / static_cast<double>(mesh.weldedOf.size());
 }
 
-/// A bone is of a limb's size from this share of the mesh's on.
+/// A bone at least this long, over the mesh's size, is reported if its region is empty.
 constexpr double kLimbSize = 0.08;
 
 void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                    const Regions& regions, double size, BindReport& report) {
     std::vector<BindReport::Region> all(joints.size());
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        // A rigid joint's region takes in what its descendants seed.
+        // A rigid joint's region includes the seeds of its descendants.
         const std::size_t owner =
             joints[j].rigid >= 0 ? static_cast<std::size_t>(joints[j].rigid) : j;
         all[owner].seeds += regions.seeds[j];
@@ -156,7 +152,7 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     const SkinLayers layers(skin, joints, regions);
     checkInfluences(joints, regions.jointOf, skin.weldedOf, options.maxInfluences);
 
-    // Section 3: what fraction of each joint's rotation each vertex takes.
+    // Section 3: the fraction of each joint's rotation for each vertex.
     const BinaryField binary{skin, joints, regions.jointOf, regions.isWhole};
     const std::vector<double> radii = limbRadii(binary);
     JointFields bend, twist;
@@ -197,6 +193,22 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     if (report) *report = found;
     if (options.progress) options.progress({"done", 1.0});
     return binding;
+}
+
+std::string BindReport::text() const {
+    std::ostringstream out;
+    out << "vertices " << vertices << ", welded " << weldedVertices << ", shells " << shells
+        << ", vertices on others " << layeredVertices << ", open edges " << openEdges << "\n"
+        << "regions " << regions.size() << ", rejected Delaunay edges " << rejectedEdges
+        << ", unassigned vertices " << unassigned << "\n"
+        << std::fixed << std::setprecision(2) << "influences a vertex " << influencesPerVertex
+        << ", capped vertices " << cappedVertices << ", " << std::setprecision(3) << seconds
+        << " s\n";
+    for (const Region& region : regions)
+        out << "region " << onOneLine(region.joint) << ": " << region.vertices << " vertices, "
+            << region.seeds << " seeds\n";
+    for (const std::string& note : notes) out << "note: " << onOneLine(note) << "\n";
+    return out.str();
 }
 
 } // namespace osgSkin

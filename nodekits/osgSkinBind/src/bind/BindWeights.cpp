@@ -2,13 +2,11 @@
 #include <osgSkinBind/BindWeights>
 
 #include "bind/AddShapes.h"
-#include "bind/CheckInfluences.h"
 #include "bind/CheckOptions.h"
-#include "joints/BoundJoints.h"
 #include "joints/JointPlan.h"
-#include "mesh/NearestPoints.h"
+#include "mesh/SurfaceQueries.h"
 #include "mesh/WeldedMesh.h"
-#include "ratios/PackInfluences.h"
+#include "ratios/JointFields.h"
 
 #include <osgSkin/Error>
 
@@ -25,8 +23,8 @@ struct JointShare {
     std::uint32_t joint;
     double weight;
 };
-/// For each welded vertex, the joints that have weights there, in their order; they sum to 1. Empty
-/// where nothing is painted.
+/// For each welded vertex, the joints that have weights there, in their order, with sum 1. Empty at
+/// vertices without weights.
 using WeightRows = std::vector<std::vector<JointShare>>;
 
 double checkedSum(const std::vector<JointWeight>& entries, std::size_t vertex, std::size_t joints) {
@@ -35,7 +33,7 @@ double checkedSum(const std::vector<JointWeight>& entries, std::size_t vertex, s
     for (const JointWeight& entry : entries) {
         if (entry.joint >= joints)
             throw Error(where + ": joint " + std::to_string(entry.joint) +
-                        " is not there, expected one of " + std::to_string(joints));
+                        " does not exist, expected one of " + std::to_string(joints));
         if (!std::isfinite(entry.weight) || entry.weight < 0.0)
             throw Error(where + ": expected finite numbers of 0 or more, found " +
                         std::to_string(entry.weight));
@@ -45,7 +43,7 @@ double checkedSum(const std::vector<JointWeight>& entries, std::size_t vertex, s
     return sum;
 }
 
-/// Makes one of a joint's several entries.
+/// Combines several entries of a joint.
 void addUp(std::vector<JointShare>& row) {
     std::stable_sort(row.begin(), row.end(),
                      [](const JointShare& a, const JointShare& b) { return a.joint < b.joint; });
@@ -59,7 +57,7 @@ void addUp(std::vector<JointShare>& row) {
     row.resize(count);
 }
 
-/// Copies of a vertex at a seam must move alike, so they take the mean of what each was given.
+/// Copies of a vertex at a seam must move alike, so they get the mean of their weights.
 WeightRows weldedWeights(const WeldedMesh& skin, const VertexWeights& weights, std::size_t joints) {
     WeightRows rows(skin.vertexCount());
     std::vector<double> copies(skin.vertexCount(), 0.0);
@@ -78,7 +76,7 @@ WeightRows weldedWeights(const WeldedMesh& skin, const VertexWeights& weights, s
     return rows;
 }
 
-/// Fills in what nobody painted. Returns how many welded vertices that were.
+/// Gives welded vertices without weights those of the nearest vertex. Returns their number.
 std::size_t fillGaps(const WeldedMesh& skin, WeightRows& rows) {
     std::vector<std::uint32_t> painted, gaps;
     for (std::uint32_t v = 0; v < rows.size(); ++v) (rows[v].empty() ? gaps : painted).push_back(v);
@@ -88,14 +86,14 @@ std::size_t fillGaps(const WeldedMesh& skin, WeightRows& rows) {
     return gaps.size();
 }
 
-/// One vertex's ratios, in memory that the next one's are written over.
+/// Computes ratios from weights, in memory that is reused for each vertex.
 class WeightRatios {
 public:
     explicit WeightRatios(const std::vector<PlannedJoint>& joints)
         : _joints(joints), _sums(joints.size()) {}
 
-    /// The ratio of each joint is what its subtree has of the weights. Adding up from the leaves
-    /// keeps it at or below the parent's, to the last bit.
+    /// The ratio of each joint is the sum of the weights in its subtree. Sums from the leaves up
+    /// never exceed the parent's, not even by rounding.
     const std::vector<JointRatio>& of(const std::vector<JointShare>& weights) {
         std::fill(_sums.begin(), _sums.end(), 0.0);
         for (const JointShare& share : weights) _sums[share.joint] = share.weight;
@@ -169,7 +167,7 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
 
     BindReport found;
     const WeldedMesh skin(mesh, WeldedMesh::kCopies);
-    std::vector<std::string> aboutRegions; // which are not looked for here
+    std::vector<std::string> aboutRegions; // not reported, as weights replace regions
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, aboutRegions);
     WeightRows rows = weldedWeights(skin, weights, joints.size());
     if (const std::size_t gaps = fillGaps(skin, rows))

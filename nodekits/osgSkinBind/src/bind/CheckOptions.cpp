@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -25,7 +26,7 @@ void checkBoundaries(const std::string& joint, const char* what, const std::opti
         throw Error(where + " are out of order, expected upper < lower (towards the child)");
 }
 
-/// Written so that NaN is refused.
+/// The comparisons reject NaN, too.
 void checkMuscle(const RestSkeleton& skeleton, const BindOptions::Muscle& muscle) {
     const std::string where = "bind: muscle \"" + muscle.name + "\"";
     if (muscle.name.empty()) throw Error("bind: a muscle has no name");
@@ -37,7 +38,7 @@ void checkMuscle(const RestSkeleton& skeleton, const BindOptions::Muscle& muscle
                     std::to_string(muscle.to) +
                     ", expected fractions of the bone from -0.5 to 1.5 that are 0.1 apart");
     if (muscle.towards && !(isFinite(*muscle.towards) && glm::length(*muscle.towards) > 0.0))
-        throw Error(where + ": its direction is not one, expected finite numbers, not all 0");
+        throw Error(where + ": invalid direction, expected finite numbers, not all 0");
     for (const double growth : {muscle.growth, muscle.tension})
         if (!(growth >= 0.0 && growth <= 0.5))
             throw Error(where + " grows by " + std::to_string(growth) + ", expected 0 to 0.5");
@@ -71,6 +72,26 @@ void checkOptions(const RestSkeleton& skeleton, const BindOptions& options) {
         checkBoundaries(name, "bend", joint.bendUpper, joint.bendLower);
         checkBoundaries(name, "twist", joint.twistUpper, joint.twistLower);
     }
+}
+
+void checkInfluences(const std::vector<PlannedJoint>& joints,
+                     const std::vector<std::uint32_t>& regionOf,
+                     const std::vector<std::uint32_t>& weldedOf, std::size_t most) {
+    if (most == 0) return;
+    std::vector<std::size_t> depths(joints.size(), 1);
+    for (std::size_t j = 1; j < joints.size(); ++j)
+        depths[j] = depths[static_cast<std::size_t>(joints[j].parent)] + 1;
+    std::size_t influences = 0, deepest = 0;
+    for (const std::uint32_t v : weldedOf) {
+        influences += depths[regionOf[v]];
+        deepest = std::max(deepest, depths[regionOf[v]]);
+    }
+    if (influences > most)
+        throw Error("bind: " + std::to_string(weldedOf.size()) +
+                    " vertices that follow chains of up to " + std::to_string(deepest) +
+                    " joints have " + std::to_string(influences) +
+                    " influences together, expected at most " + std::to_string(most) +
+                    " (option maxInfluences)");
 }
 
 } // namespace osgSkin

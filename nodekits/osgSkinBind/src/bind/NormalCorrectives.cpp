@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bind/NormalCorrectives.h"
+#include "bind/AddShapes.h"
 
 #include "ratios/JointRatios.h"
 
@@ -18,26 +18,26 @@
 namespace osgSkin {
 namespace {
 
-/// Samples of a joint's bends: along its main axis and across, or around and outwards.
+/// Numbers of sampled bends of a joint: along its main axis and across, or around and outwards.
 constexpr int kAlong = 40;
 constexpr int kAcross = 3;
 constexpr int kAcrossTurned = 5;
 constexpr int kAround = 12;
 constexpr int kOutwards = 12;
-/// The same of a joint that folds in any direction: its shapes change faster.
+/// The same for a joint that folds in any direction, as its shapes change faster.
 constexpr int kAroundRound = 12;
 constexpr int kOutwardsRound = 24;
 
 constexpr double kRidge = 1e-6;
 
-/// By how much a normal may be off in any bend for needing fewer modes, radians.
+/// The largest error of a normal in any bend that is accepted for fewer modes, radians.
 constexpr double kTolerance = 2e-2;
 
-/// Where the skin has folded over, its normals are followed no further: least cosine.
+/// The least cosine between a normal and its target; skin that has folded over is not followed.
 constexpr double kLeastCosine = 0.15;
 
-/// Ratios alone may turn the skin inside out in a fold that shapes then open: gradients are kept to
-/// what leaves this much of its area, and tilts make good the rest.
+/// In a fold, ratios alone may invert skin that shapes then open. Gradients are limited so that at
+/// least this share of the area remains, and tilts correct the rest.
 constexpr double kLeastArea = 0.1;
 
 bool isHinge(const CorrectiveJoint& joint) {
@@ -78,7 +78,7 @@ std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& joint) {
     return samples;
 }
 
-/// One joint's correctives on the skin, other joints being at rest.
+/// One joint's correctives on the skin, with the other joints at rest.
 class CorrectedSkin {
 public:
     CorrectedSkin(const WeldedMesh& mesh, const Binding& binding, std::uint32_t corrective)
@@ -115,8 +115,8 @@ public:
     };
     const std::vector<Vertex>& vertices() const { return _vertices; }
 
-    /// What each vertex's rest normal has to be tilted by in a bend, along the skin.
-    /// \param corrected whether rest positions are; without, it is what the gradients leave
+    /// The tilt along the skin that each vertex's rest normal needs in a bend.
+    /// \param corrected false to use uncorrected rest positions, for the error of the gradients
     std::vector<glm::dvec3> tilts(const glm::dvec2& xy, bool corrected = true) {
         const BendTwist bend = pose(xy, corrected);
         const std::vector<glm::dvec3> wanted = normals(_posed);
@@ -126,7 +126,7 @@ public:
         return result;
     }
 
-    /// Shortens the gradients that would turn the skin inside out in one of the bends.
+    /// Shortens gradients that would invert the skin in one of the bends.
     void limitGradients(const std::vector<glm::dvec2>& bends) {
         std::vector<double> least(_vertices.size(), 1.0);
         for (const glm::dvec2& xy : bends) {
@@ -142,7 +142,7 @@ public:
     }
 
 private:
-    /// Sets `_posed`.
+    /// Bends the joint and sets `_posed`.
     BendTwist pose(const glm::dvec2& xy, bool corrected) {
         BendTwist bend;
         if (const double sine = glm::length(xy); _turns) {
@@ -162,7 +162,7 @@ private:
         return bend;
     }
 
-    /// How a vertex moves as its bend ratio grows, with its turn undone.
+    /// The derivative of a vertex's position by its bend ratio, in the vertex's unrotated frame.
     glm::dvec3 slideOf(const Vertex& vertex, const BendTwist& bend) const {
         return glm::conjugate(turnOf(vertex.ratios, bend)) *
                (bend.bendAngle * glm::cross(bend.bendAxis, _posed[vertex.welded]));
@@ -190,7 +190,7 @@ private:
         return sum;
     }
 
-    /// Of the corrected vertices: unit, weighted by area; 0 where no triangle is.
+    /// Area-weighted unit normals of the corrected vertices; 0 without triangles.
     std::vector<glm::dvec3> normals(const std::vector<glm::dvec3>& points) {
         for (const Vertex& vertex : _vertices) _areas[vertex.welded] = glm::dvec3(0.0);
         for (const std::array<std::uint32_t, 3>& t : _triangles) {
@@ -207,8 +207,8 @@ private:
         return result;
     }
 
-    /// Tilted by d, the directions u and v along the skin become u - (d . u) n and v - (d . v) n.
-    /// The gradients add to them; then they have to be perpendicular to the normal that is wanted.
+    /// A tilt d turns the directions u and v along the skin into u - (d . u) n and v - (d . v) n.
+    /// Together with the terms of the gradients, these must be perpendicular to the target normal.
     glm::dvec3 tilt(const Vertex& vertex, const BendTwist& bend, const glm::dvec3& n,
                     const glm::dvec3& wanted) const {
         if (n == glm::dvec3(0.0) || wanted == glm::dvec3(0.0)) return glm::dvec3(0.0);
@@ -228,18 +228,18 @@ private:
     const WeldedMesh& _mesh;
     const Binding& _binding;
     const CorrectiveJoint& _functions;
-    bool _turns;              ///< else it is an input that moves the skin
-    const BoundJoint& _joint; ///< then any
+    bool _turns;              ///< true for a joint's correctives, false for an input's
+    const BoundJoint& _joint; ///< the root for an input
     JointRatios _ratios;
-    std::vector<Vertex> _vertices;                        ///< that the joint corrects
-    std::vector<std::array<std::uint32_t, 3>> _triangles; ///< with a corner among them
+    std::vector<Vertex> _vertices;                        ///< the corrected ones
+    std::vector<std::array<std::uint32_t, 3>> _triangles; ///< those with a corrected corner
     std::vector<std::uint32_t> _others;                   ///< their other corners
     std::vector<glm::dvec3> _rest;                        ///< normals of `_vertices`
-    std::vector<glm::dvec3> _posed;                       ///< from the joint's centre
-    std::vector<glm::dvec3> _areas; ///< of vertices of the mesh, see normals()
+    std::vector<glm::dvec3> _posed;                       ///< relative to the joint's centre
+    std::vector<glm::dvec3> _areas;                       ///< of all vertices, see normals()
 };
 
-/// modes x coordinates of all vertices: the least squares' solution of weights x that = tilts.
+/// modes x coordinates of all vertices: the least-squares solution X of weights X = tilts.
 Eigen::MatrixXd fit(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts) {
     const Eigen::VectorXd length = weights.colwise().norm().cwiseMax(1e-12);
     const Eigen::MatrixXd unit = weights * length.cwiseInverse().asDiagonal();
@@ -248,7 +248,7 @@ Eigen::MatrixXd fit(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts
     return length.cwiseInverse().asDiagonal() * normal.ldlt().solve(unit.transpose() * tilts);
 }
 
-/// The same with as few of the first modes for each vertex as that allows; 0 for the others.
+/// The same with as few of the first modes for each vertex as kTolerance allows; 0 for the others.
 Eigen::MatrixXd fitWithFewest(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts) {
     if (tilts.cols() == 0) return {weights.cols(), 0};
     Eigen::MatrixXd modes = fit(weights, tilts);
@@ -277,7 +277,7 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
     for (std::uint32_t j = 0; j < to.joints.size(); ++j) {
         const CorrectiveJoint& joint = to.joints[j];
         CorrectedSkin skin(mesh, binding, j);
-        // What the gradients leave is made good once for each joint.
+        // The gradients' error is corrected only once for each joint.
         const bool again = std::any_of(
             to.joints.begin(), to.joints.begin() + j, [&joint](const CorrectiveJoint& other) {
                 return other.joint == joint.joint &&
@@ -285,7 +285,7 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
                            (joint.basis == CorrectiveJoint::Basis::Input);
             });
         const std::vector<glm::dvec2> samples = samplesOf(joint);
-        // Splines follow a bend closely enough to do without part of the gradients.
+        // Splines follow a bend closely enough to make up for shorter gradients.
         if (isHinge(joint) || joint.basis == CorrectiveJoint::Basis::Round)
             skin.limitGradients(samples);
         const auto rows = Eigen::Index(samples.size());

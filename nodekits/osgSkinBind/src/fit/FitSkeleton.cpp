@@ -6,7 +6,6 @@
 #include "fit/Proportions.h"
 #include "fit/body/FitBody.h"
 #include "fit/body/SolidGrid.h"
-#include "mesh/RequireSurface.h"
 #include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Error>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "joints/BoneSamples.h"
-
-#include "mesh/InsideSkin.h"
+#include "joints/JointPlan.h"
+#include "mesh/SurfaceQueries.h"
 
 #include <glm/geometric.hpp>
 
@@ -12,35 +11,34 @@
 namespace osgSkin {
 namespace {
 
-/// Distance between samples along a bone, over the body's extent; a finer one changes little. Short
-/// bones have a few all the same.
+/// Distance between samples along a bone, over the body's extent; a finer one changes little. Even
+/// a short bone has kMinSamples.
 constexpr double kSpacing = 0.05;
 constexpr int kMinSamples = 2;
 
-/// A bone that is shorter than this share of the distance, and as near to the last sample above it,
-/// owns no skin: chains may have thousands of links.
+/// A bone that is shorter than this share of the spacing, and as near to the last sample above it,
+/// owns no skin. Chains may have thousands of links.
 constexpr double kTiny = 0.02;
 
-/// A bone is inside the skin where at least this share of its samples is.
+/// A bone is inside the skin if at least this share of its samples is.
 constexpr double kInside = 0.5;
 
-/// How far a last bone may go on beyond its end, in its own lengths; one without a length in those
-/// of the bone above.
+/// How far samples of a last bone may continue beyond its end, in its own lengths or, if it has
+/// none, in lengths of the bone above; and how many there may be.
 constexpr double kMaxExtension = 2.0;
 constexpr double kMaxSteps = 10.0;
 
-/// A joint with more children has no bones to them: nobody's skeleton, but a file may have it.
+/// A joint with more children, as in an absurd file, has no samples along its bones.
 constexpr std::size_t kMaxBones = 64;
 
-/// From so many samples on, those that are near others are left out.
+/// If there are more samples, those that are near others are left out.
 constexpr std::size_t kManySamples = 4096;
 
 std::size_t indexOf(int index) {
     return static_cast<std::size_t>(index);
 }
 
-/// Twice the largest distance from the mean of all vertices: about the height of a body, however it
-/// stands.
+/// Twice the largest distance from the mean of all vertices: about a body's height in any pose.
 double extentOf(const WeldedMesh& mesh) {
     glm::dvec3 sum(0.0);
     for (const glm::dvec3& p : mesh.positions) sum += p;
@@ -51,7 +49,7 @@ double extentOf(const WeldedMesh& mesh) {
     return 2.0 * farthest;
 }
 
-/// Leaves out samples close to ones of earlier joints.
+/// Removes samples close to those of earlier joints.
 void thin(double distance, std::vector<std::vector<glm::dvec3>>& samples) {
     std::vector<glm::dvec3> kept;
     for (std::vector<glm::dvec3>& own : samples) {
@@ -70,11 +68,11 @@ public:
     BoneSampler(const RestSkeleton& skeleton, const WeldedMesh& mesh, const JointRoles& roles)
         : _skeleton(skeleton), _mesh(mesh), _roles(roles), _spacing(kSpacing * extentOf(mesh)) {}
 
-    /// For each joint, the samples along its bones that are inside the skin. Nothing for controls,
-    /// and for bones that run outside.
+    /// For each joint, the samples along its bones that are inside the skin. None for controls and
+    /// bones that run outside.
     std::vector<std::vector<glm::dvec3>> sample(const std::vector<PlannedJoint>& joints) const {
         const std::size_t count = joints.size();
-        std::vector<bool> isBody(count, false); // a joint that is no control, or leads to one
+        std::vector<bool> isBody(count, false); // not a control, or above such a joint
         for (std::size_t j = count; j-- > 0;) {
             const bool isLeaf = _skeleton.children(static_cast<int>(j)).empty();
             if (joints[j].helper) continue;
@@ -151,7 +149,7 @@ private:
         return inside;
     }
 
-    /// From a last joint, or its tip, on to where the skin ends.
+    /// Samples from a last joint, or its tip, to where the skin ends.
     std::vector<glm::dvec3> beyondLast(const PlannedJoint& joint) const {
         std::vector<glm::dvec3> result;
         const bool hasBone = joint.boneLength > 0.0;
@@ -178,8 +176,8 @@ private:
     const double _spacing;
 };
 
-/// The joint whose region a joint's samples belong to: itself, the one in the same point, or the
-/// nearest above; -1 where there is none.
+/// The joint that gets a joint's samples: itself, the one at the same point, or the nearest above;
+/// -1 if none of them has a region.
 int ownerOf(const std::vector<PlannedJoint>& joints, std::size_t joint, double tolerance) {
     if (joints[joint].holdsRegion) return static_cast<int>(joint);
     for (std::size_t j = 0; j < joints.size(); ++j)
@@ -216,7 +214,7 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
     }
     if (std::all_of(joints.begin(), joints.end(),
                     [](const PlannedJoint& joint) { return joint.samples.empty(); })) {
-        notes.emplace_back("no joint lies inside the skin: regions by the nearest bone");
+        notes.emplace_back("no joint lies inside the skin: regions are by the nearest bone");
         return;
     }
     std::vector<bool> isBelowBody(joints.size(), false); // below a joint with samples
@@ -231,7 +229,7 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
         joint.holdsRegion = joint.claims;
         if (joint.outside)
             notes.push_back("joint \"" + skeleton.joints[j].name + "\" lies outside the skin" +
-                            (joint.claims ? ", its region is the skin nearest to it" : ""));
+                            (joint.claims ? ", its region is the nearest skin" : ""));
     }
 }
 

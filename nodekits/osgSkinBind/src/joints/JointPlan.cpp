@@ -1,17 +1,139 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "joints/JointPlan.h"
 
-#include "joints/BoneSamples.h"
-#include "joints/JointAxes.h"
-#include "joints/RigidJoints.h"
-#include "joints/TrunkJoints.h"
+#include "joints/BodyAxes.h"
+
+#include <osgSkin/Error>
+#include <osgSkinBind/RigidJoints>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace osgSkin {
 namespace {
+
+std::size_t at(int index) {
+    return static_cast<std::size_t>(index);
+}
+
+/// The offset from the nearest ancestor that lies elsewhere; zero for the root.
+glm::dvec3 offsetFromAbove(const RestSkeleton& skeleton, std::size_t joint, double tolerance) {
+    for (int p = skeleton.joints[joint].parent; p >= 0; p = skeleton.joints[at(p)].parent) {
+        const glm::dvec3 d = skeleton.joints[joint].centre - skeleton.joints[at(p)].centre;
+        if (glm::length(d) > tolerance) return d;
+    }
+    return glm::dvec3(0.0);
+}
+
+std::vector<std::size_t> subtreeSizes(const RestSkeleton& skeleton) {
+    std::vector<std::size_t> sizes(skeleton.joints.size(), 1);
+    for (std::size_t j = skeleton.joints.size(); j-- > 1;)
+        sizes[at(skeleton.joints[j].parent)] += sizes[j];
+    return sizes;
+}
+
+/// The child that continues the chain. Of several, the thumb is the last choice. From the root it
+/// is the one with the most joints (the spine, not a leg), elsewhere the one in the straightest
+/// direction (the neck, not a collar bone).
+int mainChild(const RestSkeleton& skeleton, std::size_t joint,
+              const std::vector<std::size_t>& sizes, const std::vector<PlannedJoint>& planned,
+              double tolerance) {
+    const std::vector<int> children = skeleton.children(static_cast<int>(joint));
+    const glm::dvec3 incoming = offsetFromAbove(skeleton, joint, tolerance);
+    int best = -1;
+    bool bestIsThumb = true;
+    double bestScore = 0.0;
+    for (const int child : children) {
+        const glm::dvec3 toBoneEnd = planned[at(child)].boneEnd - skeleton.joints[joint].centre;
+        const glm::dvec3 direct = skeleton.joints[at(child)].centre - skeleton.joints[joint].centre;
+        const glm::dvec3 along = glm::length(direct) > tolerance ? direct : toBoneEnd;
+        const double length = glm::length(along);
+        const bool thumb = planned[at(child)].part == JointPart::Thumb;
+        const double score = incoming == glm::dvec3(0.0)
+                                 ? static_cast<double>(sizes[at(child)])
+                                 : (length > tolerance ? glm::dot(along, incoming) / length : -2.0);
+        if (best < 0 || (bestIsThumb && !thumb) || (bestIsThumb == thumb && score > bestScore)) {
+            best = child;
+            bestIsThumb = thumb;
+            bestScore = score;
+        }
+    }
+    return best;
+}
+
+/// Sets centre, parent, child, bone and axes of the joints. Centres closer than `tolerance` are one
+/// point.
+/// \pre the joints' parts are set
+void setJointAxes(const RestSkeleton& skeleton, double tolerance,
+                  std::vector<PlannedJoint>& joints) {
+    const std::vector<std::size_t> sizes = subtreeSizes(skeleton);
+    // Leaves first, since a bone without a length ends where its child's bone ends.
+    for (std::size_t j = joints.size(); j-- > 0;) {
+        const RestJoint& rest = skeleton.joints[j];
+        PlannedJoint& joint = joints[j];
+        joint.centre = rest.centre;
+        joint.parent = rest.parent;
+        joint.child = mainChild(skeleton, j, sizes, joints, tolerance);
+        joint.boneEnd = rest.tip ? *rest.tip : rest.centre;
+        if (joint.child >= 0) {
+            const PlannedJoint& child = joints[at(joint.child)];
+            joint.boneEnd = glm::distance(child.centre, joint.centre) > tolerance ? child.centre
+                                                                                  : child.boneEnd;
+        }
+        joint.boneLength = glm::distance(joint.boneEnd, joint.centre);
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        PlannedJoint& joint = joints[j];
+        const PlannedJoint* parent = joint.parent >= 0 ? &joints[at(joint.parent)] : nullptr;
+        if (joint.boneLength > tolerance)
+            joint.boneAxis = (joint.boneEnd - joint.centre) / joint.boneLength;
+        else
+            joint.boneAxis = parent ? parent->boneAxis : glm::dvec3(0.0, 1.0, 0.0);
+        const glm::dvec3 above = offsetFromAbove(skeleton, j, tolerance);
+        joint.lengthAbove = glm::length(above);
+        joint.comingFrom = joint.lengthAbove > 0.0 ? above / joint.lengthAbove : joint.boneAxis;
+        joint.twistAxis = joint.poleIsParent ? joint.comingFrom : joint.boneAxis;
+        joint.poleLength = joint.poleIsParent ? joint.lengthAbove : joint.boneLength;
+    }
+}
+
+/// The topmost heads, hands and feet, in joint order. The root is never one of them.
+std::vector<std::size_t> extremities(const RestSkeleton& skeleton, const JointRoles& roles) {
+    std::vector<std::size_t> result;
+    std::vector<bool> inside(skeleton.joints.size(), false);
+    for (std::size_t j = 1; j < skeleton.joints.size(); ++j) {
+        inside[j] = inside[at(skeleton.joints[j].parent)];
+        if (inside[j]) continue;
+        for (const JointPart part : {JointPart::Head, JointPart::Hand, JointPart::Foot})
+            if (roles.is(j, part)) inside[j] = true;
+        if (inside[j]) result.push_back(j);
+    }
+    return result;
+}
+
+/// For each joint the topmost rigid joint at or above it, or -1.
+/// \throw osgSkin::Error if an option names a joint that does not exist
+std::vector<int> rigidJoints(const RestSkeleton& skeleton, const BindOptions& options) {
+    const std::map<std::string, int> jointOf = skeleton.byName();
+    std::vector<bool> named(skeleton.joints.size(), false);
+    for (const std::string& name :
+         options.rigid ? *options.rigid : automaticRigidJoints(skeleton, options.names)) {
+        const auto joint = jointOf.find(name);
+        if (joint == jointOf.end())
+            throw Error("bind: rigid joint \"" + name +
+                        "\" is not in the skeleton, expected one of its joints");
+        named[at(joint->second)] = true;
+    }
+    std::vector<int> result(skeleton.joints.size(), -1);
+    for (std::size_t j = 0; j < result.size(); ++j) {
+        const int parent = skeleton.joints[j].parent;
+        if (parent >= 0) result[j] = result[at(parent)];
+        if (result[j] < 0 && named[j]) result[j] = static_cast<int>(j);
+    }
+    return result;
+}
 
 bool hasParentPole(const JointBindOptions& options, JointPart part) {
     if (options.twistPole == JointBindOptions::Pole::Automatic) return part == JointPart::Hand;
@@ -20,7 +142,7 @@ bool hasParentPole(const JointBindOptions& options, JointPart part) {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// The earlier joint of the same centre that may have a region, kNone where there is none.
+/// The earlier joint with the same centre that may have a region, or kNone.
 std::size_t coincident(const std::vector<PlannedJoint>& joints, std::size_t joint,
                        double tolerance) {
     for (std::size_t other = 0; other < joint; ++other)
@@ -30,32 +152,31 @@ std::size_t coincident(const std::vector<PlannedJoint>& joints, std::size_t join
     return kNone;
 }
 
-/// How much of a body's joint one is beside another in the same point: one that is recognised more
-/// than a helper (a target, a twist, another rig's copy), one that leads on more than one that
-/// ends.
+/// The rank of a joint among joints at one point: recognised joints come before helpers (a target,
+/// a twist, another rig's copy), then joints with children before those without.
 int standing(const RestSkeleton& skeleton, const JointRoles& roles, std::size_t joint) {
     return (roles.roles[joint].empty() ? 0 : 2) +
            (skeleton.children(static_cast<int>(joint)).empty() ? 0 : 1);
 }
 
-/// Whether two joints in one point have bones that end apart.
+/// True if the bones of two joints at one point end at different points.
 bool haveOwnBones(const PlannedJoint& a, const PlannedJoint& b, double tolerance) {
     return a.boneLength > tolerance && b.boneLength > tolerance &&
            glm::distance(a.boneEnd, b.boneEnd) > tolerance;
 }
 
-/// Every joint that is not skipped and has a centre of its own gets a region. Of joints in one
-/// point the topmost gets it, unless it has no role and the other one has. Where they stand beside
-/// each other, the one that is more of a joint; where they are alike, each whose bone tells it
-/// apart, else none.
+/// Gives a region to every joint that is not skipped and has a centre of its own. Of joints at one
+/// point the topmost gets it, unless only the other one has a role. If neither is below the other,
+/// the one of higher standing() gets it; if these are equal, both get one if their bones differ,
+/// else none.
 ///
 /// \param tellsBonesApart whether regions are found by samples along bones
 void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double tolerance,
                  bool tellsBonesApart, std::vector<PlannedJoint>& joints,
                  std::vector<std::string>& notes) {
     std::vector<std::size_t> rivals;
-    std::string note;                              // of the first ones
-    std::vector<bool> helps(joints.size(), false); // beside a joint that is more of one
+    std::string note;                              // about the first ones
+    std::vector<bool> helps(joints.size(), false); // of lower standing than another joint
     for (std::size_t j = 0; j < joints.size(); ++j) {
         if (joints[j].options.skip) continue;
         const std::size_t other = coincident(joints, j, tolerance);
@@ -76,7 +197,7 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
             if (rivals.empty())
                 note = "joints \"" + skeleton.joints[other].name + "\" and \"" +
                        skeleton.joints[j].name +
-                       "\" are in one place, neither has a region of its own";
+                       "\" are at one point, so neither has a region of its own";
             rivals.push_back(other);
             continue;
         }
@@ -85,11 +206,12 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
         joints[j].holdsRegion = more > 0;
     }
     for (const std::size_t rival : rivals) joints[rival].holdsRegion = false;
-    if (rivals.size() > 1) note += "; nor have " + std::to_string(rivals.size() - 1) + " more";
+    if (rivals.size() > 1)
+        note += "; the same applies to " + std::to_string(rivals.size() - 1) + " more";
     if (!rivals.empty()) notes.push_back(note);
-    // What hangs on a helper helps, too: the further links of a twist.
+    // Joints below a helper are helpers, too, such as further links of a twist.
     for (std::size_t j = 1; j < joints.size(); ++j) {
-        if (!helps[static_cast<std::size_t>(skeleton.joints[j].parent)]) continue;
+        if (!helps[at(skeleton.joints[j].parent)]) continue;
         if (!roles.roles[j].empty()) continue;
         helps[j] = true;
         joints[j].holdsRegion = false;
@@ -97,16 +219,37 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
     for (std::size_t j = 0; j < joints.size(); ++j) joints[j].helper = helps[j];
 }
 
-/// A rigid joint owns what its descendants seed, so it has a region although it may seed none.
+/// A rigid joint owns the seeds of its descendants, so it has a region even without seeds.
 void giveRegionsToRigidJoints(std::vector<PlannedJoint>& joints) {
     for (std::size_t j = 0; j < joints.size(); ++j)
         if (joints[j].rigid >= 0 && joints[j].holdsRegion)
-            joints[static_cast<std::size_t>(joints[j].rigid)].holdsRegion = true;
+            joints[at(joints[j].rigid)].holdsRegion = true;
     for (std::size_t j = 0; j < joints.size(); ++j)
         if (joints[j].belowRigid(static_cast<int>(j))) joints[j].holdsRegion = false;
 }
 
 } // namespace
+
+std::vector<std::string> automaticRigidJoints(const RestSkeleton& skeleton,
+                                              const std::vector<JointNames>& names,
+                                              const std::vector<bool>& isMoved) {
+    const JointRoles roles = recogniseJoints(skeleton, names);
+    std::vector<std::string> result;
+    for (const std::size_t joint : extremities(skeleton, roles)) {
+        bool bends = false;
+        for (std::size_t j = joint + 1; j < skeleton.joints.size() && !bends; ++j) {
+            if (!skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(joint))) continue;
+            const bool isEnd = !skeleton.joints[j].tip && roles.roles[j].empty() &&
+                               skeleton.children(static_cast<int>(j)).empty();
+            const JointPart part = roles.parts[j];
+            const bool isSame = part == JointPart::Head || part == JointPart::Hand ||
+                                part == JointPart::Foot; // a hand below its wrist
+            bends = !isEnd && !isSame && (isMoved.empty() || isMoved[j]);
+        }
+        if (!bends) result.push_back(skeleton.joints[joint].name);
+    }
+    return result;
+}
 
 glm::dvec3 planeNormal(const PlannedJoint& joint) {
     const bool isSpine = joint.isSpine() && joint.lengthAbove > 0.0 && joint.boneLength > 0.0;
@@ -129,14 +272,13 @@ std::vector<bool> subtreeOf(const std::vector<PlannedJoint>& joints, std::size_t
     std::vector<bool> inside(joints.size(), false);
     inside[joint] = true;
     for (std::size_t j = joint + 1; j < joints.size(); ++j) // parents first
-        if (joints[j].parent >= 0) inside[j] = inside[static_cast<std::size_t>(joints[j].parent)];
+        if (joints[j].parent >= 0) inside[j] = inside[at(joints[j].parent)];
     return inside;
 }
 
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint) {
     int above = joints[joint].parent;
-    while (above > 0 && !joints[static_cast<std::size_t>(above)].holdsRegion)
-        above = joints[static_cast<std::size_t>(above)].parent;
+    while (above > 0 && !joints[at(above)].holdsRegion) above = joints[at(above)].parent;
     return static_cast<std::size_t>(std::max(above, 0));
 }
 
@@ -146,7 +288,8 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     const double tolerance = kCentreTolerance * mesh.size;
     const JointRoles roles = recogniseJoints(skeleton, options.names);
     if (roles.family == kToldByShape)
-        notes.emplace_back("the joints' names say nothing: head, hands and feet by their shape");
+        notes.emplace_back("joint names not recognised: head, hands and feet are inferred from the "
+                           "skeleton's shape");
     const std::vector<int> rigid = rigidJoints(skeleton, options);
     for (std::size_t j = 0; j < joints.size(); ++j) {
         joints[j].part = roles.parts[j];
@@ -158,7 +301,7 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     }
     for (const std::size_t joint : extremities(skeleton, roles)) joints[joint].extremity = true;
     for (std::size_t j = 1; j < joints.size(); ++j) {
-        const PlannedJoint& above = joints[static_cast<std::size_t>(skeleton.joints[j].parent)];
+        const PlannedJoint& above = joints[at(skeleton.joints[j].parent)];
         joints[j].digit = joints[j].rigid < 0 && (above.extremity || above.digit);
     }
     setJointAxes(skeleton, tolerance, joints);
@@ -168,8 +311,8 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
                 notes);
     setSamples(skeleton, mesh, roles, options.method, joints, notes);
     giveRegionsToRigidJoints(joints);
-    // With a root on the floor, the first joint with skin moves all of it. By its centre alone, as
-    // the printed method has it, nobody can tell such a root from one at the skin's end.
+    // If the root is on the floor, the first joint with skin moves all of it. The paper's method,
+    // which uses only centres, cannot distinguish such a root from one at the end of the skin.
     const bool isSmooth = options.method == BindOptions::Method::Smooth;
     const auto first = std::find_if(joints.begin(), joints.end(),
                                     [](const PlannedJoint& joint) { return joint.holdsRegion; });
@@ -177,6 +320,15 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
         joints[j].topmost = (roles.roles[j] == "Hips" || (isSmooth && &joints[j] == &*first)) &&
                             !joints[regionAbove(joints, j)].holdsRegion;
     return joints;
+}
+
+std::vector<BoundJoint> boundJoints(const RestSkeleton& skeleton,
+                                    const std::vector<PlannedJoint>& joints) {
+    std::vector<BoundJoint> result;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        result.push_back({skeleton.joints[j].name, joints[j].parent, joints[j].centre,
+                          joints[j].boneAxis, joints[j].twistAxis});
+    return result;
 }
 
 } // namespace osgSkin

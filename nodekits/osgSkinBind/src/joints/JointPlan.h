@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_JOINTPLAN_H
-#define OSGSKINBIND_JOINTPLAN_H
+#ifndef OSGSKINBIND_JOINTS_JOINTPLAN_H
+#define OSGSKINBIND_JOINTS_JOINTPLAN_H
 
 #include "mesh/WeldedMesh.h"
 
+#include <osgSkin/Binding>
 #include <osgSkinBind/BindOptions>
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/RestSkeleton>
@@ -17,70 +18,92 @@ namespace osgSkin {
 /// Joint centres closer than this fraction of the mesh's size are one point.
 constexpr double kCentreTolerance = 1e-6;
 
-/// What binding decides about one joint before it looks at regions.
+/// What binding knows about a joint before it finds regions.
 struct PlannedJoint {
     glm::dvec3 centre{0.0};
-    glm::dvec3 boneEnd{0.0};  ///< the child's centre or the tip; the centre where there is neither
-    glm::dvec3 boneAxis{0.0}; ///< unit
-    double boneLength = 0.0;  ///< from the centre to boneEnd
+    glm::dvec3 boneEnd{0.0};    ///< the child's centre or the tip; the centre if there is neither
+    glm::dvec3 boneAxis{0.0};   ///< unit
+    double boneLength = 0.0;    ///< from the centre to boneEnd
     glm::dvec3 comingFrom{0.0}; ///< unit; direction in which the bone above arrives
     double lengthAbove = 0.0;   ///< of that bone; 0 for the root
     glm::dvec3 twistAxis{0.0};  ///< unit; the pole, w of eq. 1
-    double poleLength = 0.0;    ///< length of the bone that the twist builds up along
+    double poleLength = 0.0;    ///< length of the bone along which the twist builds up
     bool poleIsParent = false;
 
-    JointPart part = JointPart::Other; ///< of the body, by its name
+    JointPart part = JointPart::Other; ///< by its name
     int parent = -1;
     int child = -1;         ///< the child that continues the chain, -1 for a leaf
-    int rigid = -1;         ///< the rigid joint at or above, -1 where there is none
+    int rigid = -1;         ///< the rigid joint at or above, or -1
     bool extremity = false; ///< a topmost head, hand or foot
-    bool digit = false;     ///< below an extremity that is not rigid: of a finger or a toe
-    bool topmost =
-        false;          ///< moves all skin, with no region above it: hips below a root on the floor
-    bool trunk = false; ///< of the trunk: spine, hips, collar bones
+    bool digit = false;     ///< of a finger or toe: below an extremity that is not rigid
+    bool topmost = false; ///< moves all skin: no region above it, as hips below a root on the floor
+    bool trunk = false;   ///< of the trunk: spine, hips, collar bones
     bool collarBone = false;  ///< between the spine and an upper arm
-    double armDistance = 0.0; ///< of a collar bone's joint from the upper arm's
-    bool helper = false;  ///< stands in another joint's place, or below one that does: owns nothing
-    bool inside = false;  ///< the centre is inside the skin
-    bool outside = false; ///< the centre is not, and the joint is no part of a hand or a head
-    bool claims = false;  ///< outside the skin: takes the skin nearest to it
-    bool holdsRegion = false; ///< has a region, so its field is its own; else its children's
+    double armDistance = 0.0; ///< from a collar bone's joint to the upper arm's
+    bool helper = false;      ///< at or below another joint's point, and without a region
+    bool inside = false;      ///< the centre is inside the skin
+    bool outside = false;     ///< the centre is outside, and the joint is not below a rigid one
+    bool claims = false;      ///< outside the skin: takes the nearest skin
+    bool holdsRegion = false; ///< has a region, and so a field of its own; else its children's
 
-    /// The points that stand for the joint in the Delaunay step, inside the skin.
+    /// The points of the joint in the Delaunay step, inside the skin.
     std::vector<glm::dvec3> samples;
-    /// Sorted welded vertices beyond the joint, which follow it wholly: of a head, hand or foot,
-    /// see findExtremities(). Empty where its region has no such border.
+    /// Sorted welded vertices beyond a head, hand or foot, which follow the joint fully; see
+    /// findExtremities(). May be empty.
     std::vector<std::uint32_t> beyond;
 
-    JointBindOptions options; ///< what the author said about it
+    JointBindOptions options; ///< by the author
 
-    /// Of the trunk, and no collar bone.
+    /// Of the trunk, and not a collar bone.
     bool isSpine() const { return trunk && !collarBone; }
     bool belowRigid(int index) const { return rigid >= 0 && rigid != index; }
 };
 
-/// Unit normal of the joint's plane, towards the child. It bisects the bone above and its own;
-/// along the trunk, whose bones go to and fro, the longer of the two counts more.
+/// Unit normal of the joint's plane, towards the child. The plane bisects the angle between the
+/// bone above and the joint's own; along the trunk, whose bones zigzag, they are weighted by
+/// length.
 glm::dvec3 planeNormal(const PlannedJoint& joint);
 
 /// Distance of a point, rest space, to the joint's bone, which may have no length.
 double distanceToBone(const PlannedJoint& joint, const glm::dvec3& point);
 
-/// For each joint whether it is `joint` itself or below it in the tree.
+/// For each joint, whether it is `joint` or below it in the tree.
 std::vector<bool> subtreeOf(const std::vector<PlannedJoint>& joints, std::size_t joint);
 
-/// The nearest joint above that has a region; the root where none has.
+/// The nearest joint above that has a region, or else the root.
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint);
+
+/// Sets the joints' points for the Delaunay step, and `holdsRegion`. Part of planJoints().
+///
+/// Points lie along the bones to the joint's children and to its tip, after Teichmann and Teller
+/// (1998), whom the paper follows; those of a bone without a length go to the region above. A last
+/// joint without a tip has points in the direction of the bone above, up to where that leaves the
+/// skin. Points outside the skin are dropped. With the method `paper` a joint's only point is its
+/// centre.
+///
+/// A joint loses its region if its bone runs outside the skin (a root on the floor), or if it is a
+/// control: a last joint without a tip or a known name, to which no bone leads inside the skin (an
+/// IK target). A joint outside the skin in the middle of a chain claims the skin around it. If all
+/// joints are outside, all keep their regions.
+///
+/// \param joints with axes, and with `holdsRegion` as far as it does not depend on the skin
+void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const JointRoles& roles,
+                BindOptions::Method method, std::vector<PlannedJoint>& joints,
+                std::vector<std::string>& notes);
 
 /// Axes, poles and roles of the joints, in the skeleton's order.
 ///
 /// \param skeleton valid
-/// \param mesh tells which joints are inside the skin, and how large a body is
+/// \param mesh decides which joints are inside the skin
 /// \param options checked
-/// \param notes gets a line for each thing that is unusual: joints outside the skin, ...
-/// \throw osgSkin::Error where an option names a joint that is not there
+/// \param notes gets a line for each unusual finding, such as joints outside the skin
+/// \throw osgSkin::Error if an option names a joint that does not exist
 std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedMesh& mesh,
                                      const BindOptions& options, std::vector<std::string>& notes);
+
+/// The joints for the deformation, in the skeleton's order.
+std::vector<BoundJoint> boundJoints(const RestSkeleton& skeleton,
+                                    const std::vector<PlannedJoint>& joints);
 
 } // namespace osgSkin
 

@@ -6,8 +6,8 @@
 
 namespace osgSkin {
 
-/// Sums angles. Small ones, told by their tangents, are multiplied as complex numbers: an arc
-/// tangent costs as much as all the rest.
+/// Sums angles. Arc tangents are slow, so small angles, given by their tangents, are multiplied as
+/// complex numbers first.
 class AngleSum {
 public:
     /// Adds atan2(sine, cosine).
@@ -19,7 +19,7 @@ public:
         const double tangent = sine / cosine, imaginary = _imaginary + _real * tangent;
         _real -= _imaginary * tangent;
         _imaginary = imaginary;
-        if (++_count == kMost) flush();
+        if (++_count == kMaxCount) flush();
     }
     double value() {
         flush();
@@ -28,7 +28,7 @@ public:
 
 private:
     static constexpr double kSmall = 0.3;
-    static constexpr int kMost = 10; ///< less than half a turn together
+    static constexpr int kMaxCount = 10; ///< less than half a turn together
 
     void flush() {
         _sum += std::atan2(_imaginary, _real);

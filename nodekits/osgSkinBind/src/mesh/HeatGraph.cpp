@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/HeatGraph.h"
 
-#include "mesh/EdgeWeights.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -10,6 +8,19 @@
 
 namespace osgSkin {
 namespace {
+
+/// Bounds of an edge's weight. The lower one keeps needles connected and the values in range.
+constexpr double kLowestWeight = 1e-3;
+constexpr double kHighestWeight = 50.0;
+
+/// The penalty of a fully concave edge.
+constexpr double kCreaseCost = 30.0;
+
+/// Cotangent of the angle at `a`; 0 in a degenerate triangle.
+double cotangent(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double twiceArea = glm::length(glm::cross(b - a, c - a));
+    return twiceArea > 0.0 ? glm::dot(b - a, c - a) / twiceArea : 0.0;
+}
 
 std::vector<double> lumpedMass(const WeldedMesh& mesh) {
     std::vector<double> mass(mesh.vertexCount(), 0.0);
@@ -19,7 +30,7 @@ std::vector<double> lumpedMass(const WeldedMesh& mesh) {
             0.5 * glm::length(glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a));
         for (const std::uint32_t v : t) mass[v] += area / 3.0;
     }
-    // A vertex of zero-area triangles only still needs some mass, as one without any triangle does.
+    // Vertices without a triangle, or with degenerate ones only, need some mass, too.
     const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
     const double lowest = total > 0.0 ? 1e-6 * total / static_cast<double>(mass.size()) : 1.0;
     for (double& m : mass) m = std::max(m, lowest);
@@ -27,6 +38,41 @@ std::vector<double> lumpedMass(const WeldedMesh& mesh) {
 }
 
 } // namespace
+
+std::vector<double> edgeWeights(const WeldedMesh& mesh) {
+    return edgeWeights(mesh.positions, mesh.triangles, mesh.firstNeighbour, mesh.neighbours);
+}
+
+std::vector<double> edgeWeights(const std::vector<glm::dvec3>& positions,
+                                const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                const std::vector<std::uint32_t>& firstNeighbour,
+                                const std::vector<std::uint32_t>& neighbours) {
+    const auto entry = [&](std::uint32_t from, std::uint32_t to) {
+        const auto begin = neighbours.begin();
+        const auto found =
+            std::lower_bound(begin + firstNeighbour[from], begin + firstNeighbour[from + 1], to);
+        return static_cast<std::size_t>(found - begin);
+    };
+    std::vector<double> weights(neighbours.size(), 0.0);
+    for (const auto& t : triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = t[k], b = t[(k + 1) % 3], opposite = t[(k + 2) % 3];
+            const double half = 0.5 * cotangent(positions[opposite], positions[a], positions[b]);
+            weights[entry(a, b)] += half;
+            weights[entry(b, a)] += half;
+        }
+    for (double& weight : weights) weight = std::clamp(weight, kLowestWeight, kHighestWeight);
+    return weights;
+}
+
+double creaseFactor(const WeldedMesh& mesh, std::uint32_t from, std::uint32_t to) {
+    const glm::dvec3 edge = mesh.positions[to] - mesh.positions[from];
+    const double length = glm::length(edge);
+    if (!(length > 0.0)) return 1.0;
+    // How far the normals lean towards each other: 0 where flat or convex, up to 2.
+    const double lean = glm::dot(mesh.normals[from] - mesh.normals[to], edge) / length;
+    return 1.0 + kCreaseCost * std::max(0.0, lean);
+}
 
 HeatGraph::HeatGraph(const WeldedMesh& mesh)
     : positions(mesh.positions), triangles(mesh.triangles), mass(lumpedMass(mesh)),
@@ -41,8 +87,7 @@ double HeatGraph::edgeLength(std::uint32_t from, std::uint32_t to) const {
 void HeatGraph::measureEdges() {
     double sum = 0.0;
     for (std::uint32_t v = 0; v < vertexCount(); ++v)
-        for (std::uint32_t i = firstNeighbour[v]; i < firstNeighbour[v + 1]; ++i)
-            sum += edgeLength(v, neighbours[i]);
+        for (const std::uint32_t next : neighboursOf(v)) sum += edgeLength(v, next);
     meanEdge = neighbours.empty() ? 0.0 : sum / static_cast<double>(neighbours.size());
 }
 

@@ -9,34 +9,64 @@
 namespace osgSkin {
 namespace {
 
+constexpr std::uint32_t kNoGroup = 0xffffffffu;
+
+/// Edges longer than this many times the mean do not join vertices to a group.
+constexpr double kLongest = 2.0;
+
+/// Relaxation factor of Jacobi's method.
+constexpr double kRelaxation = 2.0 / 3.0;
+
+/// Jacobi steps after interpolation. Each leaves about a tenth of the groups' outlines visible.
+constexpr int kRounding = 3;
+
+template <typename Element>
+void sortUnique(std::vector<Element>& elements) {
+    std::sort(elements.begin(), elements.end());
+    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+}
+
+std::vector<double> relaxed(const HeatGraph& graph, const std::vector<double>& field) {
+    std::vector<double> result(field.size());
+    for (std::uint32_t v = 0; v < field.size(); ++v) {
+        double sum = 0.0, weights = 0.0;
+        for (std::uint32_t i = graph.firstNeighbour[v]; i < graph.firstNeighbour[v + 1]; ++i) {
+            sum += graph.weights[i] * (field[graph.neighbours[i]] - field[v]);
+            weights += graph.weights[i];
+        }
+        result[v] = weights > 0.0 ? field[v] + kRelaxation * sum / weights : field[v];
+    }
+    return result;
+}
+
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-/// One step's kernel falls off exponentially and has a cusp in its middle; several shorter steps
-/// come near a Gaussian: rounder where the skin bends, and sooner exactly flat.
+/// The kernel of a single step falls off exponentially and has a cusp in its middle. Several
+/// shorter steps approximate a Gaussian, which is rounder and becomes exactly flat earlier.
 constexpr int kSteps = 5;
 
-/// How many edges a width must count for a coarser skin to do. Its widths still count four or
-/// five, and the field is within 0.02 of what the fine skin's would be.
+/// A coarser skin is used if a width spans at least this many edges. On the coarser skin it still
+/// spans four or five, and the field differs from the fine skin's by at most 0.02.
 constexpr double kFinest = 12.0;
 
-/// How many times fewer vertices a coarser skin must have to be worth it.
+/// A coarser skin must have at least this many times fewer vertices.
 constexpr std::size_t kLeastCoarsening = 2;
 
-/// How far from where a field changes, in widths, its spread is computed. Five steps have a
-/// standard deviation of 1.4 widths, so what would come farther is below 1e-3, and is cut off
+/// The spread is computed up to this distance, in widths, from changes of the field. Five steps
+/// have a standard deviation of 1.4 widths, so values farther away are below 1e-3, which is cut off
 /// anyway.
 constexpr double kReach = 4.0;
 
-/// Vertices within kReach of an edge whose ends differ, by the length of the path over the skin.
+/// Vertices within kReach of an edge whose ends differ, along the skin's edges.
 std::vector<std::uint32_t> whereItChanges(const HeatGraph& skin, const std::vector<double>& field,
                                           const std::vector<double>& widths) {
     using Step = std::pair<double, std::uint32_t>; // length, vertex
     std::priority_queue<Step, std::vector<Step>, std::greater<>> front;
     std::vector<double> length(skin.vertexCount(), kReach);
     for (std::uint32_t v = 0; v < skin.vertexCount(); ++v)
-        for (std::uint32_t i = skin.firstNeighbour[v]; i < skin.firstNeighbour[v + 1]; ++i)
-            if (field[skin.neighbours[i]] != field[v] && length[v] > 0.0) {
+        for (const std::uint32_t next : skin.neighboursOf(v))
+            if (field[next] != field[v] && length[v] > 0.0) {
                 length[v] = 0.0;
                 front.emplace(0.0, v);
             }
@@ -46,20 +76,18 @@ std::vector<std::uint32_t> whereItChanges(const HeatGraph& skin, const std::vect
         front.pop();
         if (here > length[v]) continue; // reached on a shorter path
         reached.push_back(v);
-        for (std::uint32_t i = skin.firstNeighbour[v]; i < skin.firstNeighbour[v + 1]; ++i) {
-            const std::uint32_t next = skin.neighbours[i];
+        for (const std::uint32_t next : skin.neighboursOf(v)) {
             const double step = 2.0 * skin.edgeLength(v, next) / (widths[v] + widths[next]);
             if (here + step >= length[next]) continue;
             length[next] = here + step;
             front.emplace(length[next], next);
         }
     }
-    std::sort(reached.begin(), reached.end());
-    reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+    sortUnique(reached);
     return reached;
 }
 
-/// Smooths a field on the very skin that it is given on.
+/// Smooths a field on one level, without coarser copies.
 void spread(const HeatGraph& skin, std::vector<double>& field, const std::vector<double>& widths,
             const std::vector<bool>& isHeld) {
     std::vector<std::uint32_t> patch = whereItChanges(skin, field, widths);
@@ -103,6 +131,111 @@ void spread(const HeatGraph& skin, std::vector<double>& field, const std::vector
 
 } // namespace
 
+/// The same skin with about a seventh of the vertices, for fields much wider than its edges.
+///
+/// Each group of fine vertices, a vertex and its neighbours, becomes one coarse vertex at their
+/// centroid. Three groups that meet in a triangle give a coarse triangle. Edges longer than twice
+/// the mean do not join a group, so sparse skin stays as it is.
+class CoarseGraph {
+public:
+    /// \param fine must outlive this
+    explicit CoarseGraph(const HeatGraph& fine);
+
+    const HeatGraph& graph() const { return _graph; }
+
+    /// A field on the fine skin, averaged over each group.
+    std::vector<double> restricted(const std::vector<double>& field) const;
+    /// A field on the coarse skin, interpolated; constant if the coarse one is.
+    std::vector<double> interpolated(const std::vector<double>& field) const;
+
+private:
+    void makeGroups();
+    void connectGroups();
+
+    const HeatGraph& _fine;
+    HeatGraph _graph;
+    std::vector<std::uint32_t> _groupOf; ///< coarse vertex of each fine one
+};
+
+CoarseGraph::CoarseGraph(const HeatGraph& fine) : _fine(fine) {
+    makeGroups();
+    connectGroups();
+}
+
+void CoarseGraph::makeGroups() {
+    const double longest = kLongest * _fine.meanEdge;
+    _groupOf.assign(_fine.vertexCount(), kNoGroup);
+    std::uint32_t groups = 0;
+    const auto near = [&](std::uint32_t v, auto&& visit) {
+        for (const std::uint32_t next : _fine.neighboursOf(v))
+            if (_fine.edgeLength(v, next) <= longest) visit(next);
+    };
+    // First, a vertex whose neighbours are all free founds a group with them, ...
+    for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v) {
+        bool free = _groupOf[v] == kNoGroup;
+        near(v, [&](std::uint32_t u) { free = free && _groupOf[u] == kNoGroup; });
+        if (!free) continue;
+        _groupOf[v] = groups;
+        near(v, [&](std::uint32_t u) { _groupOf[u] = groups; });
+        ++groups;
+    }
+    // ... then the remaining vertices join an adjacent group.
+    const std::vector<std::uint32_t> founded = _groupOf;
+    for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v)
+        if (founded[v] == kNoGroup) {
+            double shortest = 0.0;
+            near(v, [&](std::uint32_t u) {
+                const double length = _fine.edgeLength(v, u);
+                if (founded[u] == kNoGroup || (_groupOf[v] != kNoGroup && length >= shortest))
+                    return;
+                shortest = length;
+                _groupOf[v] = founded[u];
+            });
+        }
+    _graph.positions.assign(groups, glm::dvec3(0.0));
+    _graph.mass.assign(groups, 0.0);
+    for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v) {
+        _graph.positions[_groupOf[v]] += _fine.mass[v] * _fine.positions[v];
+        _graph.mass[_groupOf[v]] += _fine.mass[v];
+    }
+    for (std::size_t g = 0; g < _graph.vertexCount(); ++g) _graph.positions[g] /= _graph.mass[g];
+}
+
+void CoarseGraph::connectGroups() {
+    for (const auto& t : _fine.triangles) {
+        std::array<std::uint32_t, 3> corners = {_groupOf[t[0]], _groupOf[t[1]], _groupOf[t[2]]};
+        std::sort(corners.begin(), corners.end());
+        if (corners[0] != corners[1] && corners[1] != corners[2])
+            _graph.triangles.push_back(corners);
+    }
+    sortUnique(_graph.triangles);
+
+    std::vector<DirectedEdge> edges; // in both directions
+    for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v)
+        for (const std::uint32_t next : _fine.neighboursOf(v))
+            if (_groupOf[v] != _groupOf[next]) edges.emplace_back(_groupOf[v], _groupOf[next]);
+    sortUnique(edges);
+    listNeighbours(_graph.vertexCount(), edges, _graph.firstNeighbour, _graph.neighbours);
+    _graph.weights =
+        edgeWeights(_graph.positions, _graph.triangles, _graph.firstNeighbour, _graph.neighbours);
+    _graph.measureEdges();
+}
+
+std::vector<double> CoarseGraph::restricted(const std::vector<double>& field) const {
+    std::vector<double> result(_graph.vertexCount(), 0.0);
+    for (std::uint32_t v = 0; v < field.size(); ++v)
+        result[_groupOf[v]] += _fine.mass[v] * field[v];
+    for (std::size_t g = 0; g < result.size(); ++g) result[g] /= _graph.mass[g];
+    return result;
+}
+
+std::vector<double> CoarseGraph::interpolated(const std::vector<double>& field) const {
+    std::vector<double> result(_fine.vertexCount());
+    for (std::uint32_t v = 0; v < result.size(); ++v) result[v] = field[_groupOf[v]];
+    for (int i = 0; i < kRounding; ++i) result = relaxed(_fine, result);
+    return result;
+}
+
 SkinSmoother::SkinSmoother(const WeldedMesh& mesh, double widest) : _skin(mesh) {
     const HeatGraph* finest = &_skin;
     while (finest->meanEdge > 0.0 && widest > kFinest * finest->meanEdge) {
@@ -112,6 +245,8 @@ SkinSmoother::SkinSmoother(const WeldedMesh& mesh, double widest) : _skin(mesh) 
         _coarser.push_back(std::move(coarse));
     }
 }
+
+SkinSmoother::~SkinSmoother() = default;
 
 void SkinSmoother::smooth(std::vector<double>& field, double width) const {
     if (width > 0.0) smooth(field, std::vector<double>(field.size(), width));

@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/WeldedMesh.h"
 
-#include "mesh/Neighbours.h"
+#include "mesh/DisjointSets.h"
 
+#include <osgSkin/Error>
+
+#include <Eigen/SparseCholesky>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
 namespace osgSkin {
 namespace {
 
-/// An edge with more triangles is no edge along which a few closed pieces touch.
+/// At most this many triangles of touching closed pieces share an edge. With more, nothing tells
+/// which of them belong together.
 constexpr std::ptrdiff_t kMaxTouching = 16;
 
 struct Cell {
@@ -34,14 +38,15 @@ struct CellHash {
     }
 };
 
-/// Finds the earlier point within `tolerance` of a new one. Cells are as wide as the tolerance, so
-/// that the 27 around a point hold all candidates.
+/// Finds an earlier point within `tolerance` of a new one. Cells are as wide as the tolerance, so
+/// the 27 cells around a point hold all candidates.
 class PointFinder {
 public:
     PointFinder(const glm::dvec3& origin, double tolerance)
         : _origin(origin), _tolerance(tolerance) {}
 
-    /// Index of a point of `points` near p; points.size() where there is none, and p is then known.
+    /// The index of a point of `points` near p. If there is none, adds p as points.size(), and
+    /// returns that.
     std::uint32_t findOrAdd(const glm::dvec3& p, const std::vector<glm::dvec3>& points) {
         const Cell at = cell(p);
         for (std::int64_t dx = -1; dx <= 1; ++dx)
@@ -68,24 +73,6 @@ private:
     std::unordered_map<Cell, std::uint32_t, CellHash> _cells;
 };
 
-/// Numbers that are joined, each time two of them, to sets.
-class JoinedSets {
-public:
-    explicit JoinedSets(std::size_t count) : _above(count) {
-        std::iota(_above.begin(), _above.end(), std::size_t{0});
-    }
-
-    /// The number that stands for the set of another.
-    std::size_t find(std::size_t i) {
-        while (_above[i] != i) i = _above[i] = _above[_above[i]];
-        return i;
-    }
-    void join(std::size_t a, std::size_t b) { _above[find(a)] = find(b); }
-
-private:
-    std::vector<std::size_t> _above;
-};
-
 /// A triangle's side between two welded vertices, the lower one first.
 struct Side {
     std::uint32_t low, high;
@@ -95,7 +82,7 @@ struct Side {
     bool isAlong(const Side& other) const { return low == other.low && high == other.high; }
 };
 
-/// All sides of triangles, those along the same edge one after the other, in the triangles' order.
+/// All sides of triangles, sorted by edge, then by triangle.
 std::vector<Side> sidesOf(const std::vector<std::uint32_t>& corners,
                           const std::vector<std::uint32_t>& weldedOf) {
     std::vector<Side> sides;
@@ -112,14 +99,14 @@ std::vector<Side> sidesOf(const std::vector<std::uint32_t>& corners,
     return sides;
 }
 
-/// Joins the triangles on both sides of an edge. Where several pieces touch there are more than
-/// two: each goes with the one of the other direction that is nearest in the file, since a piece's
-/// faces follow each other there.
-/// \param first is the first of the sides along one edge
-/// \param end is behind the last of them
-/// \param isOpen is set for triangles that are left alone
+/// Joins the triangles on both sides of an edge. If several pieces touch there, the edge has more
+/// than two triangles: each is joined with the one of the opposite direction that is nearest in the
+/// file, since a piece's faces are usually consecutive.
+/// \param first the first of the sides along one edge
+/// \param end one past the last of them
+/// \param isOpen is set for triangles that are joined with no other
 void joinAcross(std::vector<Side>::const_iterator first, std::vector<Side>::const_iterator end,
-                JoinedSets& pieces, std::vector<bool>& isOpen) {
+                DisjointSets& pieces, std::vector<bool>& isOpen) {
     std::vector<Side> left(first, end);
     while (!left.empty()) {
         std::size_t a = 0, b = 0, nearest = std::numeric_limits<std::size_t>::max();
@@ -139,7 +126,74 @@ void joinAcross(std::vector<Side>::const_iterator first, std::vector<Side>::cons
     for (const Side& side : left) isOpen[side.triangle] = true;
 }
 
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// Triangles for each vertex (a closed surface has two), and a number of triangles that is always
+/// accepted.
+constexpr std::size_t kMostTriangles = 12, kFewTriangles = 2000;
+
+/// The work of factorising a surface of n vertices grows as n^1.5 log2 n multiplications. kMostWork
+/// limits the factor: bodies need 0.4 to 0.9, spheres and balls of 100 to 160,000 vertices 1.5 to
+/// 2.8, random triangles hundreds. kLittleWork, the work for 200 vertices that are all joined, is
+/// always accepted.
+constexpr double kMostWork = 6.0, kLittleWork = 2e6;
+
+/// Computes how much work it would be to factorise a matrix, without doing so.
+class Factors : public Eigen::SimplicialLDLT<Matrix> {
+public:
+    explicit Factors(const Matrix& matrix) { analyzePattern(matrix); }
+    double work() const { return m_nonZerosPerCol.cast<double>().squaredNorm(); }
+};
+
+double solvingWork(const WeldedMesh& mesh) {
+    const auto count = static_cast<Eigen::Index>(mesh.vertexCount());
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(mesh.vertexCount() + mesh.neighbours.size());
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        entries.emplace_back(static_cast<int>(v), static_cast<int>(v), 1.0);
+        for (std::uint32_t i = mesh.firstNeighbour[v]; i < mesh.firstNeighbour[v + 1]; ++i)
+            entries.emplace_back(static_cast<int>(v), static_cast<int>(mesh.neighbours[i]), 1.0);
+    }
+    Matrix joined(count, count);
+    joined.setFromTriplets(entries.begin(), entries.end());
+    return Factors(joined).work();
+}
+
+double expectedWork(const WeldedMesh& mesh) {
+    std::vector<double> sizes(mesh.shells, 0.0);
+    for (const std::uint32_t shell : mesh.shellOf)
+        if (shell != WeldedMesh::kNoShell) sizes[shell] += 1.0;
+    double work = 0.0;
+    for (const double size : sizes) work += size * std::sqrt(size) * std::log2(size);
+    return work;
+}
+
 } // namespace
+
+std::vector<DirectedEdge> edgesOf(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    std::vector<DirectedEdge> edges;
+    edges.reserve(6 * triangles.size());
+    for (const auto& t : triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            edges.emplace_back(t[k], t[(k + 1) % 3]);
+            edges.emplace_back(t[(k + 1) % 3], t[k]);
+        }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+void listNeighbours(std::size_t vertices, const std::vector<DirectedEdge>& edges,
+                    std::vector<std::uint32_t>& firstNeighbour,
+                    std::vector<std::uint32_t>& neighbours) {
+    firstNeighbour.assign(vertices + 1, 0);
+    neighbours.clear();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (i > 0 && edges[i] == edges[i - 1]) continue;
+        ++firstNeighbour[edges[i].first + 1];
+        neighbours.push_back(edges[i].second);
+    }
+    for (std::size_t v = 0; v < vertices; ++v) firstNeighbour[v + 1] += firstNeighbour[v];
+}
 
 WeldedMesh::WeldedMesh(const SkinMesh& mesh, double same) : size(mesh.size()) {
     weld(mesh, std::max(same * size, std::numeric_limits<double>::min()));
@@ -160,7 +214,7 @@ void WeldedMesh::weld(const SkinMesh& mesh, double tolerance) {
     }
 }
 
-/// Gives each piece that is closed by itself vertices of its own where it touches others.
+/// Gives each closed piece vertices of its own where it touches others.
 void WeldedMesh::partClosedPieces(const SkinMesh& mesh) {
     const std::vector<std::uint32_t> corners = mesh.triangles();
     const std::vector<Side> sides = sidesOf(corners, weldedOf);
@@ -169,12 +223,11 @@ void WeldedMesh::partClosedPieces(const SkinMesh& mesh) {
         touch = sides[i].isAlong(sides[i + 2]);
     if (!touch) return;
     const std::size_t triangleCount = corners.size() / 3;
-    JoinedSets pieces(triangleCount);
+    DisjointSets pieces(triangleCount);
     std::vector<bool> isOpen(triangleCount, false);
     for (auto first = sides.begin(); first != sides.end();) {
         const auto end = std::find_if(first, sides.end(),
                                       [&first](const Side& side) { return !side.isAlong(*first); });
-        // Among very many, nobody can tell which belong together.
         if (end - first <= kMaxTouching) joinAcross(first, end, pieces, isOpen);
         first = end;
     }
@@ -188,7 +241,7 @@ void WeldedMesh::partClosedPieces(const SkinMesh& mesh) {
     std::vector<bool> isPieceOpen(triangleCount, false);
     for (std::size_t t = 0; t < triangleCount; ++t)
         if (isOpen[t]) isPieceOpen[pieces.find(t)] = true;
-    // Whoever comes first to a vertex keeps it; open pieces share theirs.
+    // The first piece at a vertex keeps it; open pieces share theirs.
     std::map<std::pair<std::uint32_t, std::size_t>, std::uint32_t> ownCopies;
     std::vector<std::size_t> keeper(positions.size(), kNoTriangle);
     for (std::size_t v = 0; v < weldedOf.size(); ++v) {
@@ -219,14 +272,7 @@ void WeldedMesh::addTriangles(const SkinMesh& mesh) {
 }
 
 void WeldedMesh::connect() {
-    std::vector<DirectedEdge> edges; // in both directions, once for each triangle
-    edges.reserve(6 * triangles.size());
-    for (const auto& t : triangles)
-        for (std::size_t k = 0; k < 3; ++k) {
-            edges.emplace_back(t[k], t[(k + 1) % 3]);
-            edges.emplace_back(t[(k + 1) % 3], t[k]);
-        }
-    std::sort(edges.begin(), edges.end());
+    const std::vector<DirectedEdge> edges = edgesOf(triangles);
     listNeighbours(positions.size(), edges, firstNeighbour, neighbours);
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t end = i;
@@ -248,10 +294,10 @@ void WeldedMesh::findShells() {
         while (!open.empty()) {
             const std::uint32_t v = open.back();
             open.pop_back();
-            for (std::uint32_t i = firstNeighbour[v]; i < firstNeighbour[v + 1]; ++i)
-                if (shellOf[neighbours[i]] == kNoShell) {
-                    shellOf[neighbours[i]] = shell;
-                    open.push_back(neighbours[i]);
+            for (const std::uint32_t next : neighboursOf(v))
+                if (shellOf[next] == kNoShell) {
+                    shellOf[next] = shell;
+                    open.push_back(next);
                 }
         }
     }
@@ -260,7 +306,7 @@ void WeldedMesh::findShells() {
 void WeldedMesh::computeNormals() {
     normals.assign(positions.size(), glm::dvec3(0.0));
     std::vector<double> shellVolume(shells, 0.0);
-    const glm::dvec3 origin = positions.front(); // keeps the volumes' digits far from the origin
+    const glm::dvec3 origin = positions.front(); // precise far from the world's origin, too
     for (const auto& t : triangles) {
         const glm::dvec3 a = positions[t[0]] - origin;
         const glm::dvec3 b = positions[t[1]] - origin;
@@ -272,9 +318,21 @@ void WeldedMesh::computeNormals() {
     for (std::size_t v = 0; v < positions.size(); ++v) {
         const double length = glm::length(normals[v]);
         if (!(length > 0.0)) continue;
-        // A shell that is wound inside out encloses a negative volume.
+        // A shell with inverted winding encloses a negative volume.
         normals[v] /= shellVolume[shellOf[v]] < 0.0 ? -length : length;
     }
+}
+
+void requireSurface(const WeldedMesh& mesh) {
+    const std::size_t vertices = mesh.vertexCount(), triangles = mesh.triangles.size();
+    const std::string found = "mesh: " + std::to_string(triangles) + " triangles of " +
+                              std::to_string(vertices) + " vertices";
+    if (triangles > std::max(kFewTriangles, kMostTriangles * vertices))
+        throw Error(found + ", expected at most " + std::to_string(kMostTriangles) +
+                    " for each vertex");
+    if (solvingWork(mesh) > kLittleWork + kMostWork * expectedWork(mesh))
+        throw Error(found + " join vertices all over the mesh, expected a surface, whose triangles "
+                            "join neighbouring vertices");
 }
 
 } // namespace osgSkin

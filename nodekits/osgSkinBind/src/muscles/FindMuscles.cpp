@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "muscles/FindMuscles.h"
+#include "muscles/Muscles.h"
 
 #include "shapes/ShapedJoint.h"
 
@@ -16,8 +16,8 @@ namespace {
 
 using Options = BindOptions::Muscle;
 
-/// Along the arm, the biceps' growth is what 383 junior rowers' arms grow when tensed and flexed;
-/// the others' are a part of it, as they share the limb with more that does not shorten.
+/// The biceps' growth is the growth of 383 junior rowers' arms when tensed and flexed. The other
+/// muscles grow less, since more of their limb does not shorten.
 const struct {
     const char* name;
     const char* hinge; ///< role, without its side
@@ -31,7 +31,7 @@ const struct {
     {"Calf", "Foot", Options::Side::Extensor, 0.02, 0.7, 0.06, 0.06},
 };
 
-/// The axis of the bend that takes what lies on `along` that way; perpendicular to the twist axis.
+/// The axis, perpendicular to the twist axis, of a bend that turns `along` towards `way`.
 std::optional<glm::dvec3> axisTowards(const glm::dvec3& way, const glm::dvec3& along,
                                       const glm::dvec3& twistAxis) {
     const glm::dvec3 across = glm::cross(along, way);
@@ -40,7 +40,7 @@ std::optional<glm::dvec3> axisTowards(const glm::dvec3& way, const glm::dvec3& a
     return glm::normalize(axis);
 }
 
-/// Why it cannot be made; empty where it can, and then `muscle` is set but for its radius.
+/// Sets a muscle, except its radius. Returns a reason if it cannot be made, else an empty string.
 std::string make(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                  const std::vector<BoundJoint>& bound, const Options& options, std::size_t joint,
                  Muscle& muscle) {
@@ -52,7 +52,7 @@ std::string make(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& 
     const std::optional<glm::dvec3> axis =
         options.towards ? axisTowards(*options.towards, along, bound[joint].twistAxis)
                         : findMainAxis(skeleton, joints, joint);
-    if (!axis) return "bends in no direction that its limb or its name tells";
+    if (!axis) return "bends in no direction that its limb or name determines";
     ShapedJoint range;
     range.above = hinge.comingFrom;
     range.bone = hinge.boneAxis;
@@ -91,12 +91,12 @@ std::vector<Muscle> findMuscles(const RestSkeleton& skeleton,
                 const std::string name = std::string(side) + known.name;
                 if (std::any_of(options.ownMuscles.begin(), options.ownMuscles.end(),
                                 [&](const Options& own) { return own.name == name; }))
-                    continue; // the author's own goes first
+                    continue; // the author's own replaces it
                 const Options asked{name,       {},       known.side,   {},
                                     known.from, known.to, known.growth, known.tension};
                 const auto role = roles.joints.find(std::string(side) + known.hinge);
                 Muscle muscle;
-                std::string reason = "no joint is known as its " + std::string(known.hinge);
+                std::string reason = "no joint has the role " + std::string(known.hinge);
                 if (role != roles.joints.end() && !role->second.empty()) {
                     const auto joint = static_cast<std::size_t>(role->second.front());
                     reason = make(skeleton, joints, bound, asked, joint, muscle);

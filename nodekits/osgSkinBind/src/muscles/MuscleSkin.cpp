@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "muscles/MuscleSkin.h"
+#include "muscles/Muscles.h"
 
-#include "limbs/HermiteRatio.h"
+#include "regions/HermiteRatio.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -12,16 +12,16 @@
 namespace osgSkin {
 namespace {
 
-/// Cosines of the angle to the belly's side between which skin begins to lie over the muscle and
-/// does so fully.
+/// Cosines of the angle to the belly's side: from kBesides on, skin begins to lie over the muscle,
+/// and from kOver on it lies fully over it.
 constexpr double kBesides = -0.35;
 constexpr double kOver = 0.85;
 
-/// Where the limb's radius is measured, in fractions of the bone.
+/// The part of the limb where its radius is measured, in fractions of the bone.
 constexpr double kMiddleFrom = 0.35;
 constexpr double kMiddleTo = 0.65;
 
-/// Thickness of a spindle along itself, 0 outside 0..1.
+/// Thickness of a spindle along its length, 0 outside 0..1.
 double thickness(double t) {
     if (!(t > 0.0 && t < 1.0)) return 0.0;
     const double s = std::sin(glm::pi<double>() * t);

@@ -1,24 +1,342 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ratios/BendFields.h"
+#include "ratios/RatioFields.h"
 
+#include "joints/BodyAxes.h"
 #include "mesh/SkinSmoother.h"
-#include "ratios/SmoothBend.h"
+#include "ratios/EvenStretch.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgSkin {
 namespace {
 
-/// Width, in limb radii, that makes a field with boundaries of its own continuous across regions.
+/// Directions in which an arm may point: to the front, up and away from the body; of any length.
+constexpr double kReached[][3] = {{0.0, -1.0, 0.2}, {0.5, -1.0, 0.2}, {-0.5, -1.0, 0.3},
+                                  {1.0, 0.0, 0.0},  {1.0, 0.0, 1.0},  {0.0, 0.0, 1.0},
+                                  {1.0, -0.7, 1.0}, {1.0, -0.7, 0.0}, {0.5, 0.7, 1.0},
+                                  {1.0, 1.0, 0.4},  {0.0, 0.8, 1.0},  {-0.3, -0.4, 1.0}};
+
+/// Widths of a field above and below its joint, in limb radii, times BindOptions::smoothing.
+struct Widths {
+    double above, below;
+};
+
+/// A limb's joint bends its skin mostly above the joint: the forearm and the calf keep their shape.
+constexpr Widths kBetweenLimbs{1.5, 0.75};
+constexpr Widths kOther{1.0, 1.0};
+
+/// The trunk's joints are so close together that their fields would overlap. Their radius is that
+/// of the waist, as the chest's would include the shoulders.
+constexpr Widths kSpine{0.6, 0.6};
+constexpr Widths kCollar{0.72, 0.72};
+
+/// A rigid part begins close behind its joint, and the skin above takes up more of the rotation.
+constexpr Widths kRigid{1.5, 0.6};
+
+/// The width above the border of a head, hand or foot.
+constexpr double kAboveBorder = 0.95;
+
+/// A field reaches along a limb no farther than this share of the bone: limbs of game figures may
+/// be as short as they are thick.
+constexpr double kMaxShareOfBone = 0.6;
+
+/// Widths at a finger's or toe's joint, in lengths of its bone on that side, and above a last one.
+constexpr double kDigit = 0.5;
+constexpr double kTip = 0.3;
+
+/// A spine runs behind the belly. A plane this much below the joint, in radii, loses less of the
+/// belly's volume.
+constexpr double kTrunkLift = 0.15;
+
+/// The least share of a joint's rotation that the middle third of its own bone takes, and the
+/// largest share that the middle third of the bone above takes.
+constexpr double kOwnRigidity = 0.975;
+constexpr double kNextRigidity = 0.003;
+
+/// The search for widths ends when the excess is within this factor of its limit, or after kTries.
+constexpr double kTolerance = 1.1;
+constexpr int kTries = 6;
+
+/// The smallest width, as a share of the first. If an arm hangs so low that the armpit reaches into
+/// its middle third, no width leaves that third rigid, and a narrow one tears the armpit.
+constexpr double kNarrowest = 0.4;
+
+/// When an arm's field is evened out, skin this much farther from the joint than the field reaches
+/// may take part.
+constexpr double kRoom = 1.2;
+
+/// A field is in transition between this value and 1 minus it.
+constexpr double kBetween = 0.02;
+
+/// Upper limit of slopeShare(): a single needle of the mesh must not spread a field over the body.
+constexpr double kMost = 3.0;
+
+/// The width, in limb radii, that makes a field with given boundaries continuous across regions,
+/// and what is cut off again, so that the ratios are exact close beyond the boundaries.
 constexpr double kBoundedWidth = 0.25;
-/// That little is cut off again, so that the ratios are exact close beyond the boundaries.
 constexpr double kBoundedCutOff = 0.02;
+
+/// The rotations that take an upper arm from its rest pose to the directions in which arms point:
+/// down, forwards, to the side and up. An arm that rests raised mostly turns down.
+///
+/// \param joints of planJoints()
+/// \param joint where a limb leaves the trunk
+/// \return axis times angle, radians, rest space; empty if there is no hand below the joint, or
+///         the body's orientation is unknown
+std::vector<glm::dvec3> armSwings(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    const std::optional<BodyAxes> body = bodyAxes(joints);
+    if (!body || !carries(joints, joint, JointPart::Hand)) return {};
+    glm::dvec3 away = glm::cross(body->up, body->front);
+    if (glm::dot(away, joints[joint].centre - joints.front().centre) < 0.0) away = -away;
+    std::vector<glm::dvec3> swings;
+    for (const auto& [front, up, out] : kReached) {
+        const glm::dvec3 to = glm::normalize(front * body->front + up * body->up + out * away);
+        const glm::dvec3 axis = glm::cross(joints[joint].boneAxis, to);
+        const double sine = glm::length(axis);
+        if (sine < 1e-6) continue; // the rest pose
+        swings.push_back(std::atan2(sine, glm::dot(joints[joint].boneAxis, to)) / sine * axis);
+    }
+    return swings;
+}
+
+/// The welded vertices around the middle third of a limb's bone, which should move almost rigidly.
+std::vector<std::uint32_t> middleThird(const BinaryField& binary, std::size_t joint) {
+    const PlannedJoint& bone = binary.joints[joint];
+    const std::vector<double> below = binary.divided(joint);
+    std::vector<double> beyond(below.size(), 0.0);
+    if (bone.child >= 0) beyond = binary.divided(static_cast<std::size_t>(bone.child));
+    std::vector<std::uint32_t> third;
+    for (std::uint32_t v = 0; v < below.size(); ++v) {
+        if (below[v] < 0.5 || beyond[v] >= 0.5) continue;
+        const double along =
+            glm::dot(binary.mesh.positions[v] - bone.centre, bone.boneAxis) / bone.boneLength;
+        if (along >= 1.0 / 3.0 && along <= 2.0 / 3.0) third.push_back(v);
+    }
+    return third;
+}
+
+double meanOf(const std::vector<double>& field, const std::vector<std::uint32_t>& vertices) {
+    double sum = 0.0;
+    for (const std::uint32_t v : vertices) sum += field[v];
+    return sum / static_cast<double>(vertices.size());
+}
+
+/// The length of a field's gradient at each vertex, estimated from its edges: averaged over all
+/// directions, the squared slope along an edge is half of the squared gradient.
+std::vector<double> slopes(const WeldedMesh& mesh, const std::vector<double>& field) {
+    std::vector<double> result(field.size(), 0.0);
+    for (std::uint32_t v = 0; v < field.size(); ++v) {
+        double squares = 0.0, count = 0.0;
+        for (const std::uint32_t next : mesh.neighboursOf(v)) {
+            const double length = glm::distance(mesh.positions[v], mesh.positions[next]);
+            if (!(length > 0.0)) continue;
+            const double slope = (field[next] - field[v]) / length;
+            squares += slope * slope;
+            count += 1.0;
+        }
+        if (count > 0.0) result[v] = std::sqrt(2.0 * squares / count);
+    }
+    return result;
+}
+
+double slopeBetween(const std::vector<double>& field, const std::vector<double>& slope) {
+    double squares = 0.0, count = 0.0;
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        if (!(field[v] > kBetween && field[v] < 1.0 - kBetween)) continue;
+        squares += slope[v] * slope[v];
+        count += 1.0;
+    }
+    return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+/// Stretches [cutOff, 1 - cutOff] to [0, 1] and clamps.
+void stretch(std::vector<double>& field, double cutOff) {
+    for (double& a : field) a = std::clamp((a - cutOff) / (1.0 - 2.0 * cutOff), 0.0, 1.0);
+}
+
+/// \param share a factor of the width for each vertex; empty: 1 for all
+std::vector<double> spread(const SkinSmoother& smoother, const std::vector<double>& binary,
+                           const Widths& widths, const std::vector<double>& share,
+                           const std::vector<bool>& isHeld, double cutOff) {
+    std::vector<double> width(binary.size());
+    for (std::size_t v = 0; v < width.size(); ++v) {
+        width[v] = binary[v] < 0.5 ? widths.above : widths.below;
+        if (!share.empty()) width[v] *= share[v];
+    }
+    std::vector<double> field = binary;
+    smoother.smooth(field, width, isHeld);
+    stretch(field, cutOff);
+    return field;
+}
+
+/// The field of a head, hand, foot or finger tip: 1 on all its own skin, and falling to 0 over the
+/// limb above.
+std::vector<double> fromBorder(const SkinSmoother& smoother, const std::vector<double>& own,
+                               double width, double cutOff) {
+    std::vector<bool> isOwn(own.size());
+    for (std::size_t v = 0; v < own.size(); ++v) isOwn[v] = own[v] > 0.5;
+    std::vector<double> field = own;
+    smoother.smooth(field, std::vector<double>(own.size(), width), isOwn);
+    for (double& a : field) a = std::max(0.0, (a - cutOff) / (1.0 - cutOff));
+    return field;
+}
+
+/// The radius of the waist, the smallest of the spine's; at most `radius`.
+double waistRadius(const std::vector<PlannedJoint>& joints, const std::vector<double>& radii,
+                   double radius) {
+    for (std::size_t j = 1; j < joints.size(); ++j)
+        if (joints[j].isSpine() && radii[j] > 0.0) radius = std::min(radius, radii[j]);
+    return radius;
+}
+
+/// The first widths to try, in rest units.
+/// \param limb whether the joint is a limb's
+/// \param onLimb whether the joint above is a limb's
+Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, bool limb,
+                   bool onLimb, const std::vector<double>& radii, double smoothing) {
+    const PlannedJoint& joint = joints[index];
+    const double radius = joint.isSpine() ? waistRadius(joints, radii, radii[index]) : radii[index];
+    const auto times = [&](const Widths& widths) {
+        return Widths{widths.above * smoothing * radius, widths.below * smoothing * radius};
+    };
+    if (joint.rigid >= 0) return times(kRigid);
+    if (joint.trunk) return times(joint.collarBone ? kCollar : kSpine);
+    if (joint.digit) {
+        const Widths widths = times(kOther);
+        return {std::min(widths.above, kDigit * joint.lengthAbove),
+                std::min(widths.below, kDigit * joint.boneLength)};
+    }
+    Widths widths = times(limb && onLimb ? kBetweenLimbs : kOther);
+    if (carries(joints, index, JointPart::Head))
+        return widths; // necks bend over their whole length
+    if (onLimb) widths.above = std::min(widths.above, kMaxShareOfBone * joint.lengthAbove);
+    if (joint.boneLength > 0.0)
+        widths.below = std::min(widths.below, kMaxShareOfBone * joint.boneLength);
+    return widths;
+}
+
+/// True for the last joint of a finger or toe with several: all skin beyond it is its own.
+bool isLastDigit(const std::vector<PlannedJoint>& joints, const PlannedJoint& joint) {
+    return joint.digit && joint.child < 0 && joints[static_cast<std::size_t>(joint.parent)].digit;
+}
+
+/// The skin of a joint and all below it.
+std::vector<bool> skinOf(const BinaryField& binary, int joint) {
+    const std::vector<bool> isBelow = subtreeOf(binary.joints, static_cast<std::size_t>(joint));
+    std::vector<bool> result(binary.regions.size());
+    for (std::size_t v = 0; v < result.size(); ++v) result[v] = isBelow[binary.regions[v]];
+    return result;
+}
+
+/// Narrows a width, down to `least`, if `excess`, the field's value in the middle third, exceeds
+/// `most`. At a given distance a field decreases about with the fifth power of its width.
+bool narrow(double& width, double least, double excess, double most) {
+    if (width <= least || excess <= kTolerance * most) return false;
+    width = std::max(least, width * std::max(0.6, std::pow(most / excess, 0.2)));
+    return true;
+}
+
+/// For each vertex, whether a field is neither 0 nor 1 there.
+std::vector<bool> isPartial(const std::vector<double>& field) {
+    std::vector<bool> result(field.size());
+    for (std::size_t v = 0; v < field.size(); ++v) result[v] = field[v] > 0.0 && field[v] < 1.0;
+    return result;
+}
+
+/// Evens out the stretch by an arm's swings of the skin between the arm and the trunk.
+/// \param third middleThird() of the arm, which keeps its values
+/// \param isFree for each vertex, whether it may change
+void evenOut(const BinaryField& binary, const SkinSmoother& smoother, std::size_t joint,
+             const std::vector<std::uint32_t>& third, double width, std::vector<bool> isFree,
+             std::vector<double>& field) {
+    const std::vector<glm::dvec3> swings = armSwings(binary.joints, joint);
+    if (swings.empty()) return;
+    for (const std::uint32_t v : third) isFree[v] = false;
+    keepLooseSkin(smoother.skin(), field, isFree);
+    const glm::dvec3& centre = binary.joints[joint].centre;
+    smoother.change(field, isFree, width,
+                    [&](const HeatGraph& skin, std::vector<double>& coarse,
+                        const std::vector<bool>& coarseFree) {
+                        evenStretch(skin, coarse, coarseFree, centre, swings);
+                    });
+}
+
+/// A joint's bend field if the author gave no boundaries: its binary field
+/// (BinaryField::divided()), spread over the skin about as far as the limb is thick, and exactly 0
+/// and 1 beyond that.
+///
+/// A limb's field is made narrow enough that the middle thirds of its bone and of the bone above
+/// stay rigid; a wide field on a thick short bone would look like rubber. On the trunk's side of a
+/// shoulder or hip there is no such limit, so each side has its own width. If such a limb leaves
+/// the trunk, the field is spread farther where it would be steepest, as in the armpit
+/// (slopeShare()); an arm's is then redistributed for the directions in which arms swing
+/// (evenStretch()).
+std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& smoother,
+                               std::size_t joint, const std::vector<double>& radii,
+                               const BindOptions& options) {
+    const PlannedJoint& planned = binary.joints[joint];
+    const double radius = radii[joint];
+    const bool isLifted = planned.isSpine();
+    std::vector<double> start = binary.divided(joint, isLifted ? -kTrunkLift * radius : 0.0);
+    if (!(radius > 0.0)) return start;
+    if (isLastDigit(binary.joints, planned))
+        return fromBorder(smoother, start,
+                          std::min(options.smoothing * radius, kTip * planned.lengthAbove),
+                          options.cutOff);
+
+    const std::size_t above = regionAbove(binary.joints, joint);
+    const bool limb = isLimb(planned, radius);
+    const bool onLimb = above > 0 && isLimb(binary.joints[above], radii[above]);
+    std::vector<std::uint32_t> own, previous;
+    if (limb) own = middleThird(binary, joint);
+    if (onLimb) previous = middleThird(binary, above);
+    if (!planned.beyond.empty()) {
+        double width = kAboveBorder * options.smoothing * radius;
+        const double least = kNarrowest * width;
+        std::vector<double> field = fromBorder(smoother, start, width, options.cutOff);
+        for (int i = 0; i < kTries && !previous.empty() &&
+                        narrow(width, least, meanOf(field, previous), kNextRigidity);
+             ++i)
+            field = fromBorder(smoother, start, width, options.cutOff);
+        return field;
+    }
+    Widths widths = firstWidths(binary.joints, joint, limb, onLimb, radii, options.smoothing);
+    const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
+    const std::vector<bool> isHeld = // an arm follows its collar bone fully
+        planned.collarBone ? skinOf(binary, planned.child) : std::vector<bool>();
+    std::vector<double> share;
+    if (limb && binary.joints[above].trunk)
+        share =
+            slopeShare(binary.mesh, spread(smoother, start, widths, {}, isHeld, options.cutOff));
+    std::vector<double> field;
+    for (int i = 0; i < kTries; ++i) {
+        field = spread(smoother, start, widths, share, isHeld, options.cutOff);
+        bool narrower = false;
+        if (!own.empty())
+            narrower =
+                narrow(widths.below, least.below, 1.0 - meanOf(field, own), 1.0 - kOwnRigidity);
+        if (!previous.empty())
+            narrower = narrow(widths.above, least.above, meanOf(field, previous), kNextRigidity) ||
+                       narrower;
+        if (!narrower) break;
+    }
+    if (!share.empty()) {
+        const Widths wider = {kRoom * widths.above, kRoom * widths.below};
+        const std::vector<bool> isFree =
+            isPartial(spread(smoother, start, wider, share, isHeld, options.cutOff));
+        evenOut(binary, smoother, joint, own, options.smoothing * radius, isFree, field);
+    }
+    return field;
+}
 
 bool hasBoundaries(const PlannedJoint& joint) {
     return joint.options.bendUpper || joint.options.bendLower;
 }
 
-/// The bend field between the boundaries that the author set, one of which may be missing.
+/// The bend field between boundaries that the author gave, of which one may be missing.
 std::vector<double> boundedField(const BinaryField& binary, const SkinSmoother& smoother,
                                  std::size_t joint, double radius, double smoothing) {
     const PlannedJoint& planned = binary.joints[joint];
@@ -32,12 +350,23 @@ std::vector<double> boundedField(const BinaryField& binary, const SkinSmoother& 
     return field;
 }
 
-/// Lowers a field to another: a finger moves nothing that its hand leaves behind.
-void lower(std::vector<double>& field, const std::vector<double>& most) {
-    for (std::size_t v = 0; v < field.size(); ++v) field[v] = std::min(field[v], most[v]);
-}
-
 } // namespace
+
+std::vector<double> slopeShare(const WeldedMesh& mesh, const std::vector<double>& field) {
+    const std::vector<double> slope = slopes(mesh, field);
+    const double between = slopeBetween(field, slope);
+    std::vector<double> share(field.size(), 1.0);
+    if (!(between > 0.0)) return share;
+    for (std::uint32_t v = 0; v < share.size(); ++v) {
+        double sum = slope[v], count = 1.0;
+        for (const std::uint32_t next : mesh.neighboursOf(v)) {
+            sum += slope[next];
+            count += 1.0;
+        }
+        share[v] = std::clamp(sum / (count * between), 1.0, kMost);
+    }
+    return share;
+}
 
 JointFields bendFields(const BinaryField& binary, const std::vector<double>& radii,
                        const BindOptions& options, const std::function<void(std::size_t)>& begin) {
@@ -53,8 +382,11 @@ JointFields bendFields(const BinaryField& binary, const std::vector<double>& rad
             hasBoundaries(joints[j])
                 ? boundedField(binary, smoother, j, radii[j], options.smoothing)
                 : smoothBend(binary, smoother, j, radii, options);
-        if (joints[j].digit && joints[regionAbove(joints, j)].extremity)
-            lower(field, fields.values(regionAbove(joints, j)));
+        if (joints[j].digit && joints[regionAbove(joints, j)].extremity) {
+            // A finger moves no skin that its hand does not move.
+            const std::vector<double> hand = fields.values(regionAbove(joints, j));
+            for (std::size_t v = 0; v < field.size(); ++v) field[v] = std::min(field[v], hand[v]);
+        }
         fields.set(j, field);
     }
     raiseParents(joints, fields);

@@ -2,7 +2,6 @@
 #include "ratios/EvenStretch.h"
 
 #include <Eigen/SparseCholesky>
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -11,18 +10,31 @@
 namespace osgSkin {
 namespace {
 
-/// Weight of the fourth power of the whole change beside that of the stretch: what skin that is
-/// pressed together counts. And of its square, which keeps unstretched skin even.
+/// The vertices of edges with one triangle.
+std::vector<bool> bordersOf(const HeatGraph& skin) {
+    const std::vector<DirectedEdge> edges = edgesOf(skin.triangles);
+    std::vector<bool> isBorder(skin.vertexCount());
+    for (auto edge = edges.begin(); edge != edges.end();) {
+        const auto next =
+            std::find_if(edge, edges.end(), [&](const auto& e) { return e != *edge; });
+        if (next - edge == 1) isBorder[edge->first] = isBorder[edge->second] = true;
+        edge = next;
+    }
+    return isBorder;
+}
+
+/// Weights, relative to the fourth power of the stretch, of the fourth power of the whole change,
+/// which includes compression, and of its square, which keeps unstretched skin even.
 constexpr double kChange = 0.3;
 constexpr double kEven = 0.02;
 
-/// Newton's method ends where a step gains less than this, or after so many; a step that gains
-/// nothing is halved.
+/// Newton's method ends when a step gains less than this share, or after kNewtonSteps. A step that
+/// gains nothing is halved, up to kHalvings times.
 constexpr double kLeastGain = 1e-3;
 constexpr int kNewtonSteps = 12;
 constexpr int kHalvings = 6;
 
-/// An edge under one turn: |e + d u|^2 / |e|^2 = 1 + 2 d along + d^2 square.
+/// An edge under one rotation: |e + d u|^2 / |e|^2 = 1 + 2 d along + d^2 square.
 struct Turned {
     double along, square;
 };
@@ -52,7 +64,7 @@ void addEnergy(const Turned& edge, double d, EdgeEnergy& sum) {
     sum.curvature += (12.0 * kChange * change + 2.0 * kEven) * edge.square;
 }
 
-/// The edges that move, each under all turns, and their energy.
+/// The edges with a free end, each under all rotations, and their energy.
 class Stretch {
 public:
     Stretch(const HeatGraph& skin, const std::vector<bool>& isFree, const glm::dvec3& centre,
@@ -67,8 +79,7 @@ public:
             return skin.mass[v] / (skin.firstNeighbour[v + 1] - skin.firstNeighbour[v]);
         };
         for (const std::uint32_t v : _free)
-            for (std::uint32_t i = skin.firstNeighbour[v]; i < skin.firstNeighbour[v + 1]; ++i) {
-                const std::uint32_t next = skin.neighbours[i];
+            for (const std::uint32_t next : skin.neighboursOf(v)) {
                 if (_row[next] >= 0 && next < v) continue;
                 const glm::dvec3 e = skin.positions[next] - skin.positions[v];
                 const double square = glm::dot(e, e);
@@ -91,7 +102,7 @@ public:
         return sum;
     }
 
-    /// Newton's step of the free vertices; empty where there is none.
+    /// Newton's step of the free vertices; empty if the system cannot be solved.
     Eigen::VectorXd step(const std::vector<double>& field) const {
         const auto count = static_cast<Eigen::Index>(_free.size());
         Eigen::VectorXd slopes = Eigen::VectorXd::Zero(count);
@@ -126,13 +137,40 @@ private:
     }
 
     std::size_t _turns;
-    std::vector<int> _row;            ///< of a vertex, -1 where it is kept
+    std::vector<int> _row;            ///< of a vertex, -1 if it is fixed
     std::vector<std::uint32_t> _free; ///< vertices by row
     std::vector<TurnedEdge> _edges;   ///< `from` is free
-    std::vector<Turned> _turned;      ///< of each edge, by turn
+    std::vector<Turned> _turned;      ///< of each edge, by rotation
 };
 
 } // namespace
+
+void keepLooseSkin(const HeatGraph& skin, const std::vector<double>& field,
+                   std::vector<bool>& isFree) {
+    const std::vector<bool> isBorder = bordersOf(skin);
+    std::vector<bool> isSeen(isFree.size());
+    std::vector<std::uint32_t> part;
+    for (std::uint32_t first = 0; first < isFree.size(); ++first) {
+        if (!isFree[first] || isSeen[first]) continue;
+        bool low = false, high = false, ends = false;
+        part.assign(1, first);
+        isSeen[first] = true;
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            const std::uint32_t v = part[i];
+            ends = ends || isBorder[v];
+            for (const std::uint32_t next : skin.neighboursOf(v)) {
+                if (!isFree[next]) {
+                    (field[next] < 0.5 ? low : high) = true;
+                } else if (!isSeen[next]) {
+                    isSeen[next] = true;
+                    part.push_back(next);
+                }
+            }
+        }
+        if (low && high && !ends) continue;
+        for (const std::uint32_t v : part) isFree[v] = false;
+    }
+}
 
 void evenStretch(const HeatGraph& skin, std::vector<double>& field, const std::vector<bool>& isFree,
                  const glm::dvec3& centre, const std::vector<glm::dvec3>& turns) {

@@ -8,18 +8,30 @@
 
 namespace osgSkin {
 
-/// Redistributes a joint's bend field so that the joint's turns stretch no skin much more than
-/// other skin.
+/// Fixes patches of free skin whose field is not fixed at both ends.
 ///
-/// Where a vertex's ratio exceeds its neighbour's by d, a turn by the vector w about the centre c
-/// makes their edge e to e + d w x (x - c), seen from the neighbour: longer on the one side of a
-/// limb, shorter on the other, and the more the farther it is from the axis. The sum over edges and
-/// turns of the fourth power of the stretch, and of a smaller one of the whole change, is convex in
-/// the field; Newton's method finds its least.
+/// evenStretch() spreads a field evenly between fixed skin that follows a joint and fixed skin that
+/// does not. A strap or shoulder pad without fixed neighbours, or a sleeve that ends before its
+/// field does, would follow the joint fully or not at all, away from the body below. So a connected
+/// patch of free skin stays free only if it adjoins both kinds of fixed skin and no border.
+///
+/// \param skin the skin itself, not a coarser copy, as the triangles' borders are needed
+/// \param field one value for each vertex, 0 to 1
+/// \param isFree one for each vertex; cleared for the patches that become fixed
+void keepLooseSkin(const HeatGraph& skin, const std::vector<double>& field,
+                   std::vector<bool>& isFree);
+
+/// Redistributes a joint's bend field so that the joint's rotations stretch the skin evenly.
+///
+/// If a vertex's ratio exceeds its neighbour's by d, a rotation by the vector w about the centre c
+/// changes their edge e to e + d w x (x - c), relative to the neighbour: longer on one side of a
+/// limb, shorter on the other, and more so far from the axis. The energy is the sum over edges and
+/// rotations of the fourth power of the stretch, plus a smaller term for the whole change. It is
+/// convex in the field, and minimised by Newton's method.
 ///
 /// \param skin the skin, or a coarser copy of it
-/// \param field one value for each vertex, 0 to 1; what is not free is kept
-/// \param isFree which vertices may change
+/// \param field one value for each vertex, 0 to 1; fixed vertices keep theirs
+/// \param isFree for each vertex, whether it may change
 /// \param centre of the joint
 /// \param turns axis times angle, radians, at least one
 void evenStretch(const HeatGraph& skin, std::vector<double>& field, const std::vector<bool>& isFree,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_JOINTRATIOS_H
-#define OSGSKINBIND_JOINTRATIOS_H
+#ifndef OSGSKINBIND_RATIOS_JOINTRATIOS_H
+#define OSGSKINBIND_RATIOS_JOINTRATIOS_H
 
 #include "joints/JointPlan.h"
 #include "mesh/WeldedMesh.h"
@@ -12,7 +12,7 @@
 
 namespace osgSkin {
 
-/// A binding's ratios, seen from welded vertices: copies of a vertex have the same.
+/// A binding's ratios by welded vertex; copies of a vertex have the same ratios.
 class JointRatios {
 public:
     JointRatios(const WeldedMesh& mesh, const Binding& binding)
@@ -23,7 +23,7 @@ public:
     /// The last of the copies of a welded vertex.
     std::uint32_t copyOf(std::uint32_t welded) const { return _copyOf[welded]; }
 
-    /// Zeros where the vertex does not follow the joint.
+    /// Zeros if the vertex does not follow the joint.
     Influence of(std::uint32_t welded, std::uint32_t joint) const {
         const std::uint32_t v = _copyOf[welded];
         const auto begin = _binding.influences.begin() + _binding.firstInfluence[v];
@@ -33,7 +33,7 @@ public:
         return found != end && found->joint == joint ? *found : Influence{joint, 0.0f, 0.0f};
     }
 
-    /// The largest bend ratio of a joint that moves a rigid part.
+    /// The largest bend ratio at the vertex of joints that move a rigid part.
     double rigid(std::uint32_t welded, const std::vector<PlannedJoint>& joints) const {
         const std::uint32_t v = _copyOf[welded];
         double most = 0.0;
@@ -49,8 +49,15 @@ public:
 
 private:
     const Binding& _binding;
-    std::vector<std::uint32_t> _copyOf; ///< a vertex of the mesh as given, of each welded one
+    std::vector<std::uint32_t> _copyOf; ///< for each welded vertex, one of the mesh as given
 };
+
+/// The gradients along the skin of partial influences' ratios: the area-weighted mean of the
+/// gradients in the triangles around a vertex, where ratios are linear. 0 for influences that are
+/// not partial, and at vertices without triangles.
+/// \param binding of the mesh that `mesh` was welded from
+/// \return one for each of the binding's influences
+std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh, const Binding& binding);
 
 } // namespace osgSkin
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "regions/Extremities.h"
+#include "regions/Regions.h"
 
 #include "joints/BodyAxes.h"
 
@@ -22,20 +22,19 @@ constexpr double kMaxLean = 25.0;
 constexpr int kLeans = 5;
 constexpr int kDirections = 12;
 
-/// The section below a chin and behind a skull leans to the front by so much; how far it may lean
-/// from there.
+/// The section below a chin and behind a skull leans forward by this angle, in degrees, and by up
+/// to `kMaxHeadLean` more or less.
 constexpr double kHeadLean = 30.0;
 constexpr double kMaxHeadLean = 25.0;
 
-/// How far below its joint a head may end, in lengths of the head: its jaw hangs there.
+/// How far below its joint a head may end, in lengths of the head; the jaw hangs below the joint.
 constexpr double kMaxDrop = 0.6;
 constexpr int kDrops = 12;
 
-/// A section of a neck is narrow up to so many times the length of the narrowest.
+/// A section of a neck is narrow if it is at most this many times as long as the narrowest.
 constexpr double kNarrow = 1.15;
 
-/// A head, hand or foot has fewer of the skin's vertices than this share of what is not beyond its
-/// border.
+/// A head, hand or foot has at most this many times as many vertices as the rest of the skin.
 constexpr double kMaxShare = 2.0;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>; // lower index first
@@ -49,7 +48,7 @@ struct Plane {
 /// A loop in which a plane cuts the skin.
 struct Section {
     Plane plane;
-    std::vector<Edge> edges; ///< those that it crosses
+    std::vector<Edge> edges; ///< edges of the mesh that the plane crosses
     double length = std::numeric_limits<double>::infinity();
 };
 
@@ -57,7 +56,7 @@ class SectionFinder {
 public:
     explicit SectionFinder(const WeldedMesh& mesh) : _mesh(mesh), _heights(mesh.vertexCount()) {}
 
-    /// The shortest loop around the plane's point; none where there is no closed one.
+    /// The shortest closed loop around the plane's point, if there is one.
     std::optional<Section> find(const Plane& plane) {
         for (std::size_t v = 0; v < _heights.size(); ++v)
             _heights[v] = plane.height(_mesh.positions[v]);
@@ -83,7 +82,7 @@ public:
         return shortest;
     }
 
-    /// All that hangs together beyond a section; empty where it does not part the skin.
+    /// The connected skin beyond a section; empty if the section does not part the skin.
     std::vector<std::uint32_t> beyond(const Section& section) const {
         std::vector<bool> isReached(_mesh.vertexCount(), false);
         std::vector<std::uint32_t> reached, below;
@@ -98,9 +97,8 @@ public:
         };
         for (std::size_t i = 0; i < reached.size(); ++i) {
             const std::uint32_t v = reached[i];
-            for (std::uint32_t k = _mesh.firstNeighbour[v]; k < _mesh.firstNeighbour[v + 1]; ++k)
-                if (!isReached[_mesh.neighbours[k]] && !isCut(v, _mesh.neighbours[k]))
-                    reach(_mesh.neighbours[k], isReached, reached);
+            for (const std::uint32_t next : _mesh.neighboursOf(v))
+                if (!isReached[next] && !isCut(v, next)) reach(next, isReached, reached);
         }
         for (const std::uint32_t v : below)
             if (isReached[v]) return {};
@@ -116,7 +114,7 @@ private:
         reached.push_back(v);
     }
 
-    /// Takes one loop out of the crossed edges, in its order; empty where it is not closed.
+    /// Removes one loop from the crossed edges and returns it in order; empty if it is not closed.
     static std::vector<Edge> takeLoop(std::map<Edge, std::vector<Edge>>& next) {
         std::vector<Edge> loop;
         Edge edge = next.begin()->first;
@@ -137,8 +135,8 @@ private:
         return isClosed && loop.size() > 2 ? loop : std::vector<Edge>();
     }
 
-    /// Its length where it runs around the plane's point and is the limb's outside, else 0: a
-    /// throat has an inside, too.
+    /// The loop's length if it encloses the plane's point and lies on the limb's outside, else 0
+    /// (as for the inside of a throat).
     double lengthAround(const std::vector<Edge>& loop, const Plane& plane) const {
         double length = 0.0, angle = 0.0, outwards = 0.0;
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -160,8 +158,8 @@ private:
     std::vector<double> _heights; ///< of the vertices above the plane
 };
 
-/// Unit directions around `axis`, evenly over a cone.
-/// \param across a direction of the body's, so that a body that is turned has the same sections
+/// Unit directions spread evenly over a cone around `axis`.
+/// \param across a direction fixed to the body, so that sections do not depend on its orientation
 std::vector<glm::dvec3> leaning(const glm::dvec3& axis, const glm::dvec3& across, double maxLean) {
     const glm::dvec3 aside = across - axis * glm::dot(across, axis);
     const double length = glm::length(aside);
@@ -179,7 +177,7 @@ std::vector<glm::dvec3> leaning(const glm::dvec3& axis, const glm::dvec3& across
     return result;
 }
 
-/// How far skin reaches beyond a joint, near the line that its bone is on.
+/// How far skin reaches beyond a joint along its bone.
 double reachBeyond(const PlannedJoint& joint) {
     double reach = joint.boneLength;
     for (const glm::dvec3& sample : joint.samples)
@@ -187,7 +185,7 @@ double reachBeyond(const PlannedJoint& joint) {
     return reach;
 }
 
-/// The shortest section around a point of a limb, of those with one of these normals.
+/// The shortest section around a point of a limb with one of these normals.
 std::optional<Section> narrowestAt(SectionFinder& finder, const glm::dvec3& point,
                                    const std::vector<glm::dvec3>& normals) {
     std::optional<Section> narrowest;
@@ -199,8 +197,8 @@ std::optional<Section> narrowestAt(SectionFinder& finder, const glm::dvec3& poin
     return narrowest;
 }
 
-/// The border of a head: from where the neck is narrowest it is moved up, as it leans there, for as
-/// long as it stays narrow.
+/// The border of a head: starts where the neck is narrowest and moves up, with the same normal, as
+/// long as the section stays narrow.
 std::optional<Section> headBorder(SectionFinder& finder, const PlannedJoint& joint,
                                   const glm::dvec3& front, const glm::dvec3& across) {
     glm::dvec3 along = planeNormal(joint);
@@ -232,7 +230,7 @@ std::optional<Section> headBorder(SectionFinder& finder, const PlannedJoint& joi
     return border;
 }
 
-/// \param front of the body, of any length; zero where nothing tells
+/// \param front of the body, of any length; zero if unknown
 std::vector<std::uint32_t> beyondJoint(SectionFinder& finder, const WeldedMesh& mesh,
                                        const std::vector<PlannedJoint>& joints,
                                        const PlannedJoint& joint, const glm::dvec3& front) {

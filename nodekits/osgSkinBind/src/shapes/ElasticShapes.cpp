@@ -2,7 +2,7 @@
 #include "shapes/MakeShapes.h"
 
 #include "elastic/SolveElastic.h"
-#include "layers/SkinLayers.h"
+#include "garments/SkinLayers.h"
 #include "ratios/JointRatios.h"
 #include "shapes/LimitSteps.h"
 #include "shapes/ShapeFit.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/MakeShapes.h"
 
-#include "limbs/HermiteRatio.h"
+#include "regions/HermiteRatio.h"
 #include "shapes/ShapeFit.h"
 #include "shapes/ShapedJoint.h"
 

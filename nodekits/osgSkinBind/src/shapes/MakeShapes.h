@@ -2,7 +2,7 @@
 #ifndef OSGSKINBIND_SHAPES_MAKESHAPES_H
 #define OSGSKINBIND_SHAPES_MAKESHAPES_H
 
-#include "layers/SkinLayers.h"
+#include "garments/SkinLayers.h"
 #include "shapes/ShapeFit.h"
 #include "shapes/ShapedJoint.h"
 

@@ -2,9 +2,8 @@
 #include "shapes/ShapedJoint.h"
 
 #include "joints/BodyAxes.h"
-#include "joints/TrunkByShape.h"
-#include "limbs/HermiteRatio.h"
 #include "ratios/JointRatios.h"
+#include "regions/HermiteRatio.h"
 
 #include <osgSkin/GlmTypes>
 

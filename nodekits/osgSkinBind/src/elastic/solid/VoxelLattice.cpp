@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "elastic/solid/VoxelLattice.h"
 
+#include "mesh/DisjointSets.h"
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -23,28 +25,6 @@ constexpr double kHalfDiagonal = 0.8660254037844386;
 
 /// How far from a point the nearest filled sample may be, in samples.
 constexpr int kSearch = 4;
-
-/// Union-find over the elements 0 to count - 1.
-class DisjointSets {
-public:
-    explicit DisjointSets(std::size_t count) : _above(count) {
-        std::iota(_above.begin(), _above.end(), std::size_t(0));
-    }
-
-    /// The representative of the element's set.
-    std::size_t find(std::size_t element) {
-        while (_above[element] != element) {
-            _above[element] = _above[_above[element]]; // path halving
-            element = _above[element];
-        }
-        return element;
-    }
-
-    void join(std::size_t a, std::size_t b) { _above[find(a)] = find(b); }
-
-private:
-    std::vector<std::size_t> _above;
-};
 
 Point cornerOf(const Point& low, double edge, std::size_t corner) {
     return low + edge * Point(double(corner & 1u), double(corner >> 1 & 1u), double(corner >> 2));

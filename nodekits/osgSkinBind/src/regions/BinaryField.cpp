@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "regions/BinaryField.h"
+
+#include "regions/HermiteRatio.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace osgSkin {
+namespace {
+
+/// The least length of a limb, in radii: upper arms have three to four, necks less than two.
+constexpr double kLimbLength = 2.2;
+
+double limbRadius(const BinaryField& binary, std::size_t joint) {
+    const WeldedMesh& mesh = binary.mesh;
+    const PlannedJoint& bone = binary.joints[joint];
+    const std::vector<double> field = binary.divided(joint);
+    std::vector<double> radii; // one for each edge across the division
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        if (field[v] < 0.5) continue;
+        for (const std::uint32_t next : mesh.neighboursOf(v)) {
+            if (field[next] >= 0.5) continue;
+            const glm::dvec3 d = 0.5 * (mesh.positions[v] + mesh.positions[next]) - bone.centre;
+            radii.push_back(glm::length(d - bone.boneAxis * glm::dot(d, bone.boneAxis)));
+        }
+    }
+    if (radii.empty()) return 0.0;
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return *middle;
+}
+
+} // namespace
+
+std::vector<double> BinaryField::subtree(std::size_t joint) const {
+    const std::vector<bool> inside = subtreeOf(joints, joint);
+    std::vector<double> field(mesh.vertexCount());
+    for (std::size_t v = 0; v < field.size(); ++v) field[v] = inside[regions[v]] ? 1.0 : 0.0;
+    return field;
+}
+
+std::vector<double> BinaryField::divided(std::size_t joint, double shift) const {
+    const PlannedJoint& planned = joints[joint];
+    std::vector<double> field = subtree(joint);
+    if (planned.topmost || !planned.beyond.empty() ||
+        (planned.rigid >= 0 && planned.lengthAbove < planned.boneLength))
+        return field;
+    const glm::dvec3 normal = planeNormal(planned);
+    std::vector<bool> isDivided(joints.size(), false);
+    isDivided[joint] = true;
+    if (planned.isSpine())
+        for (std::size_t j = 0; j < joints.size(); ++j)
+            isDivided[j] = joints[j].isSpine() || j == 0;
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        if (!isDivided[regions[v]] || (!isWhole.empty() && isWhole[v])) continue;
+        const double along = glm::dot(mesh.positions[v] - planned.centre, normal);
+        field[v] = along > shift ? 1.0 : 0.0;
+    }
+    return field;
+}
+
+std::vector<double> BinaryField::bounded(std::size_t joint, double upper, double lower) const {
+    std::vector<double> field = subtree(joint);
+    if (joints[joint].topmost) return field;
+    const glm::dvec3 normal = planeNormal(joints[joint]);
+    const double length = std::max(joints[joint].boneLength, 1e-9 * mesh.size);
+    const std::size_t above = regionAbove(joints, joint);
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        if ((regions[v] != joint && regions[v] != above) || (!isWhole.empty() && isWhole[v]))
+            continue;
+        const double along = glm::dot(mesh.positions[v] - joints[joint].centre, normal) / length;
+        field[v] = hermiteRatio((along - upper) / (lower - upper)); // eq. 5
+    }
+    return field;
+}
+
+std::vector<double> limbRadii(const BinaryField& binary) {
+    std::vector<double> radii(binary.joints.size(), 0.0);
+    for (std::size_t j = 1; j < radii.size(); ++j)
+        if (binary.joints[j].holdsRegion) radii[j] = limbRadius(binary, j);
+    return radii;
+}
+
+bool isLimb(const PlannedJoint& joint, double radius) {
+    return !joint.trunk && !joint.extremity && joint.rigid < 0 && joint.holdsRegion &&
+           joint.boneLength > kLimbLength * radius;
+}
+
+} // namespace osgSkin
