@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Which parts of a skin are drawn out, on a ring: closed, cut, and alone.
-#include "ratios/EvenStretch.h"
 #include "mesh/HeatGraph.h"
 #include "mesh/WeldedMesh.h"
+#include "ratios/EvenStretch.h"
 
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
