@@ -6,7 +6,7 @@
 
 #include <osgSkinBind/Bind>
 
-#include <elastic/ElasticSamples.h>
+#include <elastic/SolveElastic.h>
 #include <elastic/SolveElastic.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

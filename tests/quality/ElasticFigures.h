@@ -4,7 +4,7 @@
 
 #include "Subject.h"
 
-#include <elastic/joint/ElasticJoint.h>
+#include <elastic/SolveElastic.h>
 
 #include <string>
 #include <vector>

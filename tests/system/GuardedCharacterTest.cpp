@@ -164,7 +164,7 @@ TEST(GuardedCharacter, LandmarksAreInTheBody) {
                                 "\"mesh\": \"" OSGSKIN_DATA "/thrower.obj\", \"skeleton\": "
                                 "{\"fit\": true, \"landmarks\": {\"LeftHand\": [" +
                                     std::string(place) + ", 0, 0]}}")),
-                   "landmark LeftHand: expected a place in the body");
+                   "landmark LeftHand: expected a point in the body");
 }
 
 TEST(GuardedCharacter, MotionsOfWideRigsAreAsLargeAsTheirFiles) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <elastic/energy/CellEnergy.h>
+#include "elastic/solid/CellEnergy.h"
 
 #include <gtest/gtest.h>
 

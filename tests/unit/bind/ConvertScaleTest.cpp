@@ -162,8 +162,8 @@ TEST(ConvertScale, ThatIsUnevenIsNoted) {
     const ConvertReport report = convertRigs(*scene.root);
     EXPECT_EQ(report.skins.size(), 1u);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0], "skeleton \"figure\": bone \"bone1\" as it stands and 1 more scaled "
-                               "non-uniformly, mirrored or to nothing, which skins do not follow");
+    EXPECT_EQ(report.notes[0], "skeleton \"figure\": bone \"bone1\" in the scene and 1 more scaled "
+                               "non-uniformly, mirrored or to zero, which skins do not follow");
 }
 
 TEST(ConvertScale, ThatAClipMakesUnevenIsNoted) {

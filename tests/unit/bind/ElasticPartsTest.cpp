@@ -2,17 +2,13 @@
 // The elastic solver's parts, each on its own.
 #include "ElasticTube.h"
 
-#include <elastic/ElasticSamples.h>
-#include <elastic/energy/BoneCores.h>
-#include <elastic/energy/Fascia.h>
-#include <elastic/energy/FoldSkin.h>
-#include <elastic/energy/OuterSkin.h>
-#include <elastic/lattice/DeformedCells.h>
-#include <elastic/lattice/Unsolvable.h>
-#include <elastic/skin/WindingTree.h>
-#include <elastic/solve/Minimise.h>
-#include <elastic/solve/Preconditioner.h>
-#include <elastic/solve/SampleTree.h>
+#include "elastic/JointSolid.h"
+#include "elastic/Preconditioner.h"
+#include "elastic/SolveElastic.h"
+#include "elastic/solid/Energies.h"
+#include "elastic/solid/FoldContact.h"
+#include "elastic/solid/RestSkin.h"
+#include "elastic/solid/VoxelLattice.h"
 
 #include <gtest/gtest.h>
 

@@ -95,7 +95,7 @@ TEST(ElasticSkin, SaysWhyAJointIsNotSolved) {
     cases[2].reason = "its limbs end within reach";
     cases[3].name = "ratios of another skin";
     cases[3].joint.ratios.pop_back();
-    cases[3].reason = "its ratios are not one for each vertex";
+    cases[3].reason = "it needs one ratio for each vertex";
     for (const Case& each : cases) {
         double share = 0.0;
         const ElasticShapes shapes = solveElasticJoint(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <elastic/SolveElastic.h>
+#include "elastic/SolveElastic.h"
 
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>

@@ -173,7 +173,7 @@ TEST(FitOptionsError, WantsDirections) {
     options.facing = glm::dvec3(0.0);
     EXPECT_NE(complaint(mesh, options).find("expected a facing"), std::string::npos);
     options.facing = glm::dvec3(1.0, 0.0, 0.0); // its left hand's side
-    EXPECT_NE(complaint(mesh, options).find("expected a facing across"), std::string::npos);
+    EXPECT_NE(complaint(mesh, options).find("must be perpendicular"), std::string::npos);
     options.facing = glm::dvec3(0.0, 0.0, -1.0);
     options.landmarks["LeftHand"] = {0.62, 1.07, 0.0115};
     EXPECT_NE(complaint(mesh, options).find("disagree"), std::string::npos);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/place/CheckProportions.h"
-#include "fit/place/Proportions.h"
+#include "fit/Proportions.h"
 
 #include <gtest/gtest.h>
 

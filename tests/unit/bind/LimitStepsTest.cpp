@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes that move no vertex much faster than the joint turns.
-#include "shapes/steps/LimitSteps.h"
+#include "shapes/LimitSteps.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

@@ -2,8 +2,7 @@
 // A real body's elbow, bent to 129 and 139 degrees of total flexion.
 #include "SharedBody.h"
 
-#include <elastic/ElasticSamples.h>
-#include <elastic/SolveElastic.h>
+#include "elastic/SolveElastic.h"
 #include <osgSkinBind/Bind>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shapes/ShapeFit.h"
-#include "shapes/PackShapes.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

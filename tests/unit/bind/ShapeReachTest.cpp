@@ -2,9 +2,9 @@
 // How far from joints skin is shaped: less far where something else is near.
 #include "SharedBody.h"
 
+#include "shapes/ShapedJoint.h"
 #include <joints/JointPlan.h>
 #include <osgSkinBind/Bind>
-#include <shapes/ShapedJoint.h>
 
 #include <gtest/gtest.h>
 

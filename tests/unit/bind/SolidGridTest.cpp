@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Shapes.h"
 
-#include "fit/solid/SolidGrid.h"
+#include "fit/body/SolidGrid.h"
 
 #include <gtest/gtest.h>
 

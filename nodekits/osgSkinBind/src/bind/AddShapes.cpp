@@ -3,8 +3,8 @@
 
 #include "muscles/Muscles.h"
 #include "ratios/JointRatios.h"
-#include "shapes/FastShapes.h"
-#include "shapes/MergeCorrectives.h"
+#include "shapes/MakeShapes.h"
+#include "shapes/ShapeFit.h"
 
 namespace osgSkin {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bind/AddShapes.h"
-#include "elastic/MakeElasticShapes.h"
+#include "shapes/MakeShapes.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/Version>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "muscles/Muscles.h"
 
-#include "shapes/BendRange.h"
-#include "shapes/MainAxis.h"
+#include "shapes/ShapedJoint.h"
 
 #include <osgSkin/Error>
 

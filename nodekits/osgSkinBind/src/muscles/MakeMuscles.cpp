@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "muscles/Muscles.h"
-#include "shapes/PackShapes.h"
+#include "shapes/ShapeFit.h"
 
 #include <Eigen/Cholesky>
 #include <glm/geometric.hpp>

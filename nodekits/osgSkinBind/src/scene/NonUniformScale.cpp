@@ -15,13 +15,13 @@
 namespace osgSkin {
 namespace {
 
-constexpr double kUniform = 0.05; ///< of the scale along one axis against that along another
+constexpr double kUniform = 0.05; ///< largest relative difference of the scale along two axes
 
 osg::Vec3d axis(const osg::Matrixd& m, int row) {
     return {m(row, 0), m(row, 1), m(row, 2)};
 }
 
-/// Whether a matrix makes nothing but similar figures, mirrored ones among them.
+/// Whether a matrix scales uniformly; it may mirror.
 bool isSimilarity(const osg::Matrixd& m) {
     const double size = axis(m, 0).length2();
     for (int i = 0; i < 3; ++i) {
@@ -39,17 +39,17 @@ bool isUniform(const osg::Matrixd& m) {
     return isSimilarity(m) && !isMirrored(m);
 }
 
-/// The bones with their matrices in skeleton space, as their update callbacks will set them.
+/// The bones and their matrices as their update callbacks will set them.
 class BoneMatrices : public osg::NodeVisitor {
 public:
     BoneMatrices() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
 
     struct Entry {
         osgAnimation::Bone* bone;
-        osg::Matrixd matrix;
-        osg::Matrixd local;
-        osg::Matrixd above;     ///< in skeleton space, what `local` is seen from
-        osg::Matrixd bindAbove; ///< in skeleton space, of the bone above
+        osg::Matrixd matrix;    ///< to skeleton space
+        osg::Matrixd local;     ///< to the parent's space
+        osg::Matrixd above;     ///< from the parent's space to skeleton space
+        osg::Matrixd bindAbove; ///< the bind matrix of the bone above, to skeleton space
     };
     std::vector<Entry> bones;
 
@@ -85,8 +85,8 @@ private:
     osg::Matrixd _matrix, _bind;
 };
 
-/// Whether the keys of a channel for scale, or for the whole matrix, scale non-uniformly against
-/// `bind`, the bone's matrix in the bind pose, seen from the bone above.
+/// Whether keys of a scale or matrix channel scale non-uniformly relative to `bind`, the bone's
+/// matrix in the bind pose, relative to the bone above.
 bool scalesNonUniformly(osgAnimation::Channel& channel, const osg::Matrixd& bind) {
     if (auto* matrices = dynamic_cast<osgAnimation::MatrixLinearChannel*>(&channel)) {
         const auto* keys = matrices->getOrCreateSampler()->getKeyframeContainerTyped();
@@ -111,8 +111,7 @@ bool scalesNonUniformly(osgAnimation::Channel& channel, const osg::Matrixd& bind
            any(dynamic_cast<osgAnimation::Vec3StepChannel*>(&channel));
 }
 
-/// Whether the keys of a channel turn a bone within the uneven scale of what is above it, which
-/// shears it.
+/// Whether keys of a channel rotate a bone below a non-uniform scale, which shears the bone.
 bool shears(osgAnimation::Channel& channel, const BoneMatrices::Entry& entry) {
     auto* turns = dynamic_cast<osgAnimation::QuatSphericalLinearChannel*>(&channel);
     if (turns == nullptr || isSimilarity(entry.above)) return false;
@@ -156,7 +155,7 @@ std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
         if (clip != guilty.end())
             result.push_back("bone \"" + name + "\" in the clip \"" + clip->second + "\"");
         else if (!isUniform(entry.bone->getInvBindMatrixInSkeletonSpace() * entry.matrix))
-            result.push_back("bone \"" + name + "\" as it stands");
+            result.push_back("bone \"" + name + "\" in the scene");
     }
     return result;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kRidge = 1e-3;
 
-/// Shapes that are smaller than this share of the mean one's size count no more than it.
+/// Shapes smaller than this share of the mean shape's size get no more weight.
 constexpr double kFloor = 0.05;
 
 /// phi_i at each sample: samples x functions.
@@ -28,7 +29,7 @@ Eigen::MatrixXd functionsAt(const JointShapes& shapes) {
     return phi;
 }
 
-/// Samples x coordinates of all vertices.
+/// One row a sample: the coordinates of all vertices.
 Eigen::MatrixXd offsetsOf(const JointShapes& shapes) {
     Eigen::MatrixXd offsets(Eigen::Index(shapes.samples.size()),
                             Eigen::Index(3 * shapes.vertices.size()));
@@ -39,8 +40,7 @@ Eigen::MatrixXd offsetsOf(const JointShapes& shapes) {
     return offsets;
 }
 
-/// The functions' coefficients, a column for each vertex and axis: least squares with a little
-/// damping.
+/// The functions' coefficients by damped least squares, a column for each vertex and axis.
 Eigen::MatrixXd solve(const JointShapes& shapes, const Eigen::MatrixXd& phi,
                       const Eigen::MatrixXd& offsets) {
     const auto damped = [](Eigen::MatrixXd normal) {
@@ -75,6 +75,55 @@ double longestIn(const Eigen::VectorXd& mode) {
     return longest;
 }
 
+/// The largest absolute weight of each mode at any bend.
+std::vector<double> largestWeights(const CorrectiveJoint& joint) {
+    constexpr int kGrid = 24;
+    std::vector<double> largest(joint.modes, 0.0);
+    CorrectiveJoint::Functions phi;
+    for (int i = 0; i <= kGrid; ++i)
+        for (int j = 0; j <= kGrid; ++j) {
+            const glm::dvec2 xy = joint.low + (joint.high - joint.low) *
+                                                  glm::dvec2(double(i), double(j)) / double(kGrid);
+            joint.evaluate(joint.clamped(xy), phi);
+            for (std::size_t k = 0; k < joint.modes; ++k) {
+                double weight = 0.0;
+                for (std::size_t f = 0; f < joint.functionCount(); ++f)
+                    weight += joint.coefficients[k * joint.functionCount() + f] * phi[f];
+                largest[k] = std::max(largest[k], std::abs(weight));
+            }
+        }
+    return largest;
+}
+
+/// The number of modes that a vertex needs: the others move it negligibly.
+std::size_t modesNeeded(const glm::dvec3* vectors, const std::vector<double>& largest,
+                        double tolerance) {
+    double rest = 0.0;
+    for (std::size_t modes = largest.size(); modes > 0; --modes) {
+        rest += largest[modes - 1] * glm::length(vectors[modes - 1]);
+        if (rest > tolerance) return modes;
+    }
+    return 0;
+}
+
+struct VertexEntry {
+    std::uint32_t joint; ///< of the correctives'
+    std::size_t first;   ///< in the joint's vectors
+    std::size_t modes;   ///< that the vertex needs
+};
+
+/// Appends a vertex' entries of `from`, whose joints follow `firstJoint` others.
+void append(const Correctives& from, std::size_t vertex, std::size_t firstJoint, Correctives& to) {
+    for (std::uint32_t i = from.firstEntry[vertex]; i < from.firstEntry[vertex + 1]; ++i) {
+        const Correctives::Entry& entry = from.entries[i];
+        to.entries.push_back({static_cast<std::uint32_t>(firstJoint + entry.joint),
+                              static_cast<std::uint32_t>(to.shares.size())});
+        const auto first = from.shares.begin() + entry.firstShare;
+        to.shares.insert(to.shares.end(), first,
+                         first + static_cast<std::ptrdiff_t>(from.sharesOf(entry.joint)));
+    }
+}
+
 } // namespace
 
 FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
@@ -88,7 +137,7 @@ FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
 
     // The fitted shapes are a matrix of low rank; its right singular vectors are the modes.
     const Eigen::MatrixXd fitted = phi * fit;
-    // Slight bends have small shapes but are seen most often: they count more than their size.
+    // Slight bends have small shapes but are seen most often, so they get more weight.
     Eigen::MatrixXd scaled = fitted;
     const double floor =
         kFloor * fitted.norm() / std::sqrt(double(std::max<Eigen::Index>(1, fitted.rows())));
@@ -126,6 +175,67 @@ FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
                 result.vectors[v * vectors.size() + k][axis] =
                     vectors[k][Eigen::Index(3 * v) + axis];
     result.residual = rootMeanSquare(offsets - kept);
+    return result;
+}
+
+Correctives packShapes(const std::vector<FittedShapes>& joints,
+                       const std::vector<std::uint32_t>& weldedOf) {
+    Correctives result;
+    std::size_t welded = 0;
+    for (const std::uint32_t w : weldedOf) welded = std::max<std::size_t>(welded, w + 1);
+    std::vector<std::vector<VertexEntry>> entries(welded);
+    std::vector<const FittedShapes*> kept;
+    for (const FittedShapes& joint : joints) {
+        const std::size_t modes = joint.functions.modes;
+        if (modes == 0 || kept.size() == Correctives::kMostJoints) continue;
+        const std::vector<double> largest = largestWeights(joint.functions);
+        for (std::size_t v = 0; v < joint.vertices.size(); ++v) {
+            const std::size_t needed =
+                modesNeeded(&joint.vectors[v * modes], largest, joint.tolerance);
+            if (needed > 0)
+                entries[joint.vertices[v]].push_back(
+                    {static_cast<std::uint32_t>(kept.size()), v * modes, needed});
+        }
+        kept.push_back(&joint);
+        result.joints.push_back(joint.functions);
+    }
+    if (kept.empty()) return {};
+    result.firstEntry.push_back(0);
+    for (const std::uint32_t w : weldedOf) {
+        for (const VertexEntry& entry : entries[w]) {
+            result.entries.push_back(
+                {entry.joint, static_cast<std::uint32_t>(result.shares.size())});
+            const glm::dvec3* vector = &kept[entry.joint]->vectors[entry.first];
+            for (std::size_t k = 0; k < entry.modes; ++k)
+                for (int axis = 0; axis < 3; ++axis)
+                    result.shares.push_back(static_cast<std::int16_t>(
+                        std::lrint(Correctives::kUnit * vector[k][axis])));
+            result.shares.resize(result.entries.back().firstShare + result.sharesOf(entry.joint),
+                                 0);
+        }
+        result.firstEntry.push_back(static_cast<std::uint32_t>(result.entries.size()));
+    }
+    return result.entries.empty() ? Correctives{} : result;
+}
+
+Correctives mergeCorrectives(const Correctives& a, const Correctives& b) {
+    if (a.empty()) return b;
+    if (b.empty()) return a;
+    Correctives result;
+    result.joints = a.joints;
+    result.inputs = a.inputs;
+    for (CorrectiveJoint joint : b.joints) {
+        if (joint.basis == CorrectiveJoint::Basis::Input)
+            joint.joint += static_cast<std::uint32_t>(a.inputs.size());
+        result.joints.push_back(joint);
+    }
+    result.inputs.insert(result.inputs.end(), b.inputs.begin(), b.inputs.end());
+    result.firstEntry.push_back(0);
+    for (std::size_t v = 0; v + 1 < a.firstEntry.size(); ++v) {
+        append(a, v, 0, result);
+        append(b, v, a.joints.size(), result);
+        result.firstEntry.push_back(static_cast<std::uint32_t>(result.entries.size()));
+    }
     return result;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_SHAPEFIT_H
-#define OSGSKINBIND_SHAPEFIT_H
+#ifndef OSGSKINBIND_SHAPES_SHAPEFIT_H
+#define OSGSKINBIND_SHAPES_SHAPEFIT_H
 
 #include <osgSkin/Correctives>
 
@@ -10,18 +10,16 @@
 
 namespace osgSkin {
 
-/// What rest vertices are to be moved by so that one joint's bends give the shapes that somebody
-/// wants, at some bends: what a maker of shapes hands in, whichever it is.
+/// Wanted offsets of rest vertices at samples of one joint's bends: what fitShapes() fits.
 struct JointShapes {
     CorrectiveJoint functions;           ///< all but modes and coefficients
     std::vector<std::uint32_t> vertices; ///< welded ones
     std::vector<glm::dvec2> samples;     ///< (x, y) of each bend
-    /// For each sample, for each vertex; rest space. 0 for every vertex at rest, which is no
-    /// sample. For a target y and a vertex x that the bend turns by q about c:
-    /// conjugate(q) (y - c) + c - x.
+    /// For each sample and vertex, rest space. The rest pose, at which they are 0, is no sample.
+    /// For a vertex x that the bend rotates by q about c and its target y: conjugate(q) (y - c) + c
+    /// - x.
     std::vector<std::vector<glm::dvec3>> offsets;
-    /// What it counts that a vertex meets a sample, above 0, laid out as `offsets`; or nothing: all
-    /// count alike.
+    /// Weights above 0 of the least squares, laid out as `offsets`; empty: all are 1.
     std::vector<std::vector<double>> weights;
 };
 
@@ -30,22 +28,33 @@ struct FittedShapes {
     CorrectiveJoint functions; ///< complete
     std::vector<std::uint32_t> vertices;
     std::vector<glm::dvec3> vectors; ///< `modes` of each vertex, side by side; at most 1 long
-    double tolerance = 0.0;          ///< what makes no difference
-    double residual = 0.0; ///< RMS over samples and vertices of what is not met; rest units
+    double tolerance = 0.0;          ///< negligible displacement
+    double residual = 0.0;           ///< RMS error over samples and vertices, rest units
 };
 
-/// How many modes are kept: no more than are worth their bytes.
+/// Limits the number of modes.
 struct ModeLimits {
     std::size_t most = 0;
-    double tolerance = 0.0; ///< modes that move no vertex by more are left out; above 0
-    /// Where the modes that are there leave no more of the fit, RMS over samples and vertices, no
-    /// more follow: so much in rest units, and so much of what the fit itself leaves of the shapes.
+    double tolerance = 0.0; ///< drops modes that move no vertex by more; above 0
+    /// No mode is added once the modes meet the least-squares fit within the larger of these, RMS
+    /// over samples and vertices: in rest units, and as a share of the fit's own error.
     double enough = 0.0, enoughOfResidual = 0.0;
 };
 
-/// Fits by least squares with a little damping, and keeps the modes that matter most (singular
-/// value decomposition; EigenSkin, Kry et al. 2002).
+/// Fits by damped least squares and keeps the modes that matter most (singular value decomposition;
+/// EigenSkin, Kry et al. 2002).
 FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits);
+
+/// Packs the joints' shapes into a binding's correctives. Drops joints without modes, and vertices
+/// that no bend moves by more than the shapes' tolerance. A vertex' last modes are 0 if together
+/// they move it by no more than that.
+/// \param weldedOf the welded vertex of each vertex that is bound
+Correctives packShapes(const std::vector<FittedShapes>& joints,
+                       const std::vector<std::uint32_t>& weldedOf);
+
+/// The sum of two correctives of the same vertices.
+/// \pre neither has normal correctives
+Correctives mergeCorrectives(const Correctives& a, const Correctives& b);
 
 } // namespace osgSkin
 

@@ -17,17 +17,17 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-/// The limbs' least length, as a fraction of the height, and how much longer they are than a third
-/// one: arms are about 0.4, ears, noses and hair far shorter.
+/// The least length of an arm, as a fraction of the height, and the greatest of a third limb,
+/// relative to the second: arms have about 0.4; ears, noses and hair are far shorter.
 constexpr double kShortestArm = 0.15;
 constexpr double kThirdLimb = 0.6;
 
-/// No crotch is lower, a person's first, then figures' with short legs or in skirts; no foot ends
-/// higher.
+/// The crotch is above the first of these heights for people, above the others for figures with
+/// short legs or in skirts. Feet end below kFootZone.
 constexpr double kLegZones[] = {0.3, 0.2, 0.13};
 constexpr double kFootZone = 0.1;
 
-/// What leaves the trunk this far above the arms is hair, this near the legs a tail.
+/// Branches this far above the arms are hair, those this near to the legs are tails.
 constexpr double kAboveArms = 0.08;
 constexpr double kAtLegs = 0.08;
 
@@ -42,7 +42,7 @@ public:
     BodyBranches find(bool legsGiven, bool armsGiven) {
         const CurveSkeleton::Paths toHead = _skeleton.pathsTo(highest());
         Indices feet;
-        std::size_t found = 0; // for persons
+        std::size_t found = 0; // with a person's zone
         for (const double zone : kLegZones) {
             feet = footEnds(toHead, zone);
             if (zone == kLegZones[0]) found = feet.size();
@@ -57,7 +57,7 @@ public:
             feet.assign(2, lowest());
         }
         std::array<Indices, 2> legs{toHead.pathFrom(feet[0]), toHead.pathFrom(feet[1])};
-        Indices trunk; // what both legs' paths to the head share
+        Indices trunk; // the common part of both legs' paths to the head
         while (!legs[0].empty() && !legs[1].empty() && legs[0].back() == legs[1].back()) {
             trunk.push_back(legs[0].back());
             legs[0].pop_back();
@@ -98,8 +98,8 @@ private:
         return path;
     }
 
-    /// In each connected piece of the curves below the leg zone's top: the point farthest from the
-    /// head, if it is near the floor.
+    /// For each connected piece of the curves below the zone's top, the point farthest from the
+    /// head; only for pieces that reach down to the floor.
     Indices footEnds(const CurveSkeleton::Paths& toHead, double zone) const {
         std::vector<bool> known(_skeleton.points.size(), false);
         Indices ends;
@@ -174,8 +174,8 @@ private:
         return std::array<Indices, 2>{branches[0].second, branches[1].second};
     }
 
-    /// Leaves hair and ears out that hang from a head: of three limbs or more, what leaves the
-    /// trunk far above the two that leave it alike and are longest.
+    /// Drops hanging hair and ears. Among three limbs or more it finds the longest two that leave
+    /// the trunk at about the same height, and removes those that leave it far above.
     template <typename Branches, typename Height>
     static void preferPair(Branches& branches, const Height& heightOf) {
         for (std::size_t second = 1; second < branches.size() && branches.size() > 2; ++second)
@@ -201,6 +201,56 @@ private:
     const CurveSkeleton& _skeleton;
 };
 
+/// Where a path first crosses a plane; a bent limb may cross it again farther out.
+std::optional<glm::dvec3> crossing(const BodyBranches::Path& path, const glm::dvec3& point,
+                                   const glm::dvec3& normal) {
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        const double from = glm::dot(path[i - 1] - point, normal);
+        const double to = glm::dot(path[i] - point, normal);
+        if ((from > 0.0) != (to > 0.0)) return glm::mix(path[i - 1], path[i], from / (from - to));
+    }
+    return std::nullopt;
+}
+
+glm::dvec3 closestMiddle(const Section& a, const Section& b) {
+    double nearest = std::numeric_limits<double>::infinity();
+    glm::dvec3 middle = a.centre;
+    for (const glm::dvec3& p : a.points)
+        for (const glm::dvec3& q : b.points)
+            if (glm::distance(p, q) < nearest) {
+                nearest = glm::distance(p, q);
+                middle = 0.5 * (p + q);
+            }
+    return middle;
+}
+
+/// Sections across a path between two fractions of its length, without those that cut the trunk.
+std::vector<Section> acrossPath(const BodySurface& surface, const BodyBranches::Path& path,
+                                double from, double to) {
+    constexpr int kSections = 60;
+    constexpr double kTangent = 0.07; // fraction of the path that gives its direction
+    std::vector<Section> sections;
+    std::size_t middle = 0;
+    for (int i = 0; i <= kSections; ++i) {
+        const double fraction = from + (to - from) * i / kSections;
+        const glm::dvec3 tangent = pathPoint(path, std::min(1.0, fraction + kTangent)) -
+                                   pathPoint(path, std::max(0.0, fraction - kTangent));
+        if (!(glm::length(tangent) > 0.0)) continue;
+        auto section = surface.sectionAt(pathPoint(path, fraction), glm::normalize(tangent), 0.02);
+        if (!section) continue;
+        if (2 * i <= kSections) middle = sections.size();
+        sections.push_back(std::move(*section));
+    }
+    if (sections.empty()) return sections;
+    // Go inwards from the middle of the limb until a section is suddenly much larger.
+    std::size_t first = middle;
+    while (first > 0 && sections[first - 1].area < 1.35 * sections[first].area &&
+           sections[first - 1].area < 4.0 * sections[middle].area)
+        --first;
+    sections.erase(sections.begin(), sections.begin() + static_cast<std::ptrdiff_t>(first));
+    return sections;
+}
+
 } // namespace
 
 BodyBranches BodyBranches::find(const CurveSkeleton& skeleton, bool legsGiven, bool armsGiven) {
@@ -214,7 +264,7 @@ void BodyBranches::transform(const glm::dmat3& rotation, const glm::dvec3& origi
 }
 
 void BodyBranches::sortSides() {
-    // Hips and shoulders: hands and feet may cross.
+    // Compares hips and shoulders, as hands and feet may cross.
     if (!legs[0].empty() && pathPoint(legs[0], 0.4).x < pathPoint(legs[1], 0.4).x)
         std::swap(legs[0], legs[1]);
     if (!arms[0].empty() && pathPoint(arms[0], 0.3).x < pathPoint(arms[1], 0.3).x)
@@ -235,6 +285,49 @@ glm::dvec3 pathPoint(const BodyBranches::Path& path, double fraction) {
         left -= step;
     }
     return path.back();
+}
+
+std::vector<Section> limbSections(const BodySurface& surface, const BodyBranches::Path& path) {
+    constexpr double kLast = 0.88; // fingers have sections of their own
+    const std::vector<Section> sections = acrossPath(surface, path, 0.1, kLast);
+    // Medial curves waver, so repeat along the centres of these sections.
+    BodyBranches::Path middle;
+    for (const Section& section : sections) middle.push_back(section.centre);
+    middle.push_back(path.back());
+    return acrossPath(surface, middle, 0.0, kLast);
+}
+
+std::optional<Fork> findFork(const BodySurface& surface, const BodyBranches::Path& a,
+                             const BodyBranches::Path& b, const glm::dvec3& outside,
+                             const glm::dvec3& direction, double reach) {
+    constexpr double kStep = 0.004, kNear = 0.03;
+    std::optional<Fork> fork;
+    std::optional<glm::dvec3> inA, inB;
+    for (double moved = 0.0; moved < reach; moved += kStep) {
+        const glm::dvec3 point = outside - moved * direction;
+        if (!fork) {
+            inA = crossing(a, point, direction);
+            inB = crossing(b, point, direction);
+            if (!inA || !inB) continue;
+        } else { // medial curves join too early or too late, so follow the sections
+            *inA -= kStep * direction;
+            *inB -= kStep * direction;
+        }
+        const auto sectionA = surface.sectionAt(*inA, direction, kNear);
+        const auto sectionB = surface.sectionAt(*inB, direction, kNear);
+        if (!sectionA || !sectionB) {
+            if (fork) return std::nullopt;
+            continue;
+        }
+        if (glm::distance(sectionA->centre, sectionB->centre) < 1e-9) {
+            if (fork) return fork;
+            continue;
+        }
+        inA = sectionA->centre;
+        inB = sectionB->centre;
+        fork = Fork{closestMiddle(*sectionA, *sectionB), *sectionA, *sectionB};
+    }
+    return std::nullopt;
 }
 
 } // namespace osgSkin

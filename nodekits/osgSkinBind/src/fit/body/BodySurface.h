@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_FIT_BODYSURFACE_H
-#define OSGSKINBIND_FIT_BODYSURFACE_H
+#ifndef OSGSKINBIND_FIT_BODY_BODYSURFACE_H
+#define OSGSKINBIND_FIT_BODY_BODYSURFACE_H
 
-#include "fit/surface/CurveSkeleton.h"
-#include "fit/surface/Section.h"
+#include "fit/body/CurveSkeleton.h"
 #include "mesh/WeldedMesh.h"
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 #include <functional>
 #include <memory>
@@ -14,22 +14,44 @@
 #include <string>
 #include <vector>
 
+namespace osgSkin {
+
+/// One closed curve in which a plane cuts the skin.
+struct Section {
+    std::vector<glm::dvec3> points; ///< the curve's corners; the first is not repeated
+    glm::dvec3 centre{0.0};         ///< centroid of the enclosed area
+    double area = 0.0;
+    double girth = 0.0; ///< length of the curve
+
+    /// \param curve the corners; the first is not repeated
+    /// \param normal of the plane, unit
+    Section(std::vector<glm::dvec3> curve, const glm::dvec3& normal);
+
+    /// Least and greatest coordinate of the curve along an axis: 0 x, 1 y, 2 z.
+    double low(int axis) const;
+    double high(int axis) const;
+
+    /// Distance from a point of the plane to the curve; negative inside.
+    double distance(const glm::dvec3& point, const glm::dvec3& normal) const;
+};
+
+} // namespace osgSkin
+
 namespace osgSkin::fit {
+
 class SolidGrid;
 }
 
 namespace osgSkin {
 
-/// One closed, oriented surface of the body: what skeleton fitting measures.
-///
-/// Of the largest shell, without eyes, teeth and clothes, its holes (a mouth, a cut neck) closed;
-/// or around all shells together.
+/// The closed, oriented surface that is measured: the body's largest shell, without eyes, teeth and
+/// clothes, with its holes (a mouth, a cut neck) closed; or a surface around all shells together.
 class BodySurface {
 public:
     /// \param mesh the body, rest space
-    /// \param filled what all its shells fill; null for the largest shell's surface
-    /// \param notes gets one line for each thing that was left out or closed
-    /// \throw Error where no closed surface can be made
+    /// \param filled the volume inside all shells; null: the largest shell is measured
+    /// \param notes gets lines about shells left out and holes closed
+    /// \throw Error if no closed surface can be made
     BodySurface(const WeldedMesh& mesh, const fit::SolidGrid* filled,
                 std::vector<std::string>& notes);
     ~BodySurface();
@@ -39,7 +61,7 @@ public:
 
     const std::vector<glm::dvec3>& points() const;
 
-    /// The closed curves in which the plane through `point` cuts the skin.
+    /// The closed curves in which a plane cuts the skin.
     std::vector<Section> slice(const glm::dvec3& point, const glm::dvec3& normal) const;
 
     /// The section around `point`, or the nearest one within `reach`.
@@ -49,7 +71,7 @@ public:
     bool isInside(const glm::dvec3& point) const;
     glm::dvec3 nearest(const glm::dvec3& point) const;
 
-    /// Curve skeleton by mean curvature flow, of a simplified copy where the surface is fine.
+    /// Curve skeleton by mean curvature flow, of a simplified copy if the surface is fine.
     CurveSkeleton curveSkeleton(const std::function<void(double)>& tell) const;
 
 private:

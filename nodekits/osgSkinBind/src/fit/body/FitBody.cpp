@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/body/FitBody.h"
 
-#include "fit/body/FacingClues.h"
+#include "fit/body/BodyBranches.h"
+#include "fit/body/BodySurface.h"
 
 #include <osgSkin/Error>
 
@@ -10,18 +11,97 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace osgSkin {
 namespace {
 
-/// Clues that add up to less than this say nothing.
+/// How far forward (+z) a standing body seems to face, in heights; negative if it faces -z.
+struct FacingClues {
+    double feet = 0.0;   ///< toes ahead of the ankles
+    double head = 0.0;   ///< face overhanging the neck
+    double elbows = 0.0; ///< elbows behind the line from shoulder to hand
+    double sum() const { return feet + head + elbows; }
+    std::string strongest() const {
+        const double most = std::max({std::abs(feet), std::abs(head), std::abs(elbows)});
+        if (most == std::abs(feet)) return "from the feet";
+        return most == std::abs(head) ? "from the face" : "from the elbows";
+    }
+};
+
+/// How far the middle of the feet is ahead of the shins.
+double feetAhead(const BodySurface& surface, const BodyBranches& branches) {
+    double result = 0.0;
+    for (const BodyBranches::Path& leg : branches.legs) {
+        if (leg.empty()) continue;
+        // The curve may end along the foot, so take the last point that is high.
+        glm::dvec3 shin = leg.front();
+        for (const glm::dvec3& p : leg)
+            if (p.y > 0.1) shin = p;
+        const auto section = surface.sectionAt(shin, {0, 1, 0}, 0.1);
+        if (section) shin = section->centre;
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const glm::dvec3& p : surface.points())
+            if (p.y < 0.05 && (p.x > 0.0) == (shin.x > 0.0)) {
+                low = std::min(low, p.z);
+                high = std::max(high, p.z);
+            }
+        if (low < high) result += 0.5 * (0.5 * (low + high) - shin.z);
+    }
+    return result;
+}
+
+/// How much farther chin and nose overhang the neck than the back of the head does.
+double faceAhead(const BodySurface& surface, const BodyBranches& branches) {
+    double thinnest = std::numeric_limits<double>::infinity();
+    double neckLow = 0.0, neckHigh = 0.0, neckTop = 0.0;
+    for (double y = 0.93; y > 0.72; y -= 0.005) {
+        glm::dvec3 at = branches.trunk.front();
+        for (const glm::dvec3& p : branches.trunk)
+            if (p.y > y) at = p;
+        at.y = y;
+        const auto section = surface.sectionAt(at, {0, 1, 0}, 0.1);
+        if (!section || section->area >= thinnest) continue;
+        thinnest = section->area;
+        neckLow = section->low(2);
+        neckHigh = section->high(2);
+        neckTop = y;
+    }
+    double low = neckLow, high = neckHigh;
+    for (const glm::dvec3& p : surface.points())
+        if (p.y > neckTop) {
+            low = std::min(low, p.z);
+            high = std::max(high, p.z);
+        }
+    return (high - neckHigh) - (neckLow - low);
+}
+
+/// Elbows bend forward only.
+double elbowsBehind(const BodyBranches& branches) {
+    double result = 0.0;
+    for (const BodyBranches::Path& arm : branches.arms) {
+        if (arm.empty()) continue;
+        const glm::dvec3 shoulder = pathPoint(arm, 0.35), hand = arm.back();
+        const glm::dvec3 middle = pathPoint(arm, 0.65);
+        const glm::dvec3 along = glm::normalize(hand - shoulder);
+        const glm::dvec3 off = middle - shoulder - glm::dot(middle - shoulder, along) * along;
+        result -= 0.5 * off.z;
+    }
+    return result;
+}
+
+FacingClues facingClues(const BodySurface& surface, const BodyBranches& branches) {
+    return {feetAhead(surface, branches), faceAhead(surface, branches), elbowsBehind(branches)};
+}
+
+/// A smaller sum of clues is inconclusive.
 constexpr double kFacingThreshold = 0.012;
 
-/// Fractions of the whole fit's time before and after the curves are looked for.
+/// Fractions of the whole fit's time at which finding the curves begins and ends.
 constexpr double kCurvesBegin = 0.2;
 constexpr double kCurvesEnd = 0.85;
 
-/// Rows x, y, z: the rotation that makes `up` the y axis and rotates little else.
+/// The rotation that makes `up` the y axis and rotates as little as possible; rows x, y, z.
 glm::dmat3 standUp(const glm::dvec3& up) {
     const glm::dvec3 y = glm::normalize(up);
     // A body with z up usually faces -y; one with y up faces +z.
@@ -69,7 +149,7 @@ FitBody::FitBody(const WeldedMesh& mesh, const fit::SolidGrid* filled, const Fit
     shrinkHead(notes);
 }
 
-/// Proportions are those of a person's height: a cartoon's is taken from its neck.
+/// Proportions are relative to a person's height, so that of a cartoon is derived from its neck.
 void FitBody::shrinkHead(std::vector<std::string>& notes) {
     constexpr double kLargeHead = 0.80, kNeck = 0.87, kWider = 1.3;
     if (branches.arms[0].empty()) return;
@@ -104,8 +184,8 @@ void FitBody::move(const glm::dmat3& rotation, const glm::dvec3& origin) {
     _rotation = rotation * _rotation;
 }
 
-/// The line between left and right limbs, horizontal: by hips and shoulders, as hands and feet may
-/// be anywhere. From right to left where `left` tells which is which.
+/// The horizontal direction between left and right limbs: by hips and shoulders, as hands and feet
+/// may be anywhere. It points to the left if `left` is given.
 glm::dvec3 FitBody::lateral(const std::optional<glm::dvec3>& left) const {
     const auto across = [&](const std::array<BodyBranches::Path, 2>& limbs, double fraction) {
         if (limbs[0].empty() || limbs[1].empty()) return glm::dvec3(0.0);
@@ -134,8 +214,8 @@ std::string FitBody::face(const std::optional<glm::dvec3>& facing,
     if (facing) {
         const glm::dvec3 given = _rotation * *facing;
         if (std::abs(glm::dot(given, ahead)) < 0.5 * glm::length(given))
-            throw Error("cannot fit a skeleton: expected a facing across the line from the right "
-                        "limbs to the left ones, found one along it");
+            throw Error(
+                "cannot fit a skeleton: `facing` must be perpendicular to the left-right axis");
         if (left && glm::dot(given, ahead) < 0.0)
             throw Error("cannot fit a skeleton: landmarks and facing disagree on which side is "
                         "the left one");
@@ -155,8 +235,8 @@ std::string FitBody::face(const std::optional<glm::dvec3>& facing,
     return how;
 }
 
-/// RMS distance of the skin's mirror image in the plane through (x, 0, 0), whose normal is the x
-/// axis rotated by `angle` about y, to the skin.
+/// RMS distance between the skin and its mirror image in the plane through (x, 0, 0) whose normal
+/// is the x axis rotated by `angle` about y.
 double FitBody::mirrorError(double angle, double x) const {
     const glm::dvec3 normal(std::cos(angle), 0.0, -std::sin(angle));
     const std::vector<glm::dvec3>& points = surface.points();
@@ -172,7 +252,7 @@ double FitBody::mirrorError(double angle, double x) const {
     return std::sqrt(sum / count);
 }
 
-/// Rotates and moves the body until its mirror image fits best: a descent with shrinking steps.
+/// Rotates and moves the body so that its mirror image fits best: a descent with shrinking steps.
 void FitBody::refineSymmetry() {
     double hips = 0.0;
     for (const BodyBranches::Path& leg : branches.legs)
@@ -202,7 +282,7 @@ void FitBody::refineSymmetry() {
     }
     symmetryError = error;
     if (!isSymmetric()) {
-        angle = 0.0; // a posed body: hips and shoulders know better
+        angle = 0.0; // a posed body: keep the result of hips and shoulders
         x = hips;
     }
     move(yaw(glm::dvec3(std::sin(angle), 0.0, std::cos(angle))), glm::dvec3(x, 0.0, 0.0));

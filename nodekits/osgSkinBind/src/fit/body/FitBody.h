@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_FIT_FITBODY_H
-#define OSGSKINBIND_FIT_FITBODY_H
+#ifndef OSGSKINBIND_FIT_BODY_FITBODY_H
+#define OSGSKINBIND_FIT_BODY_FITBODY_H
 
 #include "fit/body/BodyBranches.h"
 #include "fit/body/BodySurface.h"
@@ -13,32 +13,32 @@
 
 namespace osgSkin {
 
-/// A body in the frame in which it is measured: y up, +z where it faces, +x its left, the floor at
-/// y = 0, the top of the head at 1, x = 0 between left and right. A figure whose head is larger
-/// than a person's has its neck where a person has it, and the top of the head above 1.
+/// A body in the frame in which it is measured: y up, +z forward, +x to its left, the floor at y =
+/// 0, the top of the head at 1, x = 0 between left and right. A figure with a larger head than a
+/// person's has its neck where a person has it, and the top of the head above 1.
 struct FitBody {
     BodySurface surface;
     BodyBranches branches;
     double symmetryError = 0.0; ///< RMS distance between the skin and its mirror image
 
-    /// Stands the body up along the options' axis and finds its branches; where it faces is not
-    /// known yet.
+    /// Stands the body up along the options' axis and finds its branches. Its facing is not known
+    /// yet.
     ///
     /// \param mesh the body, rest space
-    /// \param filled what all its shells fill; null to measure the largest one
-    /// \param options its up axis and whom to tell
-    /// \param legsGiven landmarks stand in for legs that are not found
-    /// \param armsGiven landmarks stand in for arms that are not found
-    /// \param notes gets a line for each thing that is unusual
-    /// \throw Error where the surface is not that of a body that stands
+    /// \param filled the volume inside all shells; null: the largest shell is measured
+    /// \param options the up axis and progress are used
+    /// \param legsGiven landmarks replace legs that are not found
+    /// \param armsGiven landmarks replace arms that are not found
+    /// \param notes gets lines about unusual findings
+    /// \throw Error if the surface is not that of a standing body
     FitBody(const WeldedMesh& mesh, const fit::SolidGrid* filled, const FitOptions& options,
             bool legsGiven, bool armsGiven, std::vector<std::string>& notes);
 
     /// Rotates the body about its up axis until it faces +z.
     ///
-    /// \param facing where it faces, rest space
-    /// \param left from its right to its left, rest space, of any length; where both are unset,
-    ///        feet, head and elbows tell
+    /// \param facing its forward direction, rest space
+    /// \param left from its right to its left, rest space, of any length. If both are unset, feet, head
+    ///        and elbows decide
     /// \return how the facing was found
     std::string face(const std::optional<glm::dvec3>& facing,
                      const std::optional<glm::dvec3>& left);
