@@ -3,8 +3,7 @@
 
 #include "load/KeepShells.h"
 #include "load/TellMisfit.h"
-#include "report/NamingFile.h"
-#include "report/TakeNote.h"
+#include "options/LoadReport.h"
 #include "source/MeshWeights.h"
 
 #include <osgSkin/Error>

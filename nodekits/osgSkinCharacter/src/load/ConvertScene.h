@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "report/LoadStages.h"
+#include "options/LoadReport.h"
 
 #include <osgSkinCharacter/Character>
 #include <osgSkinCharacter/LoadOptions>

@@ -6,7 +6,7 @@
 #include "load/OpenFile.h"
 #include "load/RetargetMotions.h"
 #include "load/RigidParts.h"
-#include "report/NamingFile.h"
+#include "options/LoadReport.h"
 #include "scene/BuildScene.h"
 #include "source/ReadRig.h"
 #include "source/ReadSkinFile.h"

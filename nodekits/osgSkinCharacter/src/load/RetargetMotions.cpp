@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load/RetargetMotions.h"
 
-#include "report/NamingFile.h"
-#include "report/TakeNote.h"
+#include "options/LoadReport.h"
 
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinRig/JointRoles>
@@ -46,17 +45,18 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
 
 void animateMotions(const CharacterSource& source, const Binding& binding,
                     std::vector<CharacterMotion>& motions) {
+    const bool clears = source.options.clearHands.value_or(false);
     for (std::size_t m = 0; m < motions.size(); ++m) {
         CharacterMotion& motion = motions[m];
         const std::string& file = source.motions[m].file;
         namingFile(file, [&] {
-            if (source.clearHands)
+            if (clears)
                 motion.cleared = clearHands(motion.clip, source.rest,
                                             recogniseJoints(source.rest, source.bind.names),
                                             source.body.mesh, binding);
             motion.animation = makeAnimation(motion.clip, source.rest);
         });
-        if (source.clearHands) OSG_INFO << file << ": " << motion.cleared.text() << "\n";
+        if (clears) OSG_INFO << file << ": " << motion.cleared.text() << "\n";
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load/TellMisfit.h"
 
-#include "report/TakeNote.h"
+#include "options/LoadReport.h"
 
 #include <osgSkin/GlmOsg>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/BuildScene.h"
 
-#include "report/TakeNote.h"
+#include "options/LoadReport.h"
 #include "scene/ClipBounds.h"
 #include "scene/FaceViewer.h"
 #include "scene/PlayedBounds.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/Props.h"
 
-#include "report/NamingFile.h"
+#include "options/LoadReport.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>

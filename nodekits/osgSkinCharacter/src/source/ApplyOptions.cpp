@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/ApplyOptions.h"
 
+#include "options/OptionTable.h"
 #include "source/CacheFolder.h"
 
 #include <osgSkin/Error>
@@ -9,6 +10,7 @@
 #include <osgDB/FileNameUtils>
 
 #include <algorithm>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -83,16 +85,16 @@ void applyMotion(CharacterSource& source, const std::string& wanted, const osgDB
 } // namespace
 
 void applyOptions(CharacterSource& source, const LoadOptions& options) {
-    applyMethod(source, options.method);
-    if (options.rigid) source.bind.rigid = options.rigid;
-    if (options.shapes) source.bind.shapes = *options.shapes;
+    const LoadOptions file = std::exchange(source.options, options);
+    completeOptions(source.options, file);
+    const LoadOptions& all = source.options;
+    applyMethod(source, all.method);
+    source.bind.rigid = all.rigid;
+    source.bind.shapes = all.shapes;
+    source.bind.surfaceNormals = all.surfaceNormals;
+    source.bind.muscles = all.muscles.value_or(false);
+    if (options.muscles == false) source.bind.ownMuscles.clear();
     source.bind.cacheFolder = cacheFolder();
-    if (options.muscles) {
-        source.bind.muscles = *options.muscles;
-        if (!*options.muscles) source.bind.ownMuscles.clear();
-    }
-    if (options.surfaceNormals) source.bind.surfaceNormals = *options.surfaceNormals;
-    if (options.clearHands) source.clearHands = *options.clearHands;
     if (options.atRest) {
         source.animations.clear();
         source.motions.clear();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "file/MotionSamples.h"
-#include "file/SkinFile.h"
-#include "report/LoadStages.h"
+#include "options/LoadReport.h"
+#include "options/MotionSamples.h"
+#include "options/SkinFile.h"
 
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/FitReport>
+#include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ReadLimits>
 #include <osgSkinRig/RestSkeleton>
@@ -51,7 +52,8 @@ struct CharacterSource {
     osgAnimation::AnimationList animations;
 
     std::vector<SkinFile::MotionEntry> motions; ///< files to retarget
-    bool clearHands = false;                    ///< of the body, in `motions`
+    /// What the file says, and after applyOptions() what the caller and the file say.
+    LoadOptions options;
     std::vector<SkinFile::Prop> props;
     /// For the body and the props, whose pictures count together; may be null.
     osg::ref_ptr<const osgDB::Options> meshOptions;

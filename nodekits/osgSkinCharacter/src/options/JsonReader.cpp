@@ -1,17 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file/JsonReader.h"
+#include "options/JsonReader.h"
 
-#include "file/RepeatedKey.h"
-
-#include <osg/Notify>
 #include <osgSkin/Error>
+
+#include <nlohmann/json.hpp>
+#include <osg/Notify>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace osgSkin {
 namespace {
+
+/// A member that an object of a JSON text has twice; the parser keeps the last one.
+struct RepeatedKey {
+    std::string key;      ///< as the text spells it, without quotes
+    std::size_t byte = 0; ///< where the second one begins
+};
+
+/// The byte behind a string's closing quote.
+/// \param at of the opening one
+std::size_t endOfString(const std::string& text, std::size_t at) {
+    for (++at; at < text.size() && text[at] != '"'; ++at)
+        if (text[at] == '\\') ++at;
+    return at + 1;
+}
+
+/// The same for all ways to spell a key: "\u0061" is "a".
+std::string meaning(const std::string& quoted) {
+    const bool isPlain = quoted.find('\\') == std::string::npos;
+    return isPlain ? quoted : nlohmann::json::parse(quoted).dump();
+}
+
+/// The first repeated key of a valid JSON text.
+std::optional<RepeatedKey> findRepeatedKey(const std::string& text) {
+    std::vector<std::set<std::string>> open; // keys so far, of lists none
+    for (std::size_t i = 0; i < text.size();) {
+        const char c = text[i];
+        if (c == '{' || c == '[') open.emplace_back();
+        if ((c == '}' || c == ']') && !open.empty()) open.pop_back();
+        if (c != '"') {
+            ++i;
+            continue;
+        }
+        const std::size_t end = endOfString(text, i), next = text.find_first_not_of(" \t\r\n", end);
+        if (next != std::string::npos && text[next] == ':' && !open.empty() &&
+            !open.back().insert(meaning(text.substr(i, end - i))).second)
+            return RepeatedKey{text.substr(i + 1, end - i - 2), i};
+        i = end;
+    }
+    return std::nullopt;
+}
 
 /// "line 3, column 7", from 1, of a byte.
 std::string placeOf(const std::string& text, std::size_t byte) {
@@ -28,6 +74,38 @@ std::string shortened(const std::string& text) {
     constexpr std::size_t part = 200;
     if (text.size() <= 3 * part) return text;
     return text.substr(0, part) + "..." + text.substr(text.size() - part);
+}
+
+/// How many letters are to be inserted, deleted or replaced to make one word of the other
+/// (Levenshtein's distance).
+std::size_t editsBetween(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t(0));
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+/// The known word that differs from `word` by two letters at most; empty where there is none.
+std::string nearestOf(const std::vector<std::string>& known, const std::string& word) {
+    std::string nearest;
+    std::size_t fewest = 3;
+    for (const std::string& candidate : known) {
+        if (word.size() > candidate.size() + fewest) continue;
+        const std::size_t edits = editsBetween(candidate, word);
+        if (edits < fewest && edits < candidate.size() / 2 + 1) {
+            fewest = edits;
+            nearest = candidate;
+        }
+    }
+    return nearest;
 }
 
 } // namespace
@@ -55,7 +133,7 @@ nlohmann::json JsonReader::parseFile(const std::string& file, const ReadLimits& 
                     (number.size() > 40 ? number.substr(0, 40) + "..." : number) +
                     ", expected a finite number");
     }
-    if (const auto repeated = RepeatedKey::find(text))
+    if (const auto repeated = findRepeatedKey(text))
         throw Error(onOneLine(file + ": " + placeOf(text, repeated->byte) + ": \"" +
                               repeated->key.substr(0, 40) +
                               "\" is there twice, expected each member once"));
@@ -149,19 +227,20 @@ void JsonReader::forEachMember(
         visit(key, JsonReader(member, _file, _path.empty() ? key : _path + "." + key));
 }
 
-void JsonReader::warnUnknown(std::initializer_list<const char*> known) const {
+void JsonReader::warnUnknown(const std::vector<std::string>& known) const {
     constexpr std::size_t mostLines = 10;
     std::size_t unknown = 0;
     forEachMember([&](const std::string& key, const JsonReader& member) {
         if (std::find(known.begin(), known.end(), key) != known.end()) return;
-        if (++unknown <= mostLines)
-            OSG_WARN << onOneLine(_file + ": " + shortened(member._path) +
-                                  ": not known, passed over")
-                     << std::endl;
+        if (++unknown > mostLines) return;
+        const std::string meant = nearestOf(known, key);
+        OSG_WARN << onOneLine(_file + ": " + shortened(member._path) + ": unknown member ignored" +
+                              (meant.empty() ? "" : "; did you mean \"" + meant + "\"?"))
+                 << std::endl;
     });
     if (unknown > mostLines)
         OSG_WARN << onOneLine(_file + ": " + std::to_string(unknown - mostLines) +
-                              " more members are not known, passed over")
+                              " more unknown members ignored")
                  << std::endl;
 }
 

@@ -1,19 +1,116 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file/SkinFile.h"
+#include "options/SkinFile.h"
 
-#include "file/FileUses.h"
-#include "file/FitSettings.h"
-#include "file/JsonReader.h"
-#include "file/MuscleSettings.h"
+#include "options/JsonReader.h"
+#include "options/OptionTable.h"
 
-#include <osgSkinCharacter/OptionString>
+#include <osgSkinBind/BindOptions>
+#include <osgSkinBind/FitSkeleton>
 
 #include <osgDB/FileNameUtils>
 
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
+#include <system_error>
+#include <vector>
 
 namespace osgSkin {
 namespace {
+
+/// Counts how often a description names each file. A file is read again each time, so that a short
+/// description of short files could take hours.
+class FileUses {
+public:
+    /// \param most how often a file may be named (ReadLimits::uses)
+    explicit FileUses(std::size_t most) : _most(most) {}
+
+    /// Counts one use. Different paths to one file count together.
+    ///
+    /// \param file relative to the working directory
+    /// \param place the member that names it, for the error
+    /// \throw osgSkin::Error where that is once too often
+    void add(const std::string& file, const JsonReader& place) {
+        std::error_code failure;
+        const std::string path = std::filesystem::weakly_canonical(file, failure).string();
+        if (++_uses[failure ? file : path] > _most)
+            place.failWith("names " + file + " once more, expected at most " +
+                           std::to_string(_most) + " times (option maxUses)");
+    }
+
+private:
+    std::size_t _most;
+    std::map<std::string, std::size_t> _uses; ///< by path
+};
+
+/// Reads `"skeleton": { "fit": true, ... }`, without the up axis.
+FitOptions readFit(const JsonReader& reader) {
+    const JsonReader fit = reader.require("fit", "true");
+    if (!fit.boolean()) fit.failWith("expected true, or a file name instead of the object");
+    reader.warnUnknown({"fit", "facing", "landmarks"});
+    FitOptions options;
+    if (const auto facing = reader.find("facing")) {
+        options.facing = facing->vector();
+        if (*options.facing == glm::dvec3(0.0)) facing->failWith("expected a direction");
+    }
+    const auto landmarks = reader.find("landmarks");
+    if (!landmarks) return options;
+    std::vector<std::string> names;
+    constexpr std::size_t most = 100; // a body has about 30 joints; names are read together
+    landmarks->forEachMember([&](const std::string& name, const JsonReader& value) {
+        if (names.size() == most)
+            value.failWith("one of more than " + std::to_string(most) + " landmarks");
+        names.push_back(name);
+    });
+    const std::map<std::string, std::string> known = fittedNamesOf(names);
+    landmarks->forEachMember([&](const std::string& name, const JsonReader& value) {
+        if (known.count(name) == 0)
+            value.failWith("expected the name of a CMU joint, such as LeftHand or Head");
+        options.landmarks[name] = value.vector();
+    });
+    return options;
+}
+
+BindOptions::Muscle readMuscle(const JsonReader& reader) {
+    reader.warnUnknown({"name", "joint", "side", "from", "to", "growth", "tension"});
+    BindOptions::Muscle muscle;
+    muscle.name = reader.require("name", "the muscle's name").string();
+    muscle.joint = reader.require("joint", "the joint whose bend shortens it").string();
+    const auto side = reader.find("side");
+    if (side && side->isList()) {
+        muscle.towards = side->vector();
+    } else if (side) {
+        const std::string name = side->string();
+        if (name != "flexor" && name != "extensor")
+            side->failWith("expected \"flexor\" or \"extensor\", found \"" + name + "\"");
+        if (name == "extensor") muscle.side = BindOptions::Muscle::Side::Extensor;
+    }
+    if (const auto from = reader.find("from")) muscle.from = from->number();
+    if (const auto to = reader.find("to")) muscle.to = to->number();
+    if (const auto growth = reader.find("growth")) muscle.growth = growth->number();
+    if (const auto tension = reader.find("tension")) muscle.tension = tension->number();
+    return muscle;
+}
+
+/// Reads "muscles" as a list of the author's own, in which `true` stands for the automatic ones.
+void readMuscles(const JsonReader& list, SkinFile& skin) {
+    constexpr std::size_t most = 1000; // a body has 640; each is laid on the skin by itself
+    if (list.size() > most)
+        list.failWith(std::to_string(list.size()) + " muscles, expected at most " +
+                      std::to_string(most));
+    list.forEachItem([&](const JsonReader& item) {
+        if (item.isObject())
+            skin.bind.ownMuscles.push_back(readMuscle(item));
+        else if (item.boolean())
+            skin.options.muscles = true;
+        else
+            skin.options.muscles.reset(); // false would leave out the author's own, too
+    });
+}
 
 /// Paths in the description are relative to its folder.
 std::string path(const JsonReader& reader, const std::string& folder) {
@@ -134,50 +231,37 @@ JointBindOptions readJoint(const JsonReader& reader) {
     return joint;
 }
 
-/// "bind", and the file that the method "weights" may name.
-void readMethod(const JsonReader& root, const std::string& folder, SkinFile& skin) {
-    const auto method = root.find("bind");
-    const std::string name = method ? method->string() : "smooth";
-    if (name != "smooth" && name != "paper" && name != "weights")
-        method->failWith("expected \"smooth\", \"paper\" or \"weights\", found \"" + name + "\"");
-    if (name == "paper") skin.bind.method = BindOptions::Method::Paper;
+/// Reads "weights", the file for the method "weights".
+void readWeightsFile(const JsonReader& root, const std::string& folder, SkinFile& skin) {
     const auto weights = root.find("weights");
-    skin.paintedWeights = name == "weights";
-    if (skin.paintedWeights && weights)
-        skin.weights = path(*weights, folder);
-    else if (weights)
+    if (!weights) return;
+    if (skin.options.method != LoadOptions::Method::Weights)
         weights->failWith("expected \"bind\": \"weights\" beside it");
+    skin.weights = path(*weights, folder);
 }
 
-BindOptions::Shapes readShapes(const JsonReader& reader) {
-    const std::string name = reader.string();
-    if (const auto shapes = shapesCalled(name)) return *shapes;
-    reader.failWith("expected \"none\", \"fast\" or \"elastic\", found \"" + name + "\"");
-}
-
-bool readSurfaceNormals(const JsonReader& reader) {
-    const std::string name = reader.string();
-    if (name != "surface" && name != "turned")
-        reader.failWith("expected \"surface\" or \"turned\", found \"" + name + "\"");
-    return name == "surface";
-}
-
-void readBinding(const JsonReader& root, const ReadLimits& limits, BindOptions& bind) {
-    if (const auto shapes = root.find("shapes")) bind.shapes = readShapes(*shapes);
-    if (const auto muscles = root.find("muscles")) readMuscles(*muscles, bind);
-    if (const auto normals = root.find("normals"))
-        bind.surfaceNormals = readSurfaceNormals(*normals);
-    if (const auto rigid = root.find("rigid")) {
-        if (rigid->size() > limits.joints)
-            rigid->failWith(std::to_string(rigid->size()) + " names, expected at most " +
-                            std::to_string(limits.joints) + " (option maxJoints)");
-        bind.rigid.emplace();
-        rigid->forEachItem([&](const JsonReader& name) { bind.rigid->push_back(name.string()); });
+/// Reads the members that are options, see optionTable().
+void readOptions(const JsonReader& root, const ReadLimits& limits, SkinFile& skin) {
+    skin.options.method = LoadOptions::Method::Smooth;
+    for (const Option& option : optionTable()) {
+        const auto member = option.isMember ? root.find(option.word) : std::nullopt;
+        if (!member) continue;
+        if (option.word == "muscles" && member->isList())
+            readMuscles(*member, skin);
+        else
+            readOption(option, *member, limits, skin.options);
     }
-    if (const auto joints = root.find("joints"))
-        joints->forEachMember([&](const std::string& name, const JsonReader& value) {
-            bind.joints[name] = readJoint(value);
-        });
+}
+
+/// Members that are no options.
+const char* const kParts[] = {"osgskin", "mesh",   "skeleton", "motions", "props",
+                              "weights", "joints", "up",       "names"};
+
+void warnUnknownMembers(const JsonReader& root) {
+    std::vector<std::string> known(std::begin(kParts), std::end(kParts));
+    for (const Option& option : optionTable())
+        if (option.isMember) known.push_back(option.word);
+    root.warnUnknown(known);
 }
 
 } // namespace
@@ -188,8 +272,7 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
     const JsonReader root(json, file);
     const std::string folder = osgDB::getFilePath(file);
     checkVersion(root);
-    root.warnUnknown({"osgskin", "mesh", "skeleton", "motions", "props", "rigid", "bind", "weights",
-                      "joints", "up", "names", "shapes", "muscles", "normals", "clearHands"});
+    warnUnknownMembers(root);
 
     SkinFile skin;
     skin.file = file;
@@ -229,9 +312,12 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
         skin.zUp = up->string() == "z";
     }
     if (skin.fit && skin.zUp) skin.fit->up = {0.0, 0.0, 1.0};
-    if (const auto clear = root.find("clearHands")) skin.clearHands = clear->boolean();
-    readMethod(root, folder, skin);
-    readBinding(root, limits, skin.bind);
+    readOptions(root, limits, skin);
+    readWeightsFile(root, folder, skin);
+    if (const auto joints = root.find("joints"))
+        joints->forEachMember([&](const std::string& name, const JsonReader& value) {
+            skin.bind.joints[name] = readJoint(value);
+        });
     return skin;
 }
 

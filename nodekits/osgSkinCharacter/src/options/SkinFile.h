@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
+#ifndef OSGSKINCHARACTER_OPTIONS_SKINFILE_H
+#define OSGSKINCHARACTER_OPTIONS_SKINFILE_H
 
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/FitSkeleton>
+#include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ReadLimits>
 
 #include <cstddef>
@@ -13,7 +15,8 @@
 
 namespace osgSkin {
 
-/// What a `.skin` file says, checked, with its paths made absolute or relative to the caller.
+/// The content of a `.skin` file, checked. Its paths are absolute or relative to the working
+/// directory.
 struct SkinFile {
     /// The newest format that this code reads.
     static constexpr std::size_t kVersion = 1;
@@ -41,11 +44,10 @@ struct SkinFile {
     std::optional<FitOptions> fit; ///< instead of a skeleton file
     std::vector<MotionEntry> motions;
     std::vector<Prop> props;
-    BindOptions bind;            ///< its `names` serve retargeting, too
-    bool paintedWeights = false; ///< the binding comes from painted weights
-    std::string weights;         ///< their file; empty: the mesh's own
-    bool clearHands = false;     ///< hands are kept out of the body, see clearHands()
-    bool zUp = false;            ///< the character's files have Z up, not Y
+    LoadOptions options; ///< the members that are options, see optionTable()
+    BindOptions bind;    ///< only joints, names and own muscles; the names serve retargeting, too
+    std::string weights; ///< file of painted weights; empty: the mesh's own
+    bool zUp = false;    ///< the character's files have Z up, not Y
 
     /// Reads and checks a file.
     /// \throw Error with file, JSON path and what was expected
@@ -53,3 +55,5 @@ struct SkinFile {
 };
 
 } // namespace osgSkin
+
+#endif

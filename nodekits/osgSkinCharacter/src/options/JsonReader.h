@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
+#ifndef OSGSKINCHARACTER_OPTIONS_JSONREADER_H
+#define OSGSKINCHARACTER_OPTIONS_JSONREADER_H
 
 #include <osgSkin/GlmTypes>
 #include <osgSkinImport/ReadLimits>
@@ -7,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,8 +49,8 @@ public:
     void
     forEachMember(const std::function<void(const std::string&, const JsonReader&)>& visit) const;
 
-    /// Warns of members of an object that nobody will read: most often a misspelt one.
-    void warnUnknown(std::initializer_list<const char*> known) const;
+    /// Warns about members of an object that nobody will read, most often misspelt ones.
+    void warnUnknown(const std::vector<std::string>& known) const;
 
 private:
     const nlohmann::json& _value;
@@ -59,3 +59,5 @@ private:
 };
 
 } // namespace osgSkin
+
+#endif

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
+#ifndef OSGSKINCHARACTER_OPTIONS_LOADREPORT_H
+#define OSGSKINCHARACTER_OPTIONS_LOADREPORT_H
 
+#include <osgSkin/Error>
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/Progress>
 
+#include <osg/Notify>
+
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace osgSkin {
 
@@ -52,4 +57,30 @@ private:
     double _size = 0.0;  ///< of the present one
 };
 
+/// Runs a step whose errors know a mesh's vertices and a skeleton's joints but not the file that
+/// they came from: it is put before them.
+///
+/// \param file that errors are to name
+/// \param step called once
+/// \return what `step` returns
+/// \throw Error that begins with `file`
+template <typename Step>
+auto namingFile(const std::string& file, const Step& step) {
+    try {
+        return step();
+    } catch (const Error& error) {
+        const std::string what = error.what();
+        if (what.rfind(file, 0) == 0) throw;
+        throw Error(file + ": " + what);
+    }
+}
+
+/// Keeps a line on something unusual for the caller, and tells OSG's notify handler too.
+inline void takeNote(std::vector<std::string>& notes, const std::string& line) {
+    notes.push_back(onOneLine(line));
+    OSG_NOTICE << notes.back() << std::endl;
+}
+
 } // namespace osgSkin
+
+#endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "report/LoadStages.h"
+#include "options/LoadReport.h"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file/MotionSamples.h"
+#include "options/MotionSamples.h"
 
 #include <osgSkin/Error>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinCharacter/ReadWeights>
 
-#include "file/JsonReader.h"
+#include "options/JsonReader.h"
 
 #include <map>
 
