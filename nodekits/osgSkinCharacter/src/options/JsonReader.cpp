@@ -25,8 +25,8 @@ struct RepeatedKey {
     std::size_t byte = 0; ///< where the second one begins
 };
 
-/// The byte behind a string's closing quote.
-/// \param at of the opening one
+/// Index of the byte behind a string's closing quote.
+/// \param at index of the opening quote
 std::size_t endOfString(const std::string& text, std::size_t at) {
     for (++at; at < text.size() && text[at] != '"'; ++at)
         if (text[at] == '\\') ++at;
@@ -41,7 +41,7 @@ std::string meaning(const std::string& quoted) {
 
 /// The first repeated key of a valid JSON text.
 std::optional<RepeatedKey> findRepeatedKey(const std::string& text) {
-    std::vector<std::set<std::string>> open; // keys so far, of lists none
+    std::vector<std::set<std::string>> open; // keys so far; none in lists
     for (std::size_t i = 0; i < text.size();) {
         const char c = text[i];
         if (c == '{' || c == '[') open.emplace_back();
@@ -59,7 +59,7 @@ std::optional<RepeatedKey> findRepeatedKey(const std::string& text) {
     return std::nullopt;
 }
 
-/// "line 3, column 7", from 1, of a byte.
+/// The position of a byte as "line 3, column 7", counted from 1.
 std::string placeOf(const std::string& text, std::size_t byte) {
     const std::size_t end = std::min(byte, text.size());
     const auto at = text.begin() + static_cast<std::ptrdiff_t>(end);
@@ -69,15 +69,14 @@ std::string placeOf(const std::string& text, std::size_t byte) {
     return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
-/// Names in a description have any length, and are quoted: its begin and end say enough.
+/// Shortens a quoted name of any length to its beginning and end.
 std::string shortened(const std::string& text) {
     constexpr std::size_t part = 200;
     if (text.size() <= 3 * part) return text;
     return text.substr(0, part) + "..." + text.substr(text.size() - part);
 }
 
-/// How many letters are to be inserted, deleted or replaced to make one word of the other
-/// (Levenshtein's distance).
+/// Levenshtein's distance: the number of letters to insert, delete or replace.
 std::size_t editsBetween(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t(0));
@@ -113,7 +112,7 @@ std::string nearestOf(const std::vector<std::string>& known, const std::string& 
 nlohmann::json JsonReader::parseFile(const std::string& file, const ReadLimits& limits) {
     const std::string text = readWholeFile(file, limits.textMegabytes, "maxTextMB");
     checkJsonDepth(file, text);
-    // The parser takes a byte 0 for the text's end, and passes over what follows.
+    // The parser takes a byte 0 for the text's end and ignores the rest.
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
         throw Error(file + ": " + placeOf(text, zero) + ": malformed JSON");
     nlohmann::json json;
@@ -146,7 +145,7 @@ JsonReader::JsonReader(const nlohmann::json& value, std::string file, std::strin
 void JsonReader::failWith(const std::string& message) const {
     std::string text =
         _file + ": " + (_path.empty() ? "" : shortened(_path) + ": ") + shortened(message);
-    for (char& c : text) // keys may hold a terminal's commands
+    for (char& c : text) // keys may contain terminal escape sequences
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
     throw Error(text);
 }
@@ -185,7 +184,7 @@ bool JsonReader::boolean() const {
 }
 
 std::size_t JsonReader::count() const {
-    // JSON does not tell 1 from 1.0 and 1e0, and some programs write all numbers so.
+    // JSON does not distinguish 1 from 1.0 and 1e0, which some programs write.
     if (_value.is_number()) {
         constexpr double kMost = 1e15; // all whole numbers below are doubles
         const double number = _value.get<double>();

@@ -31,7 +31,7 @@ public:
     /// The member `key` of an object; nothing where there is none.
     /// \throw Error where not an object
     std::optional<JsonReader> find(const std::string& key) const;
-    /// The member `key`, or an Error that says what it should have been.
+    /// The member `key`. Throws an Error that says what was expected where it is missing.
     JsonReader require(const std::string& key, const std::string& expected) const;
 
     bool isObject() const { return _value.is_object(); }

@@ -14,11 +14,11 @@
 
 namespace osgSkin {
 
-/// Tells how far a load has come that consists of stages, one after the other.
+/// Reports the progress of a load in consecutive stages.
 class LoadStages {
 public:
-    /// About what each stage takes of the time, measured on bodies of 4,000 vertices with 31
-    /// joints: only the proportions count.
+    /// Approximate relative durations of the stages, measured on bodies of 4,000 vertices with 31
+    /// joints.
     static constexpr double kMesh = 10.0;
     static constexpr double kSkeleton = 0.5;
     static constexpr double kFit = 400.0;
@@ -27,27 +27,27 @@ public:
     static constexpr double kPaintedBinding = 10.0; ///< by painted weights
     static constexpr double kMotion = 15.0;         ///< each motion file
     static constexpr double kScene = 3.0;
-    static constexpr double kPlayedScene = 40.0; ///< with animations that must be played for bounds
+    static constexpr double kPlayedScene = 40.0; ///< with animations that are played to find bounds
 
-    /// What is to be added to the binding.
+    /// Added to the binding's size.
     static constexpr double shapesSize(std::optional<BindOptions::Shapes> shapes) {
         return shapes == BindOptions::Shapes::Elastic ? 2500.0 : 0.0;
     }
 
-    /// \param progress told; may be empty
+    /// \param progress called for each step; may be empty
     explicit LoadStages(Progress progress);
 
-    /// Before the second stage: the sum of the sizes of all stages.
+    /// Sets the sum of all stages' sizes. Call it before the second stage.
     void plan(double total);
 
-    /// The next stage begins.
+    /// Begins the next stage.
     ///
     /// \param what its name
     /// \param size one of those above
-    /// \return for the stage to tell how far it has come itself
+    /// \return the stage's own progress
     Progress begin(const std::string& what, double size);
 
-    /// All is done.
+    /// Reports the end.
     void finish();
 
 private:
@@ -57,10 +57,9 @@ private:
     double _size = 0.0;  ///< of the present one
 };
 
-/// Runs a step whose errors know a mesh's vertices and a skeleton's joints but not the file that
-/// they came from: it is put before them.
+/// Runs a step and adds the file's name to its errors, which name vertices and joints but no file.
 ///
-/// \param file that errors are to name
+/// \param file the name to add
 /// \param step called once
 /// \return what `step` returns
 /// \throw Error that begins with `file`
@@ -75,7 +74,7 @@ auto namingFile(const std::string& file, const Step& step) {
     }
 }
 
-/// Keeps a line on something unusual for the caller, and tells OSG's notify handler too.
+/// Adds a note for the caller, and prints it by OSG_NOTICE.
 inline void takeNote(std::vector<std::string>& notes, const std::string& line) {
     notes.push_back(onOneLine(line));
     OSG_NOTICE << notes.back() << std::endl;

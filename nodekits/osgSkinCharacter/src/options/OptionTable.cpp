@@ -21,9 +21,11 @@ template <typename T>
 bool isSet(const std::optional<T>& value) {
     return value.has_value();
 }
+
 bool isSet(Method method) {
     return method != Method::Default;
 }
+
 bool isSet(bool value) {
     return value;
 }

@@ -15,7 +15,7 @@ namespace osgSkin {
 /// A row of the table of options: the texts, and how the option is set.
 struct Option : CharacterOption {
     std::vector<std::string> choices; ///< the values, where they are a fixed set
-    std::string expected;             ///< what errors say of the values
+    std::string expected;             ///< description of the values for errors
 
     /// Returns false where the value is not one of the option's. Empty where ReadLimits::of() reads
     /// the option.
@@ -24,7 +24,7 @@ struct Option : CharacterOption {
     /// Reads a member of a `.skin` file. Empty where it has one of the `choices`.
     std::function<void(LoadOptions&, const JsonReader&, const ReadLimits&)> read;
 
-    /// Takes the option from `file` where `options` leaves it open. Empty as `set`.
+    /// Copies the option from `file` where it is not set in `options`. Empty where `set` is.
     std::function<void(LoadOptions& options, const LoadOptions& file)> complete;
 };
 
@@ -36,7 +36,7 @@ const std::vector<Option>& optionTable();
 void readOption(const Option& option, const JsonReader& member, const ReadLimits& limits,
                 LoadOptions& options);
 
-/// Takes from `file` what `options` leaves open.
+/// Copies all options from `file` that are not set in `options`.
 void completeOptions(LoadOptions& options, const LoadOptions& file);
 
 } // namespace osgSkin

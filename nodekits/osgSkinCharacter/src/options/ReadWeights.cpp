@@ -21,7 +21,7 @@ void readPair(const JsonReader& reader, std::uint32_t joint, VertexWeights& weig
                          ", found " + std::to_string(vertex));
     const double weight = pair[1].number();
     if (weight < 0.0) pair[1].failWith("expected a weight of 0 or more");
-    // All that a joint has is read at once.
+    // Each joint's weights are read together, so a repeated vertex is the last entry.
     if (!weights[vertex].empty() && weights[vertex].back().joint == joint)
         pair[0].failWith("vertex " + std::to_string(vertex) +
                          " is there twice, expected one weight for each");

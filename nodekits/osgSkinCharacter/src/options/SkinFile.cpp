@@ -98,7 +98,7 @@ BindOptions::Muscle readMuscle(const JsonReader& reader) {
 
 /// Reads "muscles" as a list of the author's own, in which `true` stands for the automatic ones.
 void readMuscles(const JsonReader& list, SkinFile& skin) {
-    constexpr std::size_t most = 1000; // a body has 640; each is laid on the skin by itself
+    constexpr std::size_t most = 1000; // a body has 640; each is fitted to the skin separately
     if (list.size() > most)
         list.failWith(std::to_string(list.size()) + " muscles, expected at most " +
                       std::to_string(most));
@@ -112,7 +112,7 @@ void readMuscles(const JsonReader& list, SkinFile& skin) {
     });
 }
 
-/// Paths in the description are relative to its folder.
+/// Reads a path relative to the description's folder.
 std::string path(const JsonReader& reader, const std::string& folder) {
     const std::string name = reader.string();
     if (name.empty()) reader.failWith("expected a file name, found an empty string");
@@ -155,7 +155,7 @@ SkinFile::MotionEntry readMotion(const JsonReader& reader, const std::string& fo
 /// Families of names: role -> a joint's name, or a list of them.
 class NamesReader {
 public:
-    /// \param most names of all families together: each joint is looked up among them, often
+    /// \param most limit for the names of all families together: joints are looked up among them often
     explicit NamesReader(std::size_t most) : _most(most) {
         for (const JointNames& known : knownJointNames())
             for (const auto& [role, members] : known.roles) _roles.insert(role);
@@ -198,7 +198,7 @@ SkinFile::Prop readProp(const JsonReader& reader, const SkinFile& skin, const st
     motion.failWith("expected the name of one of the motions, found \"" + prop.motion + "\"");
 }
 
-/// A region's two boundaries (paper, Fig. 3), in bone lengths from the joint.
+/// Reads a region's two boundaries (paper, Fig. 3), in bone lengths from the joint.
 void readBoundaries(const JsonReader& reader, std::optional<double>& upper,
                     std::optional<double>& lower) {
     if (const auto value = reader.find("upper")) upper = value->number();

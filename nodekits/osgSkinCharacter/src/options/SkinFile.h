@@ -30,8 +30,7 @@ struct SkinFile {
         std::map<std::string, std::string> joints; ///< rig joint -> motion joint
     };
 
-    /// Something that is not skin (a ball) with a path of its own during the motion called
-    /// `motion`.
+    /// An object (a ball) that moves along its own path during the motion called `motion`.
     struct Prop {
         std::string mesh;
         std::string motion;
@@ -40,7 +39,7 @@ struct SkinFile {
 
     std::string file; ///< the .skin file itself
     std::string mesh;
-    std::string skeleton;          ///< the mesh's own file where the description names none
+    std::string skeleton;          ///< the mesh's file where the description names none
     std::optional<FitOptions> fit; ///< instead of a skeleton file
     std::vector<MotionEntry> motions;
     std::vector<Prop> props;

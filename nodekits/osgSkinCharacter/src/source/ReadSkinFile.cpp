@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "source/ReadSkinFile.h"
+#include "source/CharacterSource.h"
 
 #include "options/LoadReport.h"
+#include "options/SkinFile.h"
 #include "source/ApplyOptions.h"
 
 #include <osgSkinImport/ImportSkeleton>
