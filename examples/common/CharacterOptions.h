@@ -24,10 +24,10 @@ inline void addCharacterOptions(CLI::App& app, osgSkin::LoadOptions& options) {
                 throw CLI::ValidationError(error.what());
             }
         };
-        app.add_option_function<std::string>(option.flag(), set,
-                                             option.meaning + "; " + option.defaultValue)
+        const std::string meaning = option.meaning + " (default: " + option.defaultValue + ")";
+        app.add_option_function<std::string>(option.flag(), set, meaning)
             ->type_name(option.values)
-            ->group("In place of what the character says (after a semicolon: the default)");
+            ->group("Options of the character, which override its file's");
     }
 }
 

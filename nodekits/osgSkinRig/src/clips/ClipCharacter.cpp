@@ -33,18 +33,6 @@ struct SkinMoment {
     std::vector<glm::vec3> positions; ///< of all vertices
 };
 
-/// Adds boxes that hold a skin between one sample and the next, one for each part of the interval.
-///
-/// Within a part, a vertex leaves the straight line between the part's ends by an eighth of its
-/// second derivative at most, which second differences estimate; twice that is added to the box.
-/// The estimate fails where the path is not smooth: near half a turn a joint's bend axis or twist
-/// may jump. Then the boxes are invalid.
-///
-/// \param moments at even steps, both ends included
-/// \param boxes gets one for each part
-void boundWay(const std::array<SkinMoment, BakedClip::kParts + 1>& moments,
-              std::vector<osg::BoundingBox>& boxes);
-
 constexpr std::size_t kWayParts = BakedClip::kParts;
 constexpr double kHalfTurn = 2.9;     ///< radians, nearly
 constexpr double kTwistJump = 1.0;    ///< of a twist, radians in a step
@@ -78,6 +66,15 @@ glm::vec3 marginOf(const Moments& moments, std::size_t vertex) {
     return kWayMargin * most + kWayRounding * glm::abs(moments[0].positions[vertex]);
 }
 
+/// Adds boxes that hold a skin between one sample and the next, one for each part of the interval.
+///
+/// Within a part, a vertex leaves the straight line between the part's ends by an eighth of its
+/// second derivative at most, which second differences estimate; twice that is added to the box.
+/// The estimate fails where the path is not smooth: near half a turn a joint's bend axis or twist
+/// may jump. Then the boxes are invalid.
+///
+/// \param moments at even steps, both ends included
+/// \param boxes gets one for each part
 void boundWay(const Moments& moments, std::vector<osg::BoundingBox>& boxes) {
     std::array<osg::BoundingBox, kWayParts> ways;
     const std::size_t vertices =

@@ -28,6 +28,42 @@ int jointOf(const JointRoles& roles, const std::string& role) {
     return found == roles.joints.end() ? -1 : found->second.front();
 }
 
+/// The limbs of both sides, such as "UpperLeg", "LowerLeg" and "Foot".
+LimbPair limbsOf(const JointRoles& roles, const char* upper, const char* lower, const char* end) {
+    LimbPair result;
+    for (std::size_t s = 0; s < 2; ++s) {
+        const std::string side = s == 0 ? "Left" : "Right";
+        result[s] = {jointOf(roles, side + upper), jointOf(roles, side + lower),
+                     jointOf(roles, side + end)};
+    }
+    return result;
+}
+
+LimbPair legsOf(const JointRoles& roles) {
+    return limbsOf(roles, "UpperLeg", "LowerLeg", "Foot");
+}
+
+bool isComplete(const LimbPair& limbs) {
+    return limbs[0].complete() && limbs[1].complete();
+}
+
+/// Height of the hips above the feet, in leg lengths.
+double hipHeight(const LimbPair& legs, const std::vector<glm::dvec3>& positions) {
+    double height = 0.0, length = 0.0;
+    for (const LimbJoints& leg : legs) {
+        const glm::dvec3& hip = positions[static_cast<std::size_t>(leg.upper)];
+        const glm::dvec3& knee = positions[static_cast<std::size_t>(leg.lower)];
+        const glm::dvec3& ankle = positions[static_cast<std::size_t>(leg.end)];
+        height += hip.y - ankle.y;
+        length += glm::distance(hip, knee) + glm::distance(knee, ankle);
+    }
+    return length > 0.0 ? height / length : 0.0;
+}
+
+// Heights of the hips above the feet, in leg lengths.
+constexpr double kUpOnFeet = 0.6; ///< of a standing actor
+constexpr double kOnFloor = 0.25; ///< of a body on the floor
+
 } // namespace
 
 bool Stance::stands() const {
@@ -39,18 +75,11 @@ double Stance::untidiness() const {
            elbows / 90.0 + asymmetry / 45.0;
 }
 
-StanceJoints::StanceJoints(const JointRoles& roles) {
-    const std::string sides[] = {"Left", "Right"};
-    for (std::size_t s = 0; s < 2; ++s) {
-        _legs[s] = {jointOf(roles, sides[s] + "UpperLeg"), jointOf(roles, sides[s] + "LowerLeg"),
-                    jointOf(roles, sides[s] + "Foot")};
-        _arms[s] = {jointOf(roles, sides[s] + "UpperArm"), jointOf(roles, sides[s] + "LowerArm"),
-                    jointOf(roles, sides[s] + "Hand")};
-    }
+StanceJoints::StanceJoints(const JointRoles& roles)
+    : _legs(legsOf(roles)), _arms(limbsOf(roles, "UpperArm", "LowerArm", "Hand")) {
     for (const char* role : {"Neck", "Head"})
         if (_top < 0) _top = jointOf(roles, role);
-    _complete = _legs[0].complete() && _legs[1].complete() &&
-                (_top >= 0 || (_arms[0].complete() && _arms[1].complete()));
+    _complete = isComplete(_legs) && (_top >= 0 || isComplete(_arms));
 }
 
 std::optional<Stance> StanceJoints::measure(const std::vector<glm::dvec3>& positions) const {
@@ -58,7 +87,7 @@ std::optional<Stance> StanceJoints::measure(const std::vector<glm::dvec3>& posit
     Stance result;
     glm::dvec3 ways[2];
     for (std::size_t s = 0; s < 2; ++s) {
-        const Limb& leg = _legs[s];
+        const LimbJoints& leg = _legs[s];
         const glm::dvec3 thigh = at(leg.lower) - at(leg.upper);
         const glm::dvec3 shin = at(leg.end) - at(leg.lower);
         const glm::dvec3 whole = thigh + shin;
@@ -84,7 +113,7 @@ std::optional<Stance> StanceJoints::measure(const std::vector<glm::dvec3>& posit
 
     double hang[2] = {0.0, 0.0};
     for (std::size_t s = 0; s < 2; ++s) {
-        const Limb& arm = _arms[s];
+        const LimbJoints& arm = _arms[s];
         if (!_arms[0].complete() || !_arms[1].complete()) break;
         const glm::dvec3 upper = at(arm.lower) - at(arm.upper);
         result.elbows = std::max(result.elbows, degreesBetween(upper, at(arm.end) - at(arm.lower)));
@@ -94,49 +123,13 @@ std::optional<Stance> StanceJoints::measure(const std::vector<glm::dvec3>& posit
     return result;
 }
 
-namespace {
-
-constexpr double kUpOnFeet =
-    0.6; ///< height of the hips above the feet of a standing actor, in leg lengths
-constexpr double kOnFloor = 0.25; ///< the same of a body on the floor
-
-} // namespace
-
-StandingCheck::Legs::Legs(const JointRoles& roles) {
-    const auto find = [&](const std::string& role) {
-        const auto found = roles.joints.find(role);
-        return found == roles.joints.end() ? -1 : found->second.front();
-    };
-    const std::string sides[] = {"Left", "Right"};
-    for (int s = 0; s < 2; ++s) {
-        upper[s] = find(sides[s] + "UpperLeg");
-        lower[s] = find(sides[s] + "LowerLeg");
-        foot[s] = find(sides[s] + "Foot");
-    }
-}
-
-bool StandingCheck::Legs::complete() const {
-    bool result = true;
-    for (int s = 0; s < 2; ++s) result = result && upper[s] >= 0 && lower[s] >= 0 && foot[s] >= 0;
-    return result;
-}
-
-double StandingCheck::Legs::height(const std::vector<glm::dvec3>& positions) const {
-    double height = 0.0, length = 0.0;
-    for (int s = 0; s < 2; ++s) {
-        const glm::dvec3& hip = positions[static_cast<std::size_t>(upper[s])];
-        const glm::dvec3& knee = positions[static_cast<std::size_t>(lower[s])];
-        const glm::dvec3& ankle = positions[static_cast<std::size_t>(foot[s])];
-        height += hip.y - ankle.y;
-        length += glm::distance(hip, knee) + glm::distance(knee, ankle);
-    }
-    return length > 0.0 ? height / length : 0.0;
-}
+StandingCheck::StandingCheck(const JointRoles& rig, const JointRoles& motion)
+    : _rig(legsOf(rig)), _motion(legsOf(motion)) {}
 
 void StandingCheck::add(const std::vector<glm::dvec3>& rig, const std::vector<glm::dvec3>& motion) {
-    if (!_rig.complete() || !_motion.complete() || _motion.height(motion) < kUpOnFeet) return;
+    if (!isComplete(_rig) || !isComplete(_motion) || hipHeight(_motion, motion) < kUpOnFeet) return;
     ++_standing;
-    if (_rig.height(rig) < kOnFloor) ++_lying;
+    if (hipHeight(_rig, rig) < kOnFloor) ++_lying;
 }
 
 void StandingCheck::finish() const {

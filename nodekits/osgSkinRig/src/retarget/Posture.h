@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -38,6 +39,13 @@ struct Stance {
     double untidiness() const;
 };
 
+/// The joints of an arm or a leg; -1 for missing ones.
+struct LimbJoints {
+    int upper = -1, lower = -1, end = -1;
+    bool complete() const { return upper >= 0 && lower >= 0 && end >= 0; }
+};
+using LimbPair = std::array<LimbJoints, 2>; ///< left, right
+
 /// The joints from which a body's posture is measured.
 class StanceJoints {
 public:
@@ -52,11 +60,7 @@ public:
     std::optional<Stance> measure(const std::vector<glm::dvec3>& positions) const;
 
 private:
-    struct Limb {
-        int upper = -1, lower = -1, end = -1;
-        bool complete() const { return upper >= 0 && lower >= 0 && end >= 0; }
-    };
-    Limb _legs[2], _arms[2];
+    LimbPair _legs, _arms;
     int _top = -1; ///< head, neck or chest
     bool _complete = false;
 };
@@ -66,7 +70,7 @@ class StandingCheck {
 public:
     /// \param rig roles of the rig's joints
     /// \param motion roles of the motion's joints
-    StandingCheck(const JointRoles& rig, const JointRoles& motion) : _rig(rig), _motion(motion) {}
+    StandingCheck(const JointRoles& rig, const JointRoles& motion);
 
     /// Adds a sample.
     /// \param rig positions of the rig's joints, +y up
@@ -78,15 +82,7 @@ public:
     void finish() const;
 
 private:
-    /// The joints of a body's legs; -1 for missing ones.
-    struct Legs {
-        explicit Legs(const JointRoles& roles);
-        bool complete() const;
-        /// Height of the hips above the feet, in leg lengths.
-        double height(const std::vector<glm::dvec3>& positions) const;
-        int upper[2], lower[2], foot[2];
-    };
-    Legs _rig, _motion;
+    LimbPair _rig, _motion; ///< legs
     std::size_t _standing = 0, _lying = 0;
 };
 
