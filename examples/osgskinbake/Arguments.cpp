@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Arguments.h"
 
+#include "CharacterOptions.h"
 #include "CommandLine.h"
 #include "Surface.h"
 
@@ -189,17 +190,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.add_option("--frames", frames, "A, A:B or A:B:STEP; all by default");
     app.add_option("--rate", arguments.rate, "frames a second of a rigged model's clips; 30")
         ->check(CLI::Range(1e-3, 1e6));
-    app.add_option("--shapes", arguments.shapes,
-                   "none, fast or elastic: what shapes bent limbs; as the character says by "
-                   "default")
-        ->check(CLI::IsMember({"none", "fast", "elastic"}));
-    app.add_option("--muscles", arguments.muscles,
-                   "on or off: muscles that swell; as the character says by default")
-        ->check(CLI::IsMember({"on", "off"}));
-    app.add_option("--clear-hands", arguments.clearHands,
-                   "on or off: motion files' arms are turned out of the body; as the character "
-                   "says by default")
-        ->check(CLI::IsMember({"on", "off"}));
+    example::addCharacterOptions(app, arguments.options);
     app.add_option("--tense", tensed, "NAME=A: tenses a muscle by A, 0 to 1, in all frames")
         ->allow_extra_args(false);
     app.add_option("--out", arguments.out,

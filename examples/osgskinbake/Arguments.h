@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <osgSkinCharacter/LoadOptions>
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -21,10 +23,8 @@ struct Arguments {
     std::string character;
     std::string motion; ///< empty: the first one
     std::optional<FrameRange> frames;
-    std::optional<double> rate; ///< samples a second of a rigged model's clips
-    std::string shapes;         ///< "none", "fast" or "elastic"; empty: as the character has them
-    std::string muscles;        ///< "on" or "off"; empty: as the character has them
-    std::string clearHands;     ///< "on" or "off"; empty: as the character says
+    std::optional<double> rate;   ///< samples a second of a rigged model's clips
+    osgSkin::LoadOptions options; ///< that go before what the file says
     std::vector<std::pair<std::string, float>> activations; ///< of inputs, by name
     std::string out;     ///< pattern of the frames' files; empty: no frames wanted
     std::string rest;    ///< file for the bind pose; empty: not wanted

@@ -13,7 +13,6 @@
 #include <osgSkin/RigidPart>
 #include <osgSkinCharacter/Character>
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinCharacter/OptionString>
 
 #include <nlohmann/json.hpp>
 #include <osg/NodeVisitor>
@@ -311,10 +310,7 @@ void tellOtherThings(const Character& character) {
 Character load(const Arguments& arguments) {
     const std::string& file = arguments.character;
     example::ProgressLine line(file, arguments.quiet);
-    osgSkin::LoadOptions options;
-    options.shapes = osgSkin::shapesCalled(arguments.shapes);
-    if (!arguments.muscles.empty()) options.muscles = arguments.muscles == "on";
-    if (!arguments.clearHands.empty()) options.clearHands = arguments.clearHands == "on";
+    osgSkin::LoadOptions options = arguments.options;
     options.progress = line.progress();
     Character character = osgSkin::loadCharacter(file, options);
     if (!character.hasBody())

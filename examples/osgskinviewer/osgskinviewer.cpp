@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "CharacterOptions.h"
 #include "CommandLine.h"
 #include "Keys.h"
 #include "Snapshots.h"
 #include "Stage.h"
 
 #include <osgSkin/Error>
-#include <osgSkinCharacter/OptionString>
 
 #include <osgGA/StateSetManipulator>
 #include <osgGA/TrackballManipulator>
@@ -72,7 +72,8 @@ int main(int argc, char** argv) {
     app.footer(std::string("Keys:\n") + viewer::keysHelp() +
                "\n\nExit status: 0 done, 1 failed, 2 bad usage.");
     std::string character = OSGSKIN_DATA "/thrower.skin";
-    std::string weights, motion, joint, keys, pictures, shapes, muscles, normals, clearHands;
+    std::string weights, motion, joint, keys, pictures;
+    osgSkin::LoadOptions options;
     Size size;
     double at = 0.0;
     bool paused = false, times = false;
@@ -80,17 +81,7 @@ int main(int argc, char** argv) {
                    "a .skin file, a rigged model (.glb, .fbx, ...), or a scene (.osgb)");
     app.add_option("--weights", weights,
                    "painted weights (JSON) for the peers; without: from our ratios");
-    app.add_option("--shapes", shapes, "none, fast or elastic; as the character says by default")
-        ->check(CLI::IsMember({"none", "fast", "elastic"}));
-    app.add_option("--muscles", muscles, "on or off; as the character says by default")
-        ->check(CLI::IsMember({"on", "off"}));
-    app.add_option("--normals", normals,
-                   "surface (that is drawn) or turned; as the character says by default")
-        ->check(CLI::IsMember({"surface", "turned"}));
-    app.add_option("--clear-hands", clearHands,
-                   "on or off: motion files' arms are turned out of the body; as the character "
-                   "says by default")
-        ->check(CLI::IsMember({"on", "off"}));
+    example::addCharacterOptions(app, options);
     app.add_option("--motion", motion, "name of the motion to start with");
     app.add_option("--joint", joint, "name of the joint whose ratios b and t show");
     app.add_option("--at", at, "seconds into the motion to start at");
@@ -115,11 +106,6 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        osgSkin::LoadOptions options;
-        options.shapes = osgSkin::shapesCalled(shapes);
-        if (!muscles.empty()) options.muscles = muscles == "on";
-        if (!normals.empty()) options.surfaceNormals = normals == "surface";
-        if (!clearHands.empty()) options.clearHands = clearHands == "on";
         viewer::Stage stage(character, weights, options, size.width, size.height);
         if (!motion.empty()) stage.setMotion(motion);
         if (!joint.empty()) stage.setJoint(joint);

@@ -130,7 +130,14 @@ TEST_F(GuardedSkin, UnknownMembersAreAFewLines) {
                   20'000, [](const std::string& number) { return "\"x" + number + "\": 1"; }))),
               "read");
     EXPECT_EQ(notices.lines(), 11u);
-    EXPECT_TRUE(notices.say("a.skin: 19990 more members are not known, passed over"));
+    EXPECT_TRUE(notices.say("a.skin: 19990 more unknown members ignored"));
+}
+
+TEST_F(GuardedSkin, UnknownMembersAreToldFromKnownOnes) {
+    const test::Notices notices;
+    EXPECT_EQ(test::whyRefused(skin(R"("motoins": [], "remark": "none")")), "read");
+    EXPECT_TRUE(notices.say("motoins: unknown member ignored; did you mean \"motions\"?"));
+    EXPECT_TRUE(notices.say("remark: unknown member ignored\n")) << notices.text();
 }
 
 TEST_F(GuardedSkin, WeightsAreAVertexAndANumberEach) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hands/SkinPoints.h"
+#include "arms/BodySurface.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,24 +1,329 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "load/BindSource.h"
+#include "load/LoadSteps.h"
+#include "options/LoadReport.h"
+#include "source/CharacterSource.h"
 
-#include "load/KeepShells.h"
-#include "load/TellMisfit.h"
-#include "report/NamingFile.h"
-#include "report/TakeNote.h"
-#include "source/MeshWeights.h"
-
+#include <osgSkin/Binding>
 #include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
 #include <osgSkinBind/Bind>
+#include <osgSkinBind/BindReport>
 #include <osgSkinBind/BindWeights>
 #include <osgSkinCharacter/ReadWeights>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinRig/JointRoles>
+#include <osgSkinRig/RestSkeleton>
 
+#include <osg/BoundingBox>
 #include <osg/Notify>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <locale>
 #include <map>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
+
+/// The mesh file's own weights, vertex by vertex.
+///
+/// \param file the mesh's, for errors
+/// \throw Error where the mesh carries none, or names a bone that the skeleton does not have
+VertexWeights meshWeights(const std::string& file, const ImportedMesh& body,
+                          const RestSkeleton& skeleton) {
+    if (body.weights.empty())
+        throw Error(file + ": the mesh carries no weights, expected bones with weights in it, or "
+                           "a file of weights named by \"weights\"");
+    VertexWeights result(body.mesh.positions.size());
+    const std::map<std::string, int> jointOf = skeleton.byName();
+    for (const BoneWeights& bone : body.weights) {
+        const auto joint = jointOf.find(bone.bone);
+        if (joint == jointOf.end())
+            throw Error(file + ": bone \"" + bone.bone +
+                        "\" has weights, expected the name of a joint of the skeleton");
+        for (const BoneWeights::Entry& entry : bone.entries)
+            result[entry.vertex].push_back(
+                {static_cast<std::uint32_t>(joint->second), entry.weight});
+    }
+    return result;
+}
+
+/// Ratio of lengths above which body and skeleton have different units. Common units differ by
+/// factors of 10 (centimetres), 39.4 (inches), 100 and 1000.
+constexpr double kMostRatio = 5.0;
+
+/// The same for joints that weights name: a face's joints are close together.
+constexpr double kMostPaintedRatio = 8.0;
+constexpr std::size_t kFewJoints = 3; ///< fewer do not tell a body's size
+
+/// Distance of joints from the body, in its lengths, that is tolerated: in an open jacket's sleeve.
+constexpr double kRoom = 0.05;
+
+/// Rounding of vertices, relative to the body's size, that is not visible.
+constexpr double kMostRounding = 1e-4;
+
+double lengthOf(const osg::BoundingBoxd& box) {
+    return box.valid() ? 2.0 * box.radius() : 0.0;
+}
+
+osg::BoundingBoxd boxOf(const SkinMesh& mesh) {
+    osg::BoundingBoxd result;
+    for (const glm::dvec3& position : mesh.positions) result.expandBy(toOsg(position));
+    return result;
+}
+
+/// \param joints number of joints
+/// \param mostRatio largest ratio of lengths in the same unit
+/// \param outside number of joints outside the skin
+void tellMisfit(CharacterSource& source, const osg::BoundingBoxd& body,
+                const osg::BoundingBoxd& skeleton, std::size_t joints, double mostRatio,
+                std::size_t outside) {
+    std::ostringstream note;
+    note.imbue(std::locale::classic());
+    note.precision(3);
+    note << source.file << ": ";
+    const double ratio = lengthOf(skeleton) > 0.0 ? lengthOf(body) / lengthOf(skeleton) : 1.0;
+    if (ratio > mostRatio || ratio < 1.0 / mostRatio)
+        note << "the body is " << ratio
+             << " times as long as the skeleton, expected both in the same unit";
+    else if (outside > joints - outside)
+        note << outside << " of " << joints
+             << " joints lie outside the skin, expected the skeleton in the body's pose, unit "
+                "and place";
+    else
+        return;
+    takeNote(source.notes, note.str());
+}
+
+/// Warns about a skeleton that hardly fits the body: in another unit, with another axis up, or
+/// elsewhere. Such a body can be bound, but to the wrong joints.
+///
+/// \param source with body and rest skeleton; gets a note
+/// \param report of its binding by regions
+void tellMisfit(CharacterSource& source, const BindReport& report) {
+    osg::BoundingBoxd skeleton;
+    if (source.rest.joints.size() > 1)
+        for (const RestJoint& joint : source.rest.joints) {
+            skeleton.expandBy(toOsg(joint.centre));
+            if (joint.tip) skeleton.expandBy(toOsg(*joint.tip));
+        }
+    tellMisfit(source, boxOf(source.body.mesh), skeleton,
+               report.jointsOutside + report.jointsInside, kMostRatio, report.jointsOutside);
+}
+
+/// As above, for a body bound by weights from another file: the joints that they name should lie
+/// around its skin.
+void tellMisfit(CharacterSource& source, const VertexWeights& weights) {
+    std::vector<bool> named(source.rest.joints.size());
+    for (const auto& entries : weights)
+        for (const JointWeight& entry : entries)
+            if (entry.weight > 0.0) named[static_cast<std::size_t>(entry.joint)] = true;
+    const osg::BoundingBoxd body = boxOf(source.body.mesh);
+    const double room = kRoom * lengthOf(body);
+    osg::BoundingBoxd skeleton;
+    std::size_t joints = 0, outside = 0;
+    for (std::size_t j = 0; j < named.size(); ++j) {
+        if (!named[j]) continue;
+        const osg::Vec3d centre = toOsg(source.rest.joints[j].centre);
+        skeleton.expandBy(centre);
+        ++joints;
+        for (int axis = 0; axis < 3; ++axis)
+            if (centre[axis] < body._min[axis] - room || centre[axis] > body._max[axis] + room) {
+                ++outside;
+                break;
+            }
+    }
+    if (joints < kFewJoints) skeleton.init();
+    tellMisfit(source, body, skeleton, joints, kMostPaintedRatio, outside);
+}
+
+/// Warns about a body so far from the origin that single precision changes its shape.
+///
+/// \param source with a body; gets a note
+void tellRounding(CharacterSource& source) {
+    double farthest = 0.0;
+    for (const glm::dvec3& p : source.body.mesh.positions)
+        for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(p[axis]));
+    const double rounding = farthest * double(std::numeric_limits<float>::epsilon()) / 2.0;
+    const double size = source.body.mesh.size();
+    if (!(rounding > kMostRounding * size)) return;
+    std::ostringstream note;
+    note.imbue(std::locale::classic());
+    note.precision(3);
+    note << source.meshFile << ": the body is " << farthest << " from the origin and " << size
+         << " long, so that single precision rounds its vertices by " << rounding
+         << "; expected it near the origin, moved by a transform above it";
+    takeNote(source.notes, note.str());
+}
+
+constexpr double kWhole = 0.99; ///< share of a shell's weight that counts as painted for one joint
+constexpr double kMostOf = 0.5; ///< share of a shell's vertices that makes it a head
+
+using Shell = std::vector<std::uint32_t>;
+
+/// The connected pieces of a mesh, with vertices at the same position joined.
+std::vector<Shell> shellsOf(const SkinMesh& mesh) {
+    std::vector<std::uint32_t> up(mesh.positions.size());
+    std::iota(up.begin(), up.end(), 0u);
+    const auto top = [&up](std::uint32_t v) {
+        while (up[v] != v) v = up[v] = up[up[v]];
+        return v;
+    };
+    std::map<std::tuple<double, double, double>, std::uint32_t> first;
+    for (std::uint32_t v = 0; v < up.size(); ++v) {
+        const glm::dvec3& p = mesh.positions[v];
+        up[v] = first.emplace(std::make_tuple(p.x, p.y, p.z), v).first->second;
+    }
+    const std::uint32_t* corners = mesh.faceVertices.data();
+    for (const std::uint32_t size : mesh.faceSizes) {
+        for (std::uint32_t k = 1; k < size; ++k) up[top(corners[k])] = top(corners[0]);
+        corners += size;
+    }
+    std::map<std::uint32_t, Shell> shells;
+    for (std::uint32_t v = 0; v < up.size(); ++v) shells[top(v)].push_back(v);
+    std::vector<Shell> result;
+    result.reserve(shells.size());
+    for (auto& [root, shell] : shells) result.push_back(std::move(shell));
+    return result;
+}
+
+/// For each joint, the topmost hand or head among itself and its ancestors; -1 for none.
+std::vector<int> extremities(const RestSkeleton& rest, const JointRoles& roles) {
+    std::vector<int> result(rest.joints.size(), -1);
+    for (std::size_t j = 1; j < result.size(); ++j) {
+        result[j] = result[static_cast<std::size_t>(rest.joints[j].parent)];
+        if (result[j] < 0 && (roles.is(j, JointPart::Hand) || roles.is(j, JointPart::Head)))
+            result[j] = static_cast<int>(j);
+    }
+    return result;
+}
+
+class Keeper {
+public:
+    Keeper(const CharacterSource& source, const VertexWeights& weights, const Binding& binding)
+        : _roles(recogniseJoints(source.rest, source.bind.names)),
+          _extremities(extremities(source.rest, _roles)), _weights(weights), _binding(binding) {}
+
+    /// The only joint that a shell follows; -1 for none.
+    int jointOf(const Shell& shell, bool isLargest) const {
+        std::vector<double> shares(_extremities.size(), 0.0);
+        double all = 0.0;
+        for (const std::uint32_t v : shell) all += addShares(v, shares);
+        if (!(all > 0.0) || (_weights.empty() && isLargest)) return -1;
+        const auto most = std::max_element(shares.begin(), shares.end());
+        const auto joint = static_cast<std::size_t>(most - shares.begin());
+        const int extremity = _extremities[joint];
+        if (extremity < 0) return -1;
+        if (!_weights.empty() && *most >= kWhole * all) return static_cast<int>(joint);
+        double under = 0.0;
+        for (std::size_t j = 0; j < shares.size(); ++j)
+            if (_extremities[j] == extremity) under += shares[j];
+        const bool isHead = _roles.is(static_cast<std::size_t>(extremity), JointPart::Head);
+        return isHead && under > (_weights.empty() ? kMostOf : kWhole) * all ? extremity : -1;
+    }
+
+private:
+    /// Adds a vertex's weights; without weights, 1 for its region's joint.
+    double addShares(std::uint32_t vertex, std::vector<double>& shares) const {
+        double sum = 0.0;
+        if (_weights.empty()) {
+            shares[_binding.regions[vertex]] += 1.0;
+            return 1.0;
+        }
+        for (const JointWeight& entry : _weights[vertex]) sum += entry.weight;
+        if (!(sum > 0.0)) return 0.0;
+        for (const JointWeight& entry : _weights[vertex]) shares[entry.joint] += entry.weight / sum;
+        return 1.0;
+    }
+
+    const JointRoles _roles;
+    const std::vector<int> _extremities;
+    const VertexWeights& _weights;
+    const Binding& _binding;
+};
+
+/// Removes correctives from vertices that do not bend.
+void dropCorrectives(const std::vector<int>& jointOf, Correctives& correctives) {
+    if (correctives.firstEntry.empty()) return;
+    std::vector<Correctives::Entry> entries;
+    std::vector<std::uint32_t> firsts{0};
+    for (std::size_t v = 0; v < jointOf.size(); ++v) {
+        if (jointOf[v] < 0)
+            entries.insert(entries.end(), correctives.entries.begin() + correctives.firstEntry[v],
+                           correctives.entries.begin() + correctives.firstEntry[v + 1]);
+        firsts.push_back(static_cast<std::uint32_t>(entries.size()));
+    }
+    correctives.entries = std::move(entries);
+    correctives.firstEntry = std::move(firsts);
+}
+
+/// Makes vertices follow one joint and its ancestors fully. [vertex] -1: unchanged.
+void follow(const std::vector<int>& jointOf, Binding& binding) {
+    std::vector<Influence> influences;
+    std::vector<RatioGradient> gradients;
+    std::vector<std::uint32_t> firsts{0};
+    for (std::size_t v = 0; v < jointOf.size(); ++v) {
+        if (jointOf[v] < 0) {
+            const std::uint32_t begin = binding.firstInfluence[v];
+            const std::uint32_t end = binding.firstInfluence[v + 1];
+            influences.insert(influences.end(), binding.influences.begin() + begin,
+                              binding.influences.begin() + end);
+            if (!binding.gradients.empty())
+                gradients.insert(gradients.end(), binding.gradients.begin() + begin,
+                                 binding.gradients.begin() + end);
+        } else {
+            const std::size_t begin = influences.size();
+            for (int j = jointOf[v]; j >= 0; j = binding.joints[static_cast<std::size_t>(j)].parent)
+                influences.push_back({static_cast<std::uint32_t>(j), 1.0f, 1.0f});
+            std::reverse(influences.begin() + static_cast<std::ptrdiff_t>(begin), influences.end());
+            binding.regions[v] = static_cast<std::uint32_t>(jointOf[v]);
+            if (!binding.gradients.empty()) gradients.resize(influences.size());
+        }
+        firsts.push_back(static_cast<std::uint32_t>(influences.size()));
+    }
+    binding.influences = std::move(influences);
+    binding.gradients = std::move(gradients);
+    binding.firstInfluence = std::move(firsts);
+    dropCorrectives(jointOf, binding.correctives);
+}
+
+/// Corrects regions of a body of several shells: a held thing belongs to the hand, however near it
+/// is to a leg, and a head that is a shell is one rigid piece.
+///
+/// With painted weights, a shell that is painted wholly for one joint of a hand or a head, at or
+/// below it, follows that joint alone; one painted for several joints of a head, the head. Without,
+/// a shell most of whose vertices are in a head's region follows the head, but for the largest.
+///
+/// \param source with its body and its skeleton
+/// \param weights of the body's mesh; empty where there are none
+/// \param binding of the body, by regions; changed
+/// \return the number of shells that were changed
+std::size_t keepShells(const CharacterSource& source, const VertexWeights& weights,
+                       Binding& binding) {
+    const std::vector<Shell> shells = shellsOf(source.body.mesh);
+    if (shells.size() < 2) return 0;
+    std::size_t largest = 0;
+    for (const Shell& shell : shells) largest = std::max(largest, shell.size());
+    const Keeper keeper(source, weights, binding);
+    std::vector<int> jointOf(binding.vertexCount(), -1);
+    std::size_t kept = 0;
+    for (const Shell& shell : shells) {
+        const int joint = keeper.jointOf(shell, shell.size() == largest);
+        if (joint < 0) continue;
+        for (const std::uint32_t v : shell) jointOf[v] = joint;
+        ++kept;
+    }
+    if (kept > 0) follow(jointOf, binding);
+    return kept;
+}
 
 using Painted = CharacterSource::Painted;
 
@@ -28,7 +333,7 @@ VertexWeights paintedWeights(const CharacterSource& source) {
                        source.limits);
 }
 
-/// Whether the mesh has weights for joints of the skeleton, which may be another file's.
+/// Whether the mesh has weights for joints of the skeleton, which may come from another file.
 bool carriesWeights(const CharacterSource& source) {
     const std::vector<BoneWeights>& bones = source.body.weights;
     const std::map<std::string, int> jointOf = source.rest.byName();
@@ -37,7 +342,7 @@ bool carriesWeights(const CharacterSource& source) {
                        [&](const BoneWeights& bone) { return jointOf.count(bone.bone) != 0; });
 }
 
-/// How many vertices nobody painted.
+/// The number of vertices without weights.
 std::size_t gapsOf(const VertexWeights& weights) {
     return static_cast<std::size_t>(
         std::count_if(weights.begin(), weights.end(), [](const auto& entries) {
@@ -46,7 +351,7 @@ std::size_t gapsOf(const VertexWeights& weights) {
         }));
 }
 
-/// Tells of vertices that nobody painted, where weights were asked for.
+/// Notes vertices without weights, where the method is weights.
 void tellGaps(CharacterSource& source, const VertexWeights& weights) {
     const std::size_t gaps = gapsOf(weights);
     const std::string& file = source.weightsFile.empty() ? source.meshFile : source.weightsFile;
@@ -57,7 +362,7 @@ void tellGaps(CharacterSource& source, const VertexWeights& weights) {
                                    "that has");
 }
 
-/// Tells where a mesh' own weights are not what its body is bound by.
+/// Notes that a mesh's own weights are not used.
 void tellUnused(CharacterSource& source, const VertexWeights& weights) {
     const std::size_t gaps = gapsOf(weights);
     if (gaps == weights.size()) {
@@ -65,7 +370,7 @@ void tellUnused(CharacterSource& source, const VertexWeights& weights) {
                  source.meshFile + ": no weight is above 0, the body is bound by regions");
         return;
     }
-    if (gaps == 0 && source.rest.joints.size() == 1) return; // which all follow either way
+    if (gaps == 0 && source.rest.joints.size() == 1) return; // all vertices follow it either way
     const std::string why = gaps == 0
                                 ? "all vertices follow one joint"
                                 : std::to_string(gaps) + " of " + std::to_string(weights.size()) +
@@ -75,8 +380,9 @@ void tellUnused(CharacterSource& source, const VertexWeights& weights) {
                                "\"weights\" keeps to them)");
 }
 
-/// Lets joints own nothing that a well-painted file's own weights never use: IK targets, controls,
-/// ends of chains. Twins of joints that are used (the "D" bones of MMD) stay: either may own skin.
+/// Skips joints that a well-painted file's own weights never use: IK targets, controls, ends of
+/// chains. Joints at the same position as a used one (the "D" bones of MMD) are kept: either may
+/// own skin.
 void skipUnused(const RestSkeleton& rest, const VertexWeights& weights, BindOptions& options) {
     std::vector<bool> isUsed(rest.joints.size(), false);
     for (const std::vector<JointWeight>& entries : weights)

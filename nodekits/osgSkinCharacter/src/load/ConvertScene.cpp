@@ -1,25 +1,155 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "load/ConvertScene.h"
-
-#include "load/BonesFirst.h"
-#include "load/SceneMotions.h"
+#include "load/LoadSteps.h"
+#include "scene/BuildScene.h"
 #include "scene/FaceViewer.h"
-#include "source/CacheFolder.h"
+#include "source/ApplyOptions.h"
 
+#include <osgSkin/AutoPlayManager>
 #include <osgSkin/Error>
 #include <osgSkinBind/ConvertRigs>
+#include <osgSkinCharacter/Character>
+#include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ReadLimits>
 #include <osgSkinImport/ReadScene>
 
 #include <osg/MatrixTransform>
+#include <osg/Node>
+#include <osg/NodeVisitor>
 #include <osg/StateSet>
 #include <osg/Transform>
+#include <osgAnimation/Bone>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
+
+bool isBone(const osg::ref_ptr<osg::Node>& node) {
+    return dynamic_cast<osgAnimation::Bone*>(node.get()) != nullptr;
+}
+
+class Sorter : public osg::NodeVisitor {
+public:
+    Sorter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Transform& node) override {
+        if (dynamic_cast<osgAnimation::Bone*>(&node) != nullptr) sort(node);
+        traverse(node);
+    }
+
+private:
+    static void sort(osg::Group& bone) {
+        std::vector<osg::ref_ptr<osg::Node>> children;
+        for (unsigned int c = 0; c < bone.getNumChildren(); ++c)
+            children.emplace_back(bone.getChild(c));
+        if (std::is_partitioned(children.begin(), children.end(), isBone)) return;
+        std::stable_partition(children.begin(), children.end(), isBone);
+        bone.removeChildren(0, bone.getNumChildren());
+        for (const auto& child : children) bone.addChild(child);
+    }
+};
+
+/// Moves bones before a bone's other children: osgAnimation updates them in this order, and warns
+/// about others.
+void putBonesFirst(osg::Node& scene) {
+    Sorter sorter;
+    scene.accept(sorter);
+}
+
+using osgAnimation::BasicAnimationManager;
+
+/// Finds a scene's animation managers and the nodes that they update.
+class Managers : public osg::NodeVisitor {
+public:
+    struct Entry {
+        osg::ref_ptr<BasicAnimationManager> manager;
+        osg::Node* node;
+    };
+
+    Managers() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Node& node) override {
+        for (osg::Callback* callback = node.getUpdateCallback(); callback != nullptr;
+             callback = callback->getNestedCallback()) {
+            auto* manager = dynamic_cast<BasicAnimationManager*>(callback);
+            const bool isKnown = std::any_of(found.begin(), found.end(), [&](const Entry& entry) {
+                return entry.manager == manager;
+            });
+            if (manager != nullptr && !isKnown) found.push_back({manager, &node});
+        }
+        traverse(node);
+    }
+
+    std::vector<Entry> found;
+};
+
+/// Moves the requested animation to the front.
+void putFirst(const std::string& wanted, const std::string& file,
+              std::vector<osgAnimation::AnimationList>& lists) {
+    std::string names;
+    for (osgAnimation::AnimationList& list : lists)
+        for (std::size_t a = 0; a < list.size(); ++a) {
+            const std::string& name = list[a]->getName();
+            names += (names.empty() ? ", expected one of \"" : ", \"") + name + '"';
+            if (name != wanted) continue;
+            std::rotate(list.begin(), list.begin() + std::ptrdiff_t(a),
+                        list.begin() + std::ptrdiff_t(a) + 1);
+            return;
+        }
+    throw Error(file + ": motion \"" + wanted + "\" is none of the scene's" +
+                (names.empty() ? ", which has none" : names) +
+                "; motion files are not carried over to scenes that OpenSceneGraph reads");
+}
+
+/// Replaces the scene's manager by one on the root.
+void manageFromRoot(const Managers::Entry& entry, const osgAnimation::AnimationList& clips,
+                    Character& character) {
+    const osg::ref_ptr<osg::Group> scene = character.root;
+    entry.node->removeUpdateCallback(entry.manager);
+    character.root = new osg::Group;
+    character.root->setName(scene->getName());
+    character.root->addChild(scene);
+    character.root->setInitialBound(playedBounds(*character.root, clips));
+    const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
+    manager->registerAnimations(clips);
+    character.manager = manager;
+    for (const auto& clip : clips) character.motions.emplace_back().animation = clip;
+    character.root->setUpdateCallback(character.manager);
+    character.manager->playAnimation(clips.front());
+}
+
+/// Sets up the animations of a scene that osgDB has read: the one of LoadOptions plays, else the
+/// first. In a scene with one animation manager, the character gets its motions, and a manager at
+/// the root replaces the scene's and also plays when saved and read again. Several managers stay
+/// and play their first animations.
+///
+/// \param options of the caller
+/// \param character with `file` and the scene as its root
+/// \throw Error where the requested motion is not one of the scene's, with their names: motion
+///        files are not retargeted to such scenes
+void takeSceneMotions(const LoadOptions& options, Character& character) {
+    Managers managers;
+    character.root->accept(managers);
+    if (options.atRest) {
+        for (const Managers::Entry& entry : managers.found)
+            entry.node->removeUpdateCallback(entry.manager);
+        return;
+    }
+    std::vector<osgAnimation::AnimationList> lists;
+    for (const Managers::Entry& entry : managers.found) {
+        lists.push_back(entry.manager->getAnimationList());
+        auto& list = lists.back();
+        list.erase(std::remove(list.begin(), list.end(), nullptr), list.end());
+    }
+    if (options.motion) putFirst(*options.motion, character.file, lists);
+    if (lists.size() == 1 && !lists.front().empty())
+        return manageFromRoot(managers.found.front(), lists.front(), character);
+    for (std::size_t m = 0; m < lists.size(); ++m)
+        if (!lists[m].empty()) managers.found[m].manager->playAnimation(lists[m].front());
+}
 
 ConvertOptions convertOptionsOf(const LoadOptions& options) {
     using Method = LoadOptions::Method;
@@ -45,7 +175,7 @@ osg::ref_ptr<osg::Group> asGroup(osg::Node* node) {
     return group;
 }
 
-/// The state that all nodes down to a skin set together.
+/// The merged state of all nodes above a skin.
 osg::ref_ptr<osg::StateSet> stateOf(const osg::Node& skin) {
     osg::ref_ptr<osg::StateSet> merged = new osg::StateSet;
     const osg::NodePathList paths = skin.getParentalNodePaths();
@@ -55,7 +185,7 @@ osg::ref_ptr<osg::StateSet> stateOf(const osg::Node& skin) {
     return merged;
 }
 
-/// The one body of a scene is the character's.
+/// Makes a scene's only body the character's.
 void takeBody(ConvertedBody& body, const BindOptions& options, Character& character) {
     character.body.mesh = std::move(body.mesh);
     character.body.parts = std::move(body.parts);
@@ -72,7 +202,7 @@ void takeBody(ConvertedBody& body, const BindOptions& options, Character& charac
     if (!paths.empty()) character.toWorld = osg::computeLocalToWorld(paths.front());
 }
 
-/// Turns the whole scene; the author's own nodes stay as they are.
+/// Rotates the whole scene without changing the author's nodes.
 void faceViewer(Character& character) {
     const osg::Matrixd turn =
         turnToViewer(recogniseJoints(character.rest), boneCentres(character.rest, *character.root));

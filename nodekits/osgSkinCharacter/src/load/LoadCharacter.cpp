@@ -1,28 +1,72 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinCharacter/LoadCharacter>
 
-#include "load/BindSource.h"
-#include "load/ConvertScene.h"
-#include "load/OpenFile.h"
-#include "load/RetargetMotions.h"
-#include "load/RigidParts.h"
-#include "report/NamingFile.h"
+#include "load/LoadSteps.h"
+#include "options/LoadReport.h"
 #include "scene/BuildScene.h"
-#include "source/ReadRig.h"
-#include "source/ReadSkinFile.h"
+#include "source/CharacterSource.h"
 
+#include <osgSkin/Error>
 #include <osgSkinGpu/GpuSkin>
 #include <osgSkinImport/FindNamedFile>
 #include <osgSkinImport/ImportRig>
 
 #include <osgDB/FileNameUtils>
 
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
 
-/// What is the same for a `.skin` file and a rigged model: everything after their files are read.
+/// Marks a character's file as being loaded. OSG's readers may load further characters as its
+/// parts; this detects files that include themselves or each other.
+class OpenFile {
+public:
+    /// \throw Error where this thread is already loading the file, or parts are nested too deeply
+    explicit OpenFile(const std::string& file);
+    ~OpenFile();
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+};
+
+constexpr std::size_t kDeepestFile = 8;
+
+/// This thread's files, from the outermost to the innermost.
+std::vector<std::string>& openFiles() {
+    static thread_local std::vector<std::string> files;
+    return files;
+}
+
+/// A canonical name for a file.
+std::string onlyName(const std::string& file) {
+    std::error_code failure;
+    const std::filesystem::path path = std::filesystem::weakly_canonical(file, failure);
+    return failure ? file : path.string();
+}
+
+OpenFile::OpenFile(const std::string& file) {
+    std::vector<std::string>& files = openFiles();
+    const std::string name = onlyName(file);
+    if (std::find(files.begin(), files.end(), name) != files.end())
+        throw Error(file + ": is a part of itself" +
+                    (files.size() > 1 ? ", by way of " + files.back() : "") +
+                    ", expected another file");
+    if (files.size() >= kDeepestFile)
+        throw Error(file + ": characters are parts of each other, expected no more than " +
+                    std::to_string(kDeepestFile));
+    files.push_back(name);
+}
+
+OpenFile::~OpenFile() {
+    openFiles().pop_back();
+}
+
+/// The steps that `.skin` files and rigged models share: everything after reading their files.
 Character makeCharacter(CharacterSource source, const LoadOptions& options, LoadStages& stages) {
     Character character;
     character.motions = retargetMotions(source, options.readOptions.get(), stages);

@@ -1,22 +1,219 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/BuildScene.h"
 
-#include "report/TakeNote.h"
-#include "scene/ClipBounds.h"
+#include "options/LoadReport.h"
 #include "scene/FaceViewer.h"
-#include "scene/PlayedBounds.h"
-#include "scene/Props.h"
+#include "source/CharacterSource.h"
 
 #include <osgSkin/AutoPlayManager>
+#include <osgSkin/Binding>
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/GlmTypes>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/NonUniformScale>
 #include <osgSkinBind/ShowRegions>
+#include <osgSkinCharacter/CharacterMotion>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinRig/Clip>
+#include <osgSkinRig/ForwardKinematics>
 #include <osgSkinRig/MakeSkeleton>
+#include <osgSkinRig/Motion>
+#include <osgSkinRig/Prop>
+#include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/SkinMesh>
 
+#include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <osg/BoundingBox>
+#include <osg/BoundingSphere>
+#include <osg/ComputeBoundsVisitor>
+#include <osg/FrameStamp>
+#include <osg/Group>
+#include <osg/Matrix>
 #include <osg/MatrixTransform>
+#include <osg/Notify>
+#include <osg/ref_ptr>
 #include <osgDB/FileNameUtils>
+#include <osgDB/Options>
+#include <osgUtil/UpdateVisitor>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 namespace osgSkin {
+namespace {
+
+/// For each joint, the largest distance of its region's skin from its centre.
+std::vector<double> skinDistances(const Binding& binding, const SkinMesh& mesh) {
+    std::vector<double> distances(binding.joints.size(), 0.0);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const std::uint32_t joint = binding.regions[v];
+        distances[joint] = std::max(distances[joint],
+                                    glm::length(mesh.positions[v] - binding.joints[joint].centre));
+    }
+    return distances;
+}
+
+/// A sphere around the character over the whole clip, in the space of `toWorld`: the joints' paths,
+/// enlarged by the skin's distance from its joints.
+osg::BoundingSphere clipBounds(const Clip& clip, const RestSkeleton& rig, const Binding& binding,
+                               const SkinMesh& mesh, const osg::Matrix& toWorld) {
+    // A character moves less than a hand's breadth in a few samples.
+    const std::size_t step = std::max<std::size_t>(1, clip.frames / 200);
+    const std::vector<double> distances = skinDistances(binding, mesh);
+    std::vector<std::pair<osg::Vec3d, double>> balls;
+    osg::BoundingBoxd box;
+    std::vector<glm::dquat> rotations;
+    std::vector<glm::dvec3> centres;
+    for (std::size_t frame = 0; frame < clip.frames; frame += step) {
+        worldRotations(rig, &clip.rotations[frame * clip.joints], rotations);
+        worldPositions(rig, rotations, clip.rootPositions[frame], centres);
+        for (std::size_t j = 0; j < centres.size(); ++j) {
+            const osg::Vec3d centre = toOsg(centres[j]) * toWorld;
+            const osg::Vec3d reach(distances[j], distances[j], distances[j]);
+            balls.emplace_back(centre, distances[j]);
+            box.expandBy(centre - reach);
+            box.expandBy(centre + reach);
+        }
+    }
+    double radius = 0.0;
+    for (const auto& [centre, distance] : balls)
+        radius = std::max(radius, (centre - box.center()).length() + distance);
+    return {box.center(), static_cast<float>(radius)};
+}
+
+/// The meshes of a character's props. Each file is read once and shared.
+class PropMeshes {
+public:
+    /// \param options for the meshes; may be null
+    explicit PropMeshes(const osgDB::Options* options) : _options(options) {}
+
+    /// \throw Error with the file and the place in it
+    const ImportedMesh& of(const std::string& file);
+
+private:
+    const osg::ref_ptr<const osgDB::Options> _options;
+    std::map<std::string, ImportedMesh> _meshes; ///< by path
+};
+
+const ImportedMesh& PropMeshes::of(const std::string& file) {
+    std::error_code failure;
+    const std::string path = std::filesystem::weakly_canonical(file, failure).string();
+    const std::string& key = failure ? file : path;
+    const auto known = _meshes.find(key);
+    if (known != _meshes.end()) return known->second;
+    return _meshes.emplace(key, importMesh(file, _options.get())).first->second;
+}
+
+/// The time that a motion skips, in seconds. A prop skips it too, to stay in time with the motion.
+double skippedTime(const CharacterSource& source, const CharacterMotion& motion,
+                   const SkinFile::Prop& prop) {
+    for (const SkinFile::MotionEntry& entry : source.motions)
+        if (entry.name == prop.motion) return double(entry.skipFrames) * motion.clip.frameTime;
+    return 0.0;
+}
+
+/// The rest of a prop's path after some time. Its samples may have another rate than the motion's,
+/// so that it begins between two of them. A prop that never moves has one sample, which is kept.
+Motion after(const Motion& path, double seconds, const std::string& file) {
+    if (seconds == 0.0 || path.frames == 1) return path;
+    const double first = seconds / path.frameTime, last = double(path.frames - 1);
+    if (first > last + 1e-6)
+        throw Error(file + ": expected samples after the " + std::to_string(seconds) +
+                    " s that its motion skips, found " + std::to_string(last * path.frameTime) +
+                    " s");
+    Motion rest = path;
+    rest.frames = 0;
+    rest.rotations.clear();
+    rest.rootPositions.clear();
+    for (double at = first; at <= last + 1e-6; at += 1.0) {
+        const double whole = std::min(std::floor(at + 1e-6), last);
+        const double part = at - whole < 1e-6 ? 0.0 : at - whole;
+        const std::size_t from = static_cast<std::size_t>(whole);
+        const std::size_t to = std::min(from + 1, path.frames - 1);
+        std::vector<glm::dquat> rotations;
+        for (std::size_t j = 0; j < path.skeleton.joints.size(); ++j)
+            rotations.push_back(
+                part == 0.0 ? path.rotation(from, j)
+                            : glm::slerp(path.rotation(from, j), path.rotation(to, j), part));
+        rest.addFrame(glm::mix(path.rootPositions[from], path.rootPositions[to], part), rotations);
+    }
+    return rest;
+}
+
+/// Adds the props of a motion, animated by further channels of its animation, so that they stay in
+/// time with the figure. Their paths are transformed like the root's.
+///
+/// \param source names the props; counts their samples
+/// \param motion that they belong to; retargeted
+/// \param parent gets a child for each prop; in skeleton space
+/// \param meshes of the props of all motions
+/// \param options for the props' motions; may be null
+/// \throw Error with the file and the place in it
+void addProps(CharacterSource& source, const CharacterMotion& motion, osg::Group& parent,
+              PropMeshes& meshes, const osgDB::Options* options) {
+    for (std::size_t i = 0; i < source.props.size(); ++i) {
+        const SkinFile::Prop& prop = source.props[i];
+        if (prop.motion != motion.name()) continue;
+        // Bones and props share one table of animation targets, so the name must not be a joint's.
+        const std::string name = "prop:" + prop.motion + ":" + std::to_string(i);
+        const ImportedMesh& mesh = meshes.of(prop.mesh);
+        const Motion whole = importMotion(prop.file, 0, {}, options);
+        const Motion path = after(whole, skippedTime(source, motion, prop), prop.file);
+        if (path.skeleton.joints.size() > 1)
+            OSG_NOTICE << onOneLine(prop.file + ": has " +
+                                    std::to_string(path.skeleton.joints.size()) +
+                                    " joints, of which a prop follows the first alone")
+                       << std::endl;
+        namingFile(prop.file, [&] {
+            source.samples.add(prop.file, whole.frames, path.skeleton.joints.size(), source.limits);
+        });
+        parent.addChild(makeProp(name, mesh.parts, path, motion.report, *motion.animation));
+    }
+}
+
+constexpr int kSamples = 24;
+
+void update(osg::Node& root, double time) {
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    stamp->setSimulationTime(time);
+    osgUtil::UpdateVisitor visitor;
+    visitor.setFrameStamp(stamp);
+    root.accept(visitor);
+}
+
+} // namespace
+
+osg::BoundingSphere playedBounds(osg::Group& root, const osgAnimation::AnimationList& clips) {
+    // A separate manager, so that the one that plays later begins at 0.
+    double duration = 0.0;
+    if (!clips.empty()) {
+        const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
+        manager->registerAnimation(clips.front());
+        root.setUpdateCallback(manager);
+        manager->playAnimation(clips.front());
+        duration = clips.front()->getDuration();
+    }
+    osg::BoundingBox box;
+    for (int k = kSamples - 1; k >= 0; --k) { // the first pose last
+        update(root, duration * k / kSamples);
+        osg::ComputeBoundsVisitor bounds(osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN);
+        root.accept(bounds);
+        box.expandBy(bounds.getBoundingBox());
+        if (duration <= 0.0) break;
+    }
+    root.setUpdateCallback(nullptr);
+    return box.valid() ? osg::BoundingSphere(box) : osg::BoundingSphere();
+}
+
 namespace {
 
 void attach(const CharacterSource& source, Character& character) {
@@ -32,7 +229,7 @@ void attach(const CharacterSource& source, Character& character) {
 osg::ref_ptr<osg::MatrixTransform> makeUpright(const osg::Matrixd& toWorld) {
     osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(toWorld);
     upright->setName("upright");
-    // Bones below are rewritten every frame: nothing here may be flattened into them.
+    // The bones below are set every frame: an optimizer must not flatten this transform into them.
     upright->setDataVariance(osg::Object::DYNAMIC);
     return upright;
 }
@@ -63,7 +260,8 @@ void play(Character& character) {
     character.manager->playAnimation(character.motions.front().animation);
 }
 
-/// A rig that is not straight at rest, sitting or curled up, may tell by its motion.
+/// For a rig that is not straight at rest (sitting or curled up) the motion may show which axis is
+/// up.
 osg::Matrixd turnOfRig(const Character& character, const JointRoles& roles) {
     const JointCentres atRest = restCentres(character.rest, character.toWorld);
     if (character.motions.empty() || isStraight(roles, atRest)) return turnToViewer(roles, atRest);
@@ -98,7 +296,8 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
         bound.center() = bound.center() * turn;
         character.root->setInitialBound(bound);
     } else if (!character.motions.empty()) {
-        // A viewer places its camera before the first frame: tell it where the figure will get to.
+        // A viewer places its camera before the first frame, so it needs bounds of the whole
+        // motion.
         character.root->setInitialBound(clipBounds(character.motions.front().clip, character.rest,
                                                    character.binding, character.body.mesh,
                                                    character.toWorld));

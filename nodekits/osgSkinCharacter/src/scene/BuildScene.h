@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
+#ifndef OSGSKINCHARACTER_SCENE_BUILDSCENE_H
+#define OSGSKINCHARACTER_SCENE_BUILDSCENE_H
 
 #include "source/CharacterSource.h"
 
 #include <osgSkinCharacter/Character>
 #include <osgSkinCharacter/LoadOptions>
 
+#include <osg/BoundingSphere>
+#include <osg/Group>
+#include <osgAnimation/Animation>
+
 namespace osgSkin {
 
-/// Builds the scene of a bound character, Z up: skeleton, skins, rigid parts, props, and the
-/// manager that plays its motions; in the pose that the first one begins with.
+/// A sphere around everything under `root` while the first of `clips` plays. Sets bones and skins
+/// to its first pose; without clips they keep their pose. A viewer places its camera before the
+/// first frame, so it needs these bounds.
 ///
-/// \param source that the character is made of; its skeleton becomes the scene's
+/// \param root without an update callback of its own
+osg::BoundingSphere playedBounds(osg::Group& root, const osgAnimation::AnimationList& clips);
+
+/// Builds the scene of a bound character, Z up: skeleton, skins, rigid parts, props, and the
+/// manager that plays its motions; in the first motion's first pose.
+///
+/// \param source its skeleton becomes the scene's
 /// \param options of the caller
 /// \param character with its body, rest skeleton, binding and retargeted motions; gets the scene
 /// \throw Error where parts do not fit, or a prop cannot be read
 void buildScene(CharacterSource& source, const LoadOptions& options, Character& character);
 
 } // namespace osgSkin
+
+#endif

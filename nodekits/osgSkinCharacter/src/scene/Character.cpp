@@ -13,7 +13,7 @@
 namespace osgSkin {
 namespace {
 
-/// Deforms the skins as the bones stand now.
+/// Deforms the skins by the bones' present matrices.
 void poseSkins(Character& character) {
     for (const AttachedSkin::Skin& attached : character.skin.skins)
         if (auto* update =
@@ -41,7 +41,7 @@ void Character::poseAt(const CharacterMotion& motion, double seconds) {
     }
     osgUtil::UpdateVisitor visitor;
     visitor.setFrameStamp(new osg::FrameStamp);
-    root->traverse(visitor); // but for the manager, which would go on playing
+    root->traverse(visitor); // without the manager, which would play on
     poseSkins(*this);
 }
 

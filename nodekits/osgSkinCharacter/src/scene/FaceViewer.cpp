@@ -17,7 +17,7 @@
 namespace osgSkin {
 namespace {
 
-/// How much of a direction must lie along an axis to be that axis.
+/// A unit direction's least component along an axis to count as that axis.
 constexpr double kAlong = 0.8;
 
 class Figure {
@@ -25,7 +25,7 @@ public:
     Figure(const JointRoles& roles, const JointCentres& centres)
         : _roles(roles), _centres(centres) {}
 
-    /// From one part to another, unit; zero where either is not there.
+    /// The unit direction from one part to another; zero where either is missing.
     osg::Vec3d way(const std::string& from, const std::string& to) const {
         const auto a = centre(from), b = centre(to);
         osg::Vec3d result = a && b ? *b - *a : osg::Vec3d();
@@ -44,7 +44,7 @@ private:
     const JointCentres& _centres;
 };
 
-/// The axis that a direction lies along; zero where it lies between them.
+/// The axis along a direction; zero where it lies between axes.
 osg::Vec3d axisOf(osg::Vec3d way) {
     way.normalize();
     osg::Vec3d result;
@@ -53,7 +53,7 @@ osg::Vec3d axisOf(osg::Vec3d way) {
     return result;
 }
 
-/// The axes along which a figure's parts stand, upwards.
+/// The axes along a figure's trunk, thighs and shins, upwards.
 struct Stance {
     osg::Vec3d trunk, thighs, shins;
 
@@ -66,7 +66,7 @@ struct Stance {
 
     bool isStraight() const { return trunk == thighs && thighs == shins; }
 
-    /// Zero where the parts do not tell.
+    /// The axis that points up; zero where it is unknown.
     osg::Vec3d up() const {
         const osg::Vec3d none;
         if (trunk.z() > 0.0) return trunk; // also where the legs lie on the floor
@@ -76,7 +76,7 @@ struct Stance {
     }
 };
 
-/// Brings the axis along which a figure stands to +Z.
+/// Rotates the axis along which a figure stands to +Z.
 osg::Matrixd standUp(const Figure& figure) {
     const osg::Vec3d up = Stance(figure).up();
     if (up == osg::Vec3d() || up.z() > 0.0) return {};
@@ -85,12 +85,12 @@ osg::Matrixd standUp(const Figure& figure) {
     return osg::Matrixd::rotate(turn);
 }
 
-/// Brings the left side of a figure that stands to +X.
+/// Rotates a standing figure's left side to +X.
 osg::Matrixd faceAhead(const Figure& figure, const osg::Matrixd& stand) {
     osg::Vec3d left =
         figure.way("RightUpperLeg", "LeftUpperLeg") + figure.way("RightUpperArm", "LeftUpperArm");
     left = osg::Matrixd::transform3x3(left, stand);
-    // Both pairs, or else the one that there is, level.
+    // Both pairs, or the only one, must be level.
     if (std::hypot(left.x(), left.y()) < kAlong) return {};
     const double quarters = std::round(std::atan2(left.y(), left.x()) / osg::PI_2);
     if (quarters == 0.0) return {};

@@ -14,43 +14,43 @@
 
 namespace osgSkin {
 
-/// Where joints are in the world; unset for those that are not found.
+/// Joint centres in the world; unset for joints that are not found.
 using JointCentres = std::vector<std::optional<osg::Vec3d>>;
 
-/// The quarter turns after which a figure stands on its feet, along +Z, and looks along -Y: to
-/// where OSG's viewers look from.
+/// The quarter turns after which a figure stands along +Z and faces -Y, towards the camera of OSG's
+/// viewers.
 ///
-/// \param roles what the joints are; where only the skeleton's shape told, left is not known, and
-///        nothing is turned
+/// \param roles roles of the joints; if they come from the skeleton's shape, left is not known and
+///        nothing is rotated
 /// \param centres [joint], world, at rest
-/// \param played the same as an animation begins; empty where there is none. Of both poses that one
-///        counts in which the figure stands already; a figure that lies in one only is not stood up
-/// \return a rotation; the identity where the joints do not tell
+/// \param played the same at an animation's start; empty where there is none. The pose in which the
+///        figure already stands counts; a figure that lies in only one of them is not stood up
+/// \return a rotation; the identity where up and left are unknown
 osg::Matrixd turnToViewer(const JointRoles& roles, const JointCentres& centres,
                           const JointCentres& played = {});
 
-/// Whether trunk, thighs and shins lie along one axis: such a pose tells which way is up, also
-/// where a motion begins on the floor.
+/// Whether trunk, thighs and shins lie along one axis. Such a rest pose shows which axis is up,
+/// even if a motion begins on the floor.
 ///
-/// \param roles what the joints are
+/// \param roles of the joints
 /// \param centres [joint], world
 bool isStraight(const JointRoles& roles, const JointCentres& centres);
 
-/// The joints of a rest pose, put into the world.
+/// The joints of a rest pose, in the world.
 /// \param rest the skeleton
 /// \param toWorld from rest space
 JointCentres restCentres(const RestSkeleton& rest, const osg::Matrixd& toWorld);
 
-/// The joints as a clip begins.
+/// The joints in a clip's first sample, in the world.
 ///
 /// \param rest the skeleton
 /// \param clip of this skeleton, with a sample at least
 /// \param toWorld from the skeleton's space
 JointCentres clipCentres(const RestSkeleton& rest, const Clip& clip, const osg::Matrixd& toWorld);
 
-/// The joints as a scene's bones of these names stand, as no animation has moved them yet.
-/// \param rest whose joints are looked for
-/// \param scene from whose space they are told
+/// The present positions of a scene's bones with the joints' names, in the scene's space.
+/// \param rest names the joints
+/// \param scene its bones are searched
 JointCentres boneCentres(const RestSkeleton& rest, osg::Node& scene);
 
 } // namespace osgSkin

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/ApplyOptions.h"
 
-#include "source/CacheFolder.h"
+#include "options/OptionTable.h"
 
 #include <osgSkin/Error>
 #include <osgSkinImport/FindNamedFile>
@@ -9,8 +9,35 @@
 #include <osgDB/FileNameUtils>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
 
 namespace osgSkin {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder in an environment variable; relative ones are ignored, as the specification says.
+fs::path folderFrom(const char* variable) {
+    const char* value = std::getenv(variable);
+    const fs::path folder = value == nullptr ? "" : value;
+    return folder.is_absolute() ? folder : fs::path();
+}
+
+} // namespace
+
+std::string cacheFolder() {
+    fs::path base = folderFrom("XDG_CACHE_HOME");
+    if (base.empty()) {
+        base = folderFrom("HOME");
+        if (base.empty()) return {};
+        base /= ".cache";
+    }
+    return (base / "osgSkin").string();
+}
+
 namespace {
 
 using Method = LoadOptions::Method;
@@ -23,7 +50,7 @@ void applyMethod(CharacterSource& source, Method method) {
         method == Method::Paper ? BindOptions::Method::Paper : BindOptions::Method::Smooth;
 }
 
-/// The names of the motions there are, for an error.
+/// The names of all motions, for an error.
 std::string expectedNames(const CharacterSource& source) {
     std::string names;
     const auto add = [&names](const std::string& name) {
@@ -34,8 +61,8 @@ std::string expectedNames(const CharacterSource& source) {
     return names;
 }
 
-/// Puts the element called `name` first, or the only one with that behind the last '|' of its name
-/// (as in "Armature|walk"). False where there is none.
+/// Moves the element called `name` to the front, or the only one with that behind the last '|' of
+/// its name (as in "Armature|walk"). False where there is none.
 template <typename List, typename NameOf>
 bool putFirst(List& list, const std::string& name, const NameOf& nameOf) {
     auto found = std::find_if(list.begin(), list.end(),
@@ -52,7 +79,7 @@ bool putFirst(List& list, const std::string& name, const NameOf& nameOf) {
     return true;
 }
 
-/// A motion file, or with "#" and a clip's name or number behind it, one of the file's motions.
+/// A motion file, or with "#" and a clip's name or number, one of the file's motions.
 SkinFile::MotionEntry fileEntry(const std::string& wanted, const osgDB::Options* read) {
     SkinFile::MotionEntry entry;
     entry.file = findNamedFile(wanted, read);
@@ -74,8 +101,8 @@ void applyMotion(CharacterSource& source, const std::string& wanted, const osgDB
     for (const SkinFile::MotionEntry& other : source.motions)
         if (other.name == entry.name) entry.name = wanted; // names are unique
     source.motions.insert(source.motions.begin(), entry);
-    // A rigged model's animations move the bones of its own skeleton, retargeted motions those of
-    // makeSkeleton(): there is one skeleton, so it is one kind or the other.
+    // A rigged model's animations move its own skeleton, retargeted motions that of makeSkeleton().
+    // There is only one skeleton, so a character has either kind.
     source.animations.clear();
     source.skeleton = nullptr;
 }
@@ -83,16 +110,16 @@ void applyMotion(CharacterSource& source, const std::string& wanted, const osgDB
 } // namespace
 
 void applyOptions(CharacterSource& source, const LoadOptions& options) {
-    applyMethod(source, options.method);
-    if (options.rigid) source.bind.rigid = options.rigid;
-    if (options.shapes) source.bind.shapes = *options.shapes;
+    const LoadOptions file = std::exchange(source.options, options);
+    completeOptions(source.options, file);
+    const LoadOptions& all = source.options;
+    applyMethod(source, all.method);
+    source.bind.rigid = all.rigid;
+    source.bind.shapes = all.shapes;
+    source.bind.surfaceNormals = all.surfaceNormals;
+    source.bind.muscles = all.muscles.value_or(false);
+    if (options.muscles == false) source.bind.ownMuscles.clear();
     source.bind.cacheFolder = cacheFolder();
-    if (options.muscles) {
-        source.bind.muscles = *options.muscles;
-        if (!*options.muscles) source.bind.ownMuscles.clear();
-    }
-    if (options.surfaceNormals) source.bind.surfaceNormals = *options.surfaceNormals;
-    if (options.clearHands) source.clearHands = *options.clearHands;
     if (options.atRest) {
         source.animations.clear();
         source.motions.clear();

@@ -1,29 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
+#ifndef OSGSKINCHARACTER_SOURCE_CHARACTERSOURCE_H
+#define OSGSKINCHARACTER_SOURCE_CHARACTERSOURCE_H
 
-#include "file/MotionSamples.h"
-#include "file/SkinFile.h"
-#include "report/LoadStages.h"
-
-#include <osgSkinBind/BindOptions>
-#include <osgSkinBind/FitReport>
-#include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/ReadLimits>
-#include <osgSkinRig/RestSkeleton>
+#include "options/LoadReport.h"
+#include "options/SkinFile.h"
 
 #include <osg/Matrixd>
 #include <osg/ref_ptr>
 #include <osgAnimation/Animation>
 #include <osgAnimation/Skeleton>
 #include <osgDB/Options>
+#include <osgSkinBind/BindOptions>
+#include <osgSkinBind/FitReport>
+#include <osgSkinCharacter/LoadOptions>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ReadLimits>
+#include <osgSkinRig/RestSkeleton>
 
+#include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace osgSkin {
 
-/// What a file gives to make a character of, before anything is bound. A `.skin` file and a rigged
-/// model fill it in, each in its own way; all that follows is the same.
+/// Counts the rotations of a character's motions, props included: a short file that is named often
+/// takes as much memory as a long one.
+class MotionSamples {
+public:
+    /// Adds a motion.
+    ///
+    /// \param file its file, whose size counts once, whatever paths lead to it
+    /// \param frames of the motion, including skipped ones
+    /// \param joints of the motion or of the rig, whichever are more
+    /// \param limits of the character
+    /// \throw osgSkin::Error where all motions together have more than ReadLimits::samplesOf() of
+    ///        their files' sizes
+    void add(const std::string& file, std::size_t frames, std::size_t joints,
+             const ReadLimits& limits);
+
+private:
+    std::set<std::string> _files;
+    std::size_t _bytes = 0;   ///< of them
+    std::size_t _samples = 0; ///< so far, within the limit
+};
+
+/// Everything read from files for a character, before binding. Read from a `.skin` file or a rigged
+/// model; all further steps are the same.
 struct CharacterSource {
     enum class Painted {
         No,       ///< bind by regions
@@ -31,10 +54,10 @@ struct CharacterSource {
         WhereGood ///< by painted weights where isWellPainted(), else by regions
     };
 
-    std::string file;     ///< that was asked for; named in messages
-    std::string meshFile; ///< that the body comes from
+    std::string file;     ///< the loaded file; named in messages
+    std::string meshFile; ///< the body's file
 
-    std::vector<std::string> files; ///< that are read
+    std::vector<std::string> files; ///< all files that are read
 
     ImportedMesh body;
     RestSkeleton rest;
@@ -51,15 +74,16 @@ struct CharacterSource {
     osgAnimation::AnimationList animations;
 
     std::vector<SkinFile::MotionEntry> motions; ///< files to retarget
-    bool clearHands = false;                    ///< of the body, in `motions`
+    /// The file's options; after applyOptions() the caller's and the file's.
+    LoadOptions options;
     std::vector<SkinFile::Prop> props;
-    /// For the body and the props, whose pictures count together; may be null.
+    /// For the body and the props, whose images count together; may be null.
     osg::ref_ptr<const osgDB::Options> meshOptions;
 
     ReadLimits limits;     ///< for all files
     MotionSamples samples; ///< of the motions read so far
 
-    std::vector<std::string> notes; ///< what was unusual so far
+    std::vector<std::string> notes; ///< notes so far
     std::string rigidNote;          ///< for the report of binding; may be empty
 
     /// Sizes of the stages that follow the reading, see LoadStages.
@@ -73,4 +97,25 @@ struct CharacterSource {
     }
 };
 
+/// Reads a `.skin` file, the mesh and the skeleton that it names, or fits a skeleton.
+///
+/// \param file its path
+/// \param options are applied, see applyOptions()
+/// \param stages planned for the whole load here; the first ones are begun
+/// \return the character's source
+/// \throw Error with file, JSON path and what was expected
+CharacterSource readSkinFile(const std::string& file, const LoadOptions& options,
+                             LoadStages& stages);
+
+/// Reads a rigged model by Assimp: body, painted weights, skeleton and animations.
+///
+/// \param file for which isReadByAssimp() holds
+/// \param options are applied, see applyOptions()
+/// \param stages planned for the whole load here; the first one is begun
+/// \return all that the character is made of
+/// \throw Error with the file and the reason
+CharacterSource readRig(const std::string& file, const LoadOptions& options, LoadStages& stages);
+
 } // namespace osgSkin
+
+#endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "source/ReadRig.h"
+#include "source/CharacterSource.h"
 
 #include "source/ApplyOptions.h"
 

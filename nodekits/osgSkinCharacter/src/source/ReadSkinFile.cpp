@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "source/ReadSkinFile.h"
+#include "source/CharacterSource.h"
 
-#include "report/NamingFile.h"
-#include "report/TakeNote.h"
+#include "options/LoadReport.h"
+#include "options/SkinFile.h"
 #include "source/ApplyOptions.h"
 
 #include <osgSkinImport/ImportSkeleton>
@@ -50,10 +50,9 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
     source.meshFile = skin.mesh;
     source.toWorld = toWorldOf(skin);
     source.bind = skin.bind;
-    if (skin.paintedWeights) source.painted = CharacterSource::Painted::Yes;
+    source.options = skin.options;
     source.weightsFile = skin.weights;
     source.motions = skin.motions;
-    source.clearHands = skin.clearHands;
     source.props = skin.props;
     source.meshOptions = sharePictures(options.readOptions.get());
     applyOptions(source, options);

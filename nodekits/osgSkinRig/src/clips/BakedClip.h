@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
-#pragma once
-
-#include <osgSkinRig/SampledClip>
+#ifndef OSGSKINRIG_CLIPS_BAKEDCLIP_H
+#define OSGSKINRIG_CLIPS_BAKEDCLIP_H
 
 #include <osgSkin/Pose>
 #include <osgSkin/SkinModel>
+#include <osgSkinRig/SampledClip>
 
 #include <osg/BoundingBox>
 #include <osg/Matrixd>
 #include <osg/Referenced>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
 namespace osgSkin {
 
-/// All samples of a clip made ready for one character: poses split, skins bounded by their own
-/// vertices, there and between.
+/// All samples of a clip, prepared for one character: split poses, and bounds of the skins'
+/// vertices at the samples and the interpolated sample.
 class BakedClip : public osg::Referenced {
 public:
-    /// Of the way from a sample to the next one, which have a box each.
+    /// Intervals between two samples that have a box each.
     static constexpr std::size_t kParts = 4;
 
     struct Skin {
@@ -29,7 +30,7 @@ public:
         std::vector<osg::BoundingBox> bounds; ///< of each sample
         std::vector<osg::BoundingBox> ways;   ///< [sample * kParts + part]; see boundWay()
 
-        /// A box that holds the skin at a place in the clip; not valid where none is known.
+        /// A box that holds the skin at a position in the clip; not valid where none is known.
         const osg::BoundingBox& boundsAt(const SampledClip::Place& place) const {
             if (!(place.share > 0.0)) return bounds[place.from];
             const auto part = static_cast<std::size_t>(place.share * double(kParts));
@@ -45,4 +46,27 @@ protected:
     ~BakedClip() override = default;
 };
 
+/// Interpolates two samples of many joints by one share, from which the series' factors are
+/// computed once.
+class SampleBlend {
+public:
+    /// \param share 0 for the first sample, 1 for the second
+    explicit SampleBlend(double share) noexcept;
+
+    /// From `a` at share 0 to `b` at share 1, both exactly.
+    ///
+    /// \param a one joint's sample
+    /// \param b the second
+    /// \return between them
+    JointSample operator()(const JointSample& a, const JointSample& b) const noexcept;
+
+private:
+    static constexpr std::size_t kTerms = 8;
+
+    double _share, _rest;
+    std::array<double, kTerms> _ofShare, _ofRest; ///< factors of the series
+};
+
 } // namespace osgSkin
+
+#endif

@@ -2,13 +2,15 @@
 #include <osgSkinRig/ClipCharacter>
 
 #include "clips/BakedClip.h"
-#include "clips/BoundWay.h"
 
 #include <osgSkin/DeformJob>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/GlmTypes>
+#include <osgSkin/Pose>
 #include <osgSkin/RigidPart>
 
+#include <glm/common.hpp>
 #include <osg/LOD>
 #include <osg/NodeVisitor>
 #include <osg/Notify>
@@ -18,12 +20,79 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
 
-/// Everything below a node that plays, each with the path to it.
+/// A skin at one time.
+struct SkinMoment {
+    Pose pose;
+    std::vector<glm::vec3> positions; ///< of all vertices
+};
+
+constexpr std::size_t kWayParts = BakedClip::kParts;
+constexpr double kHalfTurn = 2.9;     ///< radians, nearly
+constexpr double kTwistJump = 1.0;    ///< of a twist, radians in a step
+constexpr float kWayMargin = 0.25f;   ///< of a second difference: twice an eighth
+constexpr float kWayRounding = 1e-5f; ///< of a coordinate
+
+using Moments = std::array<SkinMoment, kWayParts + 1>;
+
+/// Whether all splits change continuously. The root's does not count: no vertex follows it in part.
+bool isSmooth(const Moments& moments) {
+    for (std::size_t j = 1; j < moments.front().pose.size(); ++j) {
+        double before = moments.front().pose.transform(j).split.twistAngle;
+        for (const SkinMoment& moment : moments) {
+            const BendTwist split = moment.pose.transform(j).split;
+            if (split.bendAngle > kHalfTurn || std::abs(split.twistAngle) > kHalfTurn ||
+                std::abs(split.twistAngle - before) > kTwistJump)
+                return false;
+            before = split.twistAngle;
+        }
+    }
+    return true;
+}
+
+/// How far a vertex may be from the lines between its positions.
+glm::vec3 marginOf(const Moments& moments, std::size_t vertex) {
+    glm::vec3 most(0.0f);
+    for (std::size_t k = 1; k < kWayParts; ++k)
+        most = glm::max(most, glm::abs(moments[k - 1].positions[vertex] -
+                                       2.0f * moments[k].positions[vertex] +
+                                       moments[k + 1].positions[vertex]));
+    return kWayMargin * most + kWayRounding * glm::abs(moments[0].positions[vertex]);
+}
+
+/// Adds boxes that hold a skin between one sample and the next, one for each part of the interval.
+///
+/// Within a part, a vertex leaves the straight line between the part's ends by an eighth of its
+/// second derivative at most, which second differences estimate; twice that is added to the box.
+/// The estimate fails where the path is not smooth: near half a turn a joint's bend axis or twist
+/// may jump. Then the boxes are invalid.
+///
+/// \param moments at even steps, both ends included
+/// \param boxes gets one for each part
+void boundWay(const Moments& moments, std::vector<osg::BoundingBox>& boxes) {
+    std::array<osg::BoundingBox, kWayParts> ways;
+    const std::size_t vertices =
+        isSmooth(moments) ? moments.front().positions.size() : std::size_t{0};
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const glm::vec3 margin = marginOf(moments, v);
+        for (std::size_t k = 0; k < kWayParts; ++k)
+            for (const std::size_t end : {k, k + 1}) {
+                const glm::vec3& p = moments[end].positions[v];
+                const glm::vec3 low = p - margin, high = p + margin;
+                ways[k].expandBy(low.x, low.y, low.z);
+                ways[k].expandBy(high.x, high.y, high.z);
+            }
+    }
+    boxes.insert(boxes.end(), ways.begin(), ways.end());
+}
+
+/// Finds skins, rigid parts and animations below a node, with the paths to the former.
 class CharacterParts : public osg::NodeVisitor {
 public:
     CharacterParts() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
@@ -46,7 +115,7 @@ public:
     std::vector<osg::NodePath> skins, rigids;
 };
 
-/// The part of a path that ends with the nearest skeleton; empty where there is none.
+/// The path up to the nearest skeleton; empty where there is none.
 osg::NodePath toSkeleton(osg::NodePath path) {
     while (!path.empty() && !dynamic_cast<osgAnimation::Skeleton*>(path.back())) path.pop_back();
     return path;
@@ -89,7 +158,8 @@ ClipCharacter::Look ClipCharacter::lookOf(const osg::NodePath& path) {
     Look look;
     for (std::size_t i = 0; i < path.size(); ++i) {
         const osg::Node& node = *path[i];
-        if (dynamic_cast<const DeformableSkin*>(&node)) break; // a copy has the skin's own look
+        if (dynamic_cast<const DeformableSkin*>(&node))
+            break; // the skin's copies keep its own state
         look.mask &= node.getNodeMask();
         if (i + 1 < path.size()) {
             const auto* choice = dynamic_cast<const osg::Switch*>(&node);
@@ -156,7 +226,7 @@ void ClipCharacter::bake(const SampledClip* clip) {
     for (std::size_t i = 0; i < _skins.size(); ++i)
         baked->skins[i].model = _skins[i].skin->getModel();
     player._baked.clear();
-    // Twists run on from the first sample.
+    // Twists are continuous from the first sample on.
     const auto poseAt = [&](double samples) {
         player.setTrack(0, {clip, samples * clip->step(), 0.0, true});
         if (!player.poseAs(samples == 0.0 ? Pose::Twist::Shortest : Pose::Twist::Continued))
@@ -174,7 +244,7 @@ void ClipCharacter::bake(const SampledClip* clip) {
     for (std::size_t sample = 0; sample < clip->sampleCount(); ++sample) {
         for (std::size_t i = 0; i < _rigids.size(); ++i)
             baked->rigids[i].push_back(player._rigids[i].transform->getMatrix());
-        for (auto& way : ways) std::swap(way.front(), way.back()); // the way before ended here
+        for (auto& way : ways) std::swap(way.front(), way.back()); // the last interval's end
         for (std::size_t k = 1; k <= parts; ++k) { // up to the next sample, or the first one again
             poseAt(double(sample) + double(k) / double(parts));
             lookAt(k);

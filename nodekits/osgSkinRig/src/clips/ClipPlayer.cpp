@@ -2,7 +2,6 @@
 #include <osgSkinRig/ClipPlayer>
 
 #include "clips/BakedClip.h"
-#include "clips/SampleBlend.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkin/PoseBounds>
@@ -43,7 +42,7 @@ osg::Matrixd toMatrix(const JointMap& map) {
     return result;
 }
 
-/// What was baked holds no skin that is activated.
+/// Baked bounds do not include activations.
 bool isActivated(const DeformableSkin& skin) {
     const std::size_t inputs = skin.getModel() ? skin.getModel()->inputs().size() : 0;
     for (std::size_t i = 0; i < inputs; ++i)
@@ -117,7 +116,7 @@ osg::Vec3d ClipPlayer::rootAt(const Track& track) const {
     osg::Vec3d to = along(at.to);
     osg::Vec3d way;
     if (track.loop && last > 0) {
-        // The step from the last sample to the first one goes on as those beside it.
+        // The step from the last sample back to the first continues at the speed of its neighbours.
         const osg::Vec3d loop =
             along(last) - along(0) + (along(last) - along(last - 1) + along(1) - along(0)) * 0.5;
         const double start = static_cast<double>(at.from) + at.share;
@@ -182,7 +181,7 @@ void ClipPlayer::findJoints() {
             const int above =
                 joint.parent < 0 ? -1 : skin.joints[static_cast<std::size_t>(joint.parent)];
             if (found >= 0 && parentJoint(clip, found) != above) skin.direct = false;
-            // One that is missing moves with its parent, and so do those below it with that.
+            // A joint that the clip lacks moves with its parent, and its descendants with that.
             if (found < 0 && above >= 0) skin.direct = false;
             if (found != static_cast<int>(skin.joints.size())) skin.same = false;
             skin.joints.push_back(found >= 0 ? found : above);
@@ -233,7 +232,7 @@ bool ClipPlayer::poseSkin(Skin& skin, const std::vector<JointMap>& own,
     if (joints.size() != skin.joints.size()) return false;
     const auto set = [&](const std::vector<JointMap>& of) {
         if (!baked) return skin.skin->setPose(of.data(), joints.size(), twist);
-        // Twists run on from those of the sample, whatever was shown before.
+        // Twists continue those of the sample, whatever was shown before.
         if (!skin.pose.setJoints(*baked) ||
             !skin.pose.set(of.data(), joints.size(), Pose::Twist::Continued))
             return false;

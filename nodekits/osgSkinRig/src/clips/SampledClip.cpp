@@ -1,21 +1,137 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/SampledClip>
 
-#include "clips/BoneSampler.h"
-#include "clips/ClipCheck.h"
-#include "clips/SampleBlend.h"
+#include "clips/BakedClip.h"
+#include "clips/ClipBones.h"
 
+#include <osgSkin/Binding>
 #include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/Pose>
+#include <osgSkinRig/MakeAnimation>
 
 #include <glm/geometric.hpp>
+#include <osg/NodeVisitor>
+#include <osgAnimation/Bone>
+#include <osgAnimation/UpdateBone>
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <vector>
 
 namespace osgSkin {
 namespace {
 
-/// Of all joints together, 640 MB: a figure of 100 joints for half an hour.
+/// Plays an animation on copies of the update callbacks of a skeleton's bones. The skeleton does
+/// not change.
+class BoneSampler {
+public:
+    /// \throw osgSkin::Error where the skeleton has no bone
+    BoneSampler(const osgAnimation::Animation& animation, osgAnimation::Skeleton& skeleton);
+
+    double duration() const { return _animation->getDuration() / _speed; } ///< seconds
+    std::vector<SampledClip::Joint> joints() const;
+
+    /// Adds the joints' transforms relative to their parents at a time.
+    /// \throw osgSkin::Error where a bone's matrix cannot be used
+    void append(double time, std::vector<JointSample>& samples);
+
+private:
+    osg::ref_ptr<osgAnimation::Animation> _animation;             ///< with its keys' own duration
+    double _speed;                                                ///< keySpeed()
+    std::vector<osg::ref_ptr<osgAnimation::Bone>> _bones;         ///< parents before children
+    std::vector<osg::ref_ptr<osgAnimation::UpdateBone>> _updates; ///< a bone each, or null
+    std::vector<BoundJoint> _joints;
+    Pose _pose;
+};
+
+class BonesInOrder : public osg::NodeVisitor {
+public:
+    BonesInOrder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Transform& node) override {
+        if (getNodePath().size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
+        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) bones.emplace_back(bone);
+        traverse(node);
+    }
+
+    std::vector<osg::ref_ptr<osgAnimation::Bone>> bones;
+};
+
+/// A copy of a bone's update callback, linked with an animation's channels; null where there is
+/// none. The bone itself does not move.
+osg::ref_ptr<osgAnimation::UpdateBone> copyOfUpdate(osgAnimation::Bone& bone,
+                                                    osgAnimation::Animation& animation) {
+    osgAnimation::UpdateBone* update = updateOf(bone);
+    if (!update) return nullptr;
+    const osg::ref_ptr<osgAnimation::UpdateBone> copy =
+        osg::clone(update, osg::CopyOp::SHALLOW_COPY);
+    osgAnimation::AnimationUpdateCallbackBase& linked = *copy; // UpdateBone hides its link()
+    if (!copy->getName().empty()) linked.link(&animation);
+    return copy;
+}
+
+osg::Matrixd matrixOf(const osgAnimation::Bone& bone, osgAnimation::UpdateBone* update) {
+    if (!update) return bone.getMatrix();
+    update->getStackedTransforms().update(0.0f);
+    return update->getStackedTransforms().getMatrix();
+}
+
+BoneSampler::BoneSampler(const osgAnimation::Animation& animation, osgAnimation::Skeleton& skeleton)
+    : _animation(osg::clone(&animation, osg::CopyOp::DEEP_COPY_ALL)), _speed(keySpeed(animation)) {
+    BonesInOrder found;
+    skeleton.accept(found);
+    _bones = found.bones;
+    if (_bones.empty())
+        throw Error("sampled clip: the skeleton \"" + skeleton.getName() + "\" has no bone");
+    for (const osg::ref_ptr<osgAnimation::Bone>& bone : _bones)
+        _updates.push_back(copyOfUpdate(*bone, *_animation));
+    _animation->computeDuration();
+    // A pose has one root: add one, at rest, above all bones without a parent bone.
+    const glm::dvec3 up(0.0, 0.0, 1.0);
+    _joints.push_back({"", -1, glm::dvec3(0.0), up, up});
+    std::unordered_map<const osgAnimation::Bone*, int> joints = {{nullptr, 0}};
+    for (const osg::ref_ptr<osgAnimation::Bone>& bone : _bones) {
+        const auto above = joints.find(bone->getBoneParent());
+        const osg::Matrixd bind = osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace());
+        joints.emplace(bone, static_cast<int>(_joints.size()));
+        _joints.push_back({bone->getName(), above == joints.end() ? 0 : above->second,
+                           toGlm(bind.getTrans()), up, up});
+    }
+    _pose = Pose(_joints);
+}
+
+std::vector<SampledClip::Joint> BoneSampler::joints() const {
+    std::vector<SampledClip::Joint> result;
+    for (std::size_t j = 1; j < _joints.size(); ++j)
+        result.push_back({_joints[j].name, _joints[j].parent - 1, _joints[j].centre});
+    return result;
+}
+
+void BoneSampler::append(double time, std::vector<JointSample>& samples) {
+    for (const osg::ref_ptr<osgAnimation::Channel>& channel : _animation->getChannels())
+        if (channel->getTarget()) channel->getTarget()->reset();
+    for (const osg::ref_ptr<osgAnimation::Channel>& channel : _animation->getChannels())
+        channel->update(time * _speed, 1.0f, 0);
+    std::vector<osg::Matrixd> inSkeleton(_joints.size());
+    std::vector<glm::dmat4> skinning = {glm::dmat4(1.0)};
+    for (std::size_t j = 1; j < _joints.size(); ++j) {
+        osgAnimation::Bone& bone = *_bones[j - 1];
+        inSkeleton[j] = matrixOf(bone, _updates[j - 1].get()) *
+                        inSkeleton[static_cast<std::size_t>(_joints[j].parent)];
+        skinning.push_back(toGlm(bone.getInvBindMatrixInSkeletonSpace() * inSkeleton[j]));
+    }
+    if (!_pose.set(skinning.data(), skinning.size()))
+        throw Error("sampled clip: animation \"" + _animation->getName() +
+                    "\" makes a bone's matrix singular or not finite");
+    for (std::size_t j = 1; j < _joints.size(); ++j) {
+        const JointTransform own = _pose.transform(j);
+        samples.push_back({own.rotation, own.translation, own.scale});
+    }
+}
+
+/// Limit for all joints together, 640 MB: 100 joints for half an hour.
 constexpr double kMostJointSamples = 1e7;
 
 } // namespace
@@ -84,8 +200,8 @@ SampledClip::Place SampledClip::place(double time, bool loop) const noexcept {
     const std::size_t count = sampleCount();
     double at = time / _step;
     if (!std::isfinite(at)) at = 0.0;
-    // A sample's own time is that sample, whatever rounding did to it: osgAnimation's keys have
-    // their times in single precision.
+    // A sample's own time must give that sample in spite of rounding: osgAnimation's keys have
+    // times in single precision.
     if (std::abs(at - std::round(at)) < 1e-5) at = std::round(at);
     const auto whole = static_cast<double>(count);
     if (!loop) {

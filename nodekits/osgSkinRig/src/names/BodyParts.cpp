@@ -32,12 +32,12 @@ int headOf(const SkeletonTree& tree, const JointRoles& roles) {
     return named >= 0 ? named : highest;
 }
 
-/// Whether a child of the trunk only leads to a limb: a collar bone or the inside of a hip.
+/// Whether a child of the trunk only leads to a limb: a collar bone or a hip joint.
 bool isGirdle(const SkeletonTree& tree, const JointRoles& roles, int j) {
     const JointPart part = roles.parts[static_cast<std::size_t>(j)];
     if (part == JointPart::Collar || part == JointPart::HipJoint) return true;
     if (part == JointPart::UpperArm || tree.children(j).size() != 1) return false;
-    // A joint where its parent is has no bone of its own to align.
+    // A joint at its parent's centre has no bone to align.
     return glm::distance(tree.centre(j), tree.centre(tree.joint(j).parent)) < 1e-6 * tree.reach();
 }
 
@@ -59,14 +59,14 @@ std::vector<bool> findLimbs(const SkeletonTree& tree, const JointRoles& roles) {
     return isLimb;
 }
 
-/// The joint of a role, -1 where it is not recognised.
+/// The joint with a role, or -1.
 int jointOf(const JointRoles& roles, const std::string& role) {
     const auto found = roles.joints.find(role);
     return found == roles.joints.end() ? -1 : found->second.front();
 }
 
-/// The joints of the legs that are recognised: from each's first joint to its foot and what hangs
-/// on that, or all below the first one where the foot is not.
+/// The joints of recognised legs: from the first joint to the foot and its descendants, or all
+/// descendants of the first joint where no foot is recognised.
 std::vector<bool> knownLegs(const SkeletonTree& tree, const JointRoles& roles) {
     std::vector<bool> isLeg(static_cast<std::size_t>(tree.size()), false);
     for (const std::string side : {"Left", "Right"}) {
@@ -85,7 +85,8 @@ std::vector<bool> knownLegs(const SkeletonTree& tree, const JointRoles& roles) {
     return isLeg;
 }
 
-/// Whether a joint is above a foot that is recognised: of who sits on the floor these lie as low.
+/// Whether a joint is an ancestor of a recognised foot: when a figure sits on the floor, these are
+/// as low as the feet.
 bool isAboveFoot(const SkeletonTree& tree, const JointRoles& roles, int j) {
     for (const char* foot : {"LeftFoot", "RightFoot"}) {
         const int end = jointOf(roles, foot);
@@ -94,7 +95,7 @@ bool isAboveFoot(const SkeletonTree& tree, const JointRoles& roles, int j) {
     return false;
 }
 
-/// The height of the joints that names tell, which helpers have no part in.
+/// The height of the recognised joints, without helpers.
 double knownTop(const SkeletonTree& tree, const JointRoles& roles) {
     double highest = -std::numeric_limits<double>::infinity();
     for (int j = 0; j < tree.size(); ++j)
@@ -125,7 +126,8 @@ BodyParts findBodyParts(const SkeletonTree& tree, const JointRoles& roles) {
             result.lowest = std::min(result.lowest, bottom(tree.joint(j)));
         if (!legsKnown) highest = std::max(highest, top(tree.joint(j)));
     }
-    // Hands hang to the thigh at most, ankles lie within a tenth of the body above the floor.
+    // Hands hang down to the thighs at most; ankles are within a tenth of the body's height above
+    // the floor.
     const double ankle = result.lowest + 0.1 * (highest - result.lowest);
     for (int j = 0; j < tree.size() && result.stands; ++j)
         if (isLeg[static_cast<std::size_t>(j)] && bottom(tree.joint(j)) <= ankle &&

@@ -9,10 +9,9 @@
 
 namespace osgSkin {
 
-/// Which joints belong to the trunk (hips, spine, collar bones, neck, head and what hangs on it)
-/// and which to a limb, told by what the joints are recognised as and by the tree's shape. Where
-/// legs are recognised, nothing else is one: what hangs down as far (capes, tails, swords,
-/// targets on the floor) has no part in `feet` and `lowest`.
+/// Classifies joints as trunk (hips, spine, collar bones, neck, head and its descendants) or limb,
+/// by their roles and by the tree's shape. Where legs are recognised, other joints near the floor
+/// (capes, tails, swords, targets) do not count for `feet` and `lowest`.
 struct BodyParts {
     std::vector<bool> isLimb; ///< [joint]
 
@@ -20,13 +19,15 @@ struct BodyParts {
     /// legs.
     std::vector<int> feet;
 
-    /// Those of `feet` that begin one: ankles, whose parents are not among `feet`.
+    /// The first joint of each foot: its parent is not among `feet`.
     std::vector<int> ankles;
 
-    /// Height (y) of the lowest joint or tip of the legs at rest; of all where there are none.
+    /// Height (y) of the lowest joint or tip of the legs at rest; of all joints where there are no
+    /// legs.
     double lowest = 0.0;
 
-    /// Whether a height above the floor can be told: not where the names are known and name no leg.
+    /// Whether heights above the floor are known: false where names are recognised and none is a
+    /// leg.
     bool stands = true;
 };
 

@@ -22,7 +22,7 @@ std::vector<Row> with(std::vector<Row> rows, const std::vector<Row>& more) {
 }
 
 const std::vector<Family>& families() {
-    // What CMU's motions and Mixamo's models call alike: joints by the bone that they turn.
+    // CMU's motions and Mixamo's models name joints by the bone that they rotate.
     static const std::vector<Row> byBones{{"Hips", "Hips"},
                                           {"Head", "Head"},
                                           {"%SideUpperLeg", "%SideUpLeg"},
@@ -34,7 +34,7 @@ const std::vector<Family>& families() {
                                           {"%SideLowerArm", "%SideForeArm"},
                                           {"%SideHand", "%SideHand"}};
 
-    // What 3ds Max and Biovision call alike: joints by themselves.
+    // 3ds Max and Biovision name the joints themselves.
     static const std::vector<Row> byJoints{{"Hips", "Hips"},
                                            {"Head", "Head"},
                                            {"%SideUpperLeg", "%SideHip"},

@@ -1,25 +1,141 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/JointRoles>
 
-#include "names/GapRoles.h"
-#include "names/LimbWords.h"
+#include "names/NameReading.h"
 #include "names/NameWords.h"
-#include "names/ShapeRoles.h"
-#include "names/WordRoles.h"
+#include "names/RoleTree.h"
 
+#include <osgSkinRig/RestSkeleton>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
 
+class Filler {
+public:
+    Filler(const RestSkeleton& skeleton, std::vector<std::string>& roles)
+        : _skeleton(skeleton), _roles(roles) {}
+
+    void fill() {
+        for (const std::string side : {"Left", "Right"}) {
+            fillLimb(side + "UpperLeg", side + "LowerLeg", side + "Foot", {side + "Toe"});
+            fillLimb(side + "UpperArm", side + "LowerArm", side + "Hand",
+                     {side + "Middle1", side + "Index1", side + "Thumb1", side + "Fingers"});
+        }
+        fillTrunk();
+    }
+
+private:
+    std::string& role(int j) { return _roles[static_cast<std::size_t>(j)]; }
+    const RestJoint& joint(int j) const { return _skeleton.joints[static_cast<std::size_t>(j)]; }
+
+    int find(const std::string& wanted) const {
+        const auto found = std::find(_roles.begin(), _roles.end(), wanted);
+        return found == _roles.end() ? -1 : static_cast<int>(found - _roles.begin());
+    }
+
+    bool isFree(int j) {
+        const std::vector<std::string> words = nameWords(joint(j).name);
+        return role(j).empty() && !isPivot(joint(j).name) &&
+               std::none_of(words.begin(), words.end(), isForeign);
+    }
+
+    /// The joints without a role between two joints, the lowest first; none where `below` is no
+    /// descendant of `above`.
+    std::vector<int> freeBetween(int above, int below) {
+        std::vector<int> result;
+        if (above < 0 || below < 0 || !_skeleton.isInSubtree(below, above)) return result;
+        for (int j = joint(below).parent; j >= 0 && j != above; j = joint(j).parent)
+            if (isFree(j)) result.push_back(j);
+        return result;
+    }
+
+    /// The joint without a role that is nearest to the middle between two joints.
+    int middle(int above, int below) {
+        int best = -1;
+        double nearest = 0.0;
+        for (const int j : freeBetween(above, below)) {
+            const double off = std::abs(glm::distance(joint(j).centre, joint(above).centre) -
+                                        glm::distance(joint(j).centre, joint(below).centre));
+            if (best >= 0 && off >= nearest) continue;
+            best = j;
+            nearest = off;
+        }
+        return best;
+    }
+
+    /// The joint without a role directly above the fingers or toes, or else the only child.
+    int endOf(int lower, const std::vector<std::string>& below) {
+        for (const std::string& hung : below) {
+            const std::vector<int> way = freeBetween(lower, find(hung));
+            if (!way.empty()) return way.front();
+        }
+        int only = -1;
+        for (const int child : _skeleton.children(lower)) {
+            if (!isFree(child)) continue;
+            if (only >= 0) return -1;
+            only = child;
+        }
+        return only;
+    }
+
+    void fillLimb(const std::string& upper, const std::string& lower, const std::string& end,
+                  const std::vector<std::string>& below) {
+        const int top = find(upper);
+        if (find(end) < 0 && find(lower) >= 0) give(endOf(find(lower), below), end);
+        if (find(lower) < 0) give(middle(top, find(end)), lower);
+    }
+
+    void fillTrunk() {
+        const int left = find("LeftUpperArm"), right = find("RightUpperArm");
+        if (left < 0 || right < 0) return;
+        const int hips = find("Hips"), chest = commonAncestor(_skeleton, left, right);
+        if (chest < 0 || chest == hips) return;
+        if (hips >= 0 && _skeleton.isInSubtree(chest, hips)) {
+            for (const int j : freeBetween(hips, chest)) give(j, "Spine");
+            if (isFree(chest)) give(chest, "Spine");
+        }
+        for (const int j : freeBetween(chest, find("Head"))) give(j, "Neck");
+        for (const auto& [side, arm] : {std::make_pair("Left", left), {"Right", right}}) {
+            const std::vector<int> way = freeBetween(chest, arm);
+            const std::string collar = std::string(side) + "Collar";
+            if (way.size() == 1 && find(collar) < 0) give(way[0], collar);
+        }
+    }
+
+    void give(int j, const std::string& to) {
+        if (j >= 0) role(j) = to;
+    }
+
+    const RestSkeleton& _skeleton;
+    std::vector<std::string>& _roles;
+};
+
+/// Gives unrecognised joints the role that follows from their position in the tree: the
+/// knee between a thigh and its foot, the foot above the toes, the hand above its fingers or alone
+/// below the lower arm, the spine from the hips up to the joint that carries both arms, the neck
+/// from there to the head, the collar bone on the way to an arm. Skips joints whose names say that
+/// they are helpers (twists, ends, props), and keeps existing roles.
+/// \param roles [joint] as in JointNames, empty for none
+void fillGaps(const RestSkeleton& skeleton, std::vector<std::string>& roles) {
+    Filler(skeleton, roles).fill();
+}
+
 constexpr std::size_t kFewestRoles = 4;
 
-/// Names that tell fewer of the 14 joints that every body has are worth less than a shape that
-/// tells them all.
+/// Names that identify fewer of the 14 joints that every body has are worth less than a shape that
+/// identifies all of them.
 constexpr std::size_t kFewestMain = 8;
 
-/// A family's names in the form in which they are compared.
+/// A family's names, normalised for comparison.
 struct Dictionary {
     explicit Dictionary(const JointNames& names) : family(names.name) {
         for (const auto& [role, members] : names.roles)
@@ -54,7 +170,7 @@ JointRoles rolesBy(const Dictionary& names, const std::vector<std::string>& plai
     return result;
 }
 
-/// The family that fills most roles; of `extra`, where `byCaller` is set.
+/// The family that fills most roles; where `byCaller` is set, it is one of `extra`.
 JointRoles rolesByFamily(const RestSkeleton& skeleton, const std::vector<JointNames>& extra,
                          bool& byCaller) {
     JointRoles best;
@@ -76,7 +192,7 @@ JointRoles rolesByFamily(const RestSkeleton& skeleton, const std::vector<JointNa
     return best;
 }
 
-/// How many of the joints that every body has are told.
+/// How many of the joints that every body has are identified.
 std::size_t mainRoles(const std::vector<std::string>& roles) {
     static const std::set<std::string> kMain = [] {
         std::set<std::string> main{"Hips", "Head"};
@@ -101,7 +217,7 @@ JointRoles madeOf(const std::vector<std::string>& roles, const std::string& fami
     return result;
 }
 
-/// Adds what the family has no name for: a body of Unity's names may have Mixamo's toes.
+/// Adds roles for which the family has no name: a body with Unity's names may have Mixamo's toes.
 void complete(JointRoles& roles, const std::vector<std::string>& words) {
     const JointRoles other = madeOf(words, "");
     for (const auto& [role, joints] : other.joints) {
@@ -135,8 +251,8 @@ JointPart partOfRole(const std::string& role) {
     return found == kParts.end() ? JointPart::Other : found->second;
 }
 
-/// A shoulder is the collar bone in some skeletons and the upper arm in others: what hangs on it
-/// tells.
+/// "Shoulder" is the collar bone in some skeletons and the upper arm in others: its children
+/// decide.
 JointPart shoulder(const RestSkeleton& skeleton, int joint) {
     const std::vector<int> children = skeleton.children(joint);
     if (children.size() != 1) return JointPart::UpperArm;
@@ -146,8 +262,8 @@ JointPart shoulder(const RestSkeleton& skeleton, int joint) {
     return isUpperArm ? JointPart::Collar : JointPart::UpperArm;
 }
 
-/// What a joint without a role is: a second hand or collar bone of a limb, or a joint of a skeleton
-/// that has too few names to be known.
+/// The part of a joint without a role: a second hand or collar bone of a limb, or a joint of a
+/// skeleton with too few known names.
 JointPart partByWords(const RestSkeleton& skeleton, int joint,
                       const std::optional<NameReading>& reading) {
     const std::string& name = skeleton.joints[static_cast<std::size_t>(joint)].name;
@@ -193,7 +309,7 @@ JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<Joint
     const WordRoles words = wordRoles(skeleton);
     std::size_t told = mainRoles(result.roles);
     if (!byCaller) {
-        // Of a family's skeleton that has one name changed, the others keep what they mean there.
+        // Where one name of a family's skeleton was changed, the other names keep their meaning.
         if (mainRoles(words.roles) > told + (result.known() ? 1 : 0))
             result = madeOf(words.roles, kToldByWords);
         else if (result.known())
@@ -218,7 +334,7 @@ JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<Joint
 }
 
 std::vector<std::string> recogniseNames(const std::vector<std::string>& names) {
-    RestSkeleton list; // that no tree orders
+    RestSkeleton list; // without a hierarchy
     list.add({}, -1, glm::dvec3(0.0));
     for (const std::string& name : names) list.add(name, 0, glm::dvec3(0.0));
     std::vector<std::string> roles = recogniseJoints(list).roles;

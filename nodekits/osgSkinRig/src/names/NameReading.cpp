@@ -2,8 +2,10 @@
 #include "names/NameReading.h"
 
 #include "names/NameWords.h"
+#include "names/RoleTree.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -13,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What is "nearly all" of a skeleton's names: exporters add a root or a mesh's node of their own.
+/// Share of a skeleton's names that counts as nearly all: exporters add a root or a mesh's node.
 constexpr double kNearlyAll = 0.8;
 
 Side sideOf(const std::string& word) {
@@ -25,13 +27,13 @@ Side sideOf(const std::string& word) {
     return found == sides.end() ? Side::None : found->second;
 }
 
-/// Marks of joints that have no side, where others have theirs: "Root_M", "spine.x", "J_Bip_C_".
+/// Marks of central joints: "Root_M", "spine.x", "J_Bip_C_".
 bool isCentre(const std::string& word, bool atEnd) {
     static const std::set<std::string> words{"c", "cn", "ctr", "center", "centre"};
     return words.count(word) != 0 || (atEnd && (word == "m" || word == "x"));
 }
 
-/// What tools and authors add to say that a joint is one.
+/// Suffixes that only say that this is a joint.
 bool isSuffix(const std::string& word) {
     static const std::set<std::string> words{"bone", "joint",   "jnt",  "jt",  "jn",    "bn",
                                              "def",  "deform",  "bind", "bnd", "skin",  "sjnt",
@@ -39,7 +41,8 @@ bool isSuffix(const std::string& word) {
     return words.count(word) != 0;
 }
 
-/// The letters of the longest part. Several words are one with sides at both its ends at most.
+/// The number of letters of the longest part's name. Words that are joined have this and a side at
+/// either end at most.
 std::size_t longestPart() {
     static const std::size_t longest = [] {
         std::size_t most = 0;
@@ -48,6 +51,7 @@ std::size_t longestPart() {
     }();
     return longest;
 }
+
 constexpr std::size_t kTwoSides = 10;
 
 /// A name while it is being read: the words up to `end` are still unread.
@@ -62,8 +66,8 @@ public:
         const std::size_t end = _end;
         if (end > 0 && readWhole())
             if (auto result = finished()) return result;
-        // Letters without a boundary, in the last word, or in several ("lefthand",
-        // "leftUpper_arm"): the longest part that they end with ("ForeArmleft").
+        // Letters without a word boundary, in the last word or in several ("lefthand",
+        // "leftUpper_arm", "ForeArmleft"): finds the longest part that they end with.
         std::optional<NameReading> best;
         std::size_t longest = 0;
         std::string run;
@@ -75,7 +79,7 @@ public:
                 _rest.clear();
                 _end = first - 1;
                 if (!readRun(run, side)) continue;
-                // A part of several words begins where one does: no "farm" in "DEF-Armleft".
+                // A part of several words starts at a word boundary: "DEF-Armleft" is no "farm".
                 if (first < end && !_rest.empty()) continue;
                 const auto result = finished();
                 if (!result || _partSize <= longest) continue;
@@ -95,7 +99,7 @@ private:
         return true;
     }
 
-    /// "Bendleft": a side that runs on from what tools add.
+    /// "Bendleft": a side directly behind a tool's suffix.
     bool takeSideOfSuffix(const std::string& word) {
         for (const std::string side : {"left", "right", "l", "r"}) {
             const std::size_t before = word.size() - std::min(word.size(), side.size());
@@ -121,7 +125,7 @@ private:
         }
     }
 
-    /// A part of one or more whole words; the side may stand between them ("Arm_L_Upper").
+    /// A part of one or more whole words, perhaps with the side between them ("Arm_L_Upper").
     bool readWhole() {
         constexpr std::size_t kMostWords = 5;
         for (std::size_t count = std::min(_end, kMostWords); count > 0; --count) {
@@ -146,7 +150,7 @@ private:
         return false;
     }
 
-    /// Reads letters that end with a part, and that with `side` ("handl").
+    /// Reads letters that end with a part followed by `side` ("handl").
     bool readRun(const std::string& run, const std::string& side) {
         if (!side.empty() && !takeSide(side)) return false;
         if (run.size() <= side.size() ||
@@ -161,7 +165,7 @@ private:
             _partSize = text.size();
             _rest = run.substr(0, end - text.size());
             takeSideBefore();
-            // A single letter is too little to go by where other letters lead up to the part.
+            // A single letter is no reliable side where other letters precede the part.
             return side.size() != 1 || _rest.empty();
         }
         return false;
@@ -192,12 +196,12 @@ private:
         }
     }
 
-    /// With the prefix; nothing where the side does not go with the part.
+    /// The result with its prefix; nothing where the part has no sides.
     std::optional<NameReading> finished() {
         dropWhatLeadsHere();
         for (std::size_t w = 0; w < _end; ++w) {
-            // A number there counts the joints ("01_Hips"), or the copies of a figure. A side that
-            // stands further off is one still.
+            // A number in the prefix counts joints ("01_Hips") or copies of a figure. A side
+            // further ahead still counts.
             if (isNumber(_words[w]) || (hasSides(_result.word) && takeSide(_words[w]))) continue;
             _result.prefix += _words[w];
             _result.foreign = _result.foreign || isForeign(_words[w]);
@@ -242,12 +246,285 @@ NameHabits::NameHabits(const std::vector<Words>& names) {
     };
     for (const auto& [word, count] : endings)
         if (isMost(count)) suffix = word;
-    // "Hips.001", "Spine.001": a number that all have tells joints from nothing either.
+    // "Hips.001", "Spine.001": a number that all names have distinguishes nothing.
     counted = isMost(numbered) && (2 * numbers.size() > numbered || numbers.size() == 1);
 }
 
 std::optional<NameReading> readName(const Words& words, const NameHabits& habits) {
     return Reader(words, habits).read();
+}
+
+namespace {
+
+using Readings = std::vector<std::optional<NameReading>>;
+
+/// One side of a body: the words in its names, and what ambiguous ones mean there.
+class Limbs {
+public:
+    Limbs(const RestSkeleton& skeleton, const Readings& readings, Side side)
+        : _skeleton(skeleton), _readings(readings), _side(side) {
+        for (const auto& reading : readings)
+            if (reading && reading->side == side) ++_count[reading->word];
+    }
+
+    std::string role(std::size_t joint) const {
+        switch (_readings[joint]->word) {
+        case BodyWord::Hip:
+            return hip();
+        case BodyWord::HipJoint:
+            return "HipJoint";
+        case BodyWord::Thigh:
+            return "UpperLeg";
+        case BodyWord::Leg:
+            return leg(joint);
+        case BodyWord::Shin:
+            return "LowerLeg";
+        case BodyWord::Foot:
+            return "Foot";
+        case BodyWord::Toe:
+            return "Toe";
+        case BodyWord::Collar:
+            return "Collar";
+        case BodyWord::Shoulder:
+            return shoulder();
+        case BodyWord::UpperArm:
+            return "UpperArm";
+        case BodyWord::Arm:
+            return arm(joint);
+        case BodyWord::ForeArm:
+            return "LowerArm";
+        case BodyWord::Hand:
+            return "Hand";
+        case BodyWord::FingerBase:
+            return "FingerBase";
+        case BodyWord::Fingers:
+            return "Fingers";
+        default:
+            return finger(joint);
+        }
+    }
+
+private:
+    bool has(BodyWord word) const { return count(word) > 0; }
+    int count(BodyWord word) const {
+        const auto found = _count.find(word);
+        return found == _count.end() ? 0 : found->second;
+    }
+
+    /// Index of a joint in its chain of joints with the same word, from 0.
+    std::size_t place(std::size_t joint) const {
+        std::size_t result = 0;
+        for (int j = _skeleton.joints[joint].parent; j >= 0;
+             j = _skeleton.joints[static_cast<std::size_t>(j)].parent) {
+            const auto& above = _readings[static_cast<std::size_t>(j)];
+            if (above && above->side == _side && above->word == _readings[joint]->word &&
+                fingerOf(static_cast<std::size_t>(j)) == fingerOf(joint))
+                ++result;
+        }
+        return result;
+    }
+
+    /// "Hip" is the thigh's joint unless another name says thigh.
+    std::string hip() const {
+        const bool thigh = has(BodyWord::Thigh) || (has(BodyWord::Leg) && has(BodyWord::Shin)) ||
+                           count(BodyWord::Leg) > 1;
+        return thigh ? "HipJoint" : "UpperLeg";
+    }
+
+    /// Where all names end with "Joint", "HipJoint" is the thigh's.
+    std::string hipJoint() const {
+        const bool thigh = has(BodyWord::Thigh) || has(BodyWord::Leg) || has(BodyWord::Hip);
+        return thigh || !has(BodyWord::Shin) ? "HipJoint" : "UpperLeg";
+    }
+
+    std::string leg(std::size_t joint) const {
+        if (has(BodyWord::Thigh)) return has(BodyWord::Shin) ? "" : "LowerLeg";
+        if (has(BodyWord::Shin)) return "UpperLeg";
+        if (has(BodyWord::Hip) && count(BodyWord::Leg) == 1) return "LowerLeg";
+        static const char* const kChain[] = {"UpperLeg", "LowerLeg", "Foot", "Toe"};
+        const std::size_t at = place(joint);
+        if (at > 1 && has(BodyWord::Foot)) return "";
+        return at < 4 ? kChain[at] : "";
+    }
+
+    /// "Shoulder" is the collar bone where its child is an upper arm.
+    std::string shoulder() const {
+        if (has(BodyWord::UpperArm)) return "Collar";
+        if (!has(BodyWord::Arm)) return has(BodyWord::ForeArm) ? "UpperArm" : "";
+        const bool armIsLower =
+            !has(BodyWord::ForeArm) && count(BodyWord::Arm) == 1 && has(BodyWord::Collar);
+        return armIsLower ? "UpperArm" : "Collar";
+    }
+
+    std::string arm(std::size_t joint) const {
+        if (has(BodyWord::UpperArm)) return has(BodyWord::ForeArm) ? "" : "LowerArm";
+        if (has(BodyWord::ForeArm)) return "UpperArm";
+        if (shoulder() == "UpperArm" && has(BodyWord::Shoulder)) return "LowerArm";
+        static const char* const kChain[] = {"UpperArm", "LowerArm", "Hand"};
+        const std::size_t at = place(joint);
+        if (at > 1 && has(BodyWord::Hand)) return "";
+        return at < 3 ? kChain[at] : "";
+    }
+
+    /// 3ds Max's Biped counts the thumb as finger 0 ("Finger01" is its second joint), MakeHuman as
+    /// finger 1 ("finger1-2" is its second joint).
+    int fingerOf(std::size_t joint) const {
+        const NameReading& reading = *_readings[joint];
+        if (reading.word != BodyWord::Finger || reading.numbers.empty()) return -1;
+        const int first = reading.numbers[0][0] - '0';
+        return reading.numbers.size() > 1 ? first - 1 : first;
+    }
+
+    std::string finger(std::size_t joint) const {
+        static const std::map<BodyWord, std::string> names{{BodyWord::Thumb, "Thumb"},
+                                                           {BodyWord::Index, "Index"},
+                                                           {BodyWord::Middle, "Middle"},
+                                                           {BodyWord::Ring, "Ring"},
+                                                           {BodyWord::Little, "Little"}};
+        static const std::array<const char*, 5> kCounted{"Thumb", "Index", "Middle", "Ring",
+                                                         "Little"};
+        const std::size_t at = place(joint);
+        if (at > 2) return "";
+        const std::string number = std::to_string(at + 1);
+        const BodyWord word = _readings[joint]->word;
+        if (names.count(word) != 0) return names.at(word) + number;
+        const int counted = fingerOf(joint);
+        if (counted < 0 || counted > 4) return "";
+        // "Finger2" below "Finger1": the number counts the joints of a hand's only finger.
+        if (isOneForAll(joint)) return hangsOnFinger(joint) ? "" : "Fingers";
+        return kCounted[static_cast<std::size_t>(counted)] + number;
+    }
+
+    bool hangsOnFinger(std::size_t joint) const {
+        const int parent = _skeleton.joints[joint].parent;
+        if (parent < 0) return false;
+        const auto& above = _readings[static_cast<std::size_t>(parent)];
+        return above && above->word == BodyWord::Finger && above->side == _side;
+    }
+
+    bool isOneForAll(std::size_t joint) const {
+        for (std::size_t j = 0; j < _readings.size(); ++j) {
+            if (!_readings[j] || _readings[j]->word != BodyWord::Finger || !hangsOnFinger(j))
+                continue;
+            const auto parent = static_cast<std::size_t>(_skeleton.joints[j].parent);
+            if ((j == joint || parent == joint) && fingerOf(j) != fingerOf(parent)) return true;
+        }
+        return false;
+    }
+
+    const RestSkeleton& _skeleton;
+    const Readings& _readings;
+    Side _side;
+    std::map<BodyWord, int> _count;
+};
+
+std::string trunkRole(BodyWord word) {
+    switch (word) {
+    case BodyWord::Hips:
+    case BodyWord::Pelvis:
+        return "Hips";
+    case BodyWord::Spine:
+        return "Spine";
+    case BodyWord::Neck:
+        return "Neck";
+    default:
+        return "Head";
+    }
+}
+
+} // namespace
+
+std::vector<std::string> limbRoles(const RestSkeleton& skeleton, const Readings& readings) {
+    const Limbs left(skeleton, readings, Side::Left), right(skeleton, readings, Side::Right);
+    std::vector<std::string> result(readings.size());
+    for (std::size_t j = 0; j < readings.size(); ++j) {
+        if (!readings[j]) continue;
+        if (readings[j]->side == Side::None) {
+            result[j] = trunkRole(readings[j]->word);
+            continue;
+        }
+        const bool isLeft = readings[j]->side == Side::Left;
+        const std::string role = isLeft ? left.role(j) : right.role(j);
+        if (!role.empty()) result[j] = (isLeft ? "Left" : "Right") + role;
+    }
+    return result;
+}
+
+namespace {
+
+using Readings = std::vector<std::optional<NameReading>>;
+
+/// A prefix that a skeleton shares has at least so many joints.
+constexpr std::size_t kFewestShared = 4;
+
+/// A foreign word is a valid prefix where nearly all joints have it: a figure may be called Wing.
+constexpr double kMostJoints = 0.8;
+
+/// How many prefixes are tried: each visits all joints, and figures have few.
+constexpr std::size_t kMostPrefixes = 100;
+
+std::set<std::string> distinct(const std::vector<std::string>& roles) {
+    std::set<std::string> result(roles.begin(), roles.end());
+    result.erase("");
+    return result;
+}
+
+bool beginsWith(const std::vector<std::string>& words, const std::string& prefix) {
+    std::string joined;
+    for (const std::string& word : words) {
+        if (!isNumber(word)) joined += word;
+        if (joined.size() >= prefix.size()) break;
+    }
+    return joined.compare(0, prefix.size(), prefix) == 0;
+}
+
+/// The joints under one prefix, each with its role.
+std::vector<std::string> rolesUnder(const RestSkeleton& skeleton, Readings readings,
+                                    const std::string& prefix) {
+    for (auto& reading : readings)
+        if (reading && reading->prefix != prefix) reading.reset();
+    std::vector<std::string> roles = limbRoles(skeleton, readings);
+    settleRoles(skeleton, roles);
+    return roles;
+}
+
+} // namespace
+
+WordRoles wordRoles(const RestSkeleton& skeleton) {
+    std::vector<std::vector<std::string>> names;
+    for (const RestJoint& joint : skeleton.joints) names.push_back(nameWords(joint.name));
+    const NameHabits habits(names);
+
+    WordRoles result;
+    result.roles.resize(names.size());
+    std::map<std::string, std::size_t> prefixes;
+    std::set<std::string> foreign;
+    for (const auto& words : names) {
+        result.readings.push_back(readName(words, habits));
+        if (const auto& reading = result.readings.back()) {
+            ++prefixes[reading->prefix];
+            if (reading->foreign) foreign.insert(reading->prefix);
+        }
+    }
+    std::size_t most = 0, tried = 0;
+    for (const auto& [prefix, count] : prefixes) {
+        if (count < kFewestShared || count < most || ++tried > kMostPrefixes) continue;
+        if (foreign.count(prefix) != 0) {
+            const auto sharing =
+                std::count_if(names.begin(), names.end(),
+                              [p = prefix](const auto& words) { return beginsWith(words, p); });
+            if (static_cast<double>(sharing) < kMostJoints * static_cast<double>(names.size()))
+                continue;
+        }
+        std::vector<std::string> roles = rolesUnder(skeleton, result.readings, prefix);
+        const std::size_t filled = distinct(roles).size();
+        // Rigify has each bone twice: "DEF-" deforms the skin, "ORG-" only controls the former.
+        const bool preferred = filled == most && prefix == "def";
+        if (filled < kFewestShared || (filled <= most && !preferred)) continue;
+        most = filled;
+        result.roles = std::move(roles);
+    }
+    return result;
 }
 
 } // namespace osgSkin

@@ -1,32 +1,39 @@
 // SPDX-License-Identifier: MIT
 #include "names/NameWords.h"
 
+#include <algorithm>
 #include <cctype>
 #include <set>
+#include <unordered_map>
+#include <utility>
 
 namespace osgSkin {
 namespace {
 
-/// Beyond this a name is none that anybody gave a part of a body, and its words take long to read.
+/// Longer names are not parsed: nobody names a part of a body so, and parsing would take long.
 constexpr std::size_t kLongestName = 1000;
 
 bool isLetter(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
+
 bool isDigit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
+
 bool isUpper(char c) {
     return std::isupper(static_cast<unsigned char>(c)) != 0;
 }
+
 bool isBeyondAscii(char c) {
     return static_cast<unsigned char>(c) >= 0x80;
 }
+
 char lower(char c) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
-/// What stands before a colon or bar is a file's or a tool's, not the joint's.
+/// Text before a colon or bar is a namespace, not the joint's name.
 std::string withoutNamespace(const std::string& name, const char* marks) {
     return name.substr(name.find_last_of(marks) + 1);
 }
@@ -51,7 +58,7 @@ std::string withoutNote(const std::string& name) {
     return name.substr(0, open) + name.substr(close + 1);
 }
 
-/// "LUArm", "RFArm": a side, and then the upper arm or forearm.
+/// "LUArm", "RFArm": a side and the upper arm or forearm.
 bool beginsShortArm(const std::string& name, std::size_t i) {
     if ((name[i] != 'U' && name[i] != 'F') || i == 0 || i + 2 >= name.size()) return false;
     const bool afterSide =
@@ -131,6 +138,111 @@ bool nameContains(const std::string& name, const char* part) {
     std::string lowered = name;
     for (char& c : lowered) c = lower(c);
     return lowered.find(part) != std::string::npos;
+}
+
+namespace {
+
+using Entry = std::pair<std::string, BodyWord>;
+
+void addFingers(std::vector<Entry>& words) {
+    const std::pair<const char*, BodyWord> kFingers[] = {
+        {"thumb", BodyWord::Thumb},   {"index", BodyWord::Index},   {"pointer", BodyWord::Index},
+        {"middle", BodyWord::Middle}, {"mid", BodyWord::Middle},    {"ring", BodyWord::Ring},
+        {"pinky", BodyWord::Little},  {"pinkie", BodyWord::Little}, {"little", BodyWord::Little}};
+    for (const auto& [name, word] : kFingers) {
+        const std::string finger = name;
+        for (const std::string before : {"", "hand", "finger", "f"})
+            for (const std::string after : {"", "finger", "proximal", "intermediate", "distal"})
+                words.emplace_back(before + finger + after, word);
+    }
+    words.emplace_back("thumbmetacarpal", BodyWord::Thumb); // VRM's first, which turns the thumb
+}
+
+std::vector<Entry> allWords() {
+    const std::pair<BodyWord, std::vector<const char*>> kParts[] = {
+        {BodyWord::Hips, {"hips", "hip"}},
+        {BodyWord::Pelvis, {"pelvis"}},
+        {BodyWord::Spine,
+         {"spine",      "chest",      "upperchest",    "lowerchest",   "chestupper", "chestlower",
+          "upperspine", "lowerspine", "middlespine",   "midspine",     "spineupper", "spinelower",
+          "spinemid",   "spinebase",  "spineshoulder", "lowerback",    "upperback",  "midback",
+          "abdomen",    "ab",         "abdomenlower",  "abdomenupper", "torso",      "uppertorso",
+          "lowertorso", "upperbody",  "waist",         "stomach",      "thorax",     "ribcage",
+          "ribs",       "lumbar"}},
+        {BodyWord::Neck, {"neck", "upperneck", "lowerneck", "neckupper", "necklower", "necktwist"}},
+        {BodyWord::Head, {"head", "skull"}},
+        {BodyWord::HipJoint, {"hipjoint", "buttock"}},
+        {BodyWord::Thigh,
+         {"thigh", "upleg", "upperleg", "legupper", "legup", "femur", "uplegs", "upperlegs"}},
+        {BodyWord::Leg, {"leg"}},
+        {BodyWord::Shin,
+         {"shin", "calf", "knee", "lowleg", "lowerleg", "leglower", "leglow", "loleg", "tibia",
+          "shank"}},
+        {BodyWord::Foot, {"foot", "ankle", "footankle", "talus"}},
+        {BodyWord::Toe, {"toe", "toes", "toebase", "ball", "foottoe"}},
+        {BodyWord::Collar, {"collar", "clavicle", "clavical", "clav", "collarbone", "scapula"}},
+        {BodyWord::Shoulder, {"shoulder"}},
+        {BodyWord::UpperArm,
+         {"upperarm", "uparm", "uarm", "armupper", "armup", "shldr", "humerus"}},
+        {BodyWord::Arm, {"arm"}},
+        {BodyWord::ForeArm,
+         {"forearm", "lowerarm", "lowarm", "armlower", "armlow", "loarm", "farm", "elbow", "radius",
+          "ulna"}},
+        {BodyWord::Hand, {"hand", "wrist", "handwrist"}},
+        {BodyWord::FingerBase, {"fingerbase"}},
+        {BodyWord::Fingers, {"fingers"}},
+        {BodyWord::Finger, {"finger"}}};
+    std::vector<Entry> words;
+    for (const auto& [part, names] : kParts)
+        for (const char* name : names) words.emplace_back(name, part);
+    addFingers(words);
+    std::stable_sort(words.begin(), words.end(), [](const Entry& a, const Entry& b) {
+        return a.first.size() > b.first.size();
+    });
+    return words;
+}
+
+} // namespace
+
+const std::vector<Entry>& bodyWords() {
+    static const std::vector<Entry> words = allWords();
+    return words;
+}
+
+std::optional<BodyWord> findBodyWord(const std::string& joined) {
+    static const std::unordered_map<std::string, BodyWord> words(bodyWords().begin(),
+                                                                 bodyWords().end());
+    const auto found = words.find(joined);
+    if (found == words.end()) return std::nullopt;
+    return found->second;
+}
+
+bool hasSides(BodyWord word) {
+    return word >= BodyWord::Hip;
+}
+
+bool saysWhere(const std::string& before, BodyWord word) {
+    const bool ofArm = word >= BodyWord::Collar;
+    const bool ofLeg = word >= BodyWord::Hip && word <= BodyWord::Toe;
+    const bool ofTrunk = word <= BodyWord::Spine;
+    return ((before == "arm" || before == "shoulder") && ofArm) || (before == "leg" && ofLeg) ||
+           (before == "spine" && ofTrunk) || (before == "neck" && word == BodyWord::Head);
+}
+
+bool isForeign(const std::string& word) {
+    static const std::set<std::string> words{
+        // controls, helpers and what corrects a skin
+        "ik", "fk", "ctrl", "ctl", "cntrl", "control", "con", "mch", "wgt", "pole", "target", "tgt",
+        "aim", "helper", "hlp", "twist", "tweak", "roll", "corrective", "fix", "vb", "virtual",
+        "driver", "drv", "offset", "gizmo", "spline", "null", "end", "nub", "tip", "muscle", "phys",
+        "jiggle", "dyn", "spring", "sim", "collider", "hit", "hitbox", "hint", "ref", "goal",
+        // what is attached or worn
+        "attach", "attachment", "socket", "slot", "prop", "weapon", "sword", "gun", "shield",
+        "item", "holder", "mount", "dummy", "locator", "loc", "marker", "camera", "light", "hair",
+        "cloth", "skirt", "cape", "coat", "sleeve", "tail", "wing", "pad", "armor", "armour",
+        // other animals' limbs
+        "front", "fore", "rear", "back", "hind", "middle", "mid"};
+    return words.count(word) != 0;
 }
 
 } // namespace osgSkin

@@ -36,7 +36,7 @@ private:
         return found == _roles.end() ? -1 : static_cast<int>(found - _roles.begin());
     }
 
-    /// Twins may share a name; the one that carries more is the joint.
+    /// Several joints may have the same name; the one with most descendants is kept.
     void keepOne(const std::vector<int>& members) {
         int best = members[0];
         for (const int j : members) {
@@ -74,8 +74,8 @@ private:
         role(head) = "Head";
     }
 
-    /// Spine and neck lead from the hips to the head; what is called so beside that line is another
-    /// thing. Where nothing tells the line (a list of names), all stay.
+    /// Spine and neck lead from the hips to the head; joints of these names beside that line lose
+    /// the role. Without a hierarchy (a list of names) all are kept.
     void keepTrunk() {
         int top = find("Head");
         if (top < 0) {

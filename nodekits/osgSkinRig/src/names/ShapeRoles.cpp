@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "names/ShapeRoles.h"
-
 #include "names/RoleTree.h"
+
 #include "skeleton/SkeletonTree.h"
 
 #include <glm/geometric.hpp>
@@ -13,13 +12,13 @@
 namespace osgSkin {
 namespace {
 
-constexpr double kAlike = 0.15;        ///< how far two limbs differ, in their length
-constexpr double kShortestLimb = 0.15; ///< of a limb, in the skeleton's reach
+constexpr double kAlike = 0.15;        ///< largest difference of two limbs, in their length
+constexpr double kShortestLimb = 0.15; ///< length of a limb, in the skeleton's reach
 constexpr double kUpright = 0.64;      ///< cosine between trunk and legs: a quadruped's is near 0
-constexpr double kApart = 0.12;        ///< of the twins of a limb's first joint, in its length
-constexpr double kToesPoint = 0.05;    ///< leg lengths
-// Hair and skirts are many, but shorter than limbs: whatever the skeleton, it takes no time.
-constexpr std::size_t kMostLimbs = 24;  ///< of one joint, the longest
+constexpr double kApart = 0.12;     ///< least distance of both limbs' first joints, in their length
+constexpr double kToesPoint = 0.05; ///< leg lengths
+// Limits on the search. Chains of hair and skirts are many, but shorter than limbs.
+constexpr std::size_t kMostLimbs = 24;  ///< of one joint; the longest are kept
 constexpr std::size_t kMostPairs = 256; ///< the longest
 
 using Chain = std::vector<int>;
@@ -78,7 +77,7 @@ private:
         return chain;
     }
 
-    /// Whether both chains mirror each other in a plane through the joint that carries them.
+    /// Whether both chains are mirror images in a plane through the joint that carries them.
     bool mirror(int base, const Chain& a, const Chain& b, double length) const {
         const std::size_t count = std::min(a.size(), b.size());
         glm::dvec3 across(0.0);
@@ -124,7 +123,7 @@ private:
         return limbs;
     }
 
-    /// Leaves so many, the longest first; where there are no more, in their order.
+    /// Keeps only so many, the longest first; fewer stay in their order.
     template <typename Item, typename Length>
     static void keepLongest(std::vector<Item>& items, std::size_t most, const Length& length) {
         if (items.size() <= most) return;
@@ -141,8 +140,8 @@ private:
         return glm::normalize(starts - ends);
     }
 
-    /// Which joint of a limb begins its two long bones. Collar bones and what leads to the legs
-    /// begin in the middle of the body.
+    /// The joint of a limb at which its two long bones begin. Collar bones and hip joints begin in
+    /// the middle of the body.
     std::size_t upperOf(const Chain& chain, const Chain& twin, double length) const {
         std::size_t best = 0;
         double longest = -1.0;
@@ -188,7 +187,7 @@ private:
             highest = height;
             best = chain;
         }
-        // Eyes and a jaw hang on the head.
+        // Eyes and a jaw are children of the head.
         for (std::size_t i = 0; i < best.size(); ++i)
             if (_tree.children(best[i]).size() > 1) best.resize(i + 1);
         // A last joint may only mark the crown.
@@ -199,8 +198,8 @@ private:
         return best;
     }
 
-    /// Towards the left: by the toes, or else +x, which it is for figures that face +z with +y up
-    /// or -y with +z up.
+    /// Direction to the left, found by the toes; else +x, which is left for figures that face +z
+    /// with +y up or -y with +z up.
     glm::dvec3 leftward(const Pair& legs) const {
         const glm::dvec3 up = upOf(legs);
         glm::dvec3 forward(0.0);

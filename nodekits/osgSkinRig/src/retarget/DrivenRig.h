@@ -1,20 +1,42 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINRIG_RETARGET_DRIVENRIG_H
+#define OSGSKINRIG_RETARGET_DRIVENRIG_H
 
 #include "names/BodyParts.h"
-#include "retarget/JointPairs.h"
 #include "skeleton/SkeletonTree.h"
 
+#include <osgSkinRig/JointRoles>
+#include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/Retarget>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <optional>
 #include <vector>
 
 namespace osgSkin {
 
-/// A rig and the motion that drives it, as retargeting looks at them: both skeletons standing with
-/// +y up and facing the same way.
+/// Which motion joint drives which rig joint.
+struct JointPairs {
+    std::vector<int> motionJoint; ///< [rig joint], -1 for none
+    JointRoles rig, motion;
+};
+
+/// Maps the rig's joints to the motion's. The caller's map comes first (an empty motion name leaves
+/// the joint at rest), then the joint of the same role, then the joint of equal name, unless it is
+/// known to be another part of the body. Spines and necks with different numbers of joints are
+/// matched end to end.
+/// \throw osgSkin::Error where the map names a joint that is not there, or no joint matches.
+JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
+                     const RetargetOptions& options);
+
+/// A rig and the motion that drives it, with both skeletons upright (+y up) and facing the same
+/// direction.
 struct DrivenRig {
     /// \param uprightRig must outlive this
     /// \param uprightMotion must outlive this
-    /// \param joints which joint drives which, and what the joints are; must outlive this
+    /// \param joints driving joints and roles; must outlive this
     DrivenRig(const RestSkeleton& uprightRig, const RestSkeleton& uprightMotion,
               const JointPairs& joints)
         : rig(uprightRig), motion(uprightMotion), map(joints),
@@ -28,4 +50,44 @@ struct DrivenRig {
     BodyParts rigParts, motionParts;
 };
 
+/// A bone in both skeletons, from the joint to its end in their zero poses.
+struct BonePair {
+    glm::dvec3 rig;
+    glm::dvec3 motion;
+};
+
+/// The bone of rig joint `j`, which the motion drives: to a descendant that both skeletons have, or
+/// else to each skeleton's own end. Nothing where either has no length.
+std::optional<BonePair> findBone(const DrivenRig& body, int j);
+
+/// The rotations A that take the rig's rest bones to the motion's zero-pose bones, one per rig
+/// joint.
+///
+/// Trunk joints are not aligned. A limb joint whose bone has no direction in either skeleton takes
+/// its parent's rotation, so that it does not rotate against the limb.
+std::vector<glm::dquat> alignBones(const DrivenRig& body);
+
+/// Rotations from a rig's and a motion's space to a common upright one, found by both skeletons'
+/// rest poses.
+///
+/// Up is the coordinate axis along the thighs, or along trunk and shins where these agree and the
+/// body sits; left is from the right hip to the left one, or else from shoulder to shoulder. Both
+/// need the roles of joints: without roles, +y is taken as up; without pairs, both skeletons are
+/// taken to face the same direction.
+struct UprightFrames {
+    glm::dquat rigUpright{1.0, 0.0, 0.0, 0.0}; ///< from the rig's space to one with +y up
+
+    /// From the motion's space to that one, so that both skeletons face the same direction.
+    glm::dquat motionUpright{1.0, 0.0, 0.0, 0.0};
+};
+
+/// A skeleton without roles takes those of the joints that it is mapped to.
+UprightFrames findUprightFrames(const SkeletonTree& rig, const SkeletonTree& motion,
+                                const JointPairs& map);
+
+/// The skeleton, rotated.
+RestSkeleton rotated(const RestSkeleton& skeleton, const glm::dquat& rotation);
+
 } // namespace osgSkin
+
+#endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "retarget/HingeTwist.h"
+#include "retarget/MotionSteps.h"
 
 #include <osgSkin/GlmTypes>
 
@@ -16,8 +16,8 @@ namespace osgSkin {
 namespace {
 
 constexpr double kTurn = glm::two_pi<double>();
-constexpr double kKept = 0.25 * kTurn;     ///< what a hinge keeps of its twist
-constexpr double kMaxTwist = 0.75 * kTurn; ///< with 90 degrees in each of the three joints
+constexpr double kKept = 0.25 * kTurn;     ///< largest twist that a hinge keeps
+constexpr double kMaxTwist = 0.75 * kTurn; ///< 90 degrees in each of the three joints
 /// Of a bone without direction, over the longest bone of the limb.
 constexpr double kNoLength = 1e-6;
 
@@ -26,7 +26,7 @@ struct Limb {
     std::vector<std::size_t> aboveHinge, aboveEnd; ///< joints between them, parents first
 };
 
-/// The joints between two, parents first; nothing where `below` is not in the subtree of `above`.
+/// The joints between two joints, parents first; nothing where `below` is no descendant of `above`.
 std::optional<std::vector<std::size_t>> between(const RestSkeleton& rig, std::size_t above,
                                                 std::size_t below) {
     std::vector<std::size_t> result;
@@ -61,13 +61,7 @@ std::vector<Limb> findLimbs(const RestSkeleton& rig, const JointRoles& roles) {
     return limbs;
 }
 
-/// The angle of `q` about a unit axis, -pi..pi: the twist that is left after the swing.
-double twistAbout(const glm::dvec3& axis, const glm::dquat& q) {
-    const double sine = glm::dot(axis, glm::dvec3(q.x, q.y, q.z));
-    return 2.0 * (q.w < 0.0 ? std::atan2(-sine, -q.w) : std::atan2(sine, q.w));
-}
-
-/// The angle that means the same rotation and is nearest to another one.
+/// The equivalent angle that is nearest to another one.
 double nearest(double angle, double to) {
     return angle + kTurn * std::round((to - angle) / kTurn);
 }
@@ -91,12 +85,12 @@ public:
 
     double upperTwist() const { return twistAbout(_upperBone, _local[_limb.upper]); }
     double hingeTwist() const { return twistAbout(_lowerBone, _local[_limb.hinge]); }
-    /// Of the end about the lower bone.
+    /// The end's twist about the lower bone.
     double endTwist() const {
         return twistAbout(glm::conjugate(_toEnd) * _lowerBone, _local[_limb.end]);
     }
 
-    /// Takes twist from the hinge.
+    /// Moves the twists `up` and `down` from the hinge to the joint above and to the end.
     void take(double up, double down) {
         glm::dquat& hinge = _local[_limb.hinge];
         if (up != 0.0) {
@@ -111,7 +105,7 @@ public:
     }
 
 private:
-    /// From a joint to one below it, in the joint's frame; `to` is the rotation of the last joint
+    /// From a joint to a descendant, in the joint's frame; `to` is the rotation of the last joint
     /// between them.
     glm::dvec3 boneOf(const RestSkeleton& rig, std::size_t from,
                       const std::vector<std::size_t>& path, std::size_t end, glm::dquat& to) const {
@@ -126,8 +120,8 @@ private:
         return bone + to * (rig.joints[end].centre - rig.joints[above].centre);
     }
 
-    /// By how much the upper joint has to twist for the hinge to lose the twist `up`: as much,
-    /// where both bones are in line at rest.
+    /// The twist of the upper joint that takes `up` off the hinge's twist: the same angle where
+    /// both bones are in line at rest.
     double upperAngle(double up) const {
         const glm::dquat q = _local[_limb.hinge] *
                              glm::angleAxis(up - hingeTwist(), _lowerBone); // left with twist `up`
@@ -166,6 +160,11 @@ void unwrap(std::vector<double>& angles) {
 
 } // namespace
 
+double twistAbout(const glm::dvec3& axis, const glm::dquat& q) {
+    const double sine = glm::dot(axis, glm::dvec3(q.x, q.y, q.z));
+    return 2.0 * (q.w < 0.0 ? std::atan2(-sine, -q.w) : std::atan2(sine, q.w));
+}
+
 std::vector<std::size_t> shareHingeTwist(const RestSkeleton& rig, const JointRoles& roles,
                                          Clip& clip) {
     std::vector<std::size_t> shared(clip.joints, 0);
@@ -190,7 +189,7 @@ std::vector<std::size_t> shareHingeTwist(const RestSkeleton& rig, const JointRol
             if (!(excess > 0.0)) continue;
             ++shared[limb.hinge];
             const double sign = twists.hinge[f] < 0.0 ? -1.0 : 1.0;
-            // Where both get as much twist, or all to the one that has less.
+            // Both get equal twists, or the one with less gets all.
             const double up =
                 std::clamp(0.5 * (excess + sign * (twists.end[f] - twists.upper[f])), 0.0, excess);
             samples[f].take(sign * up, sign * (excess - up));

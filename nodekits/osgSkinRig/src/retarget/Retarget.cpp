@@ -1,42 +1,97 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/Retarget>
 
-#include "reference/CopyRotations.h"
-#include "reference/StandingCheck.h"
-#include "reference/StandingPose.h"
-#include "retarget/Alignment.h"
+#include "names/BodyParts.h"
 #include "retarget/DrivenRig.h"
-#include "retarget/FootRoll.h"
-#include "retarget/HingeTwist.h"
-#include "retarget/JointPairs.h"
-#include "retarget/MeasureFeet.h"
-#include "retarget/RootMotion.h"
-#include "retarget/UprightFrames.h"
+#include "retarget/MotionSteps.h"
+#include "retarget/Posture.h"
 #include "skeleton/SkeletonTree.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
 #include <osgSkinRig/ForwardKinematics>
+#include <osgSkinRig/RetargetReport>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace osgSkin {
+
+std::string RetargetReport::text() const {
+    std::ostringstream out;
+    out << "names: rig " << (rigNames.empty() ? "of no known family" : rigNames) << ", motion "
+        << (motionNames.empty() ? "of no known family" : motionNames) << "\n"
+        << std::setprecision(4) << "root motion scaled by " << scale;
+    const double degrees = glm::degrees(glm::angle(rotation.w < 0.0 ? -rotation : rotation));
+    if (degrees > 1e-6) {
+        const glm::dvec3 axis = glm::axis(rotation.w < 0.0 ? -rotation : rotation);
+        out << ", rotated by " << degrees << " degrees about " << axis.x << " " << axis.y << " "
+            << axis.z;
+    }
+    out << "\n";
+    for (const std::string& note : notes) out << "note: " << onOneLine(note) << "\n";
+    for (const Entry& entry : entries) {
+        out << "joint " << onOneLine(entry.rigJoint) << ": ";
+        if (entry.motionJoint.empty())
+            out << "at rest";
+        else
+            out << onOneLine(entry.motionJoint) << ", aligned by " << entry.alignmentDegrees
+                << " degrees";
+        if (entry.rolledOver > 0)
+            out << ", upside down in " << entry.rolledOver << " samples: rolled back";
+        if (entry.twistShared > 0)
+            out << ", twisted by more than 90 degrees in " << entry.twistShared
+                << " samples: the excess is shared out";
+        out << "\n";
+    }
+    for (const std::string& joint : unusedMotionJoints)
+        out << "not used: " << onOneLine(joint) << "\n";
+    return out.str() + feetText();
+}
+
+std::string RetargetReport::feetText() const {
+    std::ostringstream out;
+    out << std::fixed;
+    for (const FootSkate& foot : feet) {
+        out << "foot " << onOneLine(foot.rigJoint) << ": ";
+        const auto percent = [&](double length) {
+            out << std::setprecision(1) << 100.0 * length / foot.leg << " %";
+        };
+        if (foot.contacts == 0) {
+            out << "never planted\n";
+            continue;
+        }
+        out << foot.contacts << (foot.contacts == 1 ? " contact" : " contacts") << ", slides by ";
+        percent(foot.mean);
+        out << " of the leg in the mean, ";
+        percent(foot.worst);
+        out << " at worst (from frame " << foot.worstFrame << "); the actor's own: ";
+        percent(foot.actorMean);
+        out << ", ";
+        percent(foot.actorWorst);
+        out << "\n";
+    }
+    return out.str();
+}
+
 namespace {
 
 double degrees(const glm::dquat& q) {
     return glm::degrees(2.0 * std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), std::abs(q.w)));
 }
 
-/// More than any foot is off its like in another body.
+/// Degrees; no two bodies' feet differ by as much.
 constexpr double kBackwards = 120.0;
 
-/// Whether the feet of one skeleton point to where the other's do not.
+/// Whether all feet of the rig point in other directions than the motion's.
 bool doFeetDisagree(const BodyParts& parts, const std::vector<glm::dquat>& alignment) {
     return !parts.ankles.empty() &&
            std::all_of(parts.ankles.begin(), parts.ankles.end(), [&](int ankle) {
@@ -78,7 +133,7 @@ void driveRig(const RestSkeleton& rig, const std::vector<int>& motionJoint,
     }
 }
 
-/// The rotations as they are in the space that `back` leads to.
+/// Transforms the rotations to the space that `back` leads to.
 void changeSpace(const glm::dquat& back, std::vector<glm::dquat>& rotations) {
     if (isIdentity(back)) return; // to the last bit
     for (glm::dquat& q : rotations) q = glm::normalize(back * q * glm::conjugate(back));
@@ -93,7 +148,7 @@ void addLocal(const RestSkeleton& rig, const std::vector<glm::dquat>& world, Cli
     }
 }
 
-/// The rotations go over as they are: nothing is aligned, nor set on a floor.
+/// Copies local rotations: nothing is aligned, nor put on the floor.
 Clip copied(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
             const SameSkeleton& same, RetargetReport* report) {
     glm::dvec3 offset;
@@ -110,7 +165,7 @@ Clip copied(const Motion& motion, const RestSkeleton& rig, const JointPairs& map
     return clip;
 }
 
-/// \param motion counted from a pose in which the actor stands
+/// \param motion relative to a pose in which the actor stands
 Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
              RetargetReport* report) {
     const std::vector<int>& motionJoint = map.motionJoint;
@@ -198,7 +253,7 @@ std::string listed(const std::vector<std::string>& names) {
     return result;
 }
 
-/// What a skeleton's shape told, where its names say nothing: a person had better look.
+/// Notes the roles that were found by the skeleton's shape, for a person to check.
 void noteShape(const JointRoles& roles, const RestSkeleton& skeleton, const std::string& whose,
                std::vector<std::string>& notes) {
     if (roles.family != kToldByShape) return;
@@ -212,8 +267,8 @@ void noteShape(const JointRoles& roles, const RestSkeleton& skeleton, const std:
                     "'s joint names say nothing, its parts are told by its shape: " + told);
 }
 
-/// Where names alone tell, joints that are left over on both sides may be the same ones, spelled in
-/// two ways.
+/// Where joints are matched by equal names alone, those left over on both sides may be the same
+/// joints with other spellings.
 void noteLeftOver(const JointPairs& map, const RestSkeleton& rig, const RestSkeleton& motion,
                   const RetargetOptions& options, const std::string& expected,
                   std::vector<std::string>& notes) {
@@ -231,9 +286,9 @@ void noteLeftOver(const JointPairs& map, const RestSkeleton& rig, const RestSkel
                         " of the motion" + expected);
 }
 
-/// Notes for a person: arms, legs or hips that nothing drives or that drive nothing, though they
-/// are there, and skeletons of no known family of which less than half matches. Joints that the
-/// caller's own map leaves at rest are not noted.
+/// Notes for a person: arms, legs or hips that exist in only one of both skeletons' matches, and
+/// skeletons of no known family of which less than half matches. Joints that the caller's map
+/// leaves at rest are not noted.
 std::vector<std::string> notesOf(const JointPairs& map, const RestSkeleton& rig,
                                  const RestSkeleton& motion, const RetargetOptions& options) {
     const std::vector<int>& drivers = map.motionJoint;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "retarget/RootMotion.h"
+#include "retarget/MotionSteps.h"
 
 #include <osgSkinRig/ForwardKinematics>
 
@@ -11,11 +11,11 @@
 namespace osgSkin {
 namespace {
 
-/// Who rests with the hips lower than this share of what the legs are long sits.
+/// A body whose hips rest lower than this share of its legs' length is sitting.
 constexpr double kSits = 0.9;
 
-/// Height of the hips above the lowest point of the legs; of a body that sits, once it stands; 0
-/// where it has no legs.
+/// Height of the hips above the lowest point of the legs; for a sitting body, as if it stood; 0
+/// without legs.
 double hipHeight(const SkeletonTree& tree, const BodyParts& parts, int hips) {
     if (!parts.stands) return 0.0;
     const double atRest = tree.centre(hips).y - parts.lowest;
@@ -35,11 +35,12 @@ double hipHeight(const SkeletonTree& tree, const BodyParts& parts, int hips) {
 /// roll over heel and toes, and a motion's feet have another shape than the rig's.
 constexpr double kContactBand = 0.06;
 
-/// So many hip heights from the origin a motion may begin: further than any stage is wide.
+/// Largest distance from the origin at a motion's start, in hip heights: more than any stage's
+/// width.
 constexpr double kFar = 5.0;
 
-/// The middle height of the feet in the samples in which they stand. Samples in the air or on a
-/// ladder have no say, nor has one noisy sample alone.
+/// The median height of the feet in the samples in which they stand, so that samples in the air or
+/// on a ladder, or a single noisy one, do not count.
 double floorHeight(std::vector<double> feet, double band) {
     std::sort(feet.begin(), feet.end());
     const double lowest = feet[feet.size() / 20];
@@ -50,7 +51,7 @@ double floorHeight(std::vector<double> feet, double band) {
 } // namespace
 
 RootMotion::RootMotion(const DrivenRig& body) : _body(body) {
-    // What carries the motion, or else the first that has a driver.
+    // The hips, or else the first joint that has a driver.
     const int joints = static_cast<int>(body.rig.rest().joints.size());
     while (_rigHips < joints && body.driver(_rigHips) != 0) ++_rigHips;
     if (_rigHips == joints)
@@ -61,7 +62,7 @@ RootMotion::RootMotion(const DrivenRig& body) : _body(body) {
     // Without legs below the hips there is no height to compare: keep the motion's unit.
     if (_rigHeight > 1e-6 * body.rig.reach() && motionHeight > 1e-6 * body.motion.reach())
         _scale = _rigHeight / motionHeight;
-    // In the motion's zero pose the rig stands where it rests.
+    // In the motion's zero pose the rig is at its rest position.
     _offset = body.rig.centre(_rigHips) - _scale * body.motion.centre(_motionHips);
 }
 

@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#ifndef OSGSKINRIG_SKELETON_SKELETONTREE_H
+#define OSGSKINRIG_SKELETON_SKELETONTREE_H
 
 #include <osgSkinRig/RestSkeleton>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace osgSkin {
 
-/// A RestSkeleton with its children's lists, for walking it many times.
+/// The coordinate axis within 37 degrees of a direction: 1 to 3, negative for the opposite
+/// direction; 0 where there is none, or the direction is zero.
+inline int nearAxis(const glm::dvec3& direction) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(direction[axis]) > 0.8 * glm::length(direction))
+            return direction[axis] > 0.0 ? axis + 1 : -axis - 1;
+    return 0;
+}
+
+/// A RestSkeleton with lists of children, for repeated traversals.
 class SkeletonTree {
 public:
     explicit SkeletonTree(const RestSkeleton& skeleton);
@@ -21,7 +33,7 @@ public:
     const std::vector<int>& children(int j) const { return _children[static_cast<std::size_t>(j)]; }
     const glm::dvec3& centre(int j) const { return joint(j).centre; }
 
-    /// Largest distance of a joint from the root: a measure for what counts as zero length.
+    /// Largest distance of a joint from the root, to which zero lengths are relative.
     double reach() const { return _reach; }
 
 private:
@@ -31,3 +43,5 @@ private:
 };
 
 } // namespace osgSkin
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <osgSkinCharacter/CharacterOption>
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <string>
+
+namespace example {
+
+/// Adds the options that a `.skin` file has as members (`--shapes`, `--clear-hands`, ...), each
+/// with its values, meaning and default from characterOptions().
+///
+/// \param options set while `app` parses; must outlive that
+inline void addCharacterOptions(CLI::App& app, osgSkin::LoadOptions& options) {
+    for (const osgSkin::CharacterOption& option : osgSkin::characterOptions()) {
+        if (!option.isMember) continue;
+        const auto set = [&options, word = option.word](const std::string& value) {
+            try {
+                osgSkin::setOption(options, word, value);
+            } catch (const std::exception& error) {
+                throw CLI::ValidationError(error.what());
+            }
+        };
+        const std::string meaning = option.meaning + " (default: " + option.defaultValue + ")";
+        app.add_option_function<std::string>(option.flag(), set, meaning)
+            ->type_name(option.values)
+            ->group("Options of the character, which override its file's");
+    }
+}
+
+} // namespace example

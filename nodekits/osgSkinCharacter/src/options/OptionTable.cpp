@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/OptionTable.h"
+
+#include <osgSkin/Error>
+#include <osgSkinCharacter/OptionString>
+#include <osgSkinCharacter/ProgressOption>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace osgSkin {
+namespace {
+
+using Method = LoadOptions::Method;
+using Shapes = BindOptions::Shapes;
+
+template <typename T>
+bool isSet(const std::optional<T>& value) {
+    return value.has_value();
+}
+
+bool isSet(Method method) {
+    return method != Method::Default;
+}
+
+bool isSet(bool value) {
+    return value;
+}
+
+template <typename Field>
+auto completeBy(Field LoadOptions::*field) {
+    return [field](LoadOptions& options, const LoadOptions& file) {
+        if (!isSet(options.*field)) options.*field = file.*field;
+    };
+}
+
+/// "a, b or c", each in quotes where asked for.
+std::string oneOf(const std::vector<std::string>& values, const std::string& quote = "") {
+    std::string text;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == values.size() ? " or " : ", ") + quote + values[i] + quote;
+    return text;
+}
+
+/// Whether it is a member of `.skin` files.
+enum class In { StringsOnly, Files };
+
+/// Texts of an option, without its values.
+struct Texts {
+    const char* word;
+    std::string defaultValue;
+    const char* meaning;
+};
+
+Option textsOf(const Texts& texts, const std::string& values, In where) {
+    Option option;
+    option.word = texts.word;
+    option.values = values;
+    option.defaultValue = texts.defaultValue;
+    option.meaning = texts.meaning;
+    option.isMember = where == In::Files;
+    return option;
+}
+
+/// An option with a fixed set of values.
+template <typename Field, typename Value>
+Option choice(const Texts& texts, Field LoadOptions::*field,
+              const std::vector<std::pair<std::string, Value>>& values, In where = In::Files) {
+    Option option = textsOf(texts, "", where);
+    for (const auto& [name, value] : values) {
+        option.values += (option.values.empty() ? "" : "|") + name;
+        option.choices.push_back(name);
+    }
+    option.expected = oneOf(option.choices);
+    option.set = [field, values](LoadOptions& options, const std::string& text) {
+        for (const auto& [name, value] : values) {
+            if (name != text) continue;
+            options.*field = value;
+            return true;
+        }
+        return false;
+    };
+    option.complete = completeBy(field);
+    return option;
+}
+
+template <typename Field>
+Option onOff(const Texts& texts, Field LoadOptions::*field, In where = In::Files) {
+    return choice<Field, bool>(texts, field, {{"on", true}, {"off", false}}, where);
+}
+
+std::vector<std::string> listOf(const std::string& text) {
+    std::vector<std::string> names;
+    std::istringstream list(text);
+    for (std::string name; std::getline(list, name, ',');)
+        if (!name.empty()) names.push_back(name);
+    return names;
+}
+
+Option rigidOption() {
+    Option option = textsOf({"rigid",
+                             "head, hands and feet, by name; not those with fingers, toes or other "
+                             "joints that a motion moves",
+                             "joints that move as rigid bodies with all joints below them"},
+                            "joint,joint|none", In::Files);
+    option.expected = "none, or names of joints with commas between them";
+    option.set = [](LoadOptions& options, const std::string& text) {
+        options.rigid = text == "none" ? std::vector<std::string>() : listOf(text);
+        return text == "none" || !options.rigid->empty();
+    };
+    option.read = [](LoadOptions& options, const JsonReader& member, const ReadLimits& limits) {
+        if (member.size() > limits.joints)
+            member.failWith(std::to_string(member.size()) + " names, expected at most " +
+                            std::to_string(limits.joints) + " (option maxJoints)");
+        options.rigid.emplace();
+        member.forEachItem(
+            [&](const JsonReader& name) { options.rigid->push_back(name.string()); });
+    };
+    option.complete = completeBy(&LoadOptions::rigid);
+    return option;
+}
+
+Option motionOption() {
+    Option option = textsOf({"motion", "the first one",
+                             "the motion to play by its name, or a motion file to retarget, or one "
+                             "of the file's clips by name or number"},
+                            "clip|file|file#clip|none", In::StringsOnly);
+    option.expected = "a clip's name, a motion file, or none";
+    option.set = [](LoadOptions& options, const std::string& text) {
+        options.atRest = text == "none";
+        if (!options.atRest) options.motion = text;
+        return !text.empty();
+    };
+    return option;
+}
+
+/// An option that ReadLimits::of() reads.
+Option readingOption(const Texts& texts, const char* values = "number") {
+    return textsOf(texts, values, In::StringsOnly);
+}
+
+std::vector<Option> makeTable() {
+    const ReadLimits limits;
+    const auto number = [](std::size_t value) { return std::to_string(value); };
+    return {
+        choice<Method, Method>(
+            {"bind", "smooth; for a rigged model weights where it is painted throughout",
+             "how ratios are found: from regions of the skin, between two boundary planes a joint "
+             "as the paper prints them, or from painted weights"},
+            &LoadOptions::method,
+            {{"smooth", Method::Smooth},
+             {"paper", Method::Paper},
+             {"weights", Method::Weights},
+             {"default", Method::Default}}),
+        choice<std::optional<Shapes>, Shapes>(
+            {"shapes", "fast; none with paper and weights",
+             "what keeps bent limbs from swelling and from going through themselves; elastic takes "
+             "10 to 30 seconds, and is kept in the cache folder"},
+            &LoadOptions::shapes,
+            {{"none", Shapes::None}, {"fast", Shapes::Fast}, {"elastic", Shapes::Elastic}}),
+        onOff({"muscles", "off", "biceps, triceps, quadriceps, hamstrings and calves swell"},
+              &LoadOptions::muscles),
+        choice<std::optional<bool>, bool>(
+            {"normals", "surface; turned with paper and weights",
+             "those of the deformed surface, or the rest skin's as their vertices turn them: "
+             "faster"},
+            &LoadOptions::surfaceNormals, {{"surface", true}, {"turned", false}}),
+        rigidOption(),
+        onOff({"clearHands", "off",
+               "motions from files keep forearms and hands out of trunk, thighs and head"},
+              &LoadOptions::clearHands),
+        motionOption(),
+        onOff({"gpu", "off",
+               "skins are deformed on the graphics card where a context has OpenGL 4.3"},
+              &LoadOptions::gpu, In::StringsOnly),
+        choice<bool, bool>({"show", "skin", "regions: each joint's region in a colour of its own"},
+                           &LoadOptions::showRegions, {{"skin", false}, {"regions", true}},
+                           In::StringsOnly),
+        readingOption({"formats", "all", "what may be read at all, as skin,obj,bvh,ply,gltf,glb"},
+                      "extension,extension"),
+        readingOption({"classes", "none",
+                       "what saved scenes may have beside what characters are made of, as "
+                       "osgParticle"},
+                      "class,library"),
+        readingOption({"pictures", "none",
+                       "formats of textures that are read though nothing checks them, as ktx,hdr"},
+                      "extension,extension"),
+        readingOption({"maxFileMB", number(limits.fileMegabytes), "megabytes of any file"}),
+        readingOption({"maxTextMB", number(limits.textMegabytes),
+                       "megabytes of a .skin file, or one of weights"}),
+        readingOption({"maxJoints", number(limits.joints), "joints of a skeleton"}),
+        readingOption({"maxDepth", number(limits.depth), "joints or nodes below each other"}),
+        readingOption({"maxSamples", number(limits.samples),
+                       "joints times frames of all motions, beside one for every two bytes of "
+                       "their files"}),
+        readingOption({"maxUses", number(limits.uses),
+                       "how often motions and props of a .skin file name the same file"}),
+        readingOption({"maxRatios", number(limits.ratios), "joints times vertices of a body"}),
+        readingOption({"maxInfluences", number(limits.influences),
+                       "joints that vertices follow, of all vertices together, beside 25 for every "
+                       "vertex"}),
+        readingOption({"maxPixels", number(limits.pixels),
+                       "pixels of a model's pictures, beside sixteen for every byte of their "
+                       "files"}),
+    };
+}
+
+const Option* findOption(const std::string& word) {
+    const std::vector<Option>& table = optionTable();
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const Option& option) { return option.word == word; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+const std::vector<Option>& optionTable() {
+    static const std::vector<Option> table = makeTable();
+    return table;
+}
+
+const std::vector<CharacterOption>& characterOptions() {
+    static const std::vector<CharacterOption> options(optionTable().begin(), optionTable().end());
+    return options;
+}
+
+std::string CharacterOption::flag() const {
+    std::string text = "--";
+    for (const char c : word) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::isupper(byte)) text += '-';
+        text += static_cast<char>(std::tolower(byte));
+    }
+    return text;
+}
+
+bool setOption(LoadOptions& options, const std::string& word, const std::string& value) {
+    const Option* option = findOption(word);
+    if (option == nullptr || !option->set) return false;
+    if (!option->set(options, value))
+        throw Error("option " + word + "=" + value + ": expected " + option->expected);
+    return true;
+}
+
+void readOption(const Option& option, const JsonReader& member, const ReadLimits& limits,
+                LoadOptions& options) {
+    if (option.read) {
+        option.read(options, member, limits);
+    } else if (option.values == "on|off") {
+        option.set(options, member.boolean() ? "on" : "off");
+    } else {
+        const std::string value = member.string();
+        std::vector<std::string> choices = option.choices; // leaving it out is a file's default
+        choices.erase(std::remove(choices.begin(), choices.end(), "default"), choices.end());
+        if (value == "default" || !option.set(options, value))
+            member.failWith("expected " + oneOf(choices, "\"") + ", found \"" + value + "\"");
+    }
+}
+
+void completeOptions(LoadOptions& options, const LoadOptions& file) {
+    for (const Option& option : optionTable())
+        if (option.complete) option.complete(options, file);
+}
+
+LoadOptions toLoadOptions(const osgDB::Options* options) {
+    LoadOptions result;
+    if (options == nullptr) return result;
+    result.readOptions = options;
+    result.progress = getProgress(options);
+    for (const auto& [word, value] : optionValues(options->getOptionString()))
+        setOption(result, word, value);
+    return result;
+}
+
+std::optional<BindOptions::Shapes> shapesCalled(const std::string& word) {
+    LoadOptions options;
+    findOption("shapes")->set(options, word);
+    return options.shapes;
+}
+
+const std::vector<std::pair<const char*, const char*>>& optionWords() {
+    static const std::vector<std::pair<std::string, std::string>> texts = [] {
+        std::vector<std::pair<std::string, std::string>> made;
+        for (const CharacterOption& option : characterOptions())
+            made.emplace_back(option.word + "=<" + option.values + ">",
+                              option.meaning + " (default: " + option.defaultValue + ")");
+        return made;
+    }();
+    static const std::vector<std::pair<const char*, const char*>> words = [] {
+        std::vector<std::pair<const char*, const char*>> made;
+        for (const auto& [word, meaning] : texts) made.emplace_back(word.c_str(), meaning.c_str());
+        return made;
+    }();
+    return words;
+}
+
+} // namespace osgSkin

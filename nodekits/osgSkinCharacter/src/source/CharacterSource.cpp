@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "source/CharacterSource.h"
+
+#include <osgSkin/Error>
+
+#include <filesystem>
+#include <system_error>
+
+namespace osgSkin {
+
+void MotionSamples::add(const std::string& file, std::size_t frames, std::size_t joints,
+                        const ReadLimits& limits) {
+    std::error_code failure;
+    const std::string path = std::filesystem::weakly_canonical(file, failure).string();
+    if (_files.insert(failure ? file : path).second) {
+        const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(file, failure));
+        if (!failure) _bytes += bytes;
+    }
+    const std::size_t most = limits.samplesOf(_bytes);
+    if (frames > (most - _samples) / joints) {
+        const std::string others =
+            _samples > 0 ? " beside " + std::to_string(_samples) + " rotations of other motions"
+                         : "";
+        throw Error(std::to_string(frames) + " frames for " + std::to_string(joints) + " joints" +
+                    others + ", expected at most " + std::to_string(most) +
+                    " rotations (option maxSamples)");
+    }
+    _samples += frames * joints;
+}
+
+} // namespace osgSkin

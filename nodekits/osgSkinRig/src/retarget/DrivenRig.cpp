@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+#include "retarget/DrivenRig.h"
+
+#include "names/NameWords.h"
+#include "skeleton/SkeletonTree.h"
+
+#include <osgSkin/Error>
+#include <osgSkin/GlmTypes>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+namespace {
+
+using ByName = std::map<std::string, int>;
+
+void checkNames(const RestSkeleton& rig, const ByName& motion,
+                const std::map<std::string, std::string>& names) {
+    const ByName rigJoints = rig.byName();
+    for (const auto& [rigName, motionName] : names) {
+        if (rigJoints.count(rigName) == 0)
+            throw Error("retarget: the map names the joint \"" + rigName +
+                        "\", which the rig does not have");
+        if (!motionName.empty() && motion.count(motionName) == 0)
+            throw Error(std::string("retarget: the map gives \"")
+                            .append(rigName)
+                            .append("\" the joint \"")
+                            .append(motionName)
+                            .append("\", which the motion does not have"));
+    }
+}
+
+/// Roles that stand in for a missing one: some hands have all fingers in one joint.
+std::vector<std::string> substitutes(const std::string& role) {
+    for (const std::string side : {"Left", "Right"})
+        if (role == side + "Fingers") return {side + "Middle1", side + "Index1"};
+    return {};
+}
+
+/// The motion joint that has the role of rig joint `j`.
+int byRole(const JointPairs& map, std::size_t j) {
+    const std::string& role = map.rig.roles[j];
+    if (role.empty() || !map.motion.known()) return -1;
+    auto found = map.motion.joints.find(role);
+    for (const std::string& other : substitutes(role))
+        if (found == map.motion.joints.end()) found = map.motion.joints.find(other);
+    if (found == map.motion.joints.end()) return -1;
+    const std::vector<int>& theirs = found->second;
+    const std::vector<int>& ours = map.rig.joints.at(role);
+    const auto index = static_cast<std::size_t>(
+        std::find(ours.begin(), ours.end(), static_cast<int>(j)) - ours.begin());
+    if (ours.size() == 1) return theirs.back();
+    const double fraction = static_cast<double>(index) / static_cast<double>(ours.size() - 1);
+    return theirs[static_cast<std::size_t>(
+        std::lround(fraction * static_cast<double>(theirs.size() - 1)))];
+}
+
+/// The motion joint of the same name, unless it is another part of the body.
+int byName(const JointPairs& map, const ByName& motion, const std::string& name, std::size_t j) {
+    const auto found = motion.find(name);
+    if (found == motion.end()) return -1;
+    const std::string& theirs = map.motion.roles[static_cast<std::size_t>(found->second)];
+    const std::string& ours = map.rig.roles[j];
+    const bool differs = map.rig.known() && map.motion.known() && theirs != ours;
+    return differs ? -1 : found->second;
+}
+
+} // namespace
+
+JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
+                     const RetargetOptions& options) {
+    const ByName motionJoints = motion.byName();
+    checkNames(rig, motionJoints, options.joints);
+    JointPairs map;
+    map.rig = recogniseJoints(rig, options.names);
+    map.motion = recogniseJoints(motion, options.names);
+    for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+        const std::string& name = rig.joints[j].name;
+        const auto named = options.joints.find(name);
+        if (named != options.joints.end()) {
+            map.motionJoint.push_back(named->second.empty() ? -1 : motionJoints.at(named->second));
+            continue;
+        }
+        const int found = byRole(map, j);
+        map.motionJoint.push_back(found >= 0 ? found : byName(map, motionJoints, name, j));
+    }
+    if (std::all_of(map.motionJoint.begin(), map.motionJoint.end(), [](int m) { return m < 0; }))
+        throw Error("retarget: no joint of the rig has a joint of the same name in the motion");
+    return map;
+}
+
+namespace {
+
+bool hasLength(const glm::dvec3& bone, const SkeletonTree& tree) {
+    return glm::length(bone) > 1e-6 * tree.reach();
+}
+
+/// The child that continues a joint's chain: the middle finger before the other fingers, these
+/// before the thumb.
+int rank(const JointRoles& roles, int j) {
+    const JointPart part = roles.parts[static_cast<std::size_t>(j)];
+    if (part == JointPart::Thumb) return 2;
+    return part == JointPart::MiddleFinger ? 0 : 1;
+}
+
+/// Whether a hand's child is a finger or the hand's end, not a held thing, which has no role and
+/// seldom a sibling.
+bool isOfHand(const SkeletonTree& tree, const JointRoles& roles, int hand, int child) {
+    const auto isKnown = [&](int j) { return !roles.roles[static_cast<std::size_t>(j)].empty(); };
+    if (isKnown(child) || rank(roles, child) != 1) return true;
+    const std::vector<std::string> words = nameWords(tree.joint(child).name);
+    const auto has = [&](const std::string& word) {
+        return std::count(words.begin(), words.end(), word) > 0;
+    };
+    if (has("end") || has("nub") || has("tip") || has("finger") || has("fingers")) return true;
+    if (std::any_of(words.begin(), words.end(), isForeign)) return false;
+    const std::vector<int>& all = tree.children(hand);
+    return all.size() > 1 && std::none_of(all.begin(), all.end(), isKnown);
+}
+
+/// A joint's bone within one skeleton: to its tip, or else to the child that continues the chain.
+std::optional<glm::dvec3> ownBone(const SkeletonTree& tree, const JointRoles& roles, int j) {
+    std::optional<glm::dvec3> result;
+    if (tree.joint(j).tip) result = *tree.joint(j).tip - tree.centre(j);
+    int best = 3;
+    const bool isHand = roles.is(static_cast<std::size_t>(j), JointPart::Hand);
+    if (!result || !hasLength(*result, tree))
+        for (const int child : tree.children(j)) {
+            if (isHand && !isOfHand(tree, roles, j, child)) continue;
+            const glm::dvec3 bone = tree.centre(child) - tree.centre(j);
+            const int childRank = rank(roles, child);
+            if (childRank >= best || !hasLength(bone, tree)) continue;
+            best = childRank;
+            result = bone;
+        }
+    if (result && !hasLength(*result, tree)) result.reset();
+    return result;
+}
+
+/// A foot's bone falls from the ankle to the sole, more or less steeply from one skeleton to the
+/// next, but both soles stand flat: where both feet lie, only their headings are to be aligned.
+BonePair alongFloor(const BonePair& bone) {
+    const auto lies = [](const glm::dvec3& b) { return std::abs(b.y) < 0.8 * glm::length(b); };
+    if (!lies(bone.rig) || !lies(bone.motion)) return bone;
+    return {{bone.rig.x, 0.0, bone.rig.z}, {bone.motion.x, 0.0, bone.motion.z}};
+}
+
+/// The bone from rig joint `j` to `below` and from the one's driver to the other's.
+std::optional<BonePair> boneTo(const DrivenRig& body, int j, int below) {
+    const int from = body.driver(j);
+    const int to = body.driver(below);
+    if (to < 0 || to == from || !body.motion.rest().isInSubtree(to, from)) return std::nullopt;
+    const BonePair bone{body.rig.centre(below) - body.rig.centre(j),
+                        body.motion.centre(to) - body.motion.centre(from)};
+    if (!hasLength(bone.rig, body.rig) || !hasLength(bone.motion, body.motion)) return std::nullopt;
+    return bone;
+}
+
+} // namespace
+
+std::optional<BonePair> findBone(const DrivenRig& body, int j) {
+    std::optional<BonePair> result;
+    int best = 3;
+    std::vector<int> open = body.rig.children(j);
+    while (!open.empty()) {
+        const int below = open.back();
+        open.pop_back();
+        const std::optional<BonePair> bone = boneTo(body, j, below);
+        const int childRank = rank(body.map.rig, below);
+        if (bone && childRank < best) {
+            best = childRank;
+            result = bone;
+        }
+        // The joint may lie between two that match, or at its parent's centre.
+        if (!bone)
+            open.insert(open.end(), body.rig.children(below).begin(),
+                        body.rig.children(below).end());
+    }
+    if (result) return result;
+    const std::optional<glm::dvec3> rigBone = ownBone(body.rig, body.map.rig, j);
+    const std::optional<glm::dvec3> motionBone =
+        ownBone(body.motion, body.map.motion, body.driver(j));
+    if (rigBone && motionBone) result = BonePair{*rigBone, *motionBone};
+    return result;
+}
+
+std::vector<glm::dquat> alignBones(const DrivenRig& body) {
+    const BodyParts& parts = body.rigParts;
+    const glm::dquat identity(1.0, 0.0, 0.0, 0.0);
+    std::vector<glm::dquat> result(parts.isLimb.size(), identity);
+    for (int j = 0; j < body.rig.size(); ++j) {
+        const auto index = static_cast<std::size_t>(j);
+        if (!parts.isLimb[index]) continue;
+        std::optional<BonePair> bone;
+        if (body.driver(j) >= 0) bone = findBone(body, j);
+        if (bone && std::count(parts.feet.begin(), parts.feet.end(), j) > 0)
+            bone = alongFloor(*bone);
+        if (bone)
+            result[index] = shortestRotation(bone->rig, bone->motion);
+        else
+            result[index] = result[static_cast<std::size_t>(body.rig.joint(j).parent)];
+    }
+    return result;
+}
+
+namespace {
+
+/// Headings this close to a quarter turn are rounded to it: actors and bodies are not quite
+/// symmetric.
+const double kNearlyQuarter = glm::radians(1.0);
+
+/// One skeleton with its joints' roles, or else the roles of the joints that they are mapped to.
+class Body {
+public:
+    Body(const SkeletonTree& tree, const std::vector<std::string>& roles)
+        : _tree(tree), _roles(roles) {}
+
+    /// From one part of the body to another; zero where either is missing.
+    glm::dvec3 bone(const std::string& from, const std::string& to) const {
+        const std::optional<glm::dvec3> a = centre(from), b = centre(to);
+        return a && b ? *b - *a : glm::dvec3(0.0);
+    }
+
+    double reach() const { return _tree.reach(); }
+
+private:
+    std::optional<glm::dvec3> centre(const std::string& role) const {
+        for (std::size_t j = 0; j < _roles.size(); ++j)
+            if (_roles[j] == role) return _tree.centre(static_cast<int>(j));
+        return std::nullopt;
+    }
+
+    const SkeletonTree& _tree;
+    const std::vector<std::string>& _roles;
+};
+
+/// The axis that points up, see nearAxis(): along the thighs, or along trunk and shins where these
+/// agree, as a sitting body's thighs point forward. A body sitting on the floor has only its trunk
+/// upright.
+int upOf(const Body& body) {
+    glm::dvec3 thighs(0.0), shins(0.0), trunk(0.0);
+    for (const std::string side : {"Left", "Right"}) {
+        thighs += body.bone(side + "LowerLeg", side + "UpperLeg");
+        shins += body.bone(side + "Foot", side + "LowerLeg");
+        glm::dvec3 top = body.bone(side + "UpperLeg", "Neck");
+        if (top == glm::dvec3(0.0)) top = body.bone(side + "UpperLeg", "Head");
+        if (top == glm::dvec3(0.0)) top = body.bone(side + "UpperLeg", side + "UpperArm");
+        trunk += top;
+    }
+    const int byTrunk = nearAxis(trunk);
+    if (byTrunk == 2) return byTrunk;
+    return byTrunk == nearAxis(shins) && byTrunk != 0 ? byTrunk : nearAxis(thighs);
+}
+
+glm::dquat uprightRotation(const Body& body) {
+    const int up = upOf(body);
+    // With drawn-up legs, or without legs, up is unknown.
+    if (up == 0 || up == 2) return {1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 along(0.0);
+    along[std::abs(up) - 1] = up > 0 ? 1.0 : -1.0;
+    return shortestRotation(along, {0.0, 1.0, 0.0});
+}
+
+/// The heading of the upright body's left side: the angle about +y from +x.
+std::optional<double> heading(const Body& body, const glm::dquat& upright) {
+    // Hips are rigid; captured shoulders are rarely level.
+    for (const std::string part : {"UpperLeg", "UpperArm"}) {
+        const glm::dvec3 left = upright * body.bone("Right" + part, "Left" + part);
+        const double across = std::hypot(left.x, left.z);
+        if (across > 1e-3 * body.reach() && across > 0.8 * glm::length(left))
+            return std::atan2(-left.z, left.x);
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string> completed(const std::vector<std::string>& own,
+                                   const std::vector<int>& other,
+                                   const std::vector<std::string>& theirs) {
+    std::vector<std::string> roles = own;
+    for (std::size_t j = 0; j < roles.size(); ++j)
+        if (other[j] >= 0) roles[j] = theirs[static_cast<std::size_t>(other[j])];
+    return roles;
+}
+
+std::vector<int> inverse(const std::vector<int>& motionJoint, std::size_t motionJoints) {
+    std::vector<int> result(motionJoints, -1);
+    for (std::size_t j = 0; j < motionJoint.size(); ++j)
+        if (motionJoint[j] >= 0)
+            result[static_cast<std::size_t>(motionJoint[j])] = static_cast<int>(j);
+    return result;
+}
+
+} // namespace
+
+UprightFrames findUprightFrames(const SkeletonTree& rig, const SkeletonTree& motion,
+                                const JointPairs& map) {
+    std::vector<std::string> rigRoles = map.rig.roles, motionRoles = map.motion.roles;
+    if (!map.rig.known()) rigRoles = completed(rigRoles, map.motionJoint, motionRoles);
+    if (!map.motion.known())
+        motionRoles =
+            completed(motionRoles, inverse(map.motionJoint, motionRoles.size()), rigRoles);
+    const Body ours(rig, rigRoles), theirs(motion, motionRoles);
+    UprightFrames result;
+    result.rigUpright = uprightRotation(ours);
+    result.motionUpright = uprightRotation(theirs);
+    const std::optional<double> to = heading(ours, result.rigUpright);
+    const std::optional<double> from = heading(theirs, result.motionUpright);
+    if (!to || !from) return result;
+    double angle = *to - *from;
+    const double quarter = glm::half_pi<double>();
+    const double whole = quarter * std::round(angle / quarter);
+    if (std::abs(angle - whole) < kNearlyQuarter) angle = whole;
+    angle = std::remainder(angle, 4.0 * quarter);
+    if (angle != 0.0)
+        result.motionUpright =
+            glm::angleAxis(angle, glm::dvec3(0.0, 1.0, 0.0)) * result.motionUpright;
+    return result;
+}
+
+RestSkeleton rotated(const RestSkeleton& skeleton, const glm::dquat& rotation) {
+    RestSkeleton result = skeleton;
+    if (isIdentity(rotation)) return result; // to the last bit
+    for (RestJoint& joint : result.joints) {
+        joint.centre = rotation * joint.centre;
+        if (joint.tip) joint.tip = rotation * *joint.tip;
+    }
+    return result;
+}
+
+} // namespace osgSkin

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINRIG_RETARGET_POSTURE_H
+#define OSGSKINRIG_RETARGET_POSTURE_H
+
+#include <osgSkinRig/Clip>
+#include <osgSkinRig/JointRoles>
+#include <osgSkinRig/Motion>
+#include <osgSkinRig/RestSkeleton>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+
+/// A body's posture in one pose, whatever the pose's axes.
+struct Stance {
+    glm::dvec3 up{0.0};     ///< unit, from the feet to the hips along the legs
+    glm::dvec3 hips{0.0};   ///< middle of both hip joints
+    double leg = 0.0;       ///< length, hip to ankle along the bones
+    double lowest = 0.0;    ///< along `up`: the lower ankle
+    double knees = 0.0;     ///< degrees of flexion of the more bent knee
+    double spread = 0.0;    ///< degrees between a leg and the middle of both
+    double lean = 0.0;      ///< degrees between trunk and legs
+    double tilt = 0.0;      ///< degrees that the hips are off level
+    double elbows = 0.0;    ///< degrees of flexion of the more bent elbow; 0 without arms
+    double asymmetry = 0.0; ///< degrees by which the arms hang differently; 0 without arms
+
+    /// Whether the body stands: on straight legs, with the trunk over them.
+    bool stands() const;
+
+    /// Difference from a calibration pose, in which arms are straight and symmetric; 0 for such a
+    /// pose.
+    double untidiness() const;
+};
+
+/// The joints of an arm or a leg; -1 for missing ones.
+struct LimbJoints {
+    int upper = -1, lower = -1, end = -1;
+    bool complete() const { return upper >= 0 && lower >= 0 && end >= 0; }
+};
+using LimbPair = std::array<LimbJoints, 2>; ///< left, right
+
+/// The joints from which a body's posture is measured.
+class StanceJoints {
+public:
+    /// \param roles of a skeleton's joints
+    explicit StanceJoints(const JointRoles& roles);
+
+    /// Whether both legs and a trunk are known.
+    bool complete() const { return _complete; }
+
+    /// Nothing where a bone of the legs or the trunk has no length.
+    /// \param positions of the skeleton's joints
+    std::optional<Stance> measure(const std::vector<glm::dvec3>& positions) const;
+
+private:
+    LimbPair _legs, _arms;
+    int _top = -1; ///< head, neck or chest
+    bool _complete = false;
+};
+
+/// Detects a rig that lies while the actor stands: then the joints, or the up axes, do not match.
+class StandingCheck {
+public:
+    /// \param rig roles of the rig's joints
+    /// \param motion roles of the motion's joints
+    StandingCheck(const JointRoles& rig, const JointRoles& motion);
+
+    /// Adds a sample.
+    /// \param rig positions of the rig's joints, +y up
+    /// \param motion positions of the motion's joints, +y up
+    void add(const std::vector<glm::dvec3>& rig, const std::vector<glm::dvec3>& motion);
+
+    /// \throw osgSkin::Error where the rig's hips are as low as its feet in most of the samples in
+    ///        which the actor's hips are above his feet
+    void finish() const;
+
+private:
+    LimbPair _rig, _motion; ///< legs
+    std::size_t _standing = 0, _lying = 0;
+};
+
+/// Relates a motion's skeleton to a rig that is the same skeleton, with the same tree, names and
+/// bones in their joints' own frames (RestJoint::frame), though perhaps at rest in another pose.
+struct SameSkeleton {
+    double scale; ///< from the motion's unit to the rig's
+
+    /// [motion joint] the rotations that take the motion's zero pose to the rig's rest pose.
+    std::vector<glm::dquat> toRigRest;
+
+    /// Nothing where the skeletons differ.
+    /// \param motionJoint [rig joint] which joint of the motion drives it, -1 for none
+    static std::optional<SameSkeleton> find(const RestSkeleton& rig, const RestSkeleton& motion,
+                                            const std::vector<int>& motionJoint);
+};
+
+/// The motion on a rig that is the same skeleton: copies local rotations, and scales the root's
+/// positions to the rig's unit.
+/// \param motion with rotations relative to its own zero pose
+/// \param rig at rest
+/// \param motionJoint [rig joint] which joint of the motion drives it, -1 for none
+/// \param same the relation of both skeletons
+/// \param offset set to the offset of the scaled root motion
+Clip copyRotations(const Motion& motion, const RestSkeleton& rig,
+                   const std::vector<int>& motionJoint, const SameSkeleton& same,
+                   glm::dvec3& offset);
+
+/// The pose that a motion's rotations are made relative to, so that they can be applied to another
+/// body: one in which its actor stands.
+struct StandingPose {
+    /// The motion relative to that pose; nothing where its own zero pose serves.
+    std::optional<Motion> counted;
+
+    /// Set where the rig is the motion's skeleton and neither rests standing: local rotations are
+    /// copied.
+    std::optional<SameSkeleton> copied;
+
+    std::vector<std::string> notes; ///< for the report
+};
+
+/// Finds that pose: the zero pose where the actor stands in it, by legs, trunk and hips; else the
+/// rig's rest pose where the skeletons are the same; else the standing sample that is nearest to a
+/// calibration pose.
+/// \param motion in any zero pose
+/// \param rig at rest
+/// \param motionJoint [rig joint] which joint of the motion drives it, -1 for none
+/// \param rigRoles roles of the rig's joints
+/// \param motionRoles roles of the motion's joints
+/// \throw osgSkin::Error where the actor stands in no sample
+StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
+                              const std::vector<int>& motionJoint, const JointRoles& rigRoles,
+                              const JointRoles& motionRoles);
+
+} // namespace osgSkin
+
+#endif
