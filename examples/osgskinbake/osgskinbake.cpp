@@ -129,6 +129,8 @@ Character load(const Arguments& arguments) {
     if (!arguments.muscles.empty()) options.muscles = arguments.muscles == "on";
     if (!arguments.clearHands.empty()) options.clearHands = arguments.clearHands == "on";
     options.progress = line.progress();
+    if (!arguments.formats.empty())
+        options.readOptions = new osgDB::Options("formats=" + arguments.formats);
     Character character = osgSkin::loadCharacter(file, options);
     if (!character.hasBody())
         throw osgSkin::Error(file + ": expected a .skin file, or a rigged model that Assimp reads");

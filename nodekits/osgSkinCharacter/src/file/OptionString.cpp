@@ -104,11 +104,10 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
          "off by default"},
         {"gpu=<on|off>", "on: skins are deformed on the graphics card where it has OpenGL 4.3"},
         {"formats=<extension,extension>",
-         "what may be read at all, as skin,obj,bvh,ply,gltf,glb; everything by default"},
-        {"classes=<class,library>",
-         "what saved scenes may have beside what characters are made of, as osgParticle"},
-        {"pictures=<extension,extension>",
-         "formats of textures that are read though nothing checks them, as ktx,hdr"},
+         "what may be read at all, as skin,obj,bvh,ply,gltf,glb, or all; by default everything but "
+         ".osgb, .osgt, .osgx, .osg and .ive files that a .skin file names"},
+        {"pictures=<extension,extension>", "images that OpenSceneGraph reads, from trusted files, "
+                                           "beside those of formats, as ktx,dds"},
         {"maxFileMB=, maxTextMB=, maxJoints=, maxDepth=, maxSamples=, maxUses=, maxRatios=, "
          "maxInfluences=, maxPixels=<number>",
          "raises a limit of what files may ask for; errors say which"},

@@ -230,6 +230,8 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
     }
     if (skin.fit && skin.zUp) skin.fit->up = {0.0, 0.0, 1.0};
     if (const auto clear = root.find("clearHands")) skin.clearHands = clear->boolean();
+    for (const std::string& named : {skin.mesh, skin.skeleton}) limits.checkNamedFormat(named);
+    for (const Prop& prop : skin.props) limits.checkNamedFormat(prop.mesh);
     readMethod(root, folder, skin);
     readBinding(root, limits, skin.bind);
     return skin;

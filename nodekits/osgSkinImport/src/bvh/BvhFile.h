@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_BVHFILE_H
-#define OSGSKINIMPORT_BVHFILE_H 1
+#ifndef OSGSKINIMPORT_BVH_BVHFILE_H
+#define OSGSKINIMPORT_BVH_BVHFILE_H
 
 #include <osgSkinImport/ReadLimits>
 

@@ -2,7 +2,6 @@
 #include "mesh/ObjMesh.h"
 
 #include "mesh/Material.h"
-#include "text/ByteOrderMark.h"
 #include "text/FileText.h"
 
 #include <osgSkin/Error>

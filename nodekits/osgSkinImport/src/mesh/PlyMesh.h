@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_PLYMESH_H
-#define OSGSKINIMPORT_PLYMESH_H 1
+#ifndef OSGSKINIMPORT_MESH_PLYMESH_H
+#define OSGSKINIMPORT_MESH_PLYMESH_H
 
 #include "mesh/CornerMesh.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_OFFMESH_H
-#define OSGSKINIMPORT_OFFMESH_H 1
+#ifndef OSGSKINIMPORT_MESH_OFFMESH_H
+#define OSGSKINIMPORT_MESH_OFFMESH_H
 
 #include "mesh/CornerMesh.h"
 
