@@ -16,8 +16,8 @@ namespace osgSkin {
 
 namespace {
 
-/// Splits the text of a BVH file into words, and knows the line of each. Blanks, tabs and line ends
-/// of any system part words, and so do braces. A byte order mark is passed over.
+/// Splits the text of a BVH file into words, with their lines. Blanks, tabs, line ends of any
+/// system and braces separate words. A byte order mark is skipped.
 class BvhTokens {
 public:
     /// \param path of the file, for errors; must outlive this object
@@ -34,7 +34,7 @@ public:
     /// The name of a joint: all up to a brace or the end of the line, inner blanks included.
     std::string_view jointName();
 
-    /// Passes over a name that need not be there, which ends as a joint's does.
+    /// Skips an optional name, which ends as a joint's does.
     void skipName();
 
     /// Whether nothing follows on the line of the word read last.
@@ -61,7 +61,7 @@ private:
     std::size_t _line = 1;
 };
 
-// The locale has no say in what a file holds, so <cctype> is not used.
+// <cctype> depends on the locale, which must not change how a file is read.
 bool isBlank(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
@@ -97,7 +97,7 @@ BvhTokens::BvhTokens(const std::string& path, std::string_view text) : _path(pat
     const std::string_view byteOrderMark = "\xef\xbb\xbf";
     if (_rest.substr(0, byteOrderMark.size()) == byteOrderMark)
         _rest.remove_prefix(byteOrderMark.size());
-    // What old systems end a text with.
+    // Old systems end a text with these.
     while (!_rest.empty() && (_rest.back() == '\0' || _rest.back() == '\x1a'))
         _rest.remove_suffix(1);
 }
@@ -256,7 +256,7 @@ private:
 
     void readEndSite() {
         _words.expect("Site");
-        _words.skipName(); // that some give to it
+        _words.skipName(); // some give it one
         _words.expect("{");
         _words.expect("OFFSET");
         const glm::dvec3 end = offset("the End Site of " + owner());
@@ -311,15 +311,15 @@ void readBvhHierarchy(BvhTokens& words, const ReadLimits& limits, BvhFile& file)
 constexpr std::size_t mostFrames = 16'777'216; // more than a day at 120 a second
 constexpr double shortestFrame = 1e-6;         // seconds: a million frames a second
 constexpr double kOtherwise = 1.0 / 30.0;      // seconds
-constexpr double kSlowFrame = 1.0;             // seconds: what is longer may be milliseconds
+constexpr double kSlowFrame = 1.0;             // seconds; longer ones may be in milliseconds
 
-/// A line that holds values.
+/// A line with values.
 struct Row {
     std::size_t line;
     std::size_t values;
 };
 
-/// \param frames of which one or none needs no time: it may be 0
+/// \param frames in the file; the time may be 0 where there is one or none
 double readFrameTime(BvhTokens& words, std::size_t frames) {
     const std::string expected = ", expected a positive number of seconds";
     if (words.isAtLineEnd()) words.fail("the frame time is missing" + expected);
@@ -370,7 +370,7 @@ void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::
     if (rows.size() < file.frames)
         words.fail("the motion ends after " + std::to_string(rows.size()) +
                    " frame(s), expected the declared " + std::to_string(file.frames));
-    // Some recorders count from 0 here: what is declared can be read.
+    // Some recorders count from 0 here; the declared frames can be read.
     if (rows.size() > file.frames)
         tellOf(path, "line " + std::to_string(rows[file.frames].line) + ": " +
                          std::to_string(rows.size() - file.frames) +
@@ -379,8 +379,8 @@ void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::
 }
 
 /// Reads the MOTION, up to the end of the file, into `file`, whose joints are known: frame time,
-/// number of frames and their values. Memory is taken for what the file holds, not for what it
-/// declares.
+/// number of frames and their values. Allocates for the values in the file, not for the declared
+/// number.
 /// \throw osgSkin::Error with the line
 void readBvhFrames(BvhTokens& words, const std::string& path, BvhFile& file) {
     words.expect("MOTION");
@@ -411,7 +411,7 @@ BvhFile readBvh(const std::string& path, const ReadLimits& limits) {
     BvhFile file;
     readBvhHierarchy(words, limits, file);
     readBvhFrames(words, path, file);
-    // A joint without channels takes memory in every frame, and no byte of the file.
+    // A joint without channels takes memory in every frame, but no bytes of the file.
     const std::size_t most = limits.samplesOf(text.size());
     if (file.frames > most / file.joints.size())
         failFile(path, std::to_string(file.frames) + " frames of " +

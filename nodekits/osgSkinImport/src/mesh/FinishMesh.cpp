@@ -49,8 +49,8 @@ std::vector<glm::vec3> smoothNormals(const SkinMesh& mesh) {
     // Bodies come in any unit: scaled to size 1, squared lengths neither overflow nor vanish.
     const double extent = mesh.size();
     const double scale = extent > 0.0 ? 1.0 / extent : 1.0;
-    // A polygon's normal is the sum of its triangles' (Newell), the same for all of its corners:
-    // the shading does not tell how it is cut into triangles.
+    // A polygon's normal is the sum of its triangles' (Newell), the same for all of its corners, so
+    // that the shading does not show how it is triangulated.
     const std::uint32_t* corners = mesh.faceVertices.data();
     for (const std::uint32_t size : mesh.faceSizes) {
         const glm::dvec3& origin = mesh.positions[corners[0]];
@@ -65,18 +65,17 @@ std::vector<glm::vec3> smoothNormals(const SkinMesh& mesh) {
     result.reserve(mesh.faceVertices.size());
     for (const std::uint32_t v : mesh.faceVertices) {
         const double length = glm::length(sums[welded[v]]);
-        // Some unit vector where all faces around the vertex are flat.
+        // Any unit vector where all faces around the vertex are degenerate.
         result.emplace_back(length > 0.0 ? sums[welded[v]] / length : glm::dvec3(0.0, 1.0, 0.0));
     }
     return result;
 }
 
-/// How much of a material's area is seen from the front, and has its normals on the back.
+/// A material's area, and the part of it with normals on the faces' back.
 struct Areas {
     double all = 0.0, contradicting = 0.0;
 
-    /// More than half: sheets with faces on both sides and one set of normals are as they should
-    /// be.
+    /// More than half, since sheets with faces on both sides may share one set of normals.
     bool areMostlyWrong() const { return contradicting > 0.6 * all; }
 };
 
@@ -103,8 +102,8 @@ std::vector<Areas> areasOf(const CornerMesh& mesh) {
     return result;
 }
 
-/// Computes the normals of a material anew, smooth over the skin, where most of its faces' area has
-/// normals on the faces' back: exporters mirror one without the other. Says so in a notice.
+/// Recomputes the normals of a material, smooth over the skin, where most of its area has normals
+/// on the faces' back: exporters mirror one without the other. Reports this in a notice.
 /// \param mesh with unit normals
 void mendNormals(CornerMesh& mesh, const std::string& path) {
     const std::vector<Areas> areas = areasOf(mesh);
@@ -125,12 +124,12 @@ void mendNormals(CornerMesh& mesh, const std::string& path) {
                          " faces point to the faces' back; computed anew");
 }
 
-/// A part while its faces come in.
+/// Builds a part from its triangles.
 class PartBuilder {
 public:
     explicit PartBuilder(const CornerMesh& source) : _source(source) {}
 
-    /// \param corners three places in the mesh's `faceVertices`
+    /// \param corners three indices in the mesh's `faceVertices`
     void addTriangle(std::uint32_t face, const std::uint32_t* corners) {
         for (int k = 0; k < 3; ++k) _triangles->push_back(vertex(corners[k]));
         _part.sourceFace.push_back(face);
@@ -214,11 +213,11 @@ bool normalise(std::vector<glm::vec3>& normals) {
     return true;
 }
 
-/// No light is as bright: such numbers count to 255.
+/// Colours are not brighter: larger numbers count to 255.
 constexpr float kTooBright = 16.0f;
 
-/// Some write numbers up to 255, whole ones as a rule, where numbers up to 1 are expected: colours,
-/// or alpha.
+/// Whether colours, or alphas, count to 255 and not to 1, as some programs write them, usually in
+/// whole numbers.
 bool countsTo255(const std::vector<glm::vec4>& colours, int first, int end) {
     float most = 0.0f;
     bool areWhole = true;

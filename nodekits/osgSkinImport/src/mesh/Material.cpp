@@ -91,7 +91,7 @@ osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::strin
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
     const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
-    // Nothing is fetched from a network or run, and what is no regular file may never end.
+    // Fetch nothing from a network, run nothing, and open regular files only: others may never end.
     if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName)) return nullptr;
     const std::string found = findPicture(fileName, osgDB::getFilePath(meshPath), local);
     if (!isRegularFile(found)) return nullptr;

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string_view>
@@ -68,6 +69,38 @@ std::string_view takeWord(std::string_view& line) {
 std::string_view nameIn(std::string_view rest) {
     const std::size_t first = std::min(rest.size(), rest.find_first_not_of(" \t"));
     return rest.substr(first, rest.find_last_not_of(" \t") + 1 - first).substr(0, kLongestName);
+}
+
+/// As parseNumber(), but the digits of usual decimals are added up one by one, which may round the
+/// last place otherwise. Where a region of the skin ends can hang on that place: characters keep
+/// the binding, elastic shapes and pictures that they have.
+bool readDecimal(std::string_view word, double& value) {
+    constexpr std::size_t mostDigits = 32;
+    if (!parseNumber(word, value)) return false;
+    if (std::abs(value) <= 1e-300) value = 0.0; // without a sign
+    if (word.size() > mostDigits || !(std::abs(value) > 1e-300 && std::abs(value) < 1e300))
+        return true;
+    const auto isDigit = [&](std::size_t at) {
+        return at < word.size() && word[at] >= '0' && word[at] <= '9';
+    };
+    const bool hasSign = word[0] == '+' || word[0] == '-';
+    std::size_t at = hasSign ? 1 : 0;
+    double sum = 0.0;
+    for (; isDigit(at); ++at) sum = sum * 10.0 + (word[at] - '0');
+    if (at < word.size() && word[at] == '.') {
+        constexpr double tenths[] = {1.0, 0.1, 0.01, 0.001, 0.0001, 0.00001, 0.000001, 0.0000001};
+        for (std::size_t place = 1; isDigit(++at); ++place)
+            sum += (word[at] - '0') *
+                   (place < std::size(tenths) ? tenths[place] : std::pow(10.0, -double(place)));
+    }
+    int exponent = 0;
+    if (at + 1 < word.size() && (word[at] == 'e' || word[at] == 'E')) {
+        const std::size_t digits = at + (word[at + 1] == '+' ? 2 : 1);
+        std::from_chars(word.data() + digits, word.data() + word.size(), exponent);
+    }
+    if (exponent != 0) sum = std::ldexp(sum * std::pow(5.0, exponent), exponent);
+    value = word[0] == '-' ? -sum : sum;
+    return true;
 }
 
 /// What a line of an OBJ file adds to, in the order of a corner's v/vt/vn; -1: none of them.
@@ -206,7 +239,7 @@ private:
     }
 
     static bool readNumber(std::string_view rest, double& number) {
-        return parseNumber(takeWord(rest), number) && std::isfinite(number);
+        return readDecimal(takeWord(rest), number) && std::isfinite(number);
     }
 
     /// Three numbers, or one for a grey.
@@ -216,7 +249,7 @@ private:
         for (std::size_t k = 0; k < 3; ++k) {
             std::string_view word = takeWord(rest);
             if (k == 0) first = word;
-            if (!parseNumber(word.empty() ? first : word, result[k]) || !std::isfinite(result[k]))
+            if (!readDecimal(word.empty() ? first : word, result[k]) || !std::isfinite(result[k]))
                 return false;
         }
         colour = result;
@@ -351,7 +384,7 @@ private:
         for (; count < numbers.size(); ++count) {
             const std::string_view word = takeWord(rest);
             double& value = numbers[count];
-            const bool isNumber = parseNumber(word, value);
+            const bool isNumber = readDecimal(word, value);
             if (isBroken(word, value)) {
                 // A body is drawn well enough without a broken normal: all are computed then.
                 value = 0.0;

@@ -17,11 +17,11 @@ namespace osgSkin {
 
 namespace {
 
-/// What the first word of an OFF file, [ST][C][N][4][n]OFF, says of vertices.
+/// The vertex attributes that the first word of an OFF file, [ST][C][N][4][n]OFF, declares.
 struct OffKind {
     bool texCoords = false, colours = false, normals = false, divided = false, dimensions = false;
 
-    /// False where a word is none.
+    /// False where a word is not such a keyword.
     bool read(std::string_view word);
 };
 
@@ -31,10 +31,10 @@ class OffText {
 public:
     explicit OffText(std::string_view text);
 
-    /// The next word, of whatever line; empty at the end.
+    /// The next word, on any line; empty at the end.
     std::string_view word();
 
-    /// The words of the next line that has some, or what is left of the one that word() is in.
+    /// The words of the next line that has any, or the rest of the line that word() read from.
     const std::vector<std::string_view>& line();
 
 private:
@@ -50,7 +50,7 @@ constexpr std::string_view kBlanksAndLineEnds = " \t\v\n\r";
 constexpr std::string_view kWordEnds = " \t\v\n\r#";
 
 bool OffKind::read(std::string_view word) {
-    // Programs write these parts in more orders than one; a vertex' numbers stand in one.
+    // Programs write these parts in several orders; a vertex's numbers always have the same one.
     const auto take = [&](std::string_view part, bool& has) {
         if (has || word.substr(0, part.size()) != part) return false;
         word.remove_prefix(part.size());
@@ -160,7 +160,7 @@ private:
             _texCoords.push_back(end < n.size() ? glm::vec2(n[end], n[end + 1]) : glm::vec2(0.0f));
         if (!_kind.colours) return;
         glm::vec4 colour(1.0f);
-        if (end >= behind + 3) // one number is a colour's in a map that nobody has
+        if (end >= behind + 3) // a single number indexes a colour map that is not in the file
             for (std::size_t k = 0; k < 4 && behind + k < end; ++k)
                 colour[static_cast<int>(k)] = n[behind + k];
         _colours.push_back(colour);
@@ -212,7 +212,7 @@ private:
 CornerMesh readOffMesh(const std::string& path, const osgDB::Options* options) {
     const std::string text = readText(path, ReadLimits::of(options));
     if (text.find('\0') != std::string::npos) failFile(path, "a zero byte, expected text");
-    // Some take it for the end of a line, and some for a blank.
+    // Programs disagree on whether it ends a line.
     if (text.find('\f') != std::string::npos) failFile(path, "a form feed, expected lines of text");
     CornerMesh result = OffReader(path, text).run();
     Material material;

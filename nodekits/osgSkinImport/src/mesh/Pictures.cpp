@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <system_error>
 
@@ -110,14 +111,17 @@ osg::ref_ptr<osg::Image> PictureReader::decode(const std::string& name, std::str
                            " (option maxPixels)");
     _shared->pixels += pixels;
     _shared->bytes += bytes.size();
-    stbi_uc* const decoded = stbi_load_from_memory(data, size, &width, &height, &channels, 0);
-    if (decoded == nullptr) fail();
+    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(
+        stbi_load_from_memory(data, size, &width, &height, &channels, 0), stbi_image_free);
+    if (!decoded) fail();
     const GLenum formats[] = {GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_RGB, GL_RGBA};
     const GLenum format = formats[std::clamp(channels, 1, 4) - 1];
     osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->setImage(width, height, 1, static_cast<GLint>(format), format, GL_UNSIGNED_BYTE, decoded,
-                    osg::Image::USE_MALLOC_FREE);
-    image->flipVertical(); // OpenSceneGraph's rows go upwards
+    image->allocateImage(width, height, 1, format, GL_UNSIGNED_BYTE);
+    const auto rowBytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+    for (int y = 0; y < height; ++y) // OpenSceneGraph's rows go upwards
+        std::copy_n(decoded.get() + rowBytes * static_cast<std::size_t>(height - 1 - y), rowBytes,
+                    image->data(0, static_cast<unsigned>(y)));
     return image;
 }
 

@@ -23,7 +23,7 @@ namespace osgSkin {
 
 namespace {
 
-/// What a PLY file's header says about its content.
+/// A PLY file's header.
 struct PlyHeader {
     enum class Kind { Signed, Unsigned, Floating };
     struct Type {
@@ -40,7 +40,7 @@ struct PlyHeader {
         std::size_t count = 0;
         std::vector<Property> properties;
 
-        /// The place of the first of some properties; none where the element has none of them.
+        /// The index of the first of some properties; none where the element has none of them.
         std::optional<std::size_t> find(const std::vector<const char*>& names) const;
     };
     enum class Format { Text, LittleEndian, BigEndian };
@@ -67,7 +67,7 @@ constexpr NamedType kTypes[] = {
     {"float64", {kFloating, 8}},
 };
 
-// Others have ten and, where they hold splats, sixty; each is compared with all.
+// Usual files have ten properties, those with splats sixty; each is compared with all others.
 constexpr std::size_t kMostElements = 100;
 constexpr std::size_t kMostProperties = 1000; ///< of an element
 
@@ -78,7 +78,7 @@ public:
 
     PlyHeader run() {
         std::string first = nextLine();
-        first.erase(first.find_last_not_of(" \t") + 1); // as in other lines
+        first.erase(first.find_last_not_of(" \t") + 1); // as on other lines
         if (first != "ply") failLine(_path, 1, "expected \"ply\"");
         for (;;) {
             if (_at >= _text.size())
@@ -198,8 +198,8 @@ private:
         element.properties.push_back(property);
     }
 
-    /// Other lines are remarks (Blender 2.4's have no keyword), but not where one is misspelt: rows
-    /// would be longer than what is known of them.
+    /// Other lines are remarks (Blender 2.4 writes them without a keyword). Misspelt keywords are
+    /// refused: the rows of the body would be longer than the header says.
     void checkRemark(std::string keyword) {
         const std::string word = keyword;
         for (char& c : keyword) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -239,10 +239,10 @@ PlyHeader readPlyHeader(const std::string& path, const std::string& text) {
     return PlyHeaderReader(path, text).run();
 }
 
-/// What one entry of an element holds: for each property its value, or a list's values.
+/// An entry of an element: for each property its value, or a list's values.
 using PlyValues = std::vector<std::vector<double>>;
 
-/// Takes an entry: the element, its number in it, and its values.
+/// Receives an entry: its element, its index in it, and its values.
 using TakePlyEntry =
     std::function<void(const PlyHeader::Element&, std::size_t index, const PlyValues&)>;
 
@@ -251,7 +251,7 @@ class PlyBytes {
 public:
     PlyBytes(std::string_view body, bool bigEndian) : _rest(body), _bigEndian(bigEndian) {}
 
-    /// Null, or what is wrong.
+    /// Returns null, or what is wrong.
     const char* read(const PlyHeader::Type& type, double& number) {
         if (_rest.size() < type.bytes) return "the file ends here";
         std::uint64_t bits = 0;
@@ -325,7 +325,7 @@ std::string lengthText(double length) {
                : std::to_string(length);
 }
 
-/// Whether nothing is left of the body.
+/// Reads all entries; returns whether nothing is left of the body.
 template <typename Body>
 bool walk(const std::string& path, const PlyHeader& header, Body body, const TakePlyEntry& take) {
     PlyValues values;
@@ -369,7 +369,7 @@ void readPlyBody(const std::string& path, const PlyHeader& header, std::string_v
                : walk(path, header, PlyBytes(body, header.format == PlyHeader::Format::BigEndian),
                       take);
     if (isWhole) return;
-    // Rows that are longer than the header says have been read as if they were others.
+    // Rows that are longer than the header says were read as several.
     if (isText)
         failFile(path, "words behind the last element, expected as many as the header says");
     tellOf(path, "bytes behind the last element, passed over");
@@ -379,8 +379,8 @@ using Place = std::optional<std::size_t>;
 
 constexpr double kNoTexture = -1.0; ///< whatever number stands for a texture that is not there
 
-/// What stands for a colour of 1. Types say less of that than the numbers do: many programs write
-/// 0 to 255 as whatever whole type.
+/// Finds the number that means full colour. The property's type does not tell: many programs write
+/// 0 to 255 in any integer type.
 struct FullColour {
     bool isWhole = false; ///< whether of a type without fractions; others are left as they are
     double most = 0.0;    ///< the largest number
@@ -434,7 +434,7 @@ public:
             for (int k = 0; k < 4; ++k)
                 colour[k] =
                     colour[k] < 0.0f ? 1.0f : colour[k] / _full[std::size_t(k / 3)].number();
-        std::map<double, std::uint32_t> materials; // by their textures' numbers
+        std::map<double, std::uint32_t> materials; // by texture number
         result.mesh.positions = std::move(_positions);
         const std::size_t vertices = result.mesh.positions.size();
         std::size_t corner = 0;

@@ -115,7 +115,7 @@ std::string whyNotPlayed(const osgAnimation::Animation& animation) {
 constexpr float kRounding = -1e-3f; ///< the least weight that exporters make of 0
 constexpr auto kMostWeight = static_cast<float>(kLargestCoordinate);
 
-/// Why an array is not one of so many places or directions in floats; empty where it is.
+/// Why an array does not hold `count` positions or directions in floats; empty where it does.
 std::string wrongWith(const osg::Array* array, std::size_t count, const std::string& what) {
     if (dynamic_cast<const osg::Vec3Array*>(array) == nullptr)
         return what + " that are not of three floats each";
@@ -146,7 +146,7 @@ std::string whyNotMorphed(const osgAnimation::MorphGeometry& morph) {
     const std::size_t vertices = places != nullptr ? places->getNumElements() : 0;
     std::string wrong = wrongWith(places, vertices, "vertices");
     const osg::Array* const normals = morph.getNormalArray();
-    if (wrong.empty() && normals != nullptr) // one for all stays where it is
+    if (wrong.empty() && normals != nullptr) // one for all is not morphed
         wrong = wrongWith(normals, normals->getNumElements(), "normals");
     const osg::Array *const atRest = morph.getVertexSource(), *const turned =
                                                                   morph.getNormalSource();
@@ -189,7 +189,7 @@ bool isPerVertex(const osg::Array* array) {
     return array != nullptr && array->getBinding() == osg::Array::BIND_PER_VERTEX;
 }
 
-/// The vertices that primitives may name; any number where a geometry has no array to say so.
+/// The number of vertices that primitives may name; unlimited where a geometry has no array.
 std::size_t vertexCountOf(const osg::Geometry& geometry) {
     if (geometry.getVertexArray() != nullptr) return geometry.getVertexArray()->getNumElements();
     std::size_t count = std::numeric_limits<std::size_t>::max();
@@ -216,7 +216,8 @@ std::string wrongIn(const osg::PrimitiveSet& set, std::size_t vertices) {
         return {};
     }
     const unsigned count = set.getNumIndices();
-    if (set.getMode() == GL_TRIANGLES && count % 3 != 0) // OSG reads all corners of one begun
+    if (set.getMode() == GL_TRIANGLES &&
+        count % 3 != 0) // OSG reads all corners of an incomplete triangle
         return std::to_string(count) + " corners of triangles, expected a multiple of 3";
     for (unsigned i = 0; i < count; ++i)
         if (set.index(i) >= vertices)
@@ -268,7 +269,7 @@ bool isFinePlace(const osg::Matrixd& matrix) {
                        [](double number) { return isFinePlace(number); });
 }
 
-/// Whether a transform, or a part of one that moves, has a place for what is below it.
+/// Whether the matrix of a transform, or of an animated part of one, is in range.
 bool hasPlace(const osg::Object& object) {
     osg::Matrixd matrix;
     if (const auto* transform = dynamic_cast<const osg::Transform*>(&object))
@@ -283,7 +284,7 @@ bool hasPlace(const osg::Object& object) {
 
 // The whole scene.
 
-/// All of a scene that is checked, each object once.
+/// Collects the objects of a scene that are checked, each once.
 class SceneObjects : public osg::NodeVisitor {
 public:
     SceneObjects() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
@@ -343,8 +344,9 @@ private:
     std::set<const osg::Referenced*> _known;
 };
 
-/// Links a copy of each channel as osgAnimation does. It moves what a channel of another kind names
-/// all the same, as a rotation a translation: it has no target then.
+/// Links a copy of each channel as osgAnimation does. Where a channel is of another kind than what
+/// it names, as a rotation that names a translation, it gets no target, and osgAnimation would
+/// write to it all the same.
 void checkLinks(const osgAnimation::Animation& animation, const SceneObjects& scene,
                 const std::string& path) {
     std::size_t idle = 0;

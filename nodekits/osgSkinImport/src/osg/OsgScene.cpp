@@ -53,7 +53,7 @@ const Array* perVertex(const osg::Array* array, std::size_t vertices) {
     return fits ? typed : nullptr;
 }
 
-/// The colours of a geometry's vertices; none where it has not one a vertex.
+/// The colours of a geometry's vertices; none where they are not per vertex.
 std::vector<glm::vec4> coloursOf(const osg::Geometry& geometry, std::size_t vertices) {
     std::vector<glm::vec4> result;
     if (const auto* floats = perVertex<osg::Vec4Array>(geometry.getColorArray(), vertices))
@@ -94,7 +94,7 @@ public:
     }
 
 private:
-    /// OSG reads all corners of a triangle that is begun, and believes ranges.
+    /// OSG reads all corners of an incomplete triangle, and does not check ranges.
     void checkPrimitives(osg::Geometry& geometry, std::size_t vertices) const {
         const std::string where = "geometry \"" + geometry.getName() + "\": ";
         for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList()) {
@@ -104,7 +104,7 @@ private:
                 count % 3 != 0)
                 failFile(_path, where + std::to_string(count) +
                                     " corners of triangles, expected a multiple of 3");
-            for (unsigned i = 0; i < count; ++i) // ends at the first, whatever the count
+            for (unsigned i = 0; i < count; ++i) // stops at the first
                 if (set->index(i) >= vertices)
                     failFile(_path, where + "a primitive names vertex " +
                                         std::to_string(set->index(i)) + ", expected less than " +
@@ -159,7 +159,7 @@ private:
             _result.colours.resize(_result.normals.size(), glm::vec4(1.0f));
     }
 
-    /// The state that all nodes down to this one set together; the same for all below the same.
+    /// The merged state of all nodes down to this one, shared where these are the same.
     std::uint32_t materialHere(bool coloured) {
         std::vector<const osg::StateSet*> states;
         for (const osg::Node* node : getNodePath())

@@ -35,7 +35,7 @@ bool isArchive(const std::string& name) {
     return has(archives, osgDB::getLowerCaseFileExtension(name));
 }
 
-/// Whether OSG would open an archive on the way to a file. Folders may be called as they like.
+/// Whether OSG would open an archive on the way to a file. Folders may have any name.
 bool leadsThroughArchive(const std::string& path) {
     std::size_t first = 0;
     for (std::size_t end = 0; (end = path.find_first_of("/\\", first)) != std::string::npos;
@@ -96,7 +96,7 @@ bool isPseudoLoader(const std::string& name) {
 }
 
 std::string osgSceneFormat(const std::string& path) {
-    const bool isWrapped = isPseudoLoader(path); // its arguments stand before it, with dots
+    const bool isWrapped = isPseudoLoader(path); // its arguments precede it, and may contain dots
     std::string name = osgDB::getSimpleFileName(path);
     for (std::size_t dot = name.rfind('.'); dot != std::string::npos; dot = name.rfind('.')) {
         const std::string extension = osgDB::convertToLowerCase(name.substr(dot + 1));
@@ -190,7 +190,7 @@ bool parseNumber(std::string_view token, double& value) {
 
 std::string inQuotes(std::string_view token) {
     std::size_t longest = 40;
-    // A letter of several bytes stays whole.
+    // Do not cut a letter of several bytes.
     while (longest > 36 && longest < token.size() && (token[longest] & 0xc0) == 0x80) --longest;
     std::string text(token.substr(0, longest));
     if (token.size() > longest) text += "...";

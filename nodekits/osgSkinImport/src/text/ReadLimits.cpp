@@ -20,7 +20,7 @@ std::size_t countOf(const std::string& key, const std::string& value) {
     std::size_t count = 0;
     const char* const end = value.data() + value.size();
     const auto [stop, status] = std::from_chars(value.data(), end, count);
-    // Below this no sum of limits overflows.
+    // Sums of limits up to this do not overflow.
     if (value.empty() || status != std::errc() || stop != end || count == 0 || count >> 40 != 0)
         throw Error("option " + key + "=" + value + ": expected a whole number from 1 to 2^40");
     return count;
@@ -120,7 +120,7 @@ void checkJsonDepth(const std::string& path, std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if (c == '"') inString = !inString;
-        if (inString && c == '\\') ++i; // what follows ends no string
+        if (inString && c == '\\') ++i; // the next character is escaped
         if (inString) continue;
         if ((c == '[' || c == '{') && ++depth > kDeepestJson)
             failFile(path, "lists and objects stand in each other more than " +
