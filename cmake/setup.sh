@@ -2,9 +2,8 @@
 # Sourced by examples/run, tests/run and .ci/run: installs what is missing, then builds.
 
 osgskin_build_packages="g++ cmake ninja-build pkg-config libopenscenegraph-dev openscenegraph
-  libglm-dev libcgal-dev libeigen3-dev libassimp-dev libtinyobjloader-dev nlohmann-json3-dev
-  libcli11-dev libhwy-dev libtbb-dev libmeshoptimizer-dev
-  libgif-dev libpng-dev"
+  libglm-dev libcgal-dev libeigen3-dev libassimp-dev nlohmann-json3-dev libstb-dev
+  libcli11-dev libhwy-dev libtbb-dev libmeshoptimizer-dev"
 osgskin_show_packages="xvfb imagemagick libgl1-mesa-dri"
 osgskin_test_packages="libgtest-dev libbenchmark-dev libegl-dev libegl1 binutils dpkg-dev file locales assimp-testmodels python3"
 

@@ -199,6 +199,9 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
         app.add_option("--rest", arguments.rest, "write the bind pose")->expected(0, 1);
     app.add_option("--binding", arguments.binding, "write joints, regions and ratios (JSON)");
     app.add_option("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
+    app.add_option("--formats", arguments.formats,
+                   "what may be read, as skin,obj,osgb, or all; by default no .osgb, .osgt, .osgx, "
+                   ".osg or .ive file that a .skin file names");
     app.add_flag("--quiet", arguments.quiet, "no progress and no summary");
     const std::string wrong = example::findEmptyWord(argc, argv);
     if (!wrong.empty()) throw UsageError{wrong};

@@ -30,6 +30,7 @@ struct Arguments {
     std::string rest;    ///< file for the bind pose; empty: not wanted
     std::string binding; ///< JSON files; empty: not wanted
     std::string pose;
+    std::string formats; ///< value of the option `formats`; empty: not given
     bool quiet = false;
 };
 

@@ -312,6 +312,8 @@ Character load(const Arguments& arguments) {
     example::ProgressLine line(file, arguments.quiet);
     osgSkin::LoadOptions options = arguments.options;
     options.progress = line.progress();
+    if (!arguments.formats.empty())
+        options.readOptions = new osgDB::Options("formats=" + arguments.formats);
     Character character = osgSkin::loadCharacter(file, options);
     if (!character.hasBody())
         throw osgSkin::Error(file + ": expected a .skin file, or a rigged model that Assimp reads");

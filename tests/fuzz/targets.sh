@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Sourced by the scripts beside it: the targets, and what each starts from.
-osgskin_fuzz_targets="obj ply off bvh gltf glb osgt osgb osgx skin weights options model pose bind picture"
+osgskin_fuzz_targets="obj ply off bvh gltf glb skin weights options model pose bind"
 
 # osgskin_fuzz_seeds TARGET: its seed files, a line each.
 osgskin_fuzz_seeds() {
@@ -9,8 +9,6 @@ osgskin_fuzz_seeds() {
     obj | ply | off | bvh) seeds=(tests/data/mesh/*."$1" tests/data/bvh/*."$1") ;;
     gltf) seeds=(tests/data/*/*.gltf tests/data/character/bad/*.gltf) ;;
     glb) seeds=(tests/data/glb/*.parts) ;;
-    osgt | osgb | osgx) seeds=(tests/data/saved/*."$1" tests/data/mesh/*."$1") ;;
-    picture) seeds=(tests/data/pictures/*.picture) ;;
     bind) seeds=(tests/data/bind/*.bind) ;;
     weights) seeds=(tests/data/character/weights.json) ;;
     skin) seeds=(tests/data/character/*.skin tests/data/character/bad/*.skin) ;;

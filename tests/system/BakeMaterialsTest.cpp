@@ -356,7 +356,7 @@ TEST(BakeMaterials, NothingButFilesIsOpenedForTextures) {
         wasOpened = !baked;
         ::close(end);
     });
-    bake("body.skin --frames 0 --out baked.glb", folder);
+    bake("body.skin --formats all --frames 0 --out baked.glb", folder);
     baked = true;
     const int end = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
     other.join();

@@ -6,6 +6,9 @@
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinImport/ReadScene>
+
+#include <osgDB/WriteFile>
 
 #include <gtest/gtest.h>
 
@@ -117,12 +120,34 @@ TEST(GuardedCharacter, DescriptionsAreRefusedWithTheirPlace) {
         std::string::npos);
     ASSERT_EQ(mkfifo((folder + "/pipe").c_str(), 0600), 0);
     fs::create_symlink(folder + "/pipe", folder + "/linked.skin");
-    expectSays(refusal(folder + "/linked.skin"), "linked.skin: cannot open: it is no regular");
+    expectSays(refusal(folder + "/linked.skin"), "linked.skin: cannot open: not a regular");
     expectSays(refusal(skin(folder, "w", whole + ", \"bind\": \"weights\", \"weights\": \"pipe\"")),
-               "pipe: cannot open: it is no regular");
+               "pipe: cannot open: not a regular");
     expectSays(refusal(kCharacter + "good.skin", "formats=skin,glb"), "\"obj\" is not allowed");
     expectSays(refusal(kCharacter + "good.skin", "formats=glb"), "\"skin\" is not allowed");
     EXPECT_EQ(refusal(kCharacter + "good.skin", "formats=skin,obj,bvh"), "read");
+    EXPECT_EQ(refusal(kCharacter + "good.skin", "formats=all"), "read");
+}
+
+/// OpenSceneGraph trusts them.
+TEST(GuardedCharacter, SavedScenesAreReadWhereFormatsNameThem) {
+    const std::string folder = test::makeTestFolder(), rig = kCharacter + "rig.bvh";
+    for (const char* format :
+         {"osgb", "osgt", "osgx", "osg", "ive", "OSGB", "osgb.2,0.5,1.scale"}) {
+        const std::string file = skin(folder, "saved", parts(std::string("body.") + format, rig));
+        expectSays(refusal(file), "from trusted files only; to trust it, name its format in the "
+                                  "option formats (-O \"formats=skin,");
+        expectSays(refusal(file, "formats=skin,bvh"), "from trusted files only");
+        expectSays(refusal(file, "formats=all"), "body.");
+        EXPECT_EQ(refusal(file, "formats=all").find("trusted"), std::string::npos);
+    }
+    const osg::ref_ptr<osg::Node> body =
+        osgSkin::readScene(kCharacter + "body.obj", new osgDB::Options("noRotation"));
+    ASSERT_TRUE(osgDB::writeNodeFile(*body, folder + "/body.osgt"));
+    const std::string file = skin(folder, "saved", parts("body.osgt", rig));
+    EXPECT_EQ(refusal(file, "formats=skin,osgt,bvh"), "read");
+    expectSays(refusal(skin(folder, "bones", parts(kCharacter + "body.obj", "rig.osgt"))),
+               "rig.osgt: a scene");
 }
 
 TEST(GuardedCharacter, DescriptionsMayBeLongAndHaveBracketsInNames) {

@@ -145,7 +145,7 @@ TEST(GuardedPly, RemarksWithoutAKeywordAreNone) {
 INSTANTIATE_TEST_SUITE_P(
     Files, GuardedMesh,
     testing::Values(
-        // tinyobjloader sees the face behind the CR.
+        // A CR alone ends the comment.
         Guarded{"cr.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n# hidden\rf 1//9 2//9 300//9\nf 1 2 3\n",
                 "line 5: \"1//9\" in a face"},
         Guarded{"beyond_floats.obj", "v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
@@ -240,14 +240,14 @@ TEST(Guard, NothingButFilesIsOpened) {
     for (const char* extension : {"obj", "ply", "glb", "fbx", "x", "bvh", "osgt"}) {
         const std::string pipe = folder + "/pipe." + extension;
         ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-        expectError([&] { osgSkin::importMesh(pipe); }, pipe + ": cannot open: it is no regular");
+        expectError([&] { osgSkin::importMesh(pipe); }, pipe + ": cannot open: not a regular");
         if (std::string(extension) != "ply")
-            expectError([&] { osgSkin::importSkeleton(pipe); }, "cannot open: it is no regular");
+            expectError([&] { osgSkin::importSkeleton(pipe); }, "cannot open: not a regular");
     }
-    expectError([&] { osgSkin::importMotion(folder + "/pipe.bvh"); }, "it is no regular file");
+    expectError([&] { osgSkin::importMotion(folder + "/pipe.bvh"); }, "not a regular file");
     const std::string endless = folder + "/endless.bvh";
     std::filesystem::create_symlink("/dev/zero", endless);
-    expectError([&] { osgSkin::importMotion(endless); }, "it is no regular file");
+    expectError([&] { osgSkin::importMotion(endless); }, "not a regular file");
     expectError([] { osgSkin::importMesh("http://127.0.0.1:9/a.osgt"); }, "an address");
 
     ASSERT_EQ(mkfifo((folder + "/pipe.mtl").c_str(), 0600), 0);

@@ -194,6 +194,6 @@ TEST(Pictures, ThatAreBrokenAreToldOfByEachMesh) {
         const test::Notices notices;
         EXPECT_EQ(imagesOf(path, together).drawn, 0u);
         EXPECT_TRUE(notices.say("drawn without")) << notices.text();
-        EXPECT_TRUE(notices.say("no PNG picture")) << notices.text();
+        EXPECT_TRUE(notices.say("cannot be decoded as a picture")) << notices.text();
     }
 }

@@ -179,14 +179,13 @@ std::vector<Option> makeTable() {
         choice<bool, bool>({"show", "skin", "regions: each joint's region in a colour of its own"},
                            &LoadOptions::showRegions, {{"skin", false}, {"regions", true}},
                            In::StringsOnly),
-        readingOption({"formats", "all", "what may be read at all, as skin,obj,bvh,ply,gltf,glb"},
+        readingOption({"formats", "all but scenes named in .skin files",
+                       "file formats that may be read, as skin,obj,bvh,ply,gltf,glb, or all; all also "
+                       "allows a .skin file to name .osgb, .osgt, .osgx, .osg and .ive files"},
                       "extension,extension"),
-        readingOption({"classes", "none",
-                       "what saved scenes may have beside what characters are made of, as "
-                       "osgParticle"},
-                      "class,library"),
         readingOption({"pictures", "none",
-                       "formats of textures that are read though nothing checks them, as ktx,hdr"},
+                       "images that OpenSceneGraph reads, from trusted files, beside those of "
+                       "formats, as ktx,dds"},
                       "extension,extension"),
         readingOption({"maxFileMB", number(limits.fileMegabytes), "megabytes of any file"}),
         readingOption({"maxTextMB", number(limits.textMegabytes),

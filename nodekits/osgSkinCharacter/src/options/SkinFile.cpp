@@ -312,6 +312,8 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
         skin.zUp = up->string() == "z";
     }
     if (skin.fit && skin.zUp) skin.fit->up = {0.0, 0.0, 1.0};
+    for (const std::string& named : {skin.mesh, skin.skeleton}) limits.checkNamedFormat(named);
+    for (const Prop& prop : skin.props) limits.checkNamedFormat(prop.mesh);
     readOptions(root, limits, skin);
     readWeightsFile(root, folder, skin);
     if (const auto joints = root.find("joints"))

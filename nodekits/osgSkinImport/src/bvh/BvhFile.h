@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_BVHFILE_H
-#define OSGSKINIMPORT_BVHFILE_H 1
+#ifndef OSGSKINIMPORT_BVH_BVHFILE_H
+#define OSGSKINIMPORT_BVH_BVHFILE_H
 
 #include <osgSkinImport/ReadLimits>
 
@@ -48,7 +48,7 @@ struct BvhFile {
 ///
 /// Keywords may have any case, names may have blanks in them, and a frame may be wrapped over
 /// several lines. A joint has up to three rotations, or three positions with three rotations or
-/// none, in any order. Frames beyond the declared number are passed over, with a notice.
+/// none, in any order. Frames beyond the declared number are ignored, with a notice.
 ///
 /// \throw osgSkin::Error "PATH: line N: what was found, what was expected".
 BvhFile readBvh(const std::string& path, const ReadLimits& limits);

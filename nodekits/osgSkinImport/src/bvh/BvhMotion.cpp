@@ -40,7 +40,7 @@ glm::dvec3 localPosition(const BvhJoint& joint, const double* frame) {
     return result;
 }
 
-/// What makes a figure that is smaller than a unit one unit large: others are told as they are.
+/// The scale that makes a figure smaller than one unit one unit large; 1 for others.
 double toFigure(const BvhFile& file) {
     glm::dvec3 low(0.0), high(0.0);
     std::vector<glm::dvec3> centres;

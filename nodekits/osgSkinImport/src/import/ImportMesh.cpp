@@ -5,9 +5,9 @@
 #include "assimp/mesh/AssimpMesh.h"
 #include "mesh/FinishMesh.h"
 #include "mesh/ObjMesh.h"
+#include "mesh/OffMesh.h"
 #include "mesh/PlyMesh.h"
-#include "off/OffMesh.h"
-#include "osg/OsgMesh.h"
+#include "osg/OsgScene.h"
 #include "text/FileText.h"
 
 #include <osgDB/FileNameUtils>

@@ -17,8 +17,8 @@
 
 namespace osgSkin {
 
-/// A mesh on its way from a file to drawable parts, whatever the file's format: attributes stand at
-/// the faces' corners, in the order of mesh.faceVertices.
+/// A mesh as readers of all formats return it, before it is split into drawable parts: attributes
+/// are per corner of the faces, in the order of mesh.faceVertices.
 struct CornerMesh {
     SkinMesh mesh;
     std::vector<glm::vec3> normals;       ///< one a corner

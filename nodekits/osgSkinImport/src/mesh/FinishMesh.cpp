@@ -1,24 +1,204 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/FinishMesh.h"
 
-#include "mesh/CheckNormals.h"
-#include "mesh/MeshParts.h"
-#include "mesh/SmoothNormals.h"
+#include "mesh/CornerMesh.h"
 #include "text/FileText.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
+#include <osgSkinRig/MeshPart>
+#include <osgSkinRig/SkinMesh>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <set>
+#include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
+
 namespace {
+
+/// For each vertex, the first vertex at the same position.
+std::vector<std::size_t> weld(const std::vector<glm::dvec3>& positions) {
+    std::map<std::tuple<double, double, double>, std::size_t> first;
+    std::vector<std::size_t> result;
+    result.reserve(positions.size());
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        const glm::dvec3& p = positions[v];
+        result.push_back(first.emplace(std::make_tuple(p.x, p.y, p.z), v).first->second);
+    }
+    return result;
+}
+
+/// Normals at the corners, smooth over the skin and weighted by area. Vertices at one position
+/// count as one, so that seams of texture coordinates do not show.
+std::vector<glm::vec3> smoothNormals(const SkinMesh& mesh) {
+    const std::vector<std::size_t> welded = weld(mesh.positions);
+    std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
+    // Bodies come in any unit: scaled to size 1, squared lengths neither overflow nor vanish.
+    const double extent = mesh.size();
+    const double scale = extent > 0.0 ? 1.0 / extent : 1.0;
+    // A polygon's normal is the sum of its triangles' (Newell), the same for all of its corners, so
+    // that the shading does not show how it is triangulated.
+    const std::uint32_t* corners = mesh.faceVertices.data();
+    for (const std::uint32_t size : mesh.faceSizes) {
+        const glm::dvec3& origin = mesh.positions[corners[0]];
+        glm::dvec3 normal(0.0);
+        for (std::uint32_t k = 2; k < size; ++k)
+            normal += glm::cross((mesh.positions[corners[k - 1]] - origin) * scale,
+                                 (mesh.positions[corners[k]] - origin) * scale);
+        for (std::uint32_t k = 0; k < size; ++k) sums[welded[corners[k]]] += normal;
+        corners += size;
+    }
+    std::vector<glm::vec3> result;
+    result.reserve(mesh.faceVertices.size());
+    for (const std::uint32_t v : mesh.faceVertices) {
+        const double length = glm::length(sums[welded[v]]);
+        // Any unit vector where all faces around the vertex are degenerate.
+        result.emplace_back(length > 0.0 ? sums[welded[v]] / length : glm::dvec3(0.0, 1.0, 0.0));
+    }
+    return result;
+}
+
+/// A material's area, and the part of it with normals on the faces' back.
+struct Areas {
+    double all = 0.0, contradicting = 0.0;
+
+    /// More than half, since sheets with faces on both sides may share one set of normals.
+    bool areMostlyWrong() const { return contradicting > 0.6 * all; }
+};
+
+std::vector<Areas> areasOf(const CornerMesh& mesh) {
+    std::vector<Areas> result(mesh.stateSets.size());
+    const double extent = mesh.mesh.size(), scale = extent > 0.0 ? 1.0 / extent : 1.0;
+    std::size_t first = 0;
+    for (std::size_t f = 0; f < mesh.mesh.faceSizes.size(); ++f) {
+        const std::size_t size = mesh.mesh.faceSizes[f];
+        const auto corner = [&](std::size_t k) {
+            return mesh.mesh.positions[mesh.mesh.faceVertices[first + k]];
+        };
+        glm::dvec3 face(0.0), given(0.0);
+        for (std::size_t k = 2; k < size; ++k)
+            face +=
+                glm::cross((corner(k - 1) - corner(0)) * scale, (corner(k) - corner(0)) * scale);
+        for (std::size_t k = 0; k < size; ++k) given += glm::dvec3(mesh.normals[first + k]);
+        first += size;
+        if (mesh.materials[f] >= result.size()) continue;
+        Areas& areas = result[mesh.materials[f]];
+        areas.all += glm::length(face);
+        if (glm::dot(face, given) < 0.0) areas.contradicting += glm::length(face);
+    }
+    return result;
+}
+
+/// Recomputes the normals of a material, smooth over the skin, where most of its area has normals
+/// on the faces' back: exporters mirror one without the other. Reports this in a notice.
+/// \param mesh with unit normals
+void mendNormals(CornerMesh& mesh, const std::string& path) {
+    const std::vector<Areas> areas = areasOf(mesh);
+    std::vector<glm::vec3> computed;
+    std::size_t first = 0, faces = 0;
+    for (std::size_t f = 0; f < mesh.mesh.faceSizes.size(); ++f) {
+        const std::size_t size = mesh.mesh.faceSizes[f], begin = first;
+        first += size;
+        if (mesh.materials[f] >= areas.size() || !areas[mesh.materials[f]].areMostlyWrong())
+            continue;
+        if (computed.empty()) computed = smoothNormals(mesh.mesh);
+        for (std::size_t k = begin; k < first; ++k) mesh.normals[k] = computed[k];
+        ++faces;
+    }
+    if (faces > 0)
+        tellOf(path, "the normals of " + std::to_string(faces) + " of " +
+                         std::to_string(mesh.mesh.faceSizes.size()) +
+                         " faces point to the faces' back; computed anew");
+}
+
+/// Builds a part from its triangles.
+class PartBuilder {
+public:
+    explicit PartBuilder(const CornerMesh& source) : _source(source) {}
+
+    /// \param corners three indices in the mesh's `faceVertices`
+    void addTriangle(std::uint32_t face, const std::uint32_t* corners) {
+        for (int k = 0; k < 3; ++k) _triangles->push_back(vertex(corners[k]));
+        _part.sourceFace.push_back(face);
+    }
+
+    MeshPart finish(osg::StateSet* stateSet) {
+        _part.geometry = new osg::Geometry;
+        osg::Geometry& geometry = *_part.geometry;
+        geometry.setVertexArray(_positions);
+        geometry.setNormalArray(_normals, osg::Array::BIND_PER_VERTEX);
+        if (_source.hasTexCoords)
+            geometry.setTexCoordArray(0, _texCoords, osg::Array::BIND_PER_VERTEX);
+        if (!_colours->empty()) geometry.setColorArray(_colours, osg::Array::BIND_PER_VERTEX);
+        geometry.addPrimitiveSet(_triangles);
+        geometry.setUseDisplayList(false);
+        geometry.setUseVertexBufferObjects(true);
+        geometry.setStateSet(stateSet);
+        return _part;
+    }
+
+    bool empty() const { return _triangles->empty(); }
+
+private:
+    unsigned vertex(std::size_t corner) {
+        const std::uint32_t source = _source.mesh.faceVertices[corner];
+        const glm::vec3& n = _source.normals[corner];
+        const glm::vec2& t = _source.texCoords[corner];
+        const bool coloured = !_source.colours.empty();
+        const glm::vec4 c = coloured ? _source.colours[corner] : glm::vec4(1.0f);
+        const Key key{source, {n.x, n.y, n.z, t.x, t.y, c.r, c.g, c.b, c.a}};
+        const auto [entry, isNew] = _copies.emplace(key, static_cast<unsigned>(_positions->size()));
+        if (isNew) {
+            _positions->push_back(osg::Vec3(toOsg(_source.mesh.positions[source])));
+            _normals->push_back(osg::Vec3(toOsg(glm::dvec3(n))));
+            _texCoords->push_back({t.x, t.y});
+            if (coloured) _colours->push_back({c.r, c.g, c.b, c.a});
+            _part.sourceVertex.push_back(source);
+        }
+        return entry->second;
+    }
+
+    using Key = std::pair<std::uint32_t, std::array<float, 9>>;
+
+    const CornerMesh& _source;
+    MeshPart _part;
+    std::map<Key, unsigned> _copies;
+    osg::ref_ptr<osg::Vec3Array> _positions = new osg::Vec3Array;
+    osg::ref_ptr<osg::Vec3Array> _normals = new osg::Vec3Array;
+    osg::ref_ptr<osg::Vec2Array> _texCoords = new osg::Vec2Array;
+    osg::ref_ptr<osg::Vec4Array> _colours = new osg::Vec4Array;
+    osg::ref_ptr<osg::DrawElementsUInt> _triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
+};
+
+/// Builds a drawable part for each material in use. A vertex is copied where its corners differ in
+/// normal, texture coordinates or colour.
+std::vector<MeshPart> makeMeshParts(const CornerMesh& source) {
+    std::vector<PartBuilder> builders;
+    builders.reserve(source.stateSets.size());
+    for (std::size_t m = 0; m < source.stateSets.size(); ++m) builders.emplace_back(source);
+    const std::vector<std::uint32_t> corners = source.mesh.triangleCorners();
+    const std::uint32_t* triangle = corners.data();
+    for (std::uint32_t f = 0; f < source.mesh.faceSizes.size(); ++f)
+        for (std::uint32_t k = 2; k < source.mesh.faceSizes[f]; ++k, triangle += 3)
+            builders[source.materials[f]].addTriangle(f, triangle);
+    std::vector<MeshPart> result;
+    for (std::size_t m = 0; m < builders.size(); ++m)
+        if (!builders[m].empty()) result.push_back(builders[m].finish(source.stateSets[m]));
+    return result;
+}
 
 constexpr std::size_t kElementsOfVertex = 14;   ///< of 64 bytes each, half a sample
 constexpr std::size_t kSamplesOfMaterial = 500; ///< what is drawn by itself takes 50 kilobytes
@@ -33,11 +213,11 @@ bool normalise(std::vector<glm::vec3>& normals) {
     return true;
 }
 
-/// No light is as bright: such numbers count to 255.
+/// Colours are not brighter: larger numbers count to 255.
 constexpr float kTooBright = 16.0f;
 
-/// Some write numbers up to 255, whole ones as a rule, where numbers up to 1 are expected: colours,
-/// or alpha.
+/// Whether colours, or alphas, count to 255 and not to 1, as some programs write them, usually in
+/// whole numbers.
 bool countsTo255(const std::vector<glm::vec4>& colours, int first, int end) {
     float most = 0.0f;
     bool areWhole = true;

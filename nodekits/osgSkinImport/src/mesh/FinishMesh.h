@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_FINISHMESH_H
-#define OSGSKINIMPORT_FINISHMESH_H 1
+#ifndef OSGSKINIMPORT_MESH_FINISHMESH_H
+#define OSGSKINIMPORT_MESH_FINISHMESH_H
 
 #include "mesh/CornerMesh.h"
 
@@ -11,12 +11,12 @@
 
 namespace osgSkin {
 
-/// Each vertex is bound and deformed, whether a face names it or not.
+/// Limits the number of vertices: each is bound and deformed, whether a face names it or not.
 /// \param path of a file that holds the mesh alone
 /// \throw osgSkin::Error where there are more than a file of this size may have
 void checkVertices(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits);
 
-/// Each material that faces have becomes a drawable of its own, whatever bytes name it.
+/// Limits the number of materials: each that faces use becomes a drawable of its own.
 /// \throw osgSkin::Error where there are more than a file of this size may have
 void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits);
 

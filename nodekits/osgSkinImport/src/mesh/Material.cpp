@@ -2,8 +2,8 @@
 #include "mesh/Material.h"
 
 #include "text/FileText.h"
-#include "text/SafeNames.h"
 
+#include <osgSkin/Error>
 #include <osgSkinImport/FindNamedFile>
 
 #include <osg/AlphaFunc>
@@ -11,14 +11,44 @@
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/Texture2D>
-
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace osgSkin {
+
+osg::ref_ptr<osg::Image> TextureReads::once(const std::string& name,
+                                            const std::function<osg::ref_ptr<osg::Image>()>& read) {
+    const auto [entry, isNew] = _images.emplace(name, nullptr);
+    if (!isNew) return entry->second;
+    try {
+        entry->second = read();
+    } catch (const Error& error) {
+        _reasons[name] = error.what();
+    }
+    return entry->second;
+}
+
+TextureReads::~TextureReads() {
+    std::size_t missing = 0;
+    std::string first;
+    for (const auto& [name, image] : _images) {
+        if (image.valid()) continue;
+        if (missing++ == 0) first = name;
+    }
+    if (missing == 0) return;
+    std::string reason;
+    if (!_reasons.empty()) {
+        first = _reasons.begin()->first;
+        reason = ": " + _reasons.begin()->second;
+    }
+    std::string what = "texture \"" + first + '"';
+    if (missing > 1) what = std::to_string(missing) + " textures, \"" + first + "\" among them,";
+    tellOf(_path, what + " cannot be read; drawn without" + reason);
+}
 
 namespace {
 
@@ -43,8 +73,8 @@ void setAlpha(osg::StateSet& state, const Material& material) {
     state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
 }
 
-/// From the mesh's folder on, or as other files are found; or a file of that folder that has the
-/// name's last part: names have folders of the machine that they were written on.
+/// Relative to the mesh's folder, or as other files are found; or a file in that folder with the
+/// name's last part: names often hold folders of the machine that they were written on.
 std::string findPicture(const std::string& name, const std::string& folder,
                         const osgDB::Options* options) {
     std::string beside = osgDB::concatPaths(folder, name);
@@ -56,21 +86,22 @@ std::string findPicture(const std::string& name, const std::string& folder,
 }
 
 osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::string& meshPath,
-                                       const osgDB::Options* options, PictureCheck& pictures) {
+                                       const osgDB::Options* options, PictureReader& pictures) {
     osg::ref_ptr<osgDB::Options> local =
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
     const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
-    // Nothing is fetched from a network or run, and what is no regular file may never end.
+    // Fetch nothing from a network, run nothing, and open regular files only: others may never end.
     if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName)) return nullptr;
     const std::string found = findPicture(fileName, osgDB::getFilePath(meshPath), local);
     if (!isRegularFile(found)) return nullptr;
-    return pictures.shared().once(found, {}, [&]() -> osg::ref_ptr<osg::Image> {
-        pictures.takeFile(found);
-        // osgDB::readImageFile() would warn of each by itself.
+    return pictures.shared().once(found, {}, [&] {
         const osg::ref_ptr<osg::Image> image =
-            osgDB::Registry::instance()->readImage(found, local).getImage();
-        if (image) image->setFileName(fileName); // for who saves it again
+            pictures.readFile(found, [&]() -> osg::ref_ptr<osg::Image> {
+                // osgDB::readImageFile() would warn of each by itself.
+                return osgDB::Registry::instance()->readImage(found, local).getImage();
+            });
+        if (image) image->setFileName(fileName); // for writers
         return image;
     });
 }

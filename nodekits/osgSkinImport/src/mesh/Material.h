@@ -1,21 +1,51 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_MATERIAL_H
-#define OSGSKINIMPORT_MATERIAL_H 1
+#ifndef OSGSKINIMPORT_MESH_MATERIAL_H
+#define OSGSKINIMPORT_MESH_MATERIAL_H
 
-#include "mesh/TextureReads.h"
+#include "mesh/Pictures.h"
 
 #include <osg/Image>
 #include <osg/StateSet>
 #include <osg/Texture>
 #include <osg/Vec4>
 #include <osg/ref_ptr>
-
 #include <osgDB/Options>
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace osgSkin {
+
+/// The textures that a file names: each is read once, however many materials share it, and those
+/// that cannot be read are reported in one notice by the destructor.
+class TextureReads {
+public:
+    /// \param path of the file that names the textures
+    /// \param options whose limits hold for all of them together; may be null
+    TextureReads(std::string path, const osgDB::Options* options)
+        : _path(std::move(path)), _pictures(options) {}
+    ~TextureReads();
+    TextureReads(const TextureReads&) = delete;
+    TextureReads& operator=(const TextureReads&) = delete;
+
+    /// The texture called `name`; null where it cannot be read.
+    /// \param read is called the first time; returns null where it fails, or throws osgSkin::Error
+    ///        with the reason
+    osg::ref_ptr<osg::Image> once(const std::string& name,
+                                  const std::function<osg::ref_ptr<osg::Image>()>& read);
+
+    /// Reads each of them.
+    PictureReader& pictures() { return _pictures; }
+
+private:
+    const std::string _path;
+    PictureReader _pictures;
+    std::map<std::string, osg::ref_ptr<osg::Image>> _images; ///< by name
+    std::map<std::string, std::string> _reasons; ///< why images are missing, where known
+};
 
 /// The material of a part, as far as the file formats share one. Colours are in sRGB.
 struct Material {

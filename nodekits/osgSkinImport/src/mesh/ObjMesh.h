@@ -10,9 +10,11 @@
 
 namespace osgSkin {
 
-/// Reads an OBJ file by tinyobjloader: vertices and faces in file order.
-/// \throw osgSkin::Error with the file and the place in it where it is malformed; whether the mesh
-///        makes sense as a whole is for the caller to check, as with the other readers
+/// Reads an OBJ file and its material libraries: vertices and faces in file order, coordinates in
+/// double precision. Lines end with LF, CR or both.
+/// \param options may be null
+/// \throw osgSkin::Error with the file and the line where it is malformed; the caller checks the
+///        mesh as a whole, as with the other readers
 CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options);
 
 } // namespace osgSkin

@@ -3,25 +3,384 @@
 
 #include "mesh/Material.h"
 #include "text/FileText.h"
-#include "text/PlyBody.h"
-#include "text/PlyHeader.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace osgSkin {
+
 namespace {
+
+/// A PLY file's header.
+struct PlyHeader {
+    enum class Kind { Signed, Unsigned, Floating };
+    struct Type {
+        Kind kind = Kind::Signed;
+        std::size_t bytes = 1;
+    };
+    struct Property {
+        std::string name;
+        Type type;                 ///< of the value, or of a list's entries
+        std::optional<Type> count; ///< of a list's length
+    };
+    struct Element {
+        std::string name;
+        std::size_t count = 0;
+        std::vector<Property> properties;
+
+        /// The index of the first of some properties; none where the element has none of them.
+        std::optional<std::size_t> find(const std::vector<const char*>& names) const;
+    };
+    enum class Format { Text, LittleEndian, BigEndian };
+    Format format = Format::Text;
+    std::vector<Element> elements; ///< each name once, of no more entries than the file has bytes
+    std::vector<std::string> textures; ///< each "comment TextureFile" names one
+    std::size_t end = 0;               ///< where the content begins
+};
+
+struct NamedType {
+    const char* name;
+    PlyHeader::Type type;
+};
+
+constexpr PlyHeader::Kind kSigned = PlyHeader::Kind::Signed;
+constexpr PlyHeader::Kind kUnsigned = PlyHeader::Kind::Unsigned;
+constexpr PlyHeader::Kind kFloating = PlyHeader::Kind::Floating;
+constexpr NamedType kTypes[] = {
+    {"char", {kSigned, 1}},      {"int8", {kSigned, 1}},      {"uchar", {kUnsigned, 1}},
+    {"uint8", {kUnsigned, 1}},   {"short", {kSigned, 2}},     {"int16", {kSigned, 2}},
+    {"ushort", {kUnsigned, 2}},  {"uint16", {kUnsigned, 2}},  {"int", {kSigned, 4}},
+    {"int32", {kSigned, 4}},     {"uint", {kUnsigned, 4}},    {"uint32", {kUnsigned, 4}},
+    {"float", {kFloating, 4}},   {"float32", {kFloating, 4}}, {"double", {kFloating, 8}},
+    {"float64", {kFloating, 8}},
+};
+
+// Usual files have ten properties, those with splats sixty; each is compared with all others.
+constexpr std::size_t kMostElements = 100;
+constexpr std::size_t kMostProperties = 1000; ///< of an element
+
+/// Reads line by line; a line ends with LF, CR or both.
+class PlyHeaderReader {
+public:
+    PlyHeaderReader(const std::string& path, const std::string& text) : _path(path), _text(text) {}
+
+    PlyHeader run() {
+        std::string first = nextLine();
+        first.erase(first.find_last_not_of(" \t") + 1); // as on other lines
+        if (first != "ply") failLine(_path, 1, "expected \"ply\"");
+        for (;;) {
+            if (_at >= _text.size())
+                failFile(_path, "the header has no end, expected a line \"end_header\"");
+            const std::string line = nextLine();
+            std::istringstream words(line);
+            std::string keyword;
+            words >> keyword;
+            if (keyword == "end_header") break;
+            if (keyword == "format")
+                readFormat(words);
+            else if (keyword == "element")
+                readElement(words);
+            else if (keyword == "property")
+                readProperty(words);
+            else if (keyword == "comment")
+                readComment(words);
+            else
+                checkRemark(keyword);
+        }
+        if (!_hasFormat) failFile(_path, "the header has no line \"format\"");
+        _header.end = _at;
+        // Each entry takes a byte at least.
+        for (std::size_t e = 0; e < _header.elements.size(); ++e)
+            if (_header.elements[e].count > _text.size() - _at + 1)
+                failLine(_path, _elementLines[e],
+                         inQuotes(std::to_string(_header.elements[e].count)) +
+                             " elements, expected no more than the file has room for");
+        return std::move(_header);
+    }
+
+private:
+    std::string nextLine() {
+        ++_line;
+        const std::size_t end = std::min(_text.find_first_of("\r\n", _at), _text.size());
+        std::string line = _text.substr(_at, end - _at);
+        // Where lines end with CR alone, the LF behind the last one is the body's first byte.
+        if (_line == 1) _endsWithCr = _text.compare(end, 1, "\r") == 0 && _text[end + 1] != '\n';
+        const bool two = !_endsWithCr && _text.compare(end, 2, "\r\n") == 0;
+        _at = end + (two ? 2 : end < _text.size() ? 1 : 0);
+        return line;
+    }
+
+    void readFormat(std::istream& words) {
+        std::string name, version;
+        words >> name >> version;
+        if (name == "ascii")
+            _header.format = PlyHeader::Format::Text;
+        else if (name == "binary_little_endian")
+            _header.format = PlyHeader::Format::LittleEndian;
+        else if (name == "binary_big_endian")
+            _header.format = PlyHeader::Format::BigEndian;
+        else
+            failLine(_path, _line,
+                     inQuotes(name) + " is no format, expected ascii, "
+                                      "binary_little_endian or binary_big_endian");
+        if (_hasFormat) failLine(_path, _line, "a second format");
+        _hasFormat = true;
+    }
+
+    void readElement(std::istream& words) {
+        PlyHeader::Element element;
+        std::string count;
+        words >> element.name >> count;
+        double number = 0.0;
+        if (!parseNumber(count, number) || number != std::floor(number))
+            failLine(_path, _line, inQuotes(count) + " elements, expected a whole number");
+        if (!(number >= 0.0 && number <= double(_text.size())))
+            failLine(_path, _line,
+                     inQuotes(count) + " elements, expected no more than the file has room for");
+        element.count = static_cast<std::size_t>(number);
+        if (_header.elements.size() >= kMostElements)
+            failLine(_path, _line,
+                     "one of more than " + std::to_string(kMostElements) + " elements");
+        for (const PlyHeader::Element& known : _header.elements)
+            if (known.name == element.name)
+                failLine(_path, _line, "a second element " + inQuotes(element.name));
+        _header.elements.push_back(element);
+        _elementLines.push_back(_line);
+    }
+
+    PlyHeader::Type type(const std::string& name) {
+        for (const NamedType& known : kTypes)
+            if (name == known.name) return known.type;
+        std::string names;
+        for (const NamedType& known : kTypes)
+            names += (names.empty() ? "" : ", ") + std::string(known.name);
+        failLine(_path, _line,
+                 inQuotes(name) + " is no type of a property, expected one of " + names);
+    }
+
+    void readProperty(std::istream& words) {
+        if (_header.elements.empty()) failLine(_path, _line, "a property of no element");
+        PlyHeader::Property property;
+        std::string name;
+        words >> name;
+        if (name == "list") {
+            words >> name;
+            property.count = type(name);
+            if (property.count->kind == kFloating)
+                failLine(_path, _line,
+                         inQuotes(name) + " counts no entries, expected a whole number");
+            words >> name;
+        }
+        property.type = type(name);
+        words >> property.name;
+        PlyHeader::Element& element = _header.elements.back();
+        if (property.name.empty()) failLine(_path, _line, "a property without a name");
+        if (element.properties.size() >= kMostProperties)
+            failLine(_path, _line,
+                     "one of more than " + std::to_string(kMostProperties) + " properties of " +
+                         inQuotes(element.name));
+        if (element.find({property.name.c_str()}))
+            failLine(_path, _line,
+                     "a second property " + inQuotes(property.name) + " of " +
+                         inQuotes(element.name));
+        element.properties.push_back(property);
+    }
+
+    /// Other lines are remarks (Blender 2.4 writes them without a keyword). Misspelt keywords are
+    /// refused: the rows of the body would be longer than the header says.
+    void checkRemark(std::string keyword) {
+        const std::string word = keyword;
+        for (char& c : keyword) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        for (const char* known : {"element", "property"})
+            if (keyword.compare(0, 4, known, 4) == 0)
+                failLine(_path, _line,
+                         inQuotes(word) + " begins no line, expected " + inQuotes(known));
+    }
+
+    void readComment(std::istream& words) {
+        std::string keyword;
+        words >> keyword >> std::ws;
+        if (keyword != "TextureFile") return;
+        std::string texture;
+        std::getline(words, texture);
+        if (!texture.empty()) _header.textures.push_back(texture);
+    }
+
+    const std::string& _path;
+    const std::string& _text;
+    std::size_t _at = byteOrderMark(_text), _line = 0;
+    bool _hasFormat = false, _endsWithCr = false;
+    PlyHeader _header;
+    std::vector<std::size_t> _elementLines;
+};
+
+std::optional<std::size_t> PlyHeader::Element::find(const std::vector<const char*>& names) const {
+    for (const char* wanted : names)
+        for (std::size_t p = 0; p < properties.size(); ++p)
+            if (properties[p].name == wanted) return p;
+    return std::nullopt;
+}
+
+/// Reads the header of a PLY file.
+/// \throw osgSkin::Error "PATH: line N: what was expected".
+PlyHeader readPlyHeader(const std::string& path, const std::string& text) {
+    return PlyHeaderReader(path, text).run();
+}
+
+/// An entry of an element: for each property its value, or a list's values.
+using PlyValues = std::vector<std::vector<double>>;
+
+/// Receives an entry: its element, its index in it, and its values.
+using TakePlyEntry =
+    std::function<void(const PlyHeader::Element&, std::size_t index, const PlyValues&)>;
+
+/// A body of bytes.
+class PlyBytes {
+public:
+    PlyBytes(std::string_view body, bool bigEndian) : _rest(body), _bigEndian(bigEndian) {}
+
+    /// Returns null, or what is wrong.
+    const char* read(const PlyHeader::Type& type, double& number) {
+        if (_rest.size() < type.bytes) return "the file ends here";
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < type.bytes; ++i)
+            bits = bits << 8 | std::uint8_t(_rest[_bigEndian ? i : type.bytes - 1 - i]);
+        _rest.remove_prefix(type.bytes);
+        number = numberOf(bits, type);
+        return nullptr;
+    }
+
+    bool hasRoom(double entries, const PlyHeader::Type& type) const {
+        return entries >= 0.0 && entries * double(type.bytes) <= double(_rest.size());
+    }
+
+    bool isAtEnd() const { return _rest.empty(); }
+
+private:
+    static double numberOf(std::uint64_t bits, const PlyHeader::Type& type) {
+        if (type.kind == PlyHeader::Kind::Floating) {
+            if (type.bytes == 8) return as<double>(bits);
+            return double(as<float>(std::uint32_t(bits)));
+        }
+        const double range = std::ldexp(1.0, int(8 * type.bytes));
+        const bool negative = type.kind == PlyHeader::Kind::Signed && double(bits) >= range / 2.0;
+        return double(bits) - (negative ? range : 0.0);
+    }
+
+    template <typename Number, typename Bits>
+    static Number as(Bits bits) {
+        static_assert(sizeof(Number) == sizeof(Bits), "the same bytes");
+        Number number;
+        std::memcpy(&number, &bits, sizeof number);
+        return number;
+    }
+
+    std::string_view _rest;
+    bool _bigEndian;
+};
+
+/// A body of words; an entry takes two characters at least.
+class PlyWords {
+public:
+    explicit PlyWords(std::string_view body) : _rest(body) {}
+
+    const char* read(const PlyHeader::Type&, double& number) {
+        const char* const blank = " \t\r\n";
+        const std::size_t begin = _rest.find_first_not_of(blank);
+        if (begin == std::string_view::npos) return "the file ends here";
+        const std::size_t end = std::min(_rest.find_first_of(blank, begin), _rest.size());
+        const bool isNumber = parseNumber(_rest.substr(begin, end - begin), number);
+        _rest.remove_prefix(end);
+        return isNumber ? nullptr : "a word that is no number";
+    }
+
+    bool hasRoom(double entries, const PlyHeader::Type&) const {
+        return entries >= 0.0 && 2.0 * entries <= double(_rest.size()) + 1.0;
+    }
+
+    bool isAtEnd() const { // some systems end a text with Ctrl-Z
+        return _rest.find_first_not_of(std::string_view(" \t\r\n\x1a\0", 6)) == std::string::npos;
+    }
+
+private:
+    std::string_view _rest;
+};
+
+/// A list's length for a message: a whole number where it is one.
+std::string lengthText(double length) {
+    return std::abs(length) < 1e15 && length == std::floor(length)
+               ? std::to_string(static_cast<std::int64_t>(length))
+               : std::to_string(length);
+}
+
+/// Reads all entries; returns whether nothing is left of the body.
+template <typename Body>
+bool walk(const std::string& path, const PlyHeader& header, Body body, const TakePlyEntry& take) {
+    PlyValues values;
+    for (const PlyHeader::Element& element : header.elements)
+        for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+            const auto fail = [&](const std::string& what) {
+                failFile(path,
+                         "element \"" + element.name + "\" " + std::to_string(i) + ": " + what);
+            };
+            values.resize(element.properties.size());
+            for (std::size_t p = 0; p < values.size(); ++p) {
+                const PlyHeader::Property& property = element.properties[p];
+                double entries = 1.0, number = 0.0;
+                if (property.count) {
+                    if (const char* wrong = body.read(*property.count, entries)) fail(wrong);
+                    if (!body.hasRoom(entries, property.type) || entries != std::floor(entries))
+                        fail("a list of " + lengthText(entries) +
+                             " entries, expected no more than the file has room for");
+                }
+                values[p].clear();
+                for (double k = 0.0; k < entries; k += 1.0) {
+                    if (const char* wrong = body.read(property.type, number)) fail(wrong);
+                    values[p].push_back(number);
+                }
+            }
+            take(element, i, values);
+        }
+    return body.isAtEnd();
+}
+
+/// Reads all that comes after a PLY file's header. No more memory is taken than for one entry,
+/// whatever the file says.
+/// \param body all that comes after the header
+/// \throw osgSkin::Error naming element and entry where a number is none, a list longer than the
+///        file, or the file at its end too soon
+void readPlyBody(const std::string& path, const PlyHeader& header, std::string_view body,
+                 const TakePlyEntry& take) {
+    const bool isText = header.format == PlyHeader::Format::Text;
+    const bool isWhole =
+        isText ? walk(path, header, PlyWords(body), take)
+               : walk(path, header, PlyBytes(body, header.format == PlyHeader::Format::BigEndian),
+                      take);
+    if (isWhole) return;
+    // Rows that are longer than the header says were read as several.
+    if (isText)
+        failFile(path, "words behind the last element, expected as many as the header says");
+    tellOf(path, "bytes behind the last element, passed over");
+}
 
 using Place = std::optional<std::size_t>;
 
 constexpr double kNoTexture = -1.0; ///< whatever number stands for a texture that is not there
 
-/// What stands for a colour of 1. Types say less of that than the numbers do: many programs write
-/// 0 to 255 as whatever whole type.
+/// Finds the number that means full colour. The property's type does not tell: many programs write
+/// 0 to 255 in any integer type.
 struct FullColour {
     bool isWhole = false; ///< whether of a type without fractions; others are left as they are
     double most = 0.0;    ///< the largest number
@@ -75,7 +434,7 @@ public:
             for (int k = 0; k < 4; ++k)
                 colour[k] =
                     colour[k] < 0.0f ? 1.0f : colour[k] / _full[std::size_t(k / 3)].number();
-        std::map<double, std::uint32_t> materials; // by their textures' numbers
+        std::map<double, std::uint32_t> materials; // by texture number
         result.mesh.positions = std::move(_positions);
         const std::size_t vertices = result.mesh.positions.size();
         std::size_t corner = 0;

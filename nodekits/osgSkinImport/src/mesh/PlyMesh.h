@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_PLYMESH_H
-#define OSGSKINIMPORT_PLYMESH_H 1
+#ifndef OSGSKINIMPORT_MESH_PLYMESH_H
+#define OSGSKINIMPORT_MESH_PLYMESH_H
 
 #include "mesh/CornerMesh.h"
 
@@ -11,7 +11,7 @@
 namespace osgSkin {
 
 /// Reads a PLY file, text or binary: polygons or triangle strips, normals, colours, texture
-/// coordinates, of vertices or of faces' corners, and the texture that a comment names.
+/// coordinates, of vertices or of faces' corners, and the textures that comments name.
 /// \throw osgSkin::Error with the file and the place in it
 CornerMesh readPlyMesh(const std::string& path, const osgDB::Options* options);
 

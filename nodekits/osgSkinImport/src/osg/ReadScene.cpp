@@ -1,14 +1,210 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ReadScene>
 
-#include "osg/GuardedReads.h"
+#include "mesh/FinishMesh.h"
+#include "mesh/ObjMesh.h"
+#include "mesh/Pictures.h"
+#include "mesh/PlyMesh.h"
+#include "osg/CheckScene.h"
 #include "text/FileText.h"
 
 #include <osgSkin/Error>
+#include <osgSkinImport/FindNamedFile>
+#include <osgSkinImport/ReadLimits>
 
+#include <osg/MatrixTransform>
+#include <osg/Node>
+#include <osg/ref_ptr>
+#include <osgDB/Callbacks>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+#include <osgDB/Options>
 #include <osgDB/Registry>
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <utility>
+
 namespace osgSkin {
+
+namespace {
+
+bool isTurned(const osgDB::Options* options) {
+    if (options == nullptr) return true;
+    const auto words = optionValues(options->getOptionString());
+    return std::none_of(words.begin(), words.end(),
+                        [](const auto& word) { return word.first == "noRotation"; });
+}
+
+/// Whether a file, by its extension, has a reader of ours: OSG's readers of these formats trust
+/// their input, and are never asked.
+bool isOurFormat(const std::string& path) {
+    static const char* const ours[] = {"bvh", "glb", "gltf", "obj", "off", "ply", "vrm"};
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    return std::find(std::begin(ours), std::end(ours), extension) != std::end(ours);
+}
+
+/// Reads an OBJ or PLY mesh as OSG's readers would: OBJ with Y up unless the options contain
+/// `noRotation`. Refuses our other formats, which do not hold a mesh alone.
+osg::ref_ptr<osg::Node> readMeshScene(const std::string& path, const osgDB::Options* options) {
+    const bool isObj = osgDB::equalCaseInsensitive(osgDB::getFileExtension(path), "obj");
+    if (!isObj && !osgDB::equalCaseInsensitive(osgDB::getFileExtension(path), "ply"))
+        failFile(path, "a model that no scene is read from, expected .osgt, .osgb, .osgx, .obj, "
+                       ".ply or .skin");
+    CornerMesh read = isObj ? readObjMesh(path, options) : readPlyMesh(path, options);
+    checkMaterials(read, path, ReadLimits::of(options));
+    const ImportedMesh mesh = finishMesh(std::move(read), path);
+    const osg::ref_ptr<osg::MatrixTransform> scene = new osg::MatrixTransform;
+    if (isObj && isTurned(options))
+        scene->setMatrix(osg::Matrix(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1));
+    for (const MeshPart& part : mesh.parts) scene->addChild(part.geometry);
+    return scene;
+}
+
+/// Reads of any kind within each other: pseudo-loaders' names hold others, and each takes a part of
+/// the stack.
+constexpr std::size_t kDeepestRead = 16;
+
+class Deeper {
+public:
+    explicit Deeper(std::size_t& depth) : _depth(depth) { ++_depth; }
+    ~Deeper() { --_depth; }
+    Deeper(const Deeper&) = delete;
+    Deeper& operator=(const Deeper&) = delete;
+
+private:
+    std::size_t& _depth;
+};
+
+/// Stands before OSG's readers for one file and all that it names, scenes and images alike. It
+/// opens regular files only, checks scenes once they are read, and never asks OSG for formats that
+/// have a reader of ours, whatever surrounds their names. Other files go to the callback that the
+/// application has set, or else to OSG, by the path of the file that was checked.
+class GuardedReads : public osgDB::ReadFileCallback {
+public:
+    using Result = osgDB::ReaderWriter::ReadResult;
+
+    /// \param options of the application; may be null
+    explicit GuardedReads(const osgDB::Options* options)
+        : _limits(ReadLimits::of(options)), _pictures(options) {
+        if (options != nullptr) _next = options->getReadFileCallback();
+        if (!_next) _next = osgDB::Registry::instance()->getReadFileCallback();
+        _isOsgNext = !_next;
+        if (!_next) _next = new osgDB::ReadFileCallback;
+    }
+
+    /// Why the first file was refused, since a reader between may not pass it on; empty: none was.
+    const std::string& reason() const { return _reason; }
+
+    Result openArchive(const std::string& name, osgDB::ReaderWriter::ArchiveStatus, unsigned,
+                       const osgDB::Options*) override {
+        return guarded(name, [&]() -> Result { failFile(name, "an archive, expected a file"); });
+    }
+
+    Result readNode(const std::string& name, const osgDB::Options* options) override {
+        return readModel(name, options,
+                         [&](const std::string& file) { return _next->readNode(file, options); });
+    }
+
+    Result readObject(const std::string& name, const osgDB::Options* options) override {
+        return readModel(name, options,
+                         [&](const std::string& file) { return _next->readObject(file, options); });
+    }
+
+    Result readImage(const std::string& name, const osgDB::Options* options) override {
+        return readOther(name, options, [&](const std::string& file) {
+            if (!isRegularFile(file)) return _next->readImage(file, options);
+            Result result;
+            const osg::ref_ptr<osg::Image> image = _pictures.shared().once(file, {}, [&] {
+                const osg::ref_ptr<osg::Image> read =
+                    _pictures.readFile(file, [&]() -> osg::ref_ptr<osg::Image> {
+                        result = _next->readImage(file, options);
+                        return result.getImage();
+                    });
+                if (read.valid()) read->setFileName(name); // for writers
+                return read;
+            });
+            return image ? Result(image.get()) : result;
+        });
+    }
+
+    Result readHeightField(const std::string& name, const osgDB::Options* options) override {
+        return readOther(name, options, [&](const std::string& file) {
+            return _next->readHeightField(file, options);
+        });
+    }
+
+    Result readShader(const std::string& name, const osgDB::Options* options) override {
+        return readOther(name, options,
+                         [&](const std::string& file) { return _next->readShader(file, options); });
+    }
+
+    Result readScript(const std::string& name, const osgDB::Options* options) override {
+        return readOther(name, options,
+                         [&](const std::string& file) { return _next->readScript(file, options); });
+    }
+
+private:
+    template <typename Read>
+    Result guarded(const std::string& name, Read read) {
+        const Deeper deeper(_depth);
+        try {
+            if (osgDB::containsServerAddress(name))
+                failFile(name, "cannot open: an address, expected a file");
+            requireOnlyRead(name);
+            if (_depth > kDeepestRead)
+                failFile(name,
+                         "read for more than " + std::to_string(kDeepestRead) +
+                             " others, expected fewer files and pseudo-loaders in each other");
+            return read();
+        } catch (const Error& error) {
+            if (_reason.empty()) _reason = error.what();
+            return Result(error.what());
+        }
+    }
+
+    template <typename Read>
+    Result readModel(const std::string& name, const osgDB::Options* options, Read next) {
+        return guarded(name, [&] {
+            _limits.checkFormat(name);
+            const std::string found = findNamedFile(name, options);
+            if (found.empty()) {
+                // OSG might take a file in another folder, which would be the wrong one.
+                const bool isKnown = !_isOsgNext || isPseudoLoader(name);
+                if (!isKnown || !osgDB::findDataFile(name, options).empty())
+                    requireReadable(name, _limits);
+                return next(name);
+            }
+            requireReadable(found, _limits);
+            if (isOurFormat(found)) return Result(readMeshScene(found, options).get());
+            Result result = next(found);
+            if (!osgSceneFormat(found).empty() && result.getNode() != nullptr)
+                checkScene(*result.getNode(), found);
+            return result;
+        });
+    }
+
+    template <typename Read>
+    Result readOther(const std::string& name, const osgDB::Options* options, Read next) {
+        return guarded(name, [&] {
+            const std::string found = osgDB::findDataFile(name, options);
+            if (found.empty()) return _isOsgNext ? Result(Result::FILE_NOT_FOUND) : next(name);
+            requireReadable(found, _limits);
+            return next(found);
+        });
+    }
+
+    const ReadLimits _limits;
+    PictureReader _pictures;
+    osg::ref_ptr<osgDB::ReadFileCallback> _next;
+    bool _isOsgNext = false; ///< no callback of the application's, which may know more than files
+    std::string _reason;
+    std::size_t _depth = 0; ///< reads of any kind within each other
+};
+
+} // namespace
 
 osg::ref_ptr<osg::Node> readScene(const std::string& path, const osgDB::Options* options) {
     const osg::ref_ptr<GuardedReads> guard = new GuardedReads(options);

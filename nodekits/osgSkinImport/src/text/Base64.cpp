@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kLetters =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// What each byte stands for; no letter's value where it is none.
+/// The value of a base64 letter; 255 for other bytes.
 std::size_t valueOf(char letter) {
     static const std::array<unsigned char, 256> values = [] {
         std::array<unsigned char, 256> result;
@@ -33,7 +33,7 @@ std::string fromBase64(std::string_view text) {
     bytes.reserve(text.size() / 4 * 3);
     std::uint32_t bits = 0;
     int count = 0;
-    // Padding is all that may follow it.
+    // Only padding may follow.
     const std::size_t end = text.find_last_not_of("= \t\r\n");
     for (std::size_t i = 0; end != std::string_view::npos && i <= end; ++i) {
         const std::size_t value = valueOf(text[i]);

@@ -7,11 +7,11 @@
 
 namespace osgSkin {
 
-/// The bytes that base64 stands for; blanks and line ends are passed over.
-/// \throw osgSkin::Error with the reason alone where there is anything else
+/// Decodes base64; blanks and line ends are skipped.
+/// \throw osgSkin::Error with the reason alone where the text contains anything else
 std::string fromBase64(std::string_view text);
 
-/// Bytes as base64, padded.
+/// Encodes bytes as base64, padded.
 std::string toBase64(std::string_view bytes);
 
 } // namespace osgSkin

@@ -1,31 +1,122 @@
 // SPDX-License-Identifier: MIT
 #include "text/FileText.h"
 
-#include "text/SafeNames.h"
-
 #include <osgSkin/Error>
+#include <osgSkinImport/FindNamedFile>
 
 #include <osg/Notify>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+#include <osgDB/Registry>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <system_error>
 
 namespace osgSkin {
+
 namespace {
+
+template <typename Names>
+bool has(const Names& names, const std::string& extension) {
+    return std::find(std::begin(names), std::end(names), extension) != std::end(names);
+}
+
+bool isArchive(const std::string& name) {
+    static const char* const archives[] = {"7z",     "bz2",  "gz",     "ivez", "osga",
+                                           "osgtgz", "osgz", "osgxgz", "ozg",  "rar",
+                                           "tar",    "tgz",  "xgz",    "xz",   "zip"};
+    return has(archives, osgDB::getLowerCaseFileExtension(name));
+}
+
+/// Whether OSG would open an archive on the way to a file. Folders may have any name.
+bool leadsThroughArchive(const std::string& path) {
+    std::size_t first = 0;
+    for (std::size_t end = 0; (end = path.find_first_of("/\\", first)) != std::string::npos;
+         first = end + 1) {
+        if (!isArchive(path.substr(first, end - first))) continue;
+        std::error_code ignored;
+        if (!std::filesystem::is_directory(path.substr(0, end), ignored)) return true;
+    }
+    return false;
+}
+
+/// Of scenes that only OSG reads.
+bool isOsgScene(const std::string& extension) {
+    static const char* const scenes[] = {"ive", "osg", "osg2", "osgb", "osgt", "osgx"};
+    return has(scenes, extension);
+}
 
 constexpr std::size_t kMegabyte = 1 << 20;
 
-/// What is too long for a file's name is no more than quoted.
+/// The beginning of a name that is too long for a file.
 std::string shortened(const std::string& path) {
     constexpr std::size_t longest = 200;
     return path.size() > kLongestPath ? path.substr(0, longest) + "..." : path;
 }
 
 } // namespace
+
+void requireName(const std::string& path) {
+    if (path.size() > kLongestPath)
+        failFile(path, "a name of " + std::to_string(path.size()) + " bytes, expected at most " +
+                           std::to_string(kLongestPath));
+    if (path.find('\0') != std::string::npos)
+        failFile(path, "a name with a byte 0 in it, expected none");
+}
+
+bool isOnlyRead(const std::string& path) {
+    static const char* const scripts[] = {"js", "lua", "py", "pyc", "python", "v8"};
+    // They name more files to read or run, or ask past our guard for what stands before them.
+    static const char* const lists[] = {"ffmpeg",    "logo",  "normals",  "p3d",
+                                        "present3d", "pview", "revisions"};
+    static const char* const networks[] = {"curl", "gdal", "net", "ogr", "osc", "vnc"};
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    return !isArchive(path) && !has(scripts, extension) && !has(lists, extension) &&
+           !has(networks, extension) && !leadsThroughArchive(path);
+}
+
+void requireOnlyRead(const std::string& path) {
+    requireName(path);
+    if (isOnlyRead(path)) return;
+    failFile(path, "an archive, a script or an address by its extension, expected a file that only "
+                   "has to be read");
+}
+
+bool isPseudoLoader(const std::string& name) {
+    static const char* const all[] = {"gles",  "osgjs", "osgshadow", "rot",
+                                      "scale", "skin",  "trans"};
+    return has(all, osgDB::getLowerCaseFileExtension(name));
+}
+
+std::string osgSceneFormat(const std::string& path) {
+    const bool isWrapped = isPseudoLoader(path); // its arguments precede it, and may contain dots
+    std::string name = osgDB::getSimpleFileName(path);
+    for (std::size_t dot = name.rfind('.'); dot != std::string::npos; dot = name.rfind('.')) {
+        const std::string extension = osgDB::convertToLowerCase(name.substr(dot + 1));
+        if (isOsgScene(extension)) return extension;
+        if (!isWrapped) break;
+        name.resize(dot);
+    }
+    return {};
+}
+
+std::string findNamedFile(const std::string& name, const osgDB::Options* options) {
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    const bool hasCallback = (options != nullptr && options->getFindFileCallback() != nullptr) ||
+                             registry.getFindFileCallback() != nullptr;
+    if (hasCallback) return osgDB::findDataFile(name, options);
+    if (name.empty() || osgDB::fileExists(name)) return name;
+    std::string found;
+    if (options != nullptr) found = osgDB::findFileInPath(name, options->getDatabasePathList());
+    return found.empty() ? osgDB::findFileInPath(name, registry.getDataFilePathList()) : found;
+}
 
 std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
                        std::size_t& size) {
@@ -38,7 +129,7 @@ std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const
         failFile(path, "cannot open: " +
                            (failure ? failure.message() : std::string(std::strerror(ENOENT))));
     if (status.type() != std::filesystem::file_type::regular)
-        failFile(path, "cannot open: it is no regular file, expected neither pipe nor device");
+        failFile(path, "cannot open: not a regular file");
     size = static_cast<std::size_t>(std::filesystem::file_size(path, failure));
     if (failure) failFile(path, "cannot open: " + failure.message());
     if (size / kMegabyte >= mostMegabytes)
@@ -99,7 +190,7 @@ bool parseNumber(std::string_view token, double& value) {
 
 std::string inQuotes(std::string_view token) {
     std::size_t longest = 40;
-    // A letter of several bytes stays whole.
+    // Do not cut a letter of several bytes.
     while (longest > 36 && longest < token.size() && (token[longest] & 0xc0) == 0x80) --longest;
     std::string text(token.substr(0, longest));
     if (token.size() > longest) text += "...";

@@ -20,7 +20,7 @@ std::size_t countOf(const std::string& key, const std::string& value) {
     std::size_t count = 0;
     const char* const end = value.data() + value.size();
     const auto [stop, status] = std::from_chars(value.data(), end, count);
-    // Below this no sum of limits overflows.
+    // Sums of limits up to this do not overflow.
     if (value.empty() || status != std::errc() || stop != end || count == 0 || count >> 40 != 0)
         throw Error("option " + key + "=" + value + ": expected a whole number from 1 to 2^40");
     return count;
@@ -35,9 +35,14 @@ std::vector<std::string> listOf(const std::string& key, const std::string& value
     return result;
 }
 
-/// How deep lists and objects of a JSON text may stand in each other; a `.skin` file has 4 levels,
-/// what VRM adds to glTF 10.
+/// How deep lists and objects of a JSON text may be nested; a `.skin` file has 4 levels, VRM 10.
 constexpr std::size_t kDeepestJson = 64;
+
+bool isIn(const std::vector<std::string>& formats, const std::string& extension) {
+    return std::any_of(formats.begin(), formats.end(), [&](const std::string& format) {
+        return format == extension || format == "all";
+    });
+}
 
 } // namespace
 
@@ -77,19 +82,25 @@ ReadLimits ReadLimits::of(const osgDB::Options* options) {
             if (key == name) *count = countOf(key, value);
         if (key == "formats") limits.formats = listOf(key, osgDB::convertToLowerCase(value));
         if (key == "pictures") limits.pictures = listOf(key, osgDB::convertToLowerCase(value));
-        if (key == "classes") limits.classes = listOf(key, value);
     }
     return limits;
 }
 
 void ReadLimits::checkFormat(const std::string& path) const {
-    if (formats.empty()) return;
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    if (std::find(formats.begin(), formats.end(), extension) != formats.end()) return;
+    if (formats.empty() || isIn(formats, extension)) return;
     std::string allowed;
     for (const std::string& format : formats) allowed += (allowed.empty() ? "" : ", ") + format;
     failFile(path, "the format " + inQuotes(extension) + " is not allowed, expected one of " +
                        allowed + " (option formats)");
+}
+
+void ReadLimits::checkNamedFormat(const std::string& path) const {
+    const std::string format = osgSceneFormat(path);
+    if (!format.empty() && !isIn(formats, format))
+        failFile(path, "a scene that OpenSceneGraph's own reader reads, from trusted files only; "
+                       "to trust it, name its format in the option formats (-O \"formats=skin," +
+                           format + ",...\", or formats=all)");
 }
 
 std::string readWholeFile(const std::string& path, std::size_t mostMegabytes,
@@ -109,7 +120,7 @@ void checkJsonDepth(const std::string& path, std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if (c == '"') inString = !inString;
-        if (inString && c == '\\') ++i; // what follows ends no string
+        if (inString && c == '\\') ++i; // the next character is escaped
         if (inString) continue;
         if ((c == '[' || c == '{') && ++depth > kDeepestJson)
             failFile(path, "lists and objects stand in each other more than " +

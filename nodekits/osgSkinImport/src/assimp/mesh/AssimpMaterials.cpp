@@ -2,13 +2,10 @@
 #include "assimp/mesh/AssimpMaterials.h"
 #include "text/FileText.h"
 
-#include <osgDB/Registry>
-
 #include <assimp/GltfMaterial.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace osgSkin {
 namespace {
@@ -57,15 +54,10 @@ osg::ref_ptr<osg::Image> rawImage(const aiTexture& texture) {
 
 /// A texture that is packed into the scene's own file, as in .glb; null where it cannot be decoded.
 osg::ref_ptr<osg::Image> embeddedImage(const aiTexture& texture, const std::string& path,
-                                       PictureCheck& pictures) {
+                                       PictureReader& pictures) {
     if (texture.mHeight != 0) return rawImage(texture);
-    osgDB::ReaderWriter* reader =
-        osgDB::Registry::instance()->getReaderWriterForExtension(texture.achFormatHint);
-    if (reader == nullptr) return nullptr;
-    const std::string bytes(reinterpret_cast<const char*>(texture.pcData), texture.mWidth);
-    pictures.take(path, texture.achFormatHint, bytes);
-    std::istringstream stream(bytes);
-    return reader->readImage(stream).getImage();
+    return pictures.read(path, texture.achFormatHint,
+                         {reinterpret_cast<const char*>(texture.pcData), texture.mWidth});
 }
 
 osg::Texture::WrapMode wrapOf(const aiMaterial& material, const char* key) {

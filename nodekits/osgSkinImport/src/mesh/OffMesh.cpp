@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "off/OffMesh.h"
+#include "mesh/OffMesh.h"
 
 #include "mesh/Material.h"
-#include "off/OffText.h"
 #include "text/FileText.h"
 
 #include <algorithm>
@@ -10,11 +9,86 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace osgSkin {
+
 namespace {
+
+/// The vertex attributes that the first word of an OFF file, [ST][C][N][4][n]OFF, declares.
+struct OffKind {
+    bool texCoords = false, colours = false, normals = false, divided = false, dimensions = false;
+
+    /// False where a word is not such a keyword.
+    bool read(std::string_view word);
+};
+
+/// An OFF file's words and lines. Comments run from "#" to the line's end; a line ends with LF, CR
+/// or both.
+class OffText {
+public:
+    explicit OffText(std::string_view text);
+
+    /// The next word, on any line; empty at the end.
+    std::string_view word();
+
+    /// The words of the next line that has any, or the rest of the line that word() read from.
+    const std::vector<std::string_view>& line();
+
+private:
+    void skip(std::string_view characters);
+
+    std::string_view _rest;
+    std::vector<std::string_view> _words;
+};
+
+constexpr std::string_view kOffLineEnds = "\n\r";
+constexpr std::string_view kBlanks = " \t\v";
+constexpr std::string_view kBlanksAndLineEnds = " \t\v\n\r";
+constexpr std::string_view kWordEnds = " \t\v\n\r#";
+
+bool OffKind::read(std::string_view word) {
+    // Programs write these parts in several orders; a vertex's numbers always have the same one.
+    const auto take = [&](std::string_view part, bool& has) {
+        if (has || word.substr(0, part.size()) != part) return false;
+        word.remove_prefix(part.size());
+        return has = true;
+    };
+    texCoords = colours = normals = divided = dimensions = false;
+    while (take("ST", texCoords) || take("C", colours) || take("N", normals) ||
+           take("4", divided) || take("n", dimensions)) {
+    }
+    return word == "OFF";
+}
+
+OffText::OffText(std::string_view text) : _rest(text.substr(byteOrderMark(text))) {}
+
+void OffText::skip(std::string_view characters) {
+    _rest.remove_prefix(std::min(_rest.size(), _rest.find_first_not_of(characters)));
+    while (!_rest.empty() && _rest.front() == '#') {
+        _rest.remove_prefix(std::min(_rest.size(), _rest.find_first_of(kOffLineEnds)));
+        _rest.remove_prefix(std::min(_rest.size(), _rest.find_first_not_of(characters)));
+    }
+}
+
+std::string_view OffText::word() {
+    skip(kBlanksAndLineEnds);
+    const std::string_view word = _rest.substr(0, _rest.find_first_of(kWordEnds));
+    _rest.remove_prefix(word.size());
+    return word;
+}
+
+const std::vector<std::string_view>& OffText::line() {
+    _words.clear();
+    for (std::string_view next = word(); !next.empty(); next = word()) {
+        _words.push_back(next);
+        skip(kBlanks);
+        if (_rest.empty() || kOffLineEnds.find(_rest.front()) != std::string_view::npos) break;
+    }
+    return _words;
+}
 
 const osg::Vec4 kGrey(0.6f, 0.6f, 0.6f, 1.0f);
 
@@ -86,7 +160,7 @@ private:
             _texCoords.push_back(end < n.size() ? glm::vec2(n[end], n[end + 1]) : glm::vec2(0.0f));
         if (!_kind.colours) return;
         glm::vec4 colour(1.0f);
-        if (end >= behind + 3) // one number is a colour's in a map that nobody has
+        if (end >= behind + 3) // a single number indexes a colour map that is not in the file
             for (std::size_t k = 0; k < 4 && behind + k < end; ++k)
                 colour[static_cast<int>(k)] = n[behind + k];
         _colours.push_back(colour);
@@ -138,7 +212,7 @@ private:
 CornerMesh readOffMesh(const std::string& path, const osgDB::Options* options) {
     const std::string text = readText(path, ReadLimits::of(options));
     if (text.find('\0') != std::string::npos) failFile(path, "a zero byte, expected text");
-    // Some take it for the end of a line, and some for a blank.
+    // Programs disagree on whether it ends a line.
     if (text.find('\f') != std::string::npos) failFile(path, "a form feed, expected lines of text");
     CornerMesh result = OffReader(path, text).run();
     Material material;

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/Pictures.h"
+
+#include "text/FileText.h"
+
+#include <osgSkin/Error>
+#include <osgSkinImport/SharePictures>
+
+#include <osg/UserDataContainer>
+#include <osgDB/FileNameUtils>
+#include <osgDB/Registry>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <system_error>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_ONLY_BMP
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_PNG
+#define STBI_ONLY_TGA
+#include <stb/stb_image.h>
+
+namespace osgSkin {
+namespace {
+
+constexpr int kLongestSide = 1 << 16; ///< in pixels
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+} // namespace
+
+SharedPictures* SharedPictures::of(const osgDB::Options* options) {
+    const osg::UserDataContainer* all =
+        options != nullptr ? options->getUserDataContainer() : nullptr;
+    if (all == nullptr) return nullptr;
+    for (unsigned i = 0; i < all->getNumUserObjects(); ++i)
+        if (const auto* found = dynamic_cast<const SharedPictures*>(all->getUserObject(i)))
+            return const_cast<SharedPictures*>(found); // options are const, but exist to share it
+    return nullptr;
+}
+
+osg::ref_ptr<osg::Image>
+SharedPictures::once(const std::string& path, const std::string& part,
+                     const std::function<osg::ref_ptr<osg::Image>()>& read) {
+    std::error_code failure;
+    const std::string file = std::filesystem::weakly_canonical(path, failure).string();
+    const auto [entry, isNew] = _files.emplace((failure ? path : file) + '\n' + part, Read());
+    Read& known = entry->second;
+    try {
+        if (isNew) known.image = read();
+    } catch (const Error& error) {
+        known.reason = error.what();
+    }
+    if (!known.reason.empty()) throw Error(known.reason);
+    return known.image;
+}
+
+osg::ref_ptr<osgDB::Options> sharePictures(const osgDB::Options* options) {
+    const osg::ref_ptr<osgDB::Options> result =
+        options != nullptr ? options->cloneOptions() : new osgDB::Options;
+    if (SharedPictures::of(result) != nullptr) return result;
+    // The copy has the container of the original.
+    if (const osg::UserDataContainer* all = result->getUserDataContainer())
+        result->setUserDataContainer(osg::clone(all, osg::CopyOp::SHALLOW_COPY));
+    result->getOrCreateUserDataContainer()->addUserObject(new SharedPictures);
+    return result;
+}
+
+PictureReader::PictureReader(const osgDB::Options* options)
+    : _limits(ReadLimits::of(options)),
+      _shared(SharedPictures::of(options) != nullptr ? SharedPictures::of(options)
+                                                     : new SharedPictures) {}
+
+bool PictureReader::decodes(const std::string& extension) {
+    static const char* const formats[] = {"bmp", "jpeg", "jpg", "png", "tga"};
+    return std::find(std::begin(formats), std::end(formats),
+                     osgDB::convertToLowerCase(extension)) != std::end(formats);
+}
+
+osg::ref_ptr<osg::Image> PictureReader::decode(const std::string& name, std::string_view bytes) {
+    if (bytes.size() > std::size_t(std::numeric_limits<int>::max()))
+        failFile(name, "a picture of " + std::to_string(bytes.size()) +
+                           " bytes, expected less than 2 GB");
+    const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    const int size = static_cast<int>(bytes.size());
+    int width = 0, height = 0, channels = 0;
+    const auto fail = [&] {
+        failFile(name, std::string("cannot be decoded as a picture: ") + stbi_failure_reason());
+    };
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) fail();
+    const std::string sides = std::to_string(width) + " x " + std::to_string(height);
+    if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide)
+        failFile(name, "a picture of " + sides + " pixels, expected 1 to " +
+                           std::to_string(kLongestSide) + " each way");
+    const double pixels = double(width) * height;
+    const double most =
+        std::max(0.0, double(_limits.pixelsOf(_shared->bytes + bytes.size())) - _shared->pixels);
+    if (pixels > most)
+        failFile(name, "a picture of " + sides + " pixels, expected at most " +
+                           std::to_string(static_cast<std::size_t>(most)) + " of four bytes" +
+                           (_shared->bytes > 0 ? " beside those before it" : "") +
+                           " (option maxPixels)");
+    _shared->pixels += pixels;
+    _shared->bytes += bytes.size();
+    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(
+        stbi_load_from_memory(data, size, &width, &height, &channels, 0), stbi_image_free);
+    if (!decoded) fail();
+    const GLenum formats[] = {GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_RGB, GL_RGBA};
+    const GLenum format = formats[std::clamp(channels, 1, 4) - 1];
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(width, height, 1, format, GL_UNSIGNED_BYTE);
+    const auto rowBytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+    for (int y = 0; y < height; ++y) // OpenSceneGraph's rows go upwards
+        std::copy_n(decoded.get() + rowBytes * static_cast<std::size_t>(height - 1 - y), rowBytes,
+                    image->data(0, static_cast<unsigned>(y)));
+    return image;
+}
+
+osg::ref_ptr<osg::Image> PictureReader::read(const std::string& name, const std::string& extension,
+                                             std::string_view bytes) {
+    if (decodes(extension)) return decode(name, bytes);
+    if (!contains(_limits.pictures, osgDB::convertToLowerCase(extension)))
+        failFile(name, "a picture within it in the format " + inQuotes(extension) +
+                           ", expected PNG, JPEG, BMP or TGA (option pictures)");
+    osgDB::ReaderWriter* reader =
+        osgDB::Registry::instance()->getReaderWriterForExtension(extension);
+    if (reader == nullptr) return nullptr;
+    std::istringstream stream{std::string(bytes)};
+    return reader->readImage(stream).getImage();
+}
+
+osg::ref_ptr<osg::Image>
+PictureReader::readFile(const std::string& path,
+                        const std::function<osg::ref_ptr<osg::Image>()>& otherwise) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    if (decodes(extension))
+        return decode(path, readWholeFile(path, _limits.fileMegabytes, "maxFileMB"));
+    if (!contains(_limits.pictures, extension)) _limits.checkFormat(path);
+    requireReadable(path, _limits);
+    return otherwise();
+}
+
+} // namespace osgSkin
