@@ -106,6 +106,11 @@ TEST(Pictures, ThatAreBrokenAreLeftOut) {
     expectRefused("hollow.png", png.substr(0, pixels - 4) + png.substr(end - 4), reason);
     expectRefused("short.jpg", "\xff\xd8\xff\xd9", reason);
     expectRefused("short.bmp", "BM", reason);
+    const std::string jpg = written("jpg");
+    const std::size_t table = jpg.find("\xff\xc4");
+    ASSERT_NE(table, std::string::npos);
+    expectRefused("table.jpg", with(jpg, table + 5, std::string(16, '\x7f')),
+                  "a Huffman table of more than 256 entries");
     // What the content says, and not the name, chooses among decoders; there is none for GIF.
     savePicture("named.png", written("jpg"));
     EXPECT_TRUE(drawnWith("named.png").image.valid());

@@ -11,6 +11,7 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -18,6 +19,10 @@
 #include <sstream>
 #include <system_error>
 
+// Zeroed memory: stb_image 2.27 reads Huffman tables that a file does not define.
+#define STBI_MALLOC(size) std::calloc(1, size)
+#define STBI_REALLOC(memory, size) std::realloc(memory, size)
+#define STBI_FREE(memory) std::free(memory)
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
@@ -34,6 +39,33 @@ constexpr int kLongestSide = 1 << 16; ///< in pixels
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether the Huffman tables of a JPEG image have at most 256 entries, which stb_image 2.27 does
+/// not check. True for other images.
+bool hasShortTables(std::string_view bytes) {
+    constexpr unsigned tables = 0xc4, firstRestart = 0xd0, imageEnd = 0xd9;
+    const auto byte = [&](std::size_t at) {
+        return at < bytes.size() ? static_cast<unsigned char>(bytes[at]) : 0u;
+    };
+    if (bytes.substr(0, 2) != "\xff\xd8") return true;
+    for (std::size_t at = 2; at + 4 <= bytes.size();) {
+        const unsigned marker = byte(at + 1);
+        if (byte(at) != 0xff || marker <= 1 || marker == 0xff ||
+            (marker >= firstRestart && marker <= imageEnd)) { // no segment begins here
+            ++at;
+            continue;
+        }
+        const std::size_t end = at + 2 + std::max(2u, byte(at + 2) << 8 | byte(at + 3));
+        for (std::size_t table = at + 4; marker == tables && table < end;) {
+            std::size_t entries = 0;
+            for (std::size_t length = 1; length <= 16; ++length) entries += byte(table + length);
+            if (entries > 256) return false;
+            table += 17 + entries;
+        }
+        at = end;
+    }
+    return true;
 }
 
 } // namespace
@@ -92,6 +124,8 @@ osg::ref_ptr<osg::Image> PictureReader::decode(const std::string& name, std::str
                            " bytes, expected less than 2 GB");
     const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
+    if (!hasShortTables(bytes))
+        failFile(name, "a JPEG image with a Huffman table of more than 256 entries");
     int width = 0, height = 0, channels = 0;
     const auto fail = [&] {
         failFile(name, std::string("cannot be decoded as a picture: ") + stbi_failure_reason());
