@@ -46,7 +46,7 @@ double smoothMinimum(double a, double b, double width) {
 
 /// Height of the hip above the ankle at which the leg is as straight as it may be.
 double reachableHeight(const RestLeg& leg, const glm::dvec3& hip, const glm::dvec3& ankle) {
-    const double most = leg.reach(radians(kLeastKnee));
+    const double most = leg.reach(radians(kMinKnee));
     const double across = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
     return std::sqrt(std::max(most * most - across * across, 0.01));
 }
@@ -74,7 +74,7 @@ void poseLeg(const Skeleton& skeleton, Side side, const FootTarget& foot, Pose& 
     const double b = glm::length(leg.shank);
     const glm::dvec3 span = foot.ankle - world.position[leg.hip];
     const double reach =
-        std::clamp(glm::length(span), leg.reach(radians(150)), leg.reach(radians(kLeastKnee)));
+        std::clamp(glm::length(span), leg.reach(radians(150)), leg.reach(radians(kMinKnee)));
     const double cosine = (reach * reach - a * a - b * b) / (2 * a * b);
     const double flexion = std::acos(std::clamp(cosine, -1.0, 1.0));
 

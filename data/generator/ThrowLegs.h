@@ -8,7 +8,7 @@ namespace mannequin {
 
 /// The least knee flexion, degrees: short of straight, where a small step of the hip needs a large
 /// one of the knee.
-constexpr double kLeastKnee = 7;
+constexpr double kMinKnee = 7;
 
 /// Lowers the root, smoothly, as far as needed for both legs to reach their feet.
 void lowerPelvis(const Skeleton& skeleton, const FootTarget& right, const FootTarget& left,

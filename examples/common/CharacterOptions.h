@@ -10,7 +10,7 @@
 
 namespace example {
 
-/// Adds the options that a `.skin` file has as members (`--shapes`, `--clear-hands`, ...), each
+/// Adds the options that a `.skin` file has as members (`--shapes`, `--avoid-body`, ...), each
 /// with its values, meaning and default from characterOptions().
 ///
 /// \param options set while `app` parses; must outlive that
@@ -28,6 +28,10 @@ inline void addCharacterOptions(CLI::App& app, osgSkin::LoadOptions& options) {
         app.add_option_function<std::string>(option.flag(), set, meaning)
             ->type_name(option.values)
             ->group("Options of the character, which override its file's");
+        if (option.formerWord.empty()) continue;
+        osgSkin::CharacterOption former;
+        former.word = option.formerWord;
+        app.add_option_function<std::string>(former.flag(), set)->group(""); // not in the help
     }
 }
 

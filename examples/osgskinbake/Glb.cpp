@@ -230,7 +230,7 @@ void GlbMaterials::finish(nlohmann::json& root) const {
 
 namespace {
 
-constexpr std::size_t kMostFrames = 4096; ///< a weight of each in each: 64 MB
+constexpr std::size_t kMaxFrames = 4096; ///< a weight of each in each: 64 MB
 
 std::vector<glm::dvec3> gather(const std::vector<glm::dvec3>& of,
                                const std::vector<std::uint32_t>& indices) {
@@ -253,9 +253,9 @@ std::vector<glm::dvec3> differences(const std::vector<glm::dvec3>& a,
 GlbMorphs::GlbMorphs(std::string file, const FrameSeries& series)
     : _file(std::move(file)), _series(series),
       _materials(_buffer, osgDB::getFilePath(series.character->meshFile)) {
-    if (series.count > kMostFrames)
+    if (series.count > kMaxFrames)
         throw osgSkin::Error(_file + ": " + std::to_string(series.count) +
-                             " frames, expected at most " + std::to_string(kMostFrames) +
+                             " frames, expected at most " + std::to_string(kMaxFrames) +
                              " in a .glb file, where weights grow with their square; bake fewer "
                              "(--frames A:B:STEP), or a .pc2 file");
     for (Surface& surface : surfacesOf(*series.character)) {

@@ -44,7 +44,7 @@ struct SampledMotion {
 /// animations with `rate` samples a second. They refer to `character`.
 std::vector<SampledMotion> sampledMotions(osgSkin::Character& character, double rate);
 
-constexpr double kMostSamples = 1e9;
+constexpr double kMaxSamples = 1e9;
 
 using osgSkin::Character;
 using osgSkin::CharacterMotion;
@@ -58,7 +58,7 @@ SampledMotion samplesAt(Character& character, const CharacterMotion& motion, dou
     // Files have times as floats, and those round.
     const double frames = motion.animation->getDuration() * rate;
     const double last = std::floor(frames + std::min(0.01, 1e-6 * (1.0 + frames)));
-    if (!(last < kMostSamples))
+    if (!(last < kMaxSamples))
         throw osgSkin::Error(character.file + ": motion \"" + motion.name() + "\" has " +
                              std::to_string(last) + " frames, expected less than 1e9");
     return {motion.name(),

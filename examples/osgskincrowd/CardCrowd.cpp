@@ -88,7 +88,7 @@ osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file,
     osgSkin::CrowdCharacter::Samples samples(skins.size());
     const std::size_t count = clip ? clip->sampleCount() : 1;
     for (std::size_t i = 0; i < count; ++i) {
-        if (clip) player->setTrack(0, {clip, double(i) * clip->step()});
+        if (clip) player->setLayer(0, {clip, double(i) * clip->step()});
         if (clip && !player->pose()) throw std::runtime_error(file + ": its clip poses no skin");
         for (std::size_t s = 0; s < skins.size(); ++s)
             samples[s].push_back(skins[s]->getPose().skinning());

@@ -94,7 +94,7 @@ Crowd::Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
         const CrowdCharacter& source = characters[i % characters.size()];
         const osgSkin::ClipCharacter::Instance copy = source.character->makeInstance(false);
         copy.player->setInterpolated(false);
-        copy.player->setTrack(0, {source.clip, static_cast<double>(phase) * source.clip->step()});
+        copy.player->setLayer(0, {source.clip, static_cast<double>(phase) * source.clip->step()});
         const osg::ref_ptr<osg::MatrixTransform> stand =
             new osg::MatrixTransform(osg::Matrix::translate(
                 static_cast<double>(width) * (column - 0.5 * static_cast<double>(side)),

@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
     CLI::App app("Many characters, each in its own phase of its own clip.", "osgskincrowd");
     std::vector<std::string> files = {std::string(OSGSKIN_DATA) + "/thrower.skin"};
     // From where one sees a crowd neither shows, and both take time.
-    std::string options = "shapes=none normals=turned";
+    std::string options = "shapes=none normals=rotated";
     std::string pictures;
     std::size_t count = 1000;
     unsigned int threads = 0;

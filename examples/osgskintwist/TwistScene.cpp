@@ -483,8 +483,8 @@ void TwistScene::setHelp(const std::string& lines) {
 namespace {
 
 constexpr double kStep = 5.0; ///< degrees a key press
-constexpr double kMostBend = 150.0;
-constexpr double kMostTwist = 330.0;
+constexpr double kMaxBend = 150.0;
+constexpr double kMaxTwist = 330.0;
 constexpr double kSwing = 170.0;     ///< of the twist's animation: short of the half turn's jump
 constexpr double kBendSeconds = 5.0; ///< there and back
 constexpr double kTwistSeconds = 7.0;
@@ -566,7 +566,7 @@ void TwistKeys::advance(double seconds) {
     TwistPose pose = _scene.pose();
     if (_bending) {
         _bendTime += seconds;
-        pose.bend = 0.5 * kMostBend * (1.0 - std::cos(2.0 * osg::PI * _bendTime / kBendSeconds));
+        pose.bend = 0.5 * kMaxBend * (1.0 - std::cos(2.0 * osg::PI * _bendTime / kBendSeconds));
     }
     if (_twisting) {
         _twistTime += seconds;
@@ -577,8 +577,8 @@ void TwistKeys::advance(double seconds) {
 
 void TwistKeys::turn(double bend, double twist) {
     const TwistPose& pose = _scene.pose();
-    _scene.setPose({std::clamp(pose.bend + bend, -kMostBend, kMostBend),
-                    std::clamp(pose.twist + twist, -kMostTwist, kMostTwist)});
+    _scene.setPose({std::clamp(pose.bend + bend, -kMaxBend, kMaxBend),
+                    std::clamp(pose.twist + twist, -kMaxTwist, kMaxTwist)});
 }
 
 } // namespace twist

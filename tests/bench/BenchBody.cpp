@@ -273,7 +273,7 @@ Body load(Kind kind) {
 }
 
 /// Finer than this, nothing is compared with osgAnimation: its weights would fill the memory.
-constexpr std::uint32_t kMostWeighted = 10;
+constexpr std::uint32_t kMaxWeighted = 10;
 
 Body refine(const Body& coarse, std::uint32_t parts) {
     const Subdivided mesh = subdivide(coarse.triangles, coarse.positions.size(), parts);
@@ -284,7 +284,7 @@ Body refine(const Body& coarse, std::uint32_t parts) {
     body.normals = blend(coarse.normals, mesh.vertices);
     for (glm::vec3& n : body.normals) n = glm::normalize(n);
     body.triangles = mesh.triangles;
-    if (parts <= kMostWeighted) body.weights = blend(coarse.weights, mesh.vertices);
+    if (parts <= kMaxWeighted) body.weights = blend(coarse.weights, mesh.vertices);
     bringIntoOrder(body);
     return body;
 }

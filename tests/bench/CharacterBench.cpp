@@ -143,7 +143,7 @@ public:
             if (copies) {
                 const auto copy = copies->makeInstance();
                 copy.player->setInterpolated(player != Player::Baked);
-                copy.player->setTrack(0, {clip, phase});
+                copy.player->setLayer(0, {clip, phase});
                 _scene->addChild(copy.node);
             } else if (player == Player::Skeleton) {
                 _scene->addChild(ownCharacter(body, model, phase));

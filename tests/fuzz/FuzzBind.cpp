@@ -11,7 +11,7 @@ namespace {
 
 using namespace osgSkin;
 
-constexpr std::uint32_t kMostJoints = 12, kMostVertices = 120;
+constexpr std::uint32_t kMaxJoints = 12, kMaxVertices = 120;
 
 class Bytes {
 public:
@@ -36,7 +36,7 @@ RestSkeleton skeletonOf(Bytes& bytes) {
     const char* names[] = {"Hips",    "Spine",    "LeftArm",   "LeftForeArm", "LeftHand", "Head",
                            "LeftLeg", "LeftFoot", "RightHand", "RightFoot",   "Neck",     "tail"};
     RestSkeleton skeleton;
-    const std::uint32_t count = 1 + bytes.number(kMostJoints - 1);
+    const std::uint32_t count = 1 + bytes.number(kMaxJoints - 1);
     for (std::uint32_t j = 0; j < count; ++j) {
         const int parent = j == 0 ? -1 : static_cast<int>(bytes.number(j - 1));
         skeleton.add(names[j], parent, bytes.point());
@@ -47,7 +47,7 @@ RestSkeleton skeletonOf(Bytes& bytes) {
 
 SkinMesh meshOf(Bytes& bytes) {
     SkinMesh mesh;
-    const std::uint32_t count = 3 + bytes.number(kMostVertices - 3);
+    const std::uint32_t count = 3 + bytes.number(kMaxVertices - 3);
     for (std::uint32_t v = 0; v < count; ++v) mesh.positions.push_back(bytes.point());
     while (!bytes.isEmpty()) {
         mesh.faceSizes.push_back(3);

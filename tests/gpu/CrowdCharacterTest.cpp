@@ -29,10 +29,10 @@ osg::ref_ptr<osgSkin::DeformableSkin> skinOfLargePalettes() {
     breath.basis = osgSkin::CorrectiveJoint::Basis::Input;
     breath.low.x = -1.0;
     breath.high.x = 1.0;
-    breath.modes = osgSkin::CorrectiveJoint::kMostModes;
+    breath.modes = osgSkin::CorrectiveJoint::kMaxModes;
     breath.coefficients.assign(breath.modes, 0.1);
     correctives.inputs = {"breath"};
-    correctives.joints.assign(osgSkin::Correctives::kMostJoints, breath);
+    correctives.joints.assign(osgSkin::Correctives::kMaxJoints, breath);
     correctives.firstEntry.assign(tube.positions.size() + 1, 1);
     correctives.firstEntry.front() = 0;
     correctives.entries = {{0, 0}};

@@ -87,7 +87,7 @@ TEST(GpuSkinState, WhatIsDrawnUsesVertexArrayObjectsAsTheSkinDoes) {
         skin->setUseVertexArrayObject(used);
         test::bend(*skin, used ? 0.4 : 0.7);
         stage.draw();
-        const osg::Geometry* drawn = skin->getDrawer()->cull(*skin, *stage.cullVisitor());
+        const osg::Geometry* drawn = skin->getDrawBackend()->cull(*skin, *stage.cullVisitor());
         ASSERT_TRUE(drawn);
         EXPECT_EQ(drawn->getUseVertexArrayObject(), used);
     }
@@ -102,11 +102,11 @@ TEST(GpuOption, SwitchesTheReadersSkins) {
         ASSERT_TRUE(scene);
         ASSERT_FALSE(test::skinsIn(*scene).empty());
         for (const auto& skin : test::skinsIn(*scene)) {
-            EXPECT_EQ(skin->getDrawer() != nullptr, std::string(option) == "gpu=on");
+            EXPECT_EQ(skin->getDrawBackend() != nullptr, std::string(option) == "gpu=on");
             const osg::ref_ptr<osgSkin::DeformableSkin> copy =
                 osg::clone(skin.get(), osg::CopyOp::SHALLOW_COPY);
-            EXPECT_EQ(copy->getDrawer() != nullptr, skin->getDrawer() != nullptr);
-            EXPECT_TRUE(!copy->getDrawer() || copy->getDrawer() != skin->getDrawer());
+            EXPECT_EQ(copy->getDrawBackend() != nullptr, skin->getDrawBackend() != nullptr);
+            EXPECT_TRUE(!copy->getDrawBackend() || copy->getDrawBackend() != skin->getDrawBackend());
         }
     }
     EXPECT_FALSE(osgDB::readRefNodeFile(file, new osgDB::Options("gpu=perhaps")));

@@ -74,7 +74,7 @@ int headOf(const osgSkin::RestSkeleton& rig) {
 
 void measureOwnership(const MeasuredSkin& skin, const std::vector<VertexShares>& painted,
                       RiggerFigures& figures) {
-    constexpr std::ptrdiff_t kLeastVertices = 20; // of a joint that counts
+    constexpr std::ptrdiff_t kMinVertices = 20; // of a joint that counts
     const std::size_t count = skin.subject.rest.size();
     const int head = headOf(skin.subject.rig);
     std::vector<bool> inside(count, false), outside(count, false);
@@ -85,7 +85,7 @@ void measureOwnership(const MeasuredSkin& skin, const std::vector<VertexShares>&
         const bool isThere =
             std::any_of(ratios.begin(), ratios.end(), [](double a) { return a > 0.0; }) &&
             std::count_if(wanted.begin(), wanted.end(), [](double w) { return w > 0.99; }) >=
-                kLeastVertices;
+                kMinVertices;
         std::size_t missing = 0, own = 0, whole = 0;
         for (std::size_t v = 0; v < count; ++v) {
             const bool isOwn = wanted[v] > 0.99;

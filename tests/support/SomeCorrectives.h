@@ -88,7 +88,7 @@ inline glm::dvec3 correctionOf(const osgSkin::Binding& binding, const osgSkin::P
     glm::dvec3 sum(0.0);
     for (std::uint32_t i = from.firstEntry[vertex]; i < from.firstEntry[vertex + 1]; ++i) {
         const osgSkin::CorrectiveJoint& joint = from.joints[from.entries[i].joint];
-        double beta[osgSkin::CorrectiveJoint::kMostModes];
+        double beta[osgSkin::CorrectiveJoint::kMaxModes];
         if (joint.basis == osgSkin::CorrectiveJoint::Basis::Input) {
             const double x = double(pose.input(joint.joint));
             for (std::size_t k = 0; k < joint.modes; ++k)

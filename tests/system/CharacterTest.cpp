@@ -187,7 +187,7 @@ TEST_P(LoadedCharacter, BakedBoundsHoldTheSkinBetweenSamples) {
     constexpr int kTimes = 500; // at no even step
     double mean = 0.0;
     for (int i = 0; i < kTimes; ++i) {
-        copy.player->setTrack(0, {clip, std::fmod(0.618034 * i, 1.0) * clip->duration()});
+        copy.player->setLayer(0, {clip, std::fmod(0.618034 * i, 1.0) * clip->duration()});
         ASSERT_TRUE(copy.player->pose());
         const double ratio = looseness(skin);
         ASSERT_GT(ratio, 0.0) << i;

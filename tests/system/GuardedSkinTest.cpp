@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 
 const std::string kPlainCharacter = OSGSKIN_TEST_DATA "/character/";
 #if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
-constexpr double kMostSeconds = 40.0; ///< of this program's own
+constexpr double kMaxSeconds = 40.0; ///< of this program's own
 #else
-constexpr double kMostSeconds = 8.0;
+constexpr double kMaxSeconds = 8.0;
 #endif
 
 class GuardedSkin : public testing::Test {
@@ -36,7 +36,7 @@ public:
             fs::copy_file(kPlainCharacter + part, folder + "/" + part);
     }
     ~GuardedSkin() override {
-        EXPECT_LT(double(std::clock() - _begin) / CLOCKS_PER_SEC, kMostSeconds);
+        EXPECT_LT(double(std::clock() - _begin) / CLOCKS_PER_SEC, kMaxSeconds);
     }
 
     std::string save(const std::string& name, const std::string& content) const {

@@ -245,7 +245,7 @@ TEST(LoadCharacter, IsDrawnByTheProcessorUnlessToldOtherwise) {
         const Character character = loadCharacter(kGood, options);
         ASSERT_FALSE(character.skin.skins.empty());
         for (const auto& skin : character.skin.skins)
-            EXPECT_EQ(skin.drawable->getDrawer() != nullptr, gpu);
+            EXPECT_EQ(skin.drawable->getDrawBackend() != nullptr, gpu);
     }
 }
 

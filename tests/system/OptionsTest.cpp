@@ -71,12 +71,12 @@ TEST(Options, TakeEachOfTheirValuesAndNoOther) {
 }
 
 TEST(Options, OfTheCallerGoBeforeTheFiles) {
-    const osgSkin::LoadOptions file = test::loadOptions("bind=paper shapes=fast clearHands=on");
+    const osgSkin::LoadOptions file = test::loadOptions("bind=paper shapes=fast avoidBody=on");
     osgSkin::LoadOptions options = test::loadOptions("shapes=none muscles=on");
     osgSkin::completeOptions(options, file);
     EXPECT_EQ(options.method, osgSkin::LoadOptions::Method::Paper);
     EXPECT_EQ(options.shapes, osgSkin::BindOptions::Shapes::None);
-    EXPECT_EQ(options.clearHands, true);
+    EXPECT_EQ(options.avoidBody, true);
     EXPECT_EQ(options.muscles, true);
     EXPECT_EQ(options.rigid, std::nullopt);
     EXPECT_EQ(options.surfaceNormals, std::nullopt);
@@ -87,7 +87,7 @@ TEST(Options, OfFilesAreOptionsOfPrograms) {
         const std::string help = test::runCommand(program + " --help", ".").out;
         for (const CharacterOption& option : osgSkin::characterOptions()) {
             // Programs have meanings of their own for these.
-            if (option.word == "motion" || option.word == "pictures") continue;
+            if (option.word == "motion") continue;
             EXPECT_EQ(help.find("\n  " + option.flag() + " ") != std::string::npos, option.isMember)
                 << program << " " << option.flag();
         }
@@ -96,6 +96,6 @@ TEST(Options, OfFilesAreOptionsOfPrograms) {
 
 TEST(Options, AreSpeltWithHyphensByPrograms) {
     CharacterOption option;
-    option.word = "clearHands";
-    EXPECT_EQ(option.flag(), "--clear-hands");
+    option.word = "avoidBody";
+    EXPECT_EQ(option.flag(), "--avoid-body");
 }

@@ -40,7 +40,7 @@ JointShapes shapesOfHinge() {
 }
 
 glm::dvec3 fittedAt(const FittedShapes& fit, std::size_t vertex, const glm::dvec2& xy) {
-    double beta[CorrectiveJoint::kMostModes];
+    double beta[CorrectiveJoint::kMaxModes];
     fit.functions.weights(xy, beta);
     glm::dvec3 sum(0.0);
     for (std::size_t k = 0; k < fit.functions.modes; ++k)

@@ -17,7 +17,7 @@ using namespace osgSkin;
 
 namespace {
 
-const ShapePit pit{{1.5, 2.25}, {0.0, 1.0, 0.0}}; // the trunk is below
+const Armpit pit{{1.5, 2.25}, {0.0, 1.0, 0.0}}; // the trunk is below
 
 /// The farthest vertices that a joint's shapes move while its pit is closed, in radii: where they
 /// lean to the trunk by over 30 degrees from the plane across the limb, and on the other side.
@@ -69,7 +69,7 @@ TEST(ShapeReach, IsLessTowardsThePit) {
 
 TEST(ShapeReach, IsTheSameAllAroundWithoutAPit) {
     const ShapeReach reach{2.0, 4.0};
-    const ShapePit none{{1.5, 2.25}};
+    const Armpit none{{1.5, 2.25}};
     EXPECT_EQ(reachTowards({0.0, -1.0, 0.0}, reach, none).end, 4.0);
     EXPECT_EQ(reachTowards({0.0, 0.0, 0.0}, reach, pit).end, 4.0); // the joint itself
 }
@@ -80,7 +80,7 @@ TEST(ShapeReach, APitIsOpenWhereTheLimbIsRaised) {
     joint.twistAxis = joint.bone = {1.0, 0.0, 0.0}; // sideways
     joint.away = {0.0, 1.0, 0.0};
     const auto closedAt = [&](double degrees) { // raised by so many
-        return joint.pitClosedAt(
+        return joint.armpitClosure(
             joint.bendAt({std::sin(0.5 * degrees / 180.0 * std::acos(-1.0)), 0.0}));
     };
     EXPECT_EQ(closedAt(60.0), 0.0);

@@ -87,7 +87,7 @@ TEST(Twist, PoleFollowsTheOption) {
                           Case{JointBindOptions::Pole::Parent, above},
                           Case{JointBindOptions::Pole::Child, below}}) {
         BindOptions options;
-        options.joints["Hand"].twistPole = c.pole;
+        options.joints["Hand"].twistAxis = c.pole;
         const Binding binding = bind(arm(), skeleton, options);
         EXPECT_LT(glm::distance(binding.joints[3].twistAxis, c.axis), 1e-12);
         EXPECT_LT(glm::distance(binding.joints[3].boneAxis, below), 1e-12);

@@ -100,7 +100,7 @@ struct Sheet {
     double shareAt(double x, double y) const {
         const auto v = static_cast<std::size_t>(std::lround(10.0 * (y + 1.0)) * 21 +
                                                 std::lround(10.0 * (x + 1.0)));
-        return slopeShare(WeldedMesh(mesh), field)[v];
+        return gradientFactor(WeldedMesh(mesh), field)[v];
     }
 };
 
@@ -125,14 +125,14 @@ TEST(UnseenBodies, LongForearmsLeaveUpperArmsRigid) {
         EXPECT_GT(upperArmRigidity(withForearms(KnownBody::thrower(), factor)), 0.965) << factor;
 }
 
-TEST(SlopeShare, IsOneWhereASlopeIsEven) {
+TEST(GradientFactor, IsOneWhereASlopeIsEven) {
     const Sheet even([](const glm::dvec3& p) { return 0.5 + 0.4 * p.x; });
     EXPECT_NEAR(even.shareAt(0.0, 0.0), 1.0, 1e-9);
     const Sheet flat([](const glm::dvec3&) { return 1.0; });
     EXPECT_EQ(flat.shareAt(0.0, 0.0), 1.0);
 }
 
-TEST(SlopeShare, SaysHowMuchSteeperASlopeIsThanAtLarge) {
+TEST(GradientFactor, SaysHowMuchSteeperASlopeIsThanAtLarge) {
     // Rises within two units at the lower edge, within one at the upper: half again as steep in
     // the mean, so a third steeper than that at the one, and not below 1 at the other.
     const Sheet fan([](const glm::dvec3& p) {

@@ -48,8 +48,8 @@ TEST(FootRoll, BeyondARightAngleIsTakenBack) {
                   1e-6)
             << f;
     }
-    EXPECT_EQ(report.entries[kFoot].rolledOver, 180u); // 91 to 180 degrees, both ways
-    EXPECT_EQ(report.entries[kFoot - 1].rolledOver, 0u);
+    EXPECT_EQ(report.entries[kFoot].flippedFrames, 180u); // 91 to 180 degrees, both ways
+    EXPECT_EQ(report.entries[kFoot - 1].flippedFrames, 0u);
     EXPECT_NE(report.text().find("upside down in 180 samples"), std::string::npos);
 }
 
@@ -87,13 +87,13 @@ TEST(FootRoll, OfTheDancerIsWhatAnAnkleCan) {
     for (const char* name : {"LeftFoot", "RightFoot"}) {
         std::size_t foot = 0;
         while (rig.joints.at(foot).name != name) ++foot;
-        EXPECT_GT(report.entries[foot].rolledOver, clip.frames / 2);
+        EXPECT_GT(report.entries[foot].flippedFrames, clip.frames / 2);
         std::size_t wrung = 0;
         for (std::size_t f = 0; f < clip.frames; ++f)
             if (angleBetween(glm::dquat(1, 0, 0, 0), clip.rotations[f * clip.joints + foot]) > 90.0)
                 ++wrung;
         // What is left are the samples in which the file bends the foot back as well.
-        EXPECT_LT(wrung, report.entries[foot].rolledOver / 7) << name;
+        EXPECT_LT(wrung, report.entries[foot].flippedFrames / 7) << name;
     }
 }
 

@@ -28,15 +28,15 @@ using test::GltfColumn;
 
 /// Of this program's own.
 #ifdef __SANITIZE_ADDRESS__ // which takes five times as long
-constexpr double kMostSeconds = 24.0;
+constexpr double kMaxSeconds = 24.0;
 #else
-constexpr double kMostSeconds = 8.0;
+constexpr double kMaxSeconds = 8.0;
 #endif
 
 class GuardedTime : public testing::Test {
 public:
     ~GuardedTime() override {
-        EXPECT_LT(double(std::clock() - _begin) / CLOCKS_PER_SEC, kMostSeconds);
+        EXPECT_LT(double(std::clock() - _begin) / CLOCKS_PER_SEC, kMaxSeconds);
     }
 
     /// Adds nodes below the root joint.

@@ -4,7 +4,7 @@
 #include "PictureFiles.h"
 
 #include <osgSkinImport/ReadScene>
-#include <osgSkinImport/SharePictures>
+#include <osgSkinImport/ShareImages>
 
 #include <osg/Group>
 
@@ -173,13 +173,13 @@ TEST(Pictures, OfMeshesThatAreReadTogetherCountTogether) {
                       second = saveMesh("picture_second", {"./picture_ours.png"}),
                       third = saveMesh("picture_third", {"picture_theirs.png"});
     const osg::ref_ptr<osgDB::Options> words = new osgDB::Options(optionFor(1));
-    const osg::ref_ptr<osgDB::Options> together = osgSkin::sharePictures(words);
-    EXPECT_EQ(osgSkin::sharePictures(nullptr)->getOptionString(), "");
+    const osg::ref_ptr<osgDB::Options> together = osgSkin::shareImages(words);
+    EXPECT_EQ(osgSkin::shareImages(nullptr)->getOptionString(), "");
     const Images before = imagesOf(first, together), again = imagesOf(second, together);
     EXPECT_EQ(before.drawn, 1u);
     EXPECT_EQ(before.all, again.all);
     const test::Notices notices;
-    EXPECT_EQ(imagesOf(third, osgSkin::sharePictures(together)).drawn, 0u);
+    EXPECT_EQ(imagesOf(third, osgSkin::shareImages(together)).drawn, 0u);
     EXPECT_TRUE(notices.say("beside those before it (option maxPixels)")) << notices.text();
     // What the caller has counts nothing.
     EXPECT_EQ(words->getUserDataContainer(), nullptr);
@@ -188,7 +188,7 @@ TEST(Pictures, OfMeshesThatAreReadTogetherCountTogether) {
 
 TEST(Pictures, ThatAreBrokenAreToldOfByEachMesh) {
     savePicture("picture_broken.png", "no picture");
-    const osg::ref_ptr<osgDB::Options> together = osgSkin::sharePictures(nullptr);
+    const osg::ref_ptr<osgDB::Options> together = osgSkin::shareImages(nullptr);
     for (const char* name : {"picture_one", "picture_other"}) {
         const std::string path = saveMesh(name, {"picture_broken.png"});
         const test::Notices notices;

@@ -243,7 +243,7 @@ TEST(JointNames, TheCallerMayAddAFamily) {
         joint.name = robot.count(joint.name) != 0 ? robot.at(joint.name) : "part " + joint.name;
     RetargetReport shape; // of names that say nothing, which the skeleton's shape makes up for
     osgSkin::retarget(motion, rig, {}, &shape);
-    EXPECT_EQ(shape.rigNames, osgSkin::kToldByShape);
+    EXPECT_EQ(shape.rigNames, osgSkin::kInferredFromGeometry);
 
     RetargetOptions options;
     options.names.push_back({"robot",

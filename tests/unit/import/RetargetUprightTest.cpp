@@ -250,7 +250,7 @@ TEST(UprightStrangers, IsToldByTheShape) {
         motion.skeleton.joints[j].name = "part" + std::to_string(j);
     RetargetReport report;
     osgSkin::retarget(motion, turned(motion.skeleton, turnDegrees(90, kUp)), {}, &report);
-    EXPECT_EQ(report.rigNames, osgSkin::kToldByShape);
+    EXPECT_EQ(report.rigNames, osgSkin::kInferredFromGeometry);
     EXPECT_LT(angleBetween(report.rotation, turnDegrees(90, kUp)), 1e-5);
 }
 

@@ -90,7 +90,7 @@ TEST(RigTrust, PlayersTakeNoDirectionThatIsNone) {
     const osg::ref_ptr<osgSkin::ClipPlayer> player = new osgSkin::ClipPlayer;
     const osg::ref_ptr<osg::MatrixTransform> shown = new osg::MatrixTransform;
     player->addRigid(shown, "root", osg::Matrixd());
-    player->setTrack(0, {osgSkin::SampledClip::create(clip, rig), 0.1});
+    player->setLayer(0, {osgSkin::SampledClip::create(clip, rig), 0.1});
     player->setRoot(osgSkin::ClipPlayer::Root::InPlace, osg::Vec3d(kNaN, 0, 0));
     EXPECT_TRUE(player->pose());
     EXPECT_EQ(shown->getMatrix().getTrans(), osg::Vec3d(0, 1, 0)) << "up along y, as by default";

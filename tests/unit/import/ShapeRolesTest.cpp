@@ -71,7 +71,7 @@ TEST_P(ShapeRoles, TellsTheMainJoints) {
     if (missing()) GTEST_SKIP() << "needs " << GetParam();
     const RestSkeleton standing = body();
     const JointRoles told = recogniseJoints(nameless(standing));
-    EXPECT_EQ(told.family, kToldByShape);
+    EXPECT_EQ(told.family, kInferredFromGeometry);
     EXPECT_EQ(wrongByShape(standing, told), "");
 }
 
@@ -150,7 +150,7 @@ TEST(ShapeRolesOf, TheReportSaysWhatTheShapeTold) {
     const RestSkeleton body = nameless(importSkeleton(OSGSKIN_DATA "/thrower.bvh"));
     RetargetReport report;
     retarget(importMotion(OSGSKIN_DATA "/throw.bvh"), body, {}, &report);
-    EXPECT_EQ(report.rigNames, kToldByShape);
+    EXPECT_EQ(report.rigNames, kInferredFromGeometry);
     ASSERT_FALSE(report.notes.empty());
     EXPECT_NE(report.notes[0].find("told by its shape"), std::string::npos) << report.notes[0];
     EXPECT_NE(report.text().find("names: rig none (told by shape), motion CMU"), std::string::npos);

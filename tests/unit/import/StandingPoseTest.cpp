@@ -23,7 +23,7 @@ const glm::dquat kIdentity(1, 0, 0, 0);
 
 /// The same movements, counted from another zero pose: `world` has the rotations of the joints to
 /// it. The joints' frames turn along where `withFrames`, as a file with axes of its own has them.
-Motion countedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
+Motion rebasedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
                    bool withFrames = false) {
     Motion result = motion;
     for (std::size_t j = 0; j < world.size(); ++j) {
@@ -159,11 +159,11 @@ protected:
 } // namespace
 
 TEST_F(StandingPose, AFoldedZeroPoseIsReplacedByASample) {
-    expectLikeTheActor(throughBvh(countedFrom(actor, folded(joints))), "counted from sample");
+    expectLikeTheActor(throughBvh(rebasedFrom(actor, folded(joints))), "counted from sample");
 }
 
 TEST_F(StandingPose, BonesAlongOneAxisAreReplacedByASample) {
-    expectLikeTheActor(throughBvh(countedFrom(actor, alongOneAxis(actor.skeleton))),
+    expectLikeTheActor(throughBvh(rebasedFrom(actor, alongOneAxis(actor.skeleton))),
                        "counted from sample");
 }
 
@@ -173,7 +173,7 @@ TEST_F(StandingPose, ACalibrationPoseGoesFirst) {
     calibrated.rotations.insert(calibrated.rotations.begin() + std::ptrdiff_t(40 * joints), joints,
                                 kIdentity);
     calibrated.rootPositions.insert(calibrated.rootPositions.begin() + 40, actor.rootPositions[0]);
-    const Motion motion = throughBvh(countedFrom(calibrated, folded(joints, 3)));
+    const Motion motion = throughBvh(rebasedFrom(calibrated, folded(joints, 3)));
     RetargetReport report;
     retarget(motion, rig, {}, &report);
     EXPECT_TRUE(saysOf(report, "counted from sample 40,")) << report.text().substr(0, 600);
@@ -240,14 +240,14 @@ TEST_F(StandingPose, WhoNeverStandsIsRefusedWithAReason) {
             at("UpLeg") = turnDegrees(-100, {1, 0, 0});
             at("Leg") = turnDegrees(120, {1, 0, 0});
         }
-    const Motion motion = throughBvh(countedFrom(sitting, folded(joints)));
+    const Motion motion = throughBvh(rebasedFrom(sitting, folded(joints)));
     expectError([&] { retarget(motion, rig); }, "does not stand");
     expectError([&] { retarget(motion, rig); }, "such as a T-pose");
     EXPECT_NO_THROW(retarget(sitting, rig)) << "its zero pose stands";
 }
 
 TEST_F(StandingPose, TheSameFoldedSkeletonGetsItsRotationsCopied) {
-    const Motion motion = throughBvh(countedFrom(actor, folded(joints)));
+    const Motion motion = throughBvh(rebasedFrom(actor, folded(joints)));
     RestSkeleton same = motion.skeleton;
     RetargetReport report;
     const Clip clip = retarget(motion, same, {}, &report);
@@ -261,7 +261,7 @@ TEST_F(StandingPose, TheSameFoldedSkeletonGetsItsRotationsCopied) {
 
 /// A file with the animation only rests in any pose; its joints' axes are the character's.
 TEST_F(StandingPose, TheSameJointsInAnotherPoseMoveLikeTheirOwn) {
-    const Motion motion = countedFrom(actor, folded(joints), true);
+    const Motion motion = rebasedFrom(actor, folded(joints), true);
     RetargetReport ours, theirs;
     const Clip expected = retarget(actor, rig, {}, &ours);
     const Clip clip = retarget(motion, rig, {}, &theirs);
@@ -302,7 +302,7 @@ TEST_F(StandingPose, AGltfWithAnimationOnlyMovesItsCharacter) {
 
 /// Names that say nothing, on a skeleton that is folded: the rig's shape tells for both.
 TEST_F(StandingPose, TheRigsShapeTellsWhatTheMotionsJointsAre) {
-    Motion motion = countedFrom(actor, folded(joints));
+    Motion motion = rebasedFrom(actor, folded(joints));
     RestSkeleton nameless = rig;
     for (std::size_t j = 0; j < joints; ++j)
         motion.skeleton.joints[j].name = nameless.joints[j].name = "b" + std::to_string(j);
@@ -315,14 +315,14 @@ TEST_F(StandingPose, TheRigsShapeTellsWhatTheMotionsJointsAre) {
 /// Max's Biped writes a zero pose that stands along z, and frames along y.
 TEST_F(StandingPose, AZeroPoseThatLiesIsReplacedByASample) {
     const std::vector<glm::dquat> lying(joints, turnDegrees(90, {1, 0, 0}));
-    expectLikeTheActor(throughBvh(countedFrom(actor, lying)), "zero pose lies");
+    expectLikeTheActor(throughBvh(rebasedFrom(actor, lying)), "zero pose lies");
 }
 
 TEST_F(StandingPose, AZeroPoseThatLiesIsReplacedWhereTheActorStaysInPlaceToo) {
     Motion inPlace = actor;
     for (glm::dvec3& position : inPlace.rootPositions) position = glm::dvec3(0.0);
     const std::vector<glm::dquat> lying(joints, turnDegrees(-90, {1, 0, 0}));
-    const Motion motion = countedFrom(inPlace, lying);
+    const Motion motion = rebasedFrom(inPlace, lying);
     RetargetReport report;
     const Clip clip = retarget(motion, rig, {}, &report);
     EXPECT_TRUE(saysOf(report, "zero pose lies"));
@@ -361,7 +361,7 @@ TEST_F(StandingPose, AZeroPoseThatNoSampleStandsAlongIsToldOf) {
     const std::vector<glm::dquat> lying(joints, turnDegrees(90, {1, 0, 0}));
     for (const bool lies : {false, true}) {
         RetargetReport report;
-        retarget(lies ? countedFrom(crouches, lying) : crouches, broad, {}, &report);
+        retarget(lies ? rebasedFrom(crouches, lying) : crouches, broad, {}, &report);
         EXPECT_EQ(saysOf(report, "he lies, or the zero pose does"), lies) << report.text();
     }
 }
@@ -379,7 +379,7 @@ TEST_F(StandingPose, WhoGetsUpDoesSoWhereYIsUp) {
     RestSkeleton broad = rig; // another body
     for (RestJoint& joint : broad.joints) joint.centre.x *= 1.3;
     const std::vector<glm::dquat> lying(joints, turnDegrees(-90, {1, 0, 0}));
-    Motion motion = countedFrom(getsUp, lying);
+    Motion motion = rebasedFrom(getsUp, lying);
     EXPECT_GT(compare(retarget(motion, broad), broad, getsUp).heads, 45.0);
     motion.yIsUp = true;
     for (const RestSkeleton& body : {broad, rig}) {

@@ -23,7 +23,7 @@ TEST(ClipPlayer, RigidPartsMayStandInGroupsBelowTheirBones) {
     bone.replaceChild(character.rigid, group);
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto copy = copies->makeInstance();
-    copy.player->setTrack(0, {copies->sample(*copies->animations().front(), 30.0), 4.0 * kFrame});
+    copy.player->setLayer(0, {copies->sample(*copies->animations().front(), 30.0), 4.0 * kFrame});
     ASSERT_TRUE(copy.player->pose());
     character.update(1.0 + 4.0 * kFrame); // the manager starts at its first update
     character.update(4.0 * kFrame);
@@ -53,7 +53,7 @@ TEST(ClipPlayer, BakedBoundsHoldTheSkinBetweenSamples) {
         double mean = 0.0;
         constexpr int kTimes = 400;
         for (int i = 0; i < kTimes; ++i) {
-            copy.player->setTrack(0, {clip, at(random) * clip->duration(), 1.0, i % 2 == 0});
+            copy.player->setLayer(0, {clip, at(random) * clip->duration(), 1.0, i % 2 == 0});
             osg::BoundingBox tight;
             for (const osg::Vec3& p : posedBy(*copy.player, skin)) {
                 ASSERT_TRUE(skin.getBoundingBox().contains(p)) << speed;
@@ -161,8 +161,8 @@ TEST(ClipPlayer, BlendsBetweenBakedClipsAreBoundedToo) {
             ASSERT_TRUE(skin.getBoundingBox().contains(p, 1e-5f));
     };
     for (int i = 0; i < 60; ++i) {
-        copy.player->setTrack(0, {slow, 0.013 * i});
-        copy.player->setTrack(1, {fast, 0.017 * i});
+        copy.player->setLayer(0, {slow, 0.013 * i});
+        copy.player->setLayer(1, {fast, 0.017 * i});
         for (const double weight : {0.0, 0.4, 1.0}) {
             copy.player->setWeight(weight);
             expectHeld();

@@ -119,7 +119,7 @@ TEST(ClipPlayer, PosesAsTheSkeletonDoes) {
             character.update(double(f) * kFrame);
             for (const bool interpolated : {true, false}) {
                 copy.player->setInterpolated(interpolated);
-                copy.player->setTrack(0, {played, double(f) * kFrame});
+                copy.player->setLayer(0, {played, double(f) * kFrame});
                 const Vertices here = posedBy(*copy.player, skin);
                 ASSERT_LE(difference(here, verticesOf(*character.skin)), 1e-6 * kSize) << f;
                 for (const osg::Vec3& p : here)
@@ -146,8 +146,8 @@ TEST(ClipPlayer, PosesWhatItIsGiven) {
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto copy = copies->makeInstance();
     for (int i = 0; i < 20; ++i) {
-        player->setTrack(0, {played, 0.021 * i});
-        copy.player->setTrack(0, {played, 0.021 * i});
+        player->setLayer(0, {played, 0.021 * i});
+        copy.player->setLayer(0, {played, 0.021 * i});
         const Vertices expected = posedBy(*copy.player, skinOf(*copy.node));
         EXPECT_LE(difference(posedBy(*player, *character.skin), expected), 1e-6 * kSize);
     }
@@ -163,9 +163,9 @@ TEST(ClipPlayer, AJointThatTheClipHasNotGoesWithItsParent) {
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(character.skin);
     for (int i = 1; i < 10; ++i) {
-        player->setTrack(0, {SampledClip::create(whole, character.rig), 0.03 * i});
+        player->setLayer(0, {SampledClip::create(whole, character.rig), 0.03 * i});
         const Vertices expected = posedBy(*player, *character.skin);
-        player->setTrack(0, {SampledClip::create(without, sparse), 0.03 * i});
+        player->setLayer(0, {SampledClip::create(without, sparse), 0.03 * i});
         EXPECT_LE(difference(posedBy(*player, *character.skin), expected), 1e-6 * kSize) << i;
     }
 }
@@ -178,18 +178,18 @@ TEST(ClipPlayer, BlendsWithClipsOfFewerJoints) {
     const Character character(whole);
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(character.skin);
-    const ClipPlayer::Track tracks[] = {{SampledClip::create(whole, character.rig), 0.21},
+    const ClipPlayer::Layer tracks[] = {{SampledClip::create(whole, character.rig), 0.21},
                                         {SampledClip::create(without, sparse), 0.13}};
     for (const std::size_t first : {0u, 1u}) {
         Vertices alone[2];
         for (const std::size_t t : {0u, 1u}) {
-            player->setTrack(1, {});
-            player->setTrack(0, tracks[t == 0 ? first : 1 - first]);
+            player->setLayer(1, {});
+            player->setLayer(0, tracks[t == 0 ? first : 1 - first]);
             alone[t] = posedBy(*player, *character.skin);
         }
         ASSERT_GT(difference(alone[0], alone[1]), 0.1);
-        player->setTrack(0, tracks[first]);
-        player->setTrack(1, tracks[1 - first]);
+        player->setLayer(0, tracks[first]);
+        player->setLayer(1, tracks[1 - first]);
         for (const double weight : {0.0, 1e-4, 0.5, 1.0 - 1e-4, 1.0}) {
             player->setWeight(weight);
             const Vertices here = posedBy(*player, *character.skin);
@@ -220,9 +220,9 @@ TEST(ClipPlayer, LoopsWithoutASeam) {
     copy.player->setRoot(ClipPlayer::Root::InPlace);
     for (const double seam :
          {0.0, clip->duration(), -clip->duration(), clip->duration() - kFrame}) {
-        copy.player->setTrack(0, {clip, seam - 1e-6});
+        copy.player->setLayer(0, {clip, seam - 1e-6});
         const Vertices before = posedBy(*copy.player, skin);
-        copy.player->setTrack(0, {clip, seam + 1e-6});
+        copy.player->setLayer(0, {clip, seam + 1e-6});
         EXPECT_LE(difference(posedBy(*copy.player, skin), before), 1e-3);
         EXPECT_GT(difference(verticesOf(skin), verticesOf(skin.getRestGeometry())), 0.1);
     }
@@ -234,22 +234,22 @@ TEST(ClipPlayer, GoesForwardBackwardAndStands) {
     const auto clip = SampledClip::create(someClip(12, 0.8), character.rig);
     const auto copy = copies->makeInstance();
     osgSkin::DeformableSkin& skin = skinOf(*copy.node);
-    copy.player->setTrack(0, {clip, 3.0 * kFrame});
+    copy.player->setLayer(0, {clip, 3.0 * kFrame});
     const Vertices third = posedBy(*copy.player, skin);
-    copy.player->setTrack(0, {clip, 5.0 * kFrame, -2.0});
+    copy.player->setLayer(0, {clip, 5.0 * kFrame, -2.0});
     copy.player->advance(kFrame);
     EXPECT_LE(difference(posedBy(*copy.player, skin), third), 1e-6);
-    copy.player->setTrack(0, {clip, 3.0 * kFrame, 0.0});
+    copy.player->setLayer(0, {clip, 3.0 * kFrame, 0.0});
     copy.player->advance(17.0);
     EXPECT_LE(difference(posedBy(*copy.player, skin), third), 1e-6);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     copy.player->advance(nan);
     EXPECT_LE(difference(posedBy(*copy.player, skin), third), 1e-6);
-    copy.player->setTrack(0, {clip, nan, nan});
-    EXPECT_EQ(copy.player->getTrack(0).time, 0.0);
-    EXPECT_EQ(copy.player->getTrack(0).speed, 0.0);
+    copy.player->setLayer(0, {clip, nan, nan});
+    EXPECT_EQ(copy.player->getLayer(0).time, 0.0);
+    EXPECT_EQ(copy.player->getLayer(0).speed, 0.0);
     EXPECT_TRUE(copy.player->pose());
-    copy.player->setTrack(0, {});
+    copy.player->setLayer(0, {});
     EXPECT_FALSE(copy.player->pose());
 }
 
@@ -260,12 +260,12 @@ TEST(ClipPlayer, BlendsExactlyAtBothEnds) {
     const auto second = SampledClip::create(someClip(7, -0.5), character.rig);
     const auto copy = copies->makeInstance();
     osgSkin::DeformableSkin& skin = skinOf(*copy.node);
-    copy.player->setTrack(0, {second, 0.1});
+    copy.player->setLayer(0, {second, 0.1});
     const Vertices b = posedBy(*copy.player, skin);
-    copy.player->setTrack(0, {first, 0.1});
+    copy.player->setLayer(0, {first, 0.1});
     const Vertices a = posedBy(*copy.player, skin);
     ASSERT_GT(difference(a, b), 0.1);
-    copy.player->setTrack(1, {second, 0.1});
+    copy.player->setLayer(1, {second, 0.1});
     copy.player->setWeight(0.0);
     EXPECT_EQ(difference(posedBy(*copy.player, skin), a), 0.0);
     copy.player->setWeight(1.0);
@@ -286,15 +286,15 @@ TEST(ClipPlayer, TellsTheRootsWay) {
     const auto copy = copies->makeInstance();
     osgSkin::DeformableSkin& skin = skinOf(*copy.node);
     const auto middle = [&] { return skin.getBoundingBox().center().x(); };
-    copy.player->setTrack(0, {clip, 0.0});
+    copy.player->setLayer(0, {clip, 0.0});
     copy.player->pose();
     const float start = middle();
-    copy.player->setTrack(0, {clip, 11.0 * kFrame});
+    copy.player->setLayer(0, {clip, 11.0 * kFrame});
     copy.player->pose();
     EXPECT_NEAR(middle() - start, 1.1, 0.6); // its turns move its middle, too
     // 0.1 a frame, over the seam, too; steps up and down stay in the pose.
     copy.player->setRoot(ClipPlayer::Root::Extracted);
-    copy.player->setTrack(0, {clip, 0.0});
+    copy.player->setLayer(0, {clip, 0.0});
     for (int i = 0; i < 36; ++i) {
         copy.player->advance(kFrame);
         const osg::Vec3d way = copy.player->takeRootMotion();
@@ -313,7 +313,7 @@ TEST(ClipPlayer, IsAnUpdateCallback) {
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto clip = SampledClip::create(someClip(12, 0.8), character.rig);
     const auto copy = copies->makeInstance();
-    copy.player->setTrack(0, {clip, 0.0, 2.0});
+    copy.player->setLayer(0, {clip, 0.0, 2.0});
     osgUtil::UpdateVisitor visitor;
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     visitor.setFrameStamp(stamp);
@@ -321,6 +321,6 @@ TEST(ClipPlayer, IsAnUpdateCallback) {
         stamp->setSimulationTime(time);
         copy.node->accept(visitor);
     }
-    EXPECT_NEAR(copy.player->getTrack(0).time, 0.2, 1e-9);
+    EXPECT_NEAR(copy.player->getLayer(0).time, 0.2, 1e-9);
     EXPECT_EQ(skinOf(*copy.node).getDeformCount(), 0u); // nobody has seen it yet
 }

@@ -61,7 +61,7 @@ std::vector<osg::Vec3> posedAfresh(const osg::ref_ptr<const osgSkin::SkinModel>&
     skin->setSkin(test::makeGeometry(test::Tube()), model);
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(skin);
-    player->setTrack(0, {clip});
+    player->setLayer(0, {clip});
     return skinPosedBy(*player, *skin);
 }
 
@@ -93,16 +93,16 @@ TEST(ClipTrust, AClipIsNotItsAddress) {
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(skin);
     osg::ref_ptr<const SampledClip> clip = bentClip(false);
-    player->setTrack(0, {clip});
+    player->setLayer(0, {clip});
     const std::vector<osg::Vec3> before = skinPosedBy(*player, *skin);
     const void* const place = clip.get();
-    player->setTrack(0, {});
+    player->setLayer(0, {});
     EXPECT_FALSE(player->pose()); // nothing plays
     clip = nullptr;
     std::vector<osg::ref_ptr<const SampledClip>> others;
     do others.push_back(bentClip(true));
     while (others.back() != place && others.size() < 3000);
-    player->setTrack(0, {others.back()});
+    player->setLayer(0, {others.back()});
     EXPECT_EQ(skinPosedBy(*player, *skin), posedAfresh(skin->getModel(), others.back()));
     EXPECT_NE(skinPosedBy(*player, *skin), before);
     RecordProperty("clipsUntilThen", static_cast<int>(others.size()));
@@ -112,7 +112,7 @@ TEST(ClipTrust, ASkinMayGetItsModelLater) {
     const osg::ref_ptr<DeformableSkin> skin = new DeformableSkin;
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(skin);
-    player->setTrack(0, {bentClip(false)});
+    player->setLayer(0, {bentClip(false)});
     EXPECT_FALSE(player->pose());
     skin->setSkin(test::makeGeometry(test::Tube()), test::Tube().model());
     EXPECT_EQ(skinPosedBy(*player, *skin), posedAfresh(skin->getModel(), bentClip(false)));
@@ -129,7 +129,7 @@ TEST(ClipTrust, ABakedSkinMayGetAnotherModel) {
     character->bake(clip);
     const auto copy = character->makeInstance(false);
     auto& skin = dynamic_cast<DeformableSkin&>(*copy.node->getChild(0)->asGroup()->getChild(0));
-    copy.player->setTrack(0, {clip});
+    copy.player->setLayer(0, {clip});
     EXPECT_EQ(skinPosedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
     skin.setSkin(test::makeGeometry(test::Tube()), modelWithOtherNames());
     EXPECT_EQ(skinPosedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
@@ -149,7 +149,7 @@ TEST(ClipTrust, EverySkinOfACharacterIsBaked) {
     EXPECT_NEAR(character->bakedBounds().xMax(), 101.0f, 1.0f);
     EXPECT_NEAR(character->bakedBounds().xMin(), -1.0f, 1.0f);
     const auto copy = character->makeInstance(false);
-    copy.player->setTrack(0, {clip});
+    copy.player->setLayer(0, {clip});
     ASSERT_TRUE(copy.player->pose());
     std::size_t skins = 0;
     for (unsigned i = 0; i < copy.node->getNumChildren(); ++i) {
@@ -169,7 +169,7 @@ TEST(ClipTrust, NothingIsNotAdded) {
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(nullptr);
     player->addRigid(nullptr, "root", osg::Matrixd());
-    player->setTrack(0, {bentClip(false)});
+    player->setLayer(0, {bentClip(false)});
     EXPECT_TRUE(player->pose());
 }
 

@@ -199,9 +199,9 @@ TEST(PoseBounds, AreMadeOfManyJointsInSeconds) {
     const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
     EXPECT_EQ(model->vertexCount(), kLeaves);
 #if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG) // which counting lines is, too
-    constexpr double kMostSeconds = 40.0;
+    constexpr double kMaxSeconds = 40.0;
 #else
-    constexpr double kMostSeconds = 8.0;
+    constexpr double kMaxSeconds = 8.0;
 #endif
-    EXPECT_LT(seconds, kMostSeconds) << "of this program's own";
+    EXPECT_LT(seconds, kMaxSeconds) << "of this program's own";
 }

@@ -164,7 +164,7 @@ TEST(ClipTwist, RunsOnThroughHalfATurnLoopAfterLoop) {
         if (baked) copies->bake(sampled);
         const auto copy = copies->makeInstance();
         const osgSkin::DeformableSkin& skin = played::skinOf(*copy.node);
-        copy.player->setTrack(0, {sampled});
+        copy.player->setLayer(0, {sampled});
         for (double samples = 0.0; samples < 40.0; samples += 0.25) {
             ASSERT_TRUE(copy.player->pose());
             ASSERT_NEAR(twistOf(skin), expectedAt(samples), 1e-6) << samples << ", " << baked;
@@ -181,7 +181,7 @@ TEST(ClipTwist, StartsAfreshWhereTheTimeJumps) {
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto sampled = osgSkin::SampledClip::create(clip, character.rig);
     const auto poseAt = [&](const osgSkin::ClipCharacter::Instance& copy, double samples) {
-        copy.player->setTrack(0, {sampled, samples * played::kFrame});
+        copy.player->setLayer(0, {sampled, samples * played::kFrame});
         EXPECT_TRUE(copy.player->pose());
         return twistOf(played::skinOf(*copy.node));
     };

@@ -215,10 +215,10 @@ public:
     /// far beyond the skin.
     ///
     /// \param pieces of the same pose
-    FourBox box(const PosedPieces& pieces) noexcept;
+    Box4 box(const PosedPieces& pieces) noexcept;
 
 private:
-    static constexpr std::size_t kMostBlocks =
+    static constexpr std::size_t kMaxBlocks =
         (BoundsProxy::kMost + BoundsProxy::kAtOnce - 1) / BoundsProxy::kAtOnce;
 
     /// Replaces a piece's box by a closer one unless it is inside `wanted`, and expands `wanted` by
@@ -227,7 +227,7 @@ private:
               BlendedBox& wanted) noexcept;
 
     const BoundsProxy& _proxy;
-    std::array<BlendedBlock, kMostBlocks> _blocks;
+    std::array<BlendedBlock, kMaxBlocks> _blocks;
     BlendedBox _about; ///< where the skin is about
 };
 
@@ -247,7 +247,7 @@ HWY_INLINE void BlendedPieces::look(std::size_t block, std::size_t lane, const P
     // Unused lanes repeat the first piece.
     const BoundsProxy::Piece& piece =
         _proxy.pieces[of.firstPiece + (lane < of.pieceCount ? lane : 0)];
-    const FourBox turned = pieces.turned(piece, boxes.corrected.lane[lane]);
+    const Box4 turned = pieces.turned(piece, boxes.corrected.lane[lane]);
     for (int axis = 0; axis < 3; ++axis) {
         float& low = boxes.low[axis].lane[lane];
         float& high = boxes.high[axis].lane[lane];
@@ -258,7 +258,7 @@ HWY_INLINE void BlendedPieces::look(std::size_t block, std::size_t lane, const P
     }
 }
 
-HWY_INLINE FourBox BlendedPieces::box(const PosedPieces& pieces) noexcept {
+HWY_INLINE Box4 BlendedPieces::box(const PosedPieces& pieces) noexcept {
     BlendedBox wanted = _about;
     for (int axis = 0; axis < 3; ++axis) {
         const float loose = kLoose * (wanted.high[axis] - wanted.low[axis]);
@@ -266,7 +266,7 @@ HWY_INLINE FourBox BlendedPieces::box(const PosedPieces& pieces) noexcept {
         wanted.high[axis] += loose;
     }
     const std::size_t count = _proxy.blocks.size();
-    std::array<std::uint8_t, kMostBlocks> outside;
+    std::array<std::uint8_t, kMaxBlocks> outside;
     findOutside(_blocks.data(), count, wanted, outside.data());
     for (std::size_t block = 0; block < count; ++block)
         for (unsigned int lanes = outside[block], lane = 0; lanes != 0; lanes >>= 1, ++lane)

@@ -17,15 +17,15 @@ HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
 namespace HWY_NAMESPACE {
 
-FourBox box(const BoundsProxy& proxy, const Pose& pose, JointMotion* room, const float* weights) {
+Box4 box(const BoundsProxy& proxy, const Pose& pose, JointMotion* room, const float* weights) {
     const JointMotions motions(proxy, pose, room);
     const PosedPieces pieces(proxy, motions);
     if (motions.isPlain()) return BlendedPieces(proxy, motions, weights).box(pieces);
-    FourBox box{all(std::numeric_limits<float>::max()), all(-std::numeric_limits<float>::max())};
+    Box4 box{all(std::numeric_limits<float>::max()), all(-std::numeric_limits<float>::max())};
     for (const BoundsProxy::Block& block : proxy.blocks) {
         const BoundsProxy::Lanes corrected = correctedBy(proxy, block, weights);
         for (std::size_t lane = 0; lane < block.pieceCount; ++lane) {
-            const FourBox of =
+            const Box4 of =
                 pieces.turned(proxy.pieces[block.firstPiece + lane], corrected.lane[lane]);
             box.low = min(box.low, of.low);
             box.high = max(box.high, of.high);
@@ -43,7 +43,7 @@ namespace osgSkin {
 
 HWY_EXPORT(box);
 
-FourBox boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
+Box4 boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
               const float* weights) noexcept {
     return HWY_DYNAMIC_DISPATCH(box)(proxy, pose, room, weights);
 }

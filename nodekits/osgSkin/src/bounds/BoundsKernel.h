@@ -25,7 +25,7 @@ struct JointMotion {
 };
 
 /// A box, three lanes each.
-struct FourBox {
+struct Box4 {
     Four low, high;
 };
 
@@ -33,8 +33,8 @@ struct FourBox {
 ///
 /// \param proxy of the pose's model
 /// \param room one for each joint of the pose, and at least PoseAccess::kAtOnce
-/// \param weights CorrectiveStray's; null without correctives
-FourBox boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
+/// \param weights CorrectiveDisplacementBound's; null without correctives
+Box4 boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
               const float* weights) noexcept;
 
 } // namespace osgSkin

@@ -19,10 +19,10 @@ namespace {
 
 /// The absolute weights of corrective modes in a pose; times BoundsProxy::Reach, they bound how far
 /// correctives move vertices.
-class CorrectiveStray {
+class CorrectiveDisplacementBound {
 public:
     /// \pre the model has correctives
-    CorrectiveStray(const SkinModel& model, const Pose& pose) noexcept {
+    CorrectiveDisplacementBound(const SkinModel& model, const Pose& pose) noexcept {
         CorrectiveWeights weights(model, pose);
         const std::size_t joints = SkinModelAccess::correctives(model)->joints.size();
         for (std::uint32_t joint = 0; joint < joints; ++joint) {
@@ -37,7 +37,7 @@ public:
     const float* weights() const { return _weights.data(); }
 
 private:
-    std::array<float, BoundsProxy::kMostWeights> _weights;
+    std::array<float, BoundsProxy::kMaxWeights> _weights;
 };
 
 /// A side of the box, limited to the range of poses.
@@ -45,9 +45,9 @@ float bounded(float side, float otherwise) {
     return std::abs(side) <= static_cast<float>(kLargestCoordinate) ? side : otherwise; // NaN too
 }
 
-FourBox boxOfCorrected(const BoundsProxy& proxy, const SkinModel& model, const Pose& pose,
+Box4 boxOfCorrected(const BoundsProxy& proxy, const SkinModel& model, const Pose& pose,
                        JointMotion* room) {
-    const CorrectiveStray corrections(model, pose);
+    const CorrectiveDisplacementBound corrections(model, pose);
     return boxOf(proxy, pose, room, corrections.weights());
 }
 
@@ -59,7 +59,7 @@ PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept 
     std::array<JointMotion, 128> few;
     std::vector<JointMotion> many(pose.size() > few.size() ? pose.size() : 0);
     JointMotion* room = many.empty() ? few.data() : many.data();
-    const FourBox box = SkinModelAccess::correctives(model)
+    const Box4 box = SkinModelAccess::correctives(model)
                             ? boxOfCorrected(*proxy, model, pose, room)
                             : boxOf(*proxy, pose, room, nullptr);
     PoseBounds bounds{box.low.xyz(), box.high.xyz()};

@@ -239,7 +239,7 @@ public:
     /// The box of a piece that is rotated as its vertices are.
     ///
     /// \param corrected how far correctives move its vertices
-    FourBox turned(const BoundsProxy::Piece& piece, float corrected) const noexcept;
+    Box4 turned(const BoundsProxy::Piece& piece, float corrected) const noexcept;
 
 private:
     struct Strays {
@@ -291,7 +291,7 @@ PosedPieces::straysOf(const BoundsProxy::Piece& piece) const noexcept {
     return result;
 }
 
-HWY_INLINE FourBox PosedPieces::turned(const BoundsProxy::Piece& piece,
+HWY_INLINE Box4 PosedPieces::turned(const BoundsProxy::Piece& piece,
                                        float corrected) const noexcept {
     const JointMotion& anchor = _motions[piece.anchor];
     const Strays strays = _motions.isPlain() ? straysOf<true>(piece) : straysOf<false>(piece);

@@ -68,10 +68,10 @@ HWY_INLINE JointRows rowsOf(const Pose& pose) {
 
 /// Memory for a section's gathered rows.
 struct GatheredRows {
-    double own[PoseAccess::kNumberRows * ChainPlan::kMostJoints];
-    double rest[PoseAccess::kRestRows * ChainPlan::kMostJoints];
-    std::int32_t azimuths[2 * ChainPlan::kMostJoints];
-    int parents[ChainPlan::kMostJoints];
+    double own[PoseAccess::kNumberRows * ChainPlan::kMaxJoints];
+    double rest[PoseAccess::kRestRows * ChainPlan::kMaxJoints];
+    std::int32_t azimuths[2 * ChainPlan::kMaxJoints];
+    int parents[ChainPlan::kMaxJoints];
 };
 
 /// Stores angles and what KernelAngle has of them.
@@ -197,7 +197,7 @@ struct RowsTurn {
     std::size_t stride;
 
     double turn(std::size_t column, std::size_t row) const {
-        return turns[(3 * column + row) * ChainPlan::kMostJoints];
+        return turns[(3 * column + row) * ChainPlan::kMaxJoints];
     }
     double move(std::size_t row) const { return offset[row * stride]; }
     double scale() const {

@@ -15,7 +15,7 @@
 #include "deform/KernelPasses-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelSurface-inl.h"
-#include "deform/KernelTurns-inl.h"
+#include "deform/KernelRotations-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
@@ -88,14 +88,14 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
         sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
-        if (inJointFrame) takeAzimuthOff(call, *link, sine, cosine);
-        turnPlane(sine, cosine, x, y);
-        if (kNormals) turnPlane(sine, cosine, nx, ny);
-        if (kTangents) turnPlane(sine, cosine, tx, ty);
+        if (inJointFrame) subtractAzimuth(call, *link, sine, cosine);
+        rotate2D(sine, cosine, x, y);
+        if (kNormals) rotate2D(sine, cosine, nx, ny);
+        if (kTangents) rotate2D(sine, cosine, tx, ty);
         sineCosine(call.joints->bendOf(link->joint), bendRatio, sine, cosine);
-        turnPlane(sine, cosine, y, z);
-        if (kNormals) turnPlane(sine, cosine, ny, nz);
-        if (kTangents) turnPlane(sine, cosine, ty, tz);
+        rotate2D(sine, cosine, y, z);
+        if (kNormals) rotate2D(sine, cosine, ny, nz);
+        if (kTangents) rotate2D(sine, cosine, ty, tz);
         if (HWY_UNLIKELY(call.isAdjusted(*link))) adjust(call, *link, bendRatio, x, y, z);
         apply(call.outs[link->out], x, y, z);
         if (kNormals) turn(call.outs[link->out], nx, ny, nz);
@@ -153,35 +153,35 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
         sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
-        if (inJointFrame) takeAzimuthOff(call, *link, sine, cosine);
+        if (inJointFrame) subtractAzimuth(call, *link, sine, cosine);
         if (call.isTiltedByTwist(*link)) {
             const float& twistSlope = call.twistSlopes[link->joint];
             addSlope(slopeAt(slopes, kTwistAlongU, twistSlope), x, y, ux, uy);
             addSlope(slopeAt(slopes, kTwistAlongV, twistSlope), x, y, vx, vy);
         }
-        turnPlane(sine, cosine, x, y);
-        turnPlane(sine, cosine, ux, uy);
-        turnPlane(sine, cosine, vx, vy);
+        rotate2D(sine, cosine, x, y);
+        rotate2D(sine, cosine, ux, uy);
+        rotate2D(sine, cosine, vx, vy);
         sineCosine(call.joints->bendOf(link->joint), bendRatio, sine, cosine);
         if (call.isTiltedByBend(*link)) {
             const float& bendSlope = call.bendSlopes[link->joint];
             addSlope(slopeAt(slopes, kBendAlongU, bendSlope), y, z, uy, uz);
             addSlope(slopeAt(slopes, kBendAlongV, bendSlope), y, z, vy, vz);
         }
-        turnPlane(sine, cosine, y, z);
+        rotate2D(sine, cosine, y, z);
         if (link == last && HWY_LIKELY(!call.isAdjusted(*link))) {
             if (HWY_UNLIKELY(call.joints->anyAdjusted)) bringIntoRange(ux, uy, uz, vx, vy, vz);
             cross(ux, uy, uz, vx, vy, vz, nx, ny, nz);
-            turnPlane(sine, cosine, ny, nz);
+            rotate2D(sine, cosine, ny, nz);
             if (kTangents) {
                 combine(alongU, alongV, ux, uy, uz, vx, vy, vz, tx, ty, tz);
-                turnPlane(sine, cosine, ty, tz);
+                rotate2D(sine, cosine, ty, tz);
             }
             apply(call.outs[link->out], x, y, z);
             break;
         }
-        turnPlane(sine, cosine, uy, uz);
-        turnPlane(sine, cosine, vy, vz);
+        rotate2D(sine, cosine, uy, uz);
+        rotate2D(sine, cosine, vy, vz);
         if (HWY_UNLIKELY(call.isAdjusted(*link))) {
             adjustAlong(call, *link, bendRatio, slopeAt(slopes, kBendAlongU, call.slopeUnit), x, y,
                         z, ux, uy, uz);
@@ -216,13 +216,13 @@ HWY_INLINE void deformSurface(const KernelCall& call, const Outputs& out, std::s
         const V bendRatio = hn::Load(d, ratio);
         V sine, cosine;
         sineCosine(call.joints->twistOf(link->joint), hn::Load(d, ratio + kBlock), sine, cosine);
-        turnPlane(sine, cosine, x, y);
-        turnPlane(sine, cosine, nx, ny);
-        if (kTangents) turnPlane(sine, cosine, tx, ty);
+        rotate2D(sine, cosine, x, y);
+        rotate2D(sine, cosine, nx, ny);
+        if (kTangents) rotate2D(sine, cosine, tx, ty);
         sineCosine(call.joints->bendOf(link->joint), bendRatio, sine, cosine);
-        turnPlane(sine, cosine, y, z);
-        turnPlane(sine, cosine, ny, nz);
-        if (kTangents) turnPlane(sine, cosine, ty, tz);
+        rotate2D(sine, cosine, y, z);
+        rotate2D(sine, cosine, ny, nz);
+        if (kTangents) rotate2D(sine, cosine, ty, tz);
         if (HWY_UNLIKELY(call.isAdjusted(*link))) adjust(call, *link, bendRatio, x, y, z);
         apply(call.outs[link->out], x, y, z);
         turn(call.outs[link->out], nx, ny, nz);

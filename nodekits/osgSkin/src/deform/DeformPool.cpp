@@ -16,7 +16,7 @@ namespace osgSkin {
 #ifdef OSGSKIN_HAS_TBB
 
 /// An arena allocates for all of its threads.
-constexpr unsigned int kMostThreads = 1024;
+constexpr unsigned int kMaxThreads = 1024;
 
 /// Limits the number of threads, including the caller's.
 struct DeformPool::Arena {
@@ -56,7 +56,7 @@ bool DeformPool::hasThreads() noexcept {
 void DeformPool::setThreadCount(unsigned int threads) {
     const int processors = OpenThreads::GetNumberOfProcessors();
     if (threads == 0) threads = static_cast<unsigned int>(std::max(1, processors));
-    threads = std::min(threads, kMostThreads);
+    threads = std::min(threads, kMaxThreads);
     if (!_arena || _arena->threads != threads) _arena = std::make_unique<Arena>(threads);
 }
 

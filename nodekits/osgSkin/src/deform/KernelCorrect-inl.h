@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 #include "deform/DeformKernel.h"
-#include "deform/KernelTurns-inl.h"
+#include "deform/KernelRotations-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace osgSkin {

@@ -15,7 +15,7 @@
 #include "deform/KernelCorrect-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelSurface-inl.h"
-#include "deform/KernelTurns-inl.h"
+#include "deform/KernelRotations-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
@@ -82,7 +82,7 @@ HWY_INLINE void turnShares(const float (&sineTerms)[kTerms], const float (&cosin
             V sine = hn::Mul(r, polynomial(t, forSine));
             V cosine = hn::MulAdd(t, polynomial(t, forCosine), one);
             for (int i = 0; i < kDoublings; ++i) twice(sine, cosine);
-            if (kShifted) takeAzimuthOff(call, link, sine, cosine);
+            if (kShifted) subtractAzimuth(call, link, sine, cosine);
             hn::Store(sine, d, sines + b * kBlock + lane);
             hn::Store(cosine, d, cosines + b * kBlock + lane);
         }
@@ -133,9 +133,9 @@ HWY_NOINLINE void pass(const KernelCall& call, const Chunk& chunk, const KernelM
             const std::size_t v = b * kBlock + lane;
             V x = hn::Load(d, at), y = hn::Load(d, at + kBlock), z = hn::Load(d, at + 2 * kBlock);
             if (kTurns) {
-                turnPlane(hn::Load(d, chunk.twistSine + v), hn::Load(d, chunk.twistCosine + v), x,
+                rotate2D(hn::Load(d, chunk.twistSine + v), hn::Load(d, chunk.twistCosine + v), x,
                           y);
-                turnPlane(hn::Load(d, chunk.bendSine + v), hn::Load(d, chunk.bendCosine + v), y, z);
+                rotate2D(hn::Load(d, chunk.bendSine + v), hn::Load(d, chunk.bendCosine + v), y, z);
                 if (HWY_UNLIKELY(adjusted))
                     adjust(call, *link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane), x,
                            y, z);
@@ -270,15 +270,15 @@ HWY_NOINLINE void passDirection(const KernelCall& call, const Chunk& chunk, cons
             V sine = hn::Load(d, chunk.twistSine + v), cosine = hn::Load(d, chunk.twistCosine + v);
             if (call.isTiltedByTwist(link))
                 addSlope(slopeAt(slopes + lane, kTwist, twistSlope), x, y, ux, uy);
-            turnPlane(sine, cosine, x, y);
-            turnPlane(sine, cosine, ux, uy);
+            rotate2D(sine, cosine, x, y);
+            rotate2D(sine, cosine, ux, uy);
             sine = hn::Load(d, chunk.bendSine + v);
             cosine = hn::Load(d, chunk.bendCosine + v);
             if (call.isTiltedByBend(link))
                 addSlope(slopeAt(slopes + lane, kBend, bendSlope), y, z, uy, uz);
-            turnPlane(sine, cosine, uy, uz);
+            rotate2D(sine, cosine, uy, uz);
             if (HWY_UNLIKELY(call.isAdjusted(link))) {
-                turnPlane(sine, cosine, y, z);
+                rotate2D(sine, cosine, y, z);
                 adjustAlong(call, link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane),
                             slopeAt(slopes + lane, kBend, call.slopeUnit), x, y, z, ux, uy, uz);
             }

@@ -12,7 +12,7 @@
 
 #include "deform/DeformKernel.h"
 #include "deform/KernelCorrect-inl.h"
-#include "deform/KernelTurns-inl.h"
+#include "deform/KernelRotations-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace osgSkin {

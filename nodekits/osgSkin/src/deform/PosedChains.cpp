@@ -79,7 +79,7 @@ HWY_INLINE void makeMaps(const ChainCall& call, const JointRows& rows, PosedChai
 }
 
 HWY_NOINLINE JointRows gather(const ChainCall& call, std::size_t count, GatheredRows& to) {
-    constexpr std::size_t kStride = ChainPlan::kMostJoints;
+    constexpr std::size_t kStride = ChainPlan::kMaxJoints;
     static_assert(kStride % kAtOnce == 0);
     const JointRows from = rowsOf(call.pose);
     const std::size_t padded = (count + kAtOnce - 1) / kAtOnce;
@@ -149,7 +149,7 @@ bool findNeeded(const SkinModel& model, const ChainPlan& plan, const ChainPlan::
                 std::size_t firstGroup, std::size_t endGroup, NeededMaps& needed) noexcept {
     const ChainPlan::Section& next = (&section)[1];
     // A group too long for the bit sets.
-    if (next.state - section.state > ChainPlan::kMostStates) return false;
+    if (next.state - section.state > ChainPlan::kMaxStates) return false;
     for (std::size_t g = firstGroup; g < endGroup; ++g) {
         const ChainPlan::Group& group = plan.groups[g];
         for (std::size_t k = 0; k < model.groups()[g].partialCount; ++k)

@@ -28,7 +28,7 @@ struct KernelAngle {
 /// rotation is one in the plane of the first two axes (the twist) followed by one in the plane of
 /// the last two (the bend).
 struct KernelJoints {
-    static constexpr std::size_t kMost = ChainPlan::kMostJoints;
+    static constexpr std::size_t kMost = ChainPlan::kMaxJoints;
 
     KernelAngle bendOf(std::size_t joint) const { return {bend[joint], bendRange[joint]}; }
     KernelAngle twistOf(std::size_t joint) const { return {twist[joint], twistRange[joint]}; }
@@ -55,18 +55,18 @@ struct PosedChains {
              std::size_t firstGroup, std::size_t endGroup) noexcept;
 
     /// The joints' full rotations, column by column.
-    double turns[9][ChainPlan::kMostJoints];
+    double turns[9][ChainPlan::kMaxJoints];
     PosedMap wide[ChainPlan::kWideMaps]; ///< by ChainPlan's indices
     KernelMap maps[ChainPlan::kMaps];    ///< by ChainPlan's indices
-    KernelMap outs[ChainPlan::kMostOuts];
+    KernelMap outs[ChainPlan::kMaxOuts];
     KernelJoints joints;
     bool scaled; ///< whether any joint is
 };
 
 /// Which of a section's maps are needed.
 struct NeededMaps {
-    std::bitset<ChainPlan::kMostStates> states;
-    std::bitset<ChainPlan::kMostOuts> outs;
+    std::bitset<ChainPlan::kMaxStates> states;
+    std::bitset<ChainPlan::kMaxOuts> outs;
 };
 
 /// The arguments of multiplyOut().

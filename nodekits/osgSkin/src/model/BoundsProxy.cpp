@@ -246,9 +246,9 @@ constexpr float kFine = 0.006f;
 /// The bend and twist of a typical pose, radians.
 constexpr float kUsualBend = 0.5f, kUsualTwist = 0.25f;
 /// The most vertices sampled to choose a cut.
-constexpr std::size_t kMostTried = 64;
+constexpr std::size_t kMaxTried = 64;
 /// The most joints considered for a cut, those whose vertices deviate most. A body has fewer.
-constexpr std::size_t kMostJoints = 100;
+constexpr std::size_t kMaxJoints = 100;
 /// Relative differences below this are ignored.
 constexpr float kSame = 1e-4f;
 /// Where pieces are cut: off the middle, where a symmetrical body has vertices.
@@ -364,9 +364,9 @@ private:
     }
 
     static Rows thinned(const Rows& rows) {
-        if (rows.size() <= kMostTried) return rows;
+        if (rows.size() <= kMaxTried) return rows;
         Rows some;
-        const std::size_t step = rows.size() / kMostTried;
+        const std::size_t step = rows.size() / kMaxTried;
         for (std::size_t i = 0; i < rows.size(); i += step) some.push_back(rows[i]);
         return some;
     }
@@ -397,8 +397,8 @@ private:
 
     /// The least deviation for which a joint's ratios are tried as a cut.
     float leastStray(std::vector<float> strays) const {
-        if (strays.size() <= kMostJoints) return 0.1f * _fine;
-        const auto last = strays.begin() + static_cast<std::ptrdiff_t>(kMostJoints);
+        if (strays.size() <= kMaxJoints) return 0.1f * _fine;
+        const auto last = strays.begin() + static_cast<std::ptrdiff_t>(kMaxJoints);
         std::nth_element(strays.begin(), last, strays.end(), std::greater<>());
         return std::max(0.1f * _fine, *last);
     }
@@ -659,7 +659,7 @@ private:
 };
 
 /// The fewest vertices of a skin for each piece: else pieces would cost more than vertices.
-constexpr std::size_t kLeastVertices = 12;
+constexpr std::size_t kMinVertices = 12;
 
 /// The length of a mode's share in a lane.
 float lengthOf(const CorrectiveRow* block, std::size_t mode, std::size_t lane) {
@@ -818,7 +818,7 @@ std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
     const PieceVertices vertices(model);
     CutPieces pieces;
     for (SkinPiece& piece : cutSkin(
-             vertices, extent, std::min(BoundsProxy::kMost, model.vertexCount() / kLeastVertices)))
+             vertices, extent, std::min(BoundsProxy::kMost, model.vertexCount() / kMinVertices)))
         pieces.push_back(std::make_unique<CutPiece>(vertices, std::move(piece)));
     orderByJoints(pieces);
     for (const std::unique_ptr<CutPiece>& from : pieces) {

@@ -117,7 +117,7 @@ bool CorrectiveBlocks::keepsTurned(const SkinModel& model, std::size_t group) co
     return SkinModelAccess::blocks(model).groups[group].frame != SkinBlocks::kRestFrame &&
            std::all_of(ranges.begin() + firstRange[group], ranges.begin() + firstRange[group + 1],
                        [this](const Range& range) {
-                           return joints[range.joint].modes <= kMostTurnedModes;
+                           return joints[range.joint].modes <= kMaxTurnedModes;
                        });
 }
 

@@ -69,7 +69,7 @@ struct CorrectedBlocks {
 /// skinDirections(): less to read, and nothing to rotate.
 struct CorrectiveBlocks {
     /// The most modes of a joint whose shares are also kept rotated.
-    static constexpr std::size_t kMostTurnedModes = 3;
+    static constexpr std::size_t kMaxTurnedModes = 3;
 
     struct Range {
         std::uint32_t joint;      ///< in `joints`

@@ -63,9 +63,9 @@ void checkKnots(const CorrectiveJoint& joint, const std::string& place) {
         if (!joint.knots.empty()) throw Error(place + " have knots, expected none for a ball");
         return;
     }
-    if (joint.knots.size() < 2 || joint.knots.size() > CorrectiveJoint::kMostKnots)
+    if (joint.knots.size() < 2 || joint.knots.size() > CorrectiveJoint::kMaxKnots)
         throw Error(place + " have " + std::to_string(joint.knots.size()) +
-                    " knots, expected 2 to " + std::to_string(CorrectiveJoint::kMostKnots));
+                    " knots, expected 2 to " + std::to_string(CorrectiveJoint::kMaxKnots));
     for (std::size_t i = 0; i < joint.knots.size(); ++i)
         if (!std::isfinite(joint.knots[i]) ||
             (i > 0 && !(joint.knots[i] - joint.knots[i - 1] >= 1e-6)))
@@ -111,9 +111,9 @@ void checkJoint(const CorrectiveJoint& joint, const Correctives& correctives,
         checkInput(joint, place);
     else
         checkBend(joint, bound[joint.joint], place);
-    if (joint.modes < 1 || joint.modes > CorrectiveJoint::kMostModes)
+    if (joint.modes < 1 || joint.modes > CorrectiveJoint::kMaxModes)
         throw Error(place + " have " + std::to_string(joint.modes) + " modes, expected 1 to " +
-                    std::to_string(CorrectiveJoint::kMostModes));
+                    std::to_string(CorrectiveJoint::kMaxModes));
     if (joint.coefficients.size() != joint.modes * joint.functionCount())
         throw Error(place + " need a coefficient for each mode and function");
     if (joint.normalScales.size() != (hasNormals ? joint.modes : 0))
@@ -181,7 +181,7 @@ void CorrectiveJoint::evaluate(glm::dvec2 clampedXy, Functions& phi) const noexc
     const std::size_t splines = splineCount(knots);
     switch (basis) {
     case Basis::Hinge: {
-        double atRest[kMostKnots + 1];
+        double atRest[kMaxKnots + 1];
         evaluateSplines(knots, x, phi.data());
         evaluateSplines(knots, 0.0, atRest);
         for (std::size_t i = 0; i < splines; ++i) phi[i] -= atRest[i];
@@ -191,7 +191,7 @@ void CorrectiveJoint::evaluate(glm::dvec2 clampedXy, Functions& phi) const noexc
         return;
     }
     case Basis::TurnedHinge: {
-        double now[kMostKnots + 1], atRest[kMostKnots + 1];
+        double now[kMaxKnots + 1], atRest[kMaxKnots + 1];
         evaluateSplines(knots, x, now);
         evaluateSplines(knots, 0.0, atRest);
         for (std::size_t i = 0; i < splines; ++i) {
@@ -208,7 +208,7 @@ void CorrectiveJoint::evaluate(glm::dvec2 clampedXy, Functions& phi) const noexc
         return;
     }
     case Basis::Round: {
-        double now[kMostKnots + 1], atRest[kMostKnots + 1];
+        double now[kMaxKnots + 1], atRest[kMaxKnots + 1];
         evaluateSplines(knots, x * x + y * y, now);
         evaluateSplines(knots, 0.0, atRest);
         for (std::size_t i = 0; i < splines; ++i) {
@@ -243,12 +243,12 @@ void Correctives::validate(const std::vector<BoundJoint>& bound, std::size_t ver
     if (firstEntry.empty() && entries.empty() && joints.empty() && shares.empty() &&
         normalShares.empty() && inputs.empty())
         return;
-    if (joints.size() > kMostJoints)
+    if (joints.size() > kMaxJoints)
         throw Error("correctives: " + std::to_string(joints.size()) + " joints, expected at most " +
-                    std::to_string(kMostJoints));
-    if (inputs.size() > kMostJoints)
+                    std::to_string(kMaxJoints));
+    if (inputs.size() > kMaxJoints)
         throw Error("correctives: " + std::to_string(inputs.size()) + " inputs, expected at most " +
-                    std::to_string(kMostJoints));
+                    std::to_string(kMaxJoints));
     if (std::set<std::string>(inputs.begin(), inputs.end()).size() != inputs.size())
         throw Error("correctives: two inputs have one name");
     for (const CorrectiveJoint& joint : joints) checkJoint(joint, *this, bound);

@@ -14,7 +14,7 @@ namespace osgSkin {
 namespace {
 
 /// A lower limit for lengths, for vertices without a normal.
-constexpr double kLeastLength = 1e-9;
+constexpr double kMinLength = 1e-9;
 
 /// A ratio's gradient along a vertex's u and v.
 struct Components {
@@ -202,8 +202,8 @@ GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
             const std::uint32_t v = model.order()[group.firstVertex + row];
             const SkinDirections at =
                 skinDirections(model.normals()[v], frame, acrossOf(model, g, row));
-            const double sizeU = std::max(glm::length(at.u), kLeastLength);
-            const double sizeV = std::max(glm::length(at.v), kLeastLength);
+            const double sizeU = std::max(glm::length(at.u), kMinLength);
+            const double sizeV = std::max(glm::length(at.v), kMinLength);
             GradientRow* to = rows.data() + firstRow.back() + row / kBlock * blockRows;
             const auto put = [&](double number) {
                 (to++)->lane[row % kBlock] = rounded(number, units);
@@ -244,9 +244,9 @@ std::vector<RatioGradient> gradientsOf(const SkinModel& model) {
             const SkinDirections at =
                 skinDirections(model.normals()[model.order()[group.firstVertex + row]], frame,
                                blocks->acrossOf(model, g, row));
-            constexpr double kLeastSquare = kLeastLength * kLeastLength;
-            const glm::dvec3 u = at.u / std::max(glm::dot(at.u, at.u), kLeastSquare);
-            const glm::dvec3 v = at.v / std::max(glm::dot(at.v, at.v), kLeastSquare);
+            constexpr double kMinSquare = kMinLength * kMinLength;
+            const glm::dvec3 u = at.u / std::max(glm::dot(at.u, at.u), kMinSquare);
+            const glm::dvec3 v = at.v / std::max(glm::dot(at.v, at.v), kMinSquare);
             const GradientRow* from =
                 blocks->blockOf(model, g, row) + GradientBlocks::rowsPerBlock(group.partialCount);
             for (std::uint32_t i = 0; i < group.linkCount; ++i) {

@@ -72,7 +72,7 @@ public:
         }
         end();
         addSection(); // behind the last
-        _plan.arePartial.resize(_plan.joints.size() + ChainPlan::kMostJoints, 0);
+        _plan.arePartial.resize(_plan.joints.size() + ChainPlan::kMaxJoints, 0);
         for (std::size_t i = 0; i + 1 < _plan.sections.size(); ++i)
             for (std::size_t f = _plan.sections[i].frame; f < _plan.sections[i + 1].frame; ++f)
                 _plan.arePartial[_plan.sections[i].joint + _plan.frames[f].joint] = 1;
@@ -137,12 +137,12 @@ private:
             else
                 ++states;
         }
-        return joints <= ChainPlan::kMostJoints && states <= ChainPlan::kMostStates &&
-               outs <= ChainPlan::kMostOuts;
+        return joints <= ChainPlan::kMaxJoints && states <= ChainPlan::kMaxStates &&
+               outs <= ChainPlan::kMaxOuts;
     }
 
     void number(std::uint32_t joint) {
-        if (_numbers[joint] != kNoNumber || jointCount() == ChainPlan::kMostJoints) return;
+        if (_numbers[joint] != kNoNumber || jointCount() == ChainPlan::kMaxJoints) return;
         _numbers[joint] = static_cast<std::uint32_t>(jointCount());
         _plan.joints.push_back(joint);
     }
@@ -192,10 +192,10 @@ private:
         if (found != _states.end()) return found->second;
         if (from != ChainPlan::kIdentity && from < ChainPlan::state(0)) addWideInto(from);
         // A group too long for a section continues in the last state, which no other group uses.
-        const bool isNew = _stateCount < ChainPlan::kMostStates;
+        const bool isNew = _stateCount < ChainPlan::kMaxStates;
         if (isNew) ++_stateCount;
         const Index to = ChainPlan::state(_stateCount - 1);
-        if (isNew && _stateCount < ChainPlan::kMostStates) _states[{from, with}] = to;
+        if (isNew && _stateCount < ChainPlan::kMaxStates) _states[{from, with}] = to;
         _plan.states.push_back({from, to, ChainPlan::kIdentity, ChainPlan::kIdentity, with, {}});
         return to;
     }
@@ -298,7 +298,7 @@ void place(const SkinModel& model, const SkinModel::Group& group, std::uint32_t 
 
 } // namespace
 
-ChainPlan::ChainPlan(const SkinModel& model) : inOrder(model.joints().size() <= kMostJoints) {
+ChainPlan::ChainPlan(const SkinModel& model) : inOrder(model.joints().size() <= kMaxJoints) {
     ChainPlanner(model, *this).plan();
 }
 

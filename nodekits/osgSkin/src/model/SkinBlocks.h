@@ -58,29 +58,29 @@ struct alignas(64) PlannedWideInto {
 struct ChainPlan {
     using Index = std::uint16_t;
 
-    static constexpr std::size_t kMostJoints = 96;
-    static constexpr std::size_t kMostStates = 128;
-    static constexpr std::size_t kMostOuts = 192;
-    static_assert(kMostOuts > SkinModel::kMaxPartialInfluences &&
-                  kMostJoints > SkinModel::kMaxPartialInfluences);
+    static constexpr std::size_t kMaxJoints = 96;
+    static constexpr std::size_t kMaxStates = 128;
+    static constexpr std::size_t kMaxOuts = 192;
+    static_assert(kMaxOuts > SkinModel::kMaxPartialInfluences &&
+                  kMaxJoints > SkinModel::kMaxPartialInfluences);
 
     /// Map indices: identity, rest to joint frame, joint frame to rest (in single precision) or
     /// states (in double precision), which are products of a map to a frame and full rotations.
     static constexpr Index kIdentity = 0;
     static constexpr Index into(std::size_t joint) { return static_cast<Index>(1 + joint); }
     static constexpr Index state(std::size_t number) {
-        return static_cast<Index>(1 + kMostJoints + number);
+        return static_cast<Index>(1 + kMaxJoints + number);
     }
     static constexpr Index frame(std::size_t joint) {
-        return static_cast<Index>(1 + kMostJoints + joint);
+        return static_cast<Index>(1 + kMaxJoints + joint);
     }
     /// A state in single precision. Translations in single precision are relative to a pivot of
     /// each map; into() moves it to 0.
     static constexpr Index narrowed(std::size_t number) {
-        return static_cast<Index>(1 + 2 * kMostJoints + number);
+        return static_cast<Index>(1 + 2 * kMaxJoints + number);
     }
-    static constexpr std::size_t kWideMaps = 1 + kMostJoints + kMostStates;
-    static constexpr std::size_t kMaps = 1 + 2 * kMostJoints + kMostOuts;
+    static constexpr std::size_t kWideMaps = 1 + kMaxJoints + kMaxStates;
+    static constexpr std::size_t kMaps = 1 + 2 * kMaxJoints + kMaxOuts;
 
     /// In double precision: first the full rotation of a joint, then `from`.
     struct State {

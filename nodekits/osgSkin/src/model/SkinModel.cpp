@@ -71,7 +71,7 @@ private:
 namespace {
 
 /// The most joints that a joined group follows in part; as many as bindings have.
-constexpr std::size_t kMostJoined = 4;
+constexpr std::size_t kMaxJoined = 4;
 
 /// For each joint that a group's vertices follow, twice its position in the product, plus 1 where
 /// they follow it in part. Sorted.
@@ -154,7 +154,7 @@ void joinSmall(Members& members) {
         for (; other != last; ++other) {
             if (other == own) continue;
             unite(one.signature, other->first, united);
-            if (partialCount(united) > kMostJoined &&
+            if (partialCount(united) > kMaxJoined &&
                 partialCount(united) > partialCount(other->first))
                 continue;
             const std::size_t others = other->second.size();

@@ -126,7 +126,7 @@ std::string brokenPrimitive(const osg::Geometry& geometry, std::size_t vertices)
     return {};
 }
 
-DeformableSkin::Drawer::~Drawer() = default;
+DeformableSkin::DrawBackend::~DrawBackend() = default;
 
 DeformableSkin::DeformableSkin() {
     setUseDisplayList(false);
@@ -139,7 +139,7 @@ DeformableSkin::DeformableSkin() {
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
       _pool(other._pool), _tangents(other._tangents),
-      _drawer(other._drawer ? other._drawer->clone() : nullptr), _eager(other._eager),
+      _backend(other._backend ? other._backend->clone() : nullptr), _eager(other._eager),
       _tangentAttribute(other._tangentAttribute) {
     makeBuffers();
     poseChanged();
@@ -236,14 +236,14 @@ void DeformableSkin::makeBuffers() {
     _handedOut = false;
     if (!_rest) return;
     for (osg::ref_ptr<osg::Geometry>& buffer : _buffers) buffer = makeDrawnGeometry();
-    if (_drawer) _drawer->skinChanged(*this);
+    if (_backend) _backend->skinChanged(*this);
 }
 
-void DeformableSkin::setDrawer(Drawer* drawer) {
-    _drawer = drawer;
-    if (!_drawer || !_model) return;
-    _drawer->skinChanged(*this);
-    _drawer->poseChanged(*this);
+void DeformableSkin::setDrawBackend(DrawBackend* drawer) {
+    _backend = drawer;
+    if (!_backend || !_model) return;
+    _backend->skinChanged(*this);
+    _backend->poseChanged(*this);
 }
 
 bool DeformableSkin::setPose(const glm::dmat4* skinning, std::size_t count, Pose::Twist twist) {
@@ -323,7 +323,7 @@ void DeformableSkin::poseChanged(const osg::BoundingBox& bounds) {
     }
     dirtyBound();
     getBound(); // now, as above
-    if (_drawer) _drawer->poseChanged(*this);
+    if (_backend) _backend->poseChanged(*this);
     if (_eager) deform();
 }
 
@@ -393,7 +393,7 @@ void DeformableSkin::cull(osg::NodeVisitor& nv) {
     }
     if (cv && isCullingActive() && cv->isCulled(getBoundingBox())) return;
     osg::Geometry* drawn = nullptr;
-    if (_drawer && cv && !_eager && !getDrawCallback()) drawn = _drawer->cull(*this, *cv);
+    if (_backend && cv && !_eager && !getDrawCallback()) drawn = _backend->cull(*this, *cv);
     if (!drawn) {
         deform();
         _handedOut = true;
@@ -439,21 +439,21 @@ void DeformableSkin::compileGLObjects(osg::RenderInfo& renderInfo) const {
     const std::lock_guard<std::mutex> lock(_mutex);
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
         if (buffer) buffer->compileGLObjects(renderInfo);
-    if (_drawer) _drawer->compileGLObjects(renderInfo);
+    if (_backend) _backend->compileGLObjects(renderInfo);
 }
 
 void DeformableSkin::resizeGLObjectBuffers(unsigned int maxSize) {
     osg::Drawable::resizeGLObjectBuffers(maxSize);
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
         if (buffer) buffer->resizeGLObjectBuffers(maxSize);
-    if (_drawer) _drawer->resizeGLObjectBuffers(maxSize);
+    if (_backend) _backend->resizeGLObjectBuffers(maxSize);
 }
 
 void DeformableSkin::releaseGLObjects(osg::State* state) const {
     osg::Drawable::releaseGLObjects(state);
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
         if (buffer) buffer->releaseGLObjects(state);
-    if (_drawer) _drawer->releaseGLObjects(state);
+    if (_backend) _backend->releaseGLObjects(state);
 }
 
 } // namespace osgSkin

@@ -123,8 +123,8 @@ glm::dvec2 CorrectiveWeights::coordinatesOf(std::uint32_t joint) const noexcept 
 
 void CorrectiveWeights::workOut(std::uint32_t joint) noexcept {
     const CorrectiveJoint& from = _blocks->joints[joint];
-    static_assert(CorrectiveJoint::kMostModes % CorrectiveTable::kAtOnce == 0);
-    double beta[CorrectiveJoint::kMostModes];
+    static_assert(CorrectiveJoint::kMaxModes % CorrectiveTable::kAtOnce == 0);
+    double beta[CorrectiveJoint::kMaxModes];
     WeightTerms(from, _blocks->tables[joint], coordinatesOf(joint)).sum(beta);
     const double small = SkinModelAccess::blocks(_model).smallMove;
     Weights& weights = _weights[joint];

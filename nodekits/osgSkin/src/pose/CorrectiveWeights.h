@@ -43,8 +43,8 @@ class CorrectiveWeights {
 public:
     /// The factors of each mode's shares.
     struct Weights {
-        std::array<float, CorrectiveJoint::kMostModes> positions;
-        std::array<float, CorrectiveJoint::kMostModes> normals;
+        std::array<float, CorrectiveJoint::kMaxModes> positions;
+        std::array<float, CorrectiveJoint::kMaxModes> normals;
     };
 
     CorrectiveWeights(const SkinModel& model, const Pose& pose) noexcept
@@ -82,9 +82,9 @@ private:
     const SkinModel& _model;
     const Pose& _pose;
     const CorrectiveBlocks* _blocks; ///< null without correctives
-    std::array<State, Correctives::kMostJoints> _states{};
-    std::array<const Weights*, Correctives::kMostJoints> _known; ///< where they are
-    std::array<Weights, Correctives::kMostJoints> _weights;
+    std::array<State, Correctives::kMaxJoints> _states{};
+    std::array<const Weights*, Correctives::kMaxJoints> _known; ///< where they are
+    std::array<Weights, Correctives::kMaxJoints> _weights;
 };
 
 } // namespace osgSkin

@@ -42,7 +42,7 @@ bool isScale(double scale) noexcept {
 /// How far a pose can move vertices, which may follow any of its joints in part.
 struct Spread {
     /// The limit for the product of all growing scales.
-    static constexpr double kMostGrown = 1e12;
+    static constexpr double kMaxGrown = 1e12;
 
     double grown = 1.0; ///< the product of all scales above 1
     double moved = 0.0; ///< the sum of all translations, before scaling
@@ -52,7 +52,7 @@ struct Spread {
         if (own.scale > 1.0) grown *= own.scale;
     }
     bool isInRange() const noexcept { // false for NaN
-        return grown <= kMostGrown && grown * moved <= kLargestCoordinate;
+        return grown <= kMaxGrown && grown * moved <= kLargestCoordinate;
     }
 };
 

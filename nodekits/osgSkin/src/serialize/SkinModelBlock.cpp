@@ -22,9 +22,9 @@ namespace osgSkin {
 namespace {
 
 /// Reads words, never past the end, and never allocates more than the words need.
-class WordReader {
+class BlockReader {
 public:
-    explicit WordReader(const std::vector<std::uint32_t>& words) : _words(words) {}
+    explicit BlockReader(const std::vector<std::uint32_t>& words) : _words(words) {}
 
     std::uint32_t word() {
         if (_next == _words.size()) fail("it ends too early");
@@ -77,7 +77,7 @@ private:
 };
 
 /// Writes numbers and text as 32-bit words, without loss.
-class WordWriter {
+class BlockWriter {
 public:
     std::vector<std::uint32_t> words;
 
@@ -112,19 +112,19 @@ public:
 // Flags of correctives.
 constexpr std::uint32_t kNormals = 1, kInputs = 2;
 
-void putList(const std::vector<double>& numbers, WordWriter& out) {
+void putList(const std::vector<double>& numbers, BlockWriter& out) {
     out.put(numbers.size());
     for (const double number : numbers) out.put(number);
 }
 
-std::vector<double> takeList(WordReader& in, const char* what) {
+std::vector<double> takeList(BlockReader& in, const char* what) {
     std::vector<double> numbers(in.count(what, 2));
     for (double& number : numbers) number = in.longReal();
     return numbers;
 }
 
 /// Two per word, the lower half first.
-void putShares(const std::int16_t* shares, std::size_t count, WordWriter& out) {
+void putShares(const std::int16_t* shares, std::size_t count, BlockWriter& out) {
     for (std::size_t i = 0; i < count; i += 2) {
         std::uint32_t word = static_cast<std::uint16_t>(shares[i]);
         if (i + 1 < count) word |= std::uint32_t{static_cast<std::uint16_t>(shares[i + 1])} << 16;
@@ -132,7 +132,7 @@ void putShares(const std::int16_t* shares, std::size_t count, WordWriter& out) {
     }
 }
 
-void takeShares(WordReader& in, std::size_t count, std::vector<std::int16_t>& shares) {
+void takeShares(BlockReader& in, std::size_t count, std::vector<std::int16_t>& shares) {
     std::uint32_t word = 0;
     for (std::size_t i = 0; i < count; ++i) {
         word = i % 2 == 0 ? in.word() : word >> 16;
@@ -140,7 +140,7 @@ void takeShares(WordReader& in, std::size_t count, std::vector<std::int16_t>& sh
     }
 }
 
-CorrectiveJoint takeJoint(WordReader& in) {
+CorrectiveJoint takeJoint(BlockReader& in) {
     CorrectiveJoint joint;
     joint.joint = in.word();
     joint.basis = static_cast<CorrectiveJoint::Basis>(in.word());
@@ -153,13 +153,13 @@ CorrectiveJoint takeJoint(WordReader& in) {
     joint.modes = in.word();
     joint.coefficients = takeList(in, "coefficients");
     joint.normalScales = takeList(in, "scales of normals");
-    if (joint.modes > CorrectiveJoint::kMostModes)
-        WordReader::fail("correctives have " + std::to_string(joint.modes) + " modes, expected " +
-                         std::to_string(CorrectiveJoint::kMostModes) + " at most");
+    if (joint.modes > CorrectiveJoint::kMaxModes)
+        BlockReader::fail("correctives have " + std::to_string(joint.modes) + " modes, expected " +
+                         std::to_string(CorrectiveJoint::kMaxModes) + " at most");
     return joint;
 }
 
-void putCorrectives(const Correctives& correctives, WordWriter& out) {
+void putCorrectives(const Correctives& correctives, BlockWriter& out) {
     out.put(std::uint32_t{(correctives.hasNormals() ? kNormals : 0u) |
                           (correctives.inputs.empty() ? 0u : kInputs)});
     if (!correctives.inputs.empty()) out.put(correctives.inputs.size());
@@ -193,11 +193,11 @@ void putCorrectives(const Correctives& correctives, WordWriter& out) {
 }
 
 /// \throw osgSkin::Error where there are too few words; Correctives::validate() checks the numbers
-Correctives takeCorrectives(WordReader& in, std::uint32_t vertexCount) {
+Correctives takeCorrectives(BlockReader& in, std::uint32_t vertexCount) {
     Correctives result;
     const std::uint32_t flags = in.word();
     if (flags & ~(kNormals | kInputs))
-        WordReader::fail("its correctives have a flag that is not known");
+        BlockReader::fail("its correctives have a flag that is not known");
     const std::uint32_t inputs = flags & kInputs ? in.count("inputs", 1) : 0;
     for (std::uint32_t i = 0; i < inputs; ++i) result.inputs.push_back(in.text());
     const std::uint32_t joints = in.count("correctives' joints", 20);
@@ -207,7 +207,7 @@ Correctives takeCorrectives(WordReader& in, std::uint32_t vertexCount) {
         const std::uint32_t entries = in.count("correctives", 2);
         for (std::uint32_t i = 0; i < entries; ++i) {
             const std::uint32_t joint = in.word();
-            if (joint >= joints) WordReader::fail("correctives name no joint's modes");
+            if (joint >= joints) BlockReader::fail("correctives name no joint's modes");
             result.entries.push_back({joint, static_cast<std::uint32_t>(result.shares.size())});
             takeShares(in, result.sharesOf(joint), result.shares);
             if (flags & kNormals) takeShares(in, result.sharesOf(joint), result.normalShares);
@@ -217,14 +217,14 @@ Correctives takeCorrectives(WordReader& in, std::uint32_t vertexCount) {
     return result;
 }
 
-std::vector<glm::vec3> readVectors(WordReader& in, std::uint32_t count) {
+std::vector<glm::vec3> readVectors(BlockReader& in, std::uint32_t count) {
     std::vector<glm::vec3> vectors(count);
     for (glm::vec3& vector : vectors)
         for (glm::length_t axis = 0; axis < 3; ++axis) vector[axis] = in.real();
     return vectors;
 }
 
-BoundJoint readJoint(WordReader& in) {
+BoundJoint readJoint(BlockReader& in) {
     BoundJoint joint;
     joint.parent = static_cast<int>(in.word());
     joint.name = in.text();
@@ -234,7 +234,7 @@ BoundJoint readJoint(WordReader& in) {
     return joint;
 }
 
-void putGradients(const Binding& binding, WordWriter& out) {
+void putGradients(const Binding& binding, BlockWriter& out) {
     for (std::size_t i = 0; i < binding.influences.size(); ++i) {
         if (!binding.influences[i].isPartial()) continue;
         out.putVector(binding.gradients[i].bend);
@@ -242,7 +242,7 @@ void putGradients(const Binding& binding, WordWriter& out) {
     }
 }
 
-std::vector<RatioGradient> takeGradients(WordReader& in, const std::vector<Influence>& influences) {
+std::vector<RatioGradient> takeGradients(BlockReader& in, const std::vector<Influence>& influences) {
     std::vector<RatioGradient> gradients(influences.size());
     for (std::size_t i = 0; i < influences.size(); ++i) {
         if (!influences[i].isPartial()) continue;
@@ -293,7 +293,7 @@ Binding bindingOf(const SkinModel& model) {
 
 std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
     const Binding binding = bindingOf(model);
-    WordWriter out;
+    BlockWriter out;
     // The earliest version that suffices, for older programs.
     const bool corrected = !binding.correctives.empty();
     const bool sloped = !binding.gradients.empty();
@@ -328,7 +328,7 @@ std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
 }
 
 osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& words) {
-    WordReader in(words);
+    BlockReader in(words);
     const std::uint32_t version = in.word();
     if (version < 1 || version > kSkinModelBlockVersion)
         in.fail("it has version " + std::to_string(version) + ", expected 1 to " +
@@ -368,7 +368,7 @@ osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& 
 }
 
 void unpackSkinModel(const std::vector<std::uint32_t>& words, SkinModel& empty) {
-    if (empty.vertexCount() > 0) WordReader::fail("the model to be filled is not empty");
+    if (empty.vertexCount() > 0) BlockReader::fail("the model to be filled is not empty");
     SkinModelAccess::fill(empty, *unpackSkinModel(words));
 }
 

@@ -77,7 +77,7 @@ WeightRows weldedWeights(const WeldedMesh& skin, const VertexWeights& weights, s
 }
 
 /// Gives welded vertices without weights those of the nearest vertex. Returns their number.
-std::size_t fillGaps(const WeldedMesh& skin, WeightRows& rows) {
+std::size_t inferMissingRoles(const WeldedMesh& skin, WeightRows& rows) {
     std::vector<std::uint32_t> painted, gaps;
     for (std::uint32_t v = 0; v < rows.size(); ++v) (rows[v].empty() ? gaps : painted).push_back(v);
     if (painted.empty()) throw Error("bind: no vertex has weights, expected at least one above 0");
@@ -170,7 +170,7 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
     std::vector<std::string> aboutRegions; // not reported, as weights replace regions
     const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, aboutRegions);
     WeightRows rows = weldedWeights(skin, weights, joints.size());
-    if (const std::size_t gaps = fillGaps(skin, rows))
+    if (const std::size_t gaps = inferMissingRoles(skin, rows))
         found.notes.push_back(std::to_string(gaps) +
                               " vertices have no weights, they take those of the nearest that has");
 

@@ -34,11 +34,11 @@ constexpr double kRidge = 1e-6;
 constexpr double kTolerance = 2e-2;
 
 /// The least cosine between a normal and its target; skin that has folded over is not followed.
-constexpr double kLeastCosine = 0.15;
+constexpr double kMinCosine = 0.15;
 
 /// In a fold, ratios alone may invert skin that shapes then open. Gradients are limited so that at
 /// least this share of the area remains, and tilts correct the rest.
-constexpr double kLeastArea = 0.1;
+constexpr double kMinArea = 0.1;
 
 bool isHinge(const CorrectiveJoint& joint) {
     return joint.basis == CorrectiveJoint::Basis::Hinge ||
@@ -136,9 +136,9 @@ public:
                                                              slideOf(_vertices[v], bend)));
         }
         for (std::size_t v = 0; v < _vertices.size(); ++v)
-            if (least[v] < kLeastArea)
+            if (least[v] < kMinArea)
                 _vertices[v].gradient.bend *=
-                    static_cast<float>((1.0 - kLeastArea) / (1.0 - least[v]));
+                    static_cast<float>((1.0 - kMinArea) / (1.0 - least[v]));
     }
 
 private:
@@ -150,7 +150,7 @@ private:
             bend.bendAxis = (xy.x * _functions.axis + xy.y * other) / sine;
             bend.bendAngle = 2.0 * std::asin(std::min(sine, 1.0));
         }
-        double beta[CorrectiveJoint::kMostModes] = {};
+        double beta[CorrectiveJoint::kMaxModes] = {};
         if (corrected) _functions.weights(xy, beta);
         for (const std::uint32_t v : _others)
             _posed[v] = turnOf(_ratios.of(v, _turns ? _functions.joint : 0), bend) *
@@ -214,7 +214,7 @@ private:
         if (n == glm::dvec3(0.0) || wanted == glm::dvec3(0.0)) return glm::dvec3(0.0);
         const glm::dvec3 slide = slideOf(vertex, bend);
         const glm::dvec3 target = glm::conjugate(turnOf(vertex.ratios, bend)) * wanted;
-        const double cosine = std::max(glm::dot(n, target), kLeastCosine);
+        const double cosine = std::max(glm::dot(n, target), kMinCosine);
         const glm::dvec3 u = anyPerpendicular(n), v = glm::cross(n, u);
         const auto along = [&](const glm::dvec3& direction) {
             return glm::dot(direction +
@@ -292,7 +292,7 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
         Eigen::MatrixXd weights(rows, Eigen::Index(joint.modes));
         Eigen::MatrixXd tilts(rows, Eigen::Index(3 * skin.vertices().size()));
         for (Eigen::Index s = 0; s < rows; ++s) {
-            double beta[CorrectiveJoint::kMostModes];
+            double beta[CorrectiveJoint::kMaxModes];
             joint.weights(samples[std::size_t(s)], beta);
             for (std::size_t k = 0; k < joint.modes; ++k) weights(s, Eigen::Index(k)) = beta[k];
             std::vector<glm::dvec3> wanted = skin.tilts(samples[std::size_t(s)]);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "bind/ShapesCache.h"
+
 #include "bind/AddShapes.h"
 #include "shapes/MakeShapes.h"
 
@@ -26,7 +28,7 @@ constexpr std::uint32_t kMakerVersion = 10;
 
 /// Limits the size of a file: up to eight joints correct a vertex, with 400 bytes each. The data
 /// that does not depend on the vertices counts as kFixedVertices more.
-constexpr std::uintmax_t kMostBytes = 8192;
+constexpr std::uintmax_t kMaxBytes = 8192;
 constexpr std::size_t kFixedVertices = 1000;
 
 /// Writes values in this machine's byte order.
@@ -105,15 +107,9 @@ private:
     bool _failed = false;
 };
 
-/// 36 letters, digits and hyphens (SHA-1, as a UUID of version 5).
-std::string digestOf(const std::string& bytes) {
-    const boost::uuids::name_generator_sha1 generate(boost::uuids::ns::oid());
-    return boost::uuids::to_string(generate(bytes.data(), bytes.size()));
-}
-
 /// The digest of all input of elastic shapes: mesh, skeleton, roles of the joints, ratios, and the
 /// version of the code.
-std::string digestOf(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+std::string inputDigest(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                      const WeldedMesh& mesh, const Binding& binding) {
     ByteWriter writer;
     writer.addText(OSGSKIN_VERSION);
@@ -140,12 +136,6 @@ std::string digestOf(const RestSkeleton& skeleton, const std::vector<PlannedJoin
     writer.addAll(binding.influences);
     return digestOf(writer.bytes());
 }
-
-/// Shapes, and the notes from making them.
-struct MadeShapes {
-    Correctives correctives;
-    std::vector<std::string> notes;
-};
 
 std::string toBytes(const MadeShapes& shapes) {
     ByteWriter writer;
@@ -203,67 +193,59 @@ std::string bytesOf(const std::string& file, std::size_t vertices) {
     std::error_code failure;
     if (!fs::is_regular_file(file, failure)) return {};
     const std::uintmax_t size = fs::file_size(file, failure);
-    if (failure || size / kMostBytes > vertices + kFixedVertices) return {};
+    if (failure || size / kMaxBytes > vertices + kFixedVertices) return {};
     std::string all(static_cast<std::size_t>(size), '\0');
     std::ifstream in(file, std::ios::binary);
     in.read(all.data(), static_cast<std::streamsize>(size));
     return static_cast<std::uintmax_t>(in.gcount()) == size ? all : std::string();
 }
 
-/// A folder with a file for each digest of the input. A file contains that digest, the digest of
-/// the rest, and the rest. Any number of programs may use the folder at once, since files are
-/// written under another name and then renamed.
-class ShapesCache {
-public:
-    /// \param folder is made if it is missing
-    ShapesCache(const std::string& folder, const std::string& digest)
-        : _folder(folder), _file((fs::path(folder) / ("shapes-" + digest)).string()),
-          _digest(digest) {}
-
-    /// \return nothing if there is no file, or no good one; the latter adds a note
-    std::optional<MadeShapes> read(const Binding& binding, std::vector<std::string>& notes) const {
-        std::error_code missing;
-        if (!fs::exists(_file, missing)) return std::nullopt;
-        const std::string all = bytesOf(_file, binding.vertexCount());
-        const std::size_t digest = _digest.size();
-        MadeShapes shapes;
-        if (all.size() > 2 * digest && all.compare(0, digest, _digest) == 0) {
-            const std::string bytes = all.substr(2 * digest);
-            if (all.compare(digest, digest, digestOf(bytes)) == 0 && fromBytes(bytes, shapes)) try {
-                    shapes.correctives.validate(binding.joints, binding.vertexCount());
-                    return shapes;
-                } catch (const Error&) {
-                    // noted below
-                }
-        }
-        notes.push_back(_file + ": not a valid file of shapes, they are computed again");
-        return std::nullopt;
-    }
-
-    /// Adds a note if the file cannot be written.
-    void write(const MadeShapes& shapes, std::vector<std::string>& notes) const {
-        std::error_code failed;
-        fs::create_directories(_folder, failed);
-        const std::string bytes = toBytes(shapes);
-        const std::string beside = _file + '.' + std::to_string(std::random_device{}());
-        {
-            std::ofstream out(beside, std::ios::binary);
-            out << _digest << digestOf(bytes) << bytes;
-            out.flush();
-            if (!out) failed = std::make_error_code(std::errc::io_error);
-        }
-        if (!failed) fs::rename(beside, _file, failed);
-        if (!failed) return;
-        std::error_code ignored;
-        fs::remove(beside, ignored);
-        notes.push_back(_file + ": cannot be written, so shapes are computed again each time");
-    }
-
-private:
-    std::string _folder, _file, _digest;
-};
-
 } // namespace
+
+std::string digestOf(const std::string& bytes) {
+    const boost::uuids::name_generator_sha1 generate(boost::uuids::ns::oid());
+    return boost::uuids::to_string(generate(bytes.data(), bytes.size()));
+}
+
+ShapesCache::ShapesCache(const std::string& folder, const std::string& digest)
+    : _folder(folder), _file((fs::path(folder) / ("shapes-" + digest)).string()), _digest(digest) {}
+
+std::optional<MadeShapes> ShapesCache::read(const Binding& binding, std::vector<std::string>& notes) const {
+    std::error_code missing;
+    if (!fs::exists(_file, missing)) return std::nullopt;
+    const std::string all = bytesOf(_file, binding.vertexCount());
+    const std::size_t digest = _digest.size();
+    MadeShapes shapes;
+    if (all.size() > 2 * digest && all.compare(0, digest, _digest) == 0) {
+        const std::string bytes = all.substr(2 * digest);
+        if (all.compare(digest, digest, digestOf(bytes)) == 0 && fromBytes(bytes, shapes)) try {
+                shapes.correctives.validate(binding.joints, binding.vertexCount());
+                return shapes;
+            } catch (const Error&) {
+                // noted below
+            }
+    }
+    notes.push_back(_file + ": not a valid file of shapes, they are computed again");
+    return std::nullopt;
+}
+
+void ShapesCache::write(const MadeShapes& shapes, std::vector<std::string>& notes) const {
+    std::error_code failed;
+    fs::create_directories(_folder, failed);
+    const std::string bytes = toBytes(shapes);
+    const std::string beside = _file + '.' + std::to_string(std::random_device{}());
+    {
+        std::ofstream out(beside, std::ios::binary);
+        out << _digest << digestOf(bytes) << bytes;
+        out.flush();
+        if (!out) failed = std::make_error_code(std::errc::io_error);
+    }
+    if (!failed) fs::rename(beside, _file, failed);
+    if (!failed) return;
+    std::error_code ignored;
+    fs::remove(beside, ignored);
+    notes.push_back(_file + ": cannot be written, so shapes are computed again each time");
+}
 
 Correctives cachedElasticShapes(const RestSkeleton& skeleton,
                                 const std::vector<PlannedJoint>& joints, const WeldedMesh& mesh,
@@ -272,7 +254,7 @@ Correctives cachedElasticShapes(const RestSkeleton& skeleton,
                                 std::vector<std::string>& notes) {
     std::optional<ShapesCache> cache;
     if (!options.cacheFolder.empty()) {
-        cache.emplace(options.cacheFolder, digestOf(skeleton, joints, mesh, binding));
+        cache.emplace(options.cacheFolder, inputDigest(skeleton, joints, mesh, binding));
         if (std::optional<MadeShapes> known = cache->read(binding, notes)) {
             notes.insert(notes.end(), known->notes.begin(), known->notes.end());
             return std::move(known->correctives);

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t kHistory = 8;
 constexpr double kEnoughDescent = 1e-4; ///< share of the descent that the slope predicts
-constexpr int kMostHalvings = 20;
+constexpr int kMaxHalvings = 20;
 /// The preconditioner underestimates the curvature, so its whole steps would overshoot.
 constexpr double kCurvatureShare = 0.25;
 
@@ -354,7 +354,7 @@ void JointSolving::follow(std::size_t from, const JointSolid::State& state,
                           std::vector<Solved>& samples) const {
     const bool good = from == SampleTree::kRest || samples[from].sample.reason.empty();
     const std::vector<std::size_t>& next = _tree.startingFrom(from);
-    eachAtOnce(next.size(), [&](std::size_t i) {
+    parallelFor(next.size(), [&](std::size_t i) {
         Solved& solved = samples[next[i]];
         const Eigen::Quaterniond& rotation = _rotations[next[i]];
         const JointSolid::State there = bend(state, rotation, solved.sample);
@@ -487,12 +487,12 @@ MinimiseResult minimise(const Energy& energy, Points& points, const MinimiseLimi
         Points next, nextGradient(3, points.cols());
         double nextValue = 0.0, length = 1.0;
         int halvings = 0;
-        for (; halvings < kMostHalvings; ++halvings, length *= 0.5) {
+        for (; halvings < kMaxHalvings; ++halvings, length *= 0.5) {
             next = points + length * way;
             nextValue = energy.value(next, nextGradient);
             if (nextValue <= value + kEnoughDescent * length * slope) break;
         }
-        if (halvings == kMostHalvings) {
+        if (halvings == kMaxHalvings) {
             if (pairs.empty()) break;
             pairs.clear();
             continue;

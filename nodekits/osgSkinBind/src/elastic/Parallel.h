@@ -20,7 +20,7 @@ namespace osgSkin::elastic {
 /// Calls work(0) to work(count - 1), on all processors if oneTBB is built in. Exceptions propagate.
 /// May be nested.
 template <typename Work>
-void eachAtOnce(std::size_t count, const Work& work) {
+void parallelFor(std::size_t count, const Work& work) {
 #ifdef OSGSKIN_HAS_TBB
     tbb::parallel_for(std::size_t(0), count, work);
 #else

@@ -324,7 +324,7 @@ std::vector<ElasticShapes> solveElasticJoints(const ElasticSkin& skin,
     elastic::SharedProgress shared(whole);
     std::vector<ElasticShapes> shapes(joints.size());
     shared.tellWhile(progress, [&] {
-        elastic::eachAtOnce(toSolve.size(), [&](std::size_t i) {
+        elastic::parallelFor(toSolve.size(), [&](std::size_t i) {
             shapes[toSolve[i]] = elastic::solveJoint(skin, joints[toSolve[i]], shared);
         });
     });

@@ -84,7 +84,7 @@ constexpr double kAbove = 0.7;
 constexpr double kTouching = 0.02;
 
 /// The largest number of shells that others may lie on; a beard may have 10,000 hairs.
-constexpr std::size_t kMostBelow = 16;
+constexpr std::size_t kMaxBelow = 16;
 
 /// A shell carries a joint if it has this many times more of the joint's seeds than those below.
 constexpr std::size_t kCarried = 4;
@@ -108,7 +108,7 @@ public:
 
     /// Lets later shells lie on a shell.
     void add(std::uint32_t shell, const std::vector<std::uint32_t>& vertices) {
-        if (_below.size() == kMostBelow) return;
+        if (_below.size() == kMaxBelow) return;
         _below.push_back(std::make_unique<ShellSurface>(_mesh, shell));
         const std::vector<std::size_t> seeds = seedsOf(vertices);
         for (std::size_t j = 0; j < seeds.size(); ++j) _seedsBelow[j] += seeds[j];

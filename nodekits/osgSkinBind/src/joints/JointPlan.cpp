@@ -136,8 +136,8 @@ std::vector<int> rigidJoints(const RestSkeleton& skeleton, const BindOptions& op
 }
 
 bool hasParentPole(const JointBindOptions& options, JointPart part) {
-    if (options.twistPole == JointBindOptions::Pole::Automatic) return part == JointPart::Hand;
-    return options.twistPole == JointBindOptions::Pole::Parent;
+    if (options.twistAxis == JointBindOptions::Pole::Automatic) return part == JointPart::Hand;
+    return options.twistAxis == JointBindOptions::Pole::Parent;
 }
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -287,7 +287,7 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     std::vector<PlannedJoint> joints(skeleton.joints.size());
     const double tolerance = kCentreTolerance * mesh.size;
     const JointRoles roles = recogniseJoints(skeleton, options.names);
-    if (roles.family == kToldByShape)
+    if (roles.family == kInferredFromGeometry)
         notes.emplace_back("joint names not recognised: head, hands and feet are inferred from the "
                            "skeleton's shape");
     const std::vector<int> rigid = rigidJoints(skeleton, options);

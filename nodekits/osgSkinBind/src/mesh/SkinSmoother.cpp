@@ -51,7 +51,7 @@ constexpr int kSteps = 5;
 constexpr double kFinest = 12.0;
 
 /// A coarser skin must have at least this many times fewer vertices.
-constexpr std::size_t kLeastCoarsening = 2;
+constexpr std::size_t kMinCoarsening = 2;
 
 /// The spread is computed up to this distance, in widths, from changes of the field. Five steps
 /// have a standard deviation of 1.4 widths, so values farther away are below 1e-3, which is cut off
@@ -240,7 +240,7 @@ SkinSmoother::SkinSmoother(const WeldedMesh& mesh, double widest) : _skin(mesh) 
     const HeatGraph* finest = &_skin;
     while (finest->meanEdge > 0.0 && widest > kFinest * finest->meanEdge) {
         auto coarse = std::make_unique<CoarseGraph>(*finest);
-        if (kLeastCoarsening * coarse->graph().vertexCount() > finest->vertexCount()) break;
+        if (kMinCoarsening * coarse->graph().vertexCount() > finest->vertexCount()) break;
         finest = &coarse->graph();
         _coarser.push_back(std::move(coarse));
     }

@@ -130,13 +130,13 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 /// Triangles for each vertex (a closed surface has two), and a number of triangles that is always
 /// accepted.
-constexpr std::size_t kMostTriangles = 12, kFewTriangles = 2000;
+constexpr std::size_t kMaxTriangles = 12, kFewTriangles = 2000;
 
-/// The work of factorising a surface of n vertices grows as n^1.5 log2 n multiplications. kMostWork
+/// The work of factorising a surface of n vertices grows as n^1.5 log2 n multiplications. kMaxWork
 /// limits the factor: bodies need 0.4 to 0.9, spheres and balls of 100 to 160,000 vertices 1.5 to
 /// 2.8, random triangles hundreds. kLittleWork, the work for 200 vertices that are all joined, is
 /// always accepted.
-constexpr double kMostWork = 6.0, kLittleWork = 2e6;
+constexpr double kMaxWork = 6.0, kLittleWork = 2e6;
 
 /// Computes how much work it would be to factorise a matrix, without doing so.
 class Factors : public Eigen::SimplicialLDLT<Matrix> {
@@ -327,10 +327,10 @@ void requireSurface(const WeldedMesh& mesh) {
     const std::size_t vertices = mesh.vertexCount(), triangles = mesh.triangles.size();
     const std::string found = "mesh: " + std::to_string(triangles) + " triangles of " +
                               std::to_string(vertices) + " vertices";
-    if (triangles > std::max(kFewTriangles, kMostTriangles * vertices))
-        throw Error(found + ", expected at most " + std::to_string(kMostTriangles) +
+    if (triangles > std::max(kFewTriangles, kMaxTriangles * vertices))
+        throw Error(found + ", expected at most " + std::to_string(kMaxTriangles) +
                     " for each vertex");
-    if (solvingWork(mesh) > kLittleWork + kMostWork * expectedWork(mesh))
+    if (solvingWork(mesh) > kLittleWork + kMaxWork * expectedWork(mesh))
         throw Error(found + " join vertices all over the mesh, expected a surface, whose triangles "
                             "join neighbouring vertices");
 }

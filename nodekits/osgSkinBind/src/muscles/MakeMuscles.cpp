@@ -25,7 +25,7 @@ constexpr double kMomentArm = 0.9;
 constexpr double kFascicle = 0.5;
 
 /// The largest stretch of a muscle.
-constexpr double kMostStretch = 0.15;
+constexpr double kMaxStretch = 0.15;
 
 constexpr int kSamples = 48;
 constexpr double kRidge = 1e-6;
@@ -34,7 +34,7 @@ constexpr double kRidge = 1e-6;
 constexpr int kRounds = 8;
 
 /// The lowered part of a spindle is scaled by at most this factor relative to the lifted part.
-constexpr double kMostLowered = 2.5;
+constexpr double kMaxLowered = 2.5;
 
 /// The bend of a flexor's hinge, from straight, at which its growth is given, in degrees.
 constexpr double kFlexion = 120.0;
@@ -47,7 +47,7 @@ constexpr double kTensedAt = 80.0;
 constexpr double kTensed = 0.75;
 
 /// Negligible displacement, in limb radii.
-constexpr double kLeastLift = 2e-3;
+constexpr double kMinLift = 2e-3;
 
 /// Saturates t smoothly at 1, from 3/4 on.
 double softly(double t) {
@@ -60,7 +60,7 @@ double softly(double t) {
 double contractionAt(const Muscle& muscle, double psi) {
     const double length = kFascicle * glm::length(muscle.end - muscle.begin);
     const double pulled = muscle.shortens * kMomentArm * muscle.radius * psi / length;
-    const double most = pulled > 0.0 ? 1.0 - kShortest : kMostStretch;
+    const double most = pulled > 0.0 ? 1.0 - kShortest : kMaxStretch;
     const double lambda = 1.0 - std::copysign(most * softly(std::abs(pulled) / most), pulled);
     return (1.0 / lambda - 1.0) / (1.0 / kShortest - 1.0);
 }
@@ -120,7 +120,7 @@ Heights calibrate(const MuscleSkin& skin, const Heights& spindle, const Heights&
         const double without = skin.volume(sum(already, scaled(spindle, up, 0.0), amount)) - volume;
         const double lost =
             without + volume - skin.volume(sum(already, scaled(spindle, up, up), amount));
-        down = lost > 0.0 ? up * std::min(kMostLowered, std::max(0.0, without / lost)) : up;
+        down = lost > 0.0 ? up * std::min(kMaxLowered, std::max(0.0, without / lost)) : up;
     }
     return scaled(spindle, up, down);
 }
@@ -138,7 +138,7 @@ FittedShapes asMode(const MuscleSkin& skin, const Heights& lifted, const Muscle&
     shape.functions.modes = 1;
     shape.functions.coefficients = std::move(coefficients);
     shape.vertices = skin.vertices();
-    shape.tolerance = kLeastLift * muscle.radius;
+    shape.tolerance = kMinLift * muscle.radius;
     double highest = 0.0;
     for (const double h : lifted) highest = std::max(highest, std::abs(h));
     for (std::size_t i = 0; i < lifted.size(); ++i)

@@ -3,7 +3,7 @@
 
 #include "joints/BodyAxes.h"
 #include "mesh/SkinSmoother.h"
-#include "ratios/EvenStretch.h"
+#include "ratios/MinimizeStretch.h"
 
 #include <glm/geometric.hpp>
 
@@ -71,7 +71,7 @@ constexpr double kRoom = 1.2;
 /// A field is in transition between this value and 1 minus it.
 constexpr double kBetween = 0.02;
 
-/// Upper limit of slopeShare(): a single needle of the mesh must not spread a field over the body.
+/// Upper limit of gradientFactor(): a single needle of the mesh must not spread a field over the body.
 constexpr double kMost = 3.0;
 
 /// The width, in limb radii, that makes a field with given boundaries continuous across regions,
@@ -255,12 +255,12 @@ void evenOut(const BinaryField& binary, const SkinSmoother& smoother, std::size_
     const std::vector<glm::dvec3> swings = armSwings(binary.joints, joint);
     if (swings.empty()) return;
     for (const std::uint32_t v : third) isFree[v] = false;
-    keepLooseSkin(smoother.skin(), field, isFree);
+    pinUnanchoredPatches(smoother.skin(), field, isFree);
     const glm::dvec3& centre = binary.joints[joint].centre;
     smoother.change(field, isFree, width,
                     [&](const HeatGraph& skin, std::vector<double>& coarse,
                         const std::vector<bool>& coarseFree) {
-                        evenStretch(skin, coarse, coarseFree, centre, swings);
+                        minimizeStretch(skin, coarse, coarseFree, centre, swings);
                     });
 }
 
@@ -272,8 +272,8 @@ void evenOut(const BinaryField& binary, const SkinSmoother& smoother, std::size_
 /// stay rigid; a wide field on a thick short bone would look like rubber. On the trunk's side of a
 /// shoulder or hip there is no such limit, so each side has its own width. If such a limb leaves
 /// the trunk, the field is spread farther where it would be steepest, as in the armpit
-/// (slopeShare()); an arm's is then redistributed for the directions in which arms swing
-/// (evenStretch()).
+/// (gradientFactor()); an arm's is then redistributed for the directions in which arms swing
+/// (minimizeStretch()).
 std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& smoother,
                                std::size_t joint, const std::vector<double>& radii,
                                const BindOptions& options) {
@@ -310,7 +310,7 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     std::vector<double> share;
     if (limb && binary.joints[above].trunk)
         share =
-            slopeShare(binary.mesh, spread(smoother, start, widths, {}, isHeld, options.cutOff));
+            gradientFactor(binary.mesh, spread(smoother, start, widths, {}, isHeld, options.cutOff));
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
         field = spread(smoother, start, widths, share, isHeld, options.cutOff);
@@ -352,7 +352,7 @@ std::vector<double> boundedField(const BinaryField& binary, const SkinSmoother& 
 
 } // namespace
 
-std::vector<double> slopeShare(const WeldedMesh& mesh, const std::vector<double>& field) {
+std::vector<double> gradientFactor(const WeldedMesh& mesh, const std::vector<double>& field) {
     const std::vector<double> slope = slopes(mesh, field);
     const double between = slopeBetween(field, slope);
     std::vector<double> share(field.size(), 1.0);

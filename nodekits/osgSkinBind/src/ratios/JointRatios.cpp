@@ -10,7 +10,7 @@ namespace {
 
 /// If the area vectors of a vertex's triangles almost cancel out, gradients would become very long.
 /// The length of the sum is taken as at least this share of the total area.
-constexpr double kLeastSpan = 0.25;
+constexpr double kMinSpan = 0.25;
 
 /// Sums over the triangles around a vertex.
 struct Around {
@@ -79,7 +79,7 @@ std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh, const Binding&
         const double length = glm::length(skin.areas);
         if (!(length > 0.0)) continue;
         const glm::dvec3 normal = skin.areas / length;
-        const double span = std::max(length, kLeastSpan * skin.area);
+        const double span = std::max(length, kMinSpan * skin.area);
         std::size_t next = partials.first(welded);
         for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i) {
             if (!binding.influences[i].isPartial()) continue;

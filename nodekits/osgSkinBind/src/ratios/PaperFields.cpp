@@ -12,7 +12,7 @@ namespace osgSkin {
 namespace {
 
 /// Newton's method with bisection as a fallback; few steps are needed without it.
-constexpr int kMostSteps = 100;
+constexpr int kMaxSteps = 100;
 constexpr double kTolerance = 1e-14;
 
 /// A point whose distance to one plane is less than this share of the sum is on that plane. In a
@@ -53,7 +53,7 @@ double root(const Cubic& cubic) {
     double high = 2.0 * low + 1.0;
     while (cubic.value(high) < 0.0) high *= 2.0;
     double x = 0.5 * (low + high);
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
         const double value = cubic.value(x);
         (value < 0.0 ? low : high) = x;
         const double slope = cubic.slope(x);

@@ -36,7 +36,7 @@ JointFields bendFields(const BinaryField& binary, const std::vector<double>& rad
 /// \return for each welded vertex a factor of at least 1: the slope there, mean of the vertex and
 ///         its neighbours, over the root mean square of the slope where the field is between 0
 ///         and 1
-std::vector<double> slopeShare(const WeldedMesh& mesh, const std::vector<double>& field);
+std::vector<double> gradientFactor(const WeldedMesh& mesh, const std::vector<double>& field);
 
 /// Where a joint's twist builds up with the method `smooth`; unset if the twist follows the bend.
 ///

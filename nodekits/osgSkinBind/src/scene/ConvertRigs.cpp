@@ -303,7 +303,7 @@ void requireDrawnAsBefore(const Rig& rig) {
 }
 
 /// Whether update callbacks move transforms between the skeleton and the rig.
-bool isMovedApart(const Rig& rig) {
+bool isAnimatedAttachment(const Rig& rig) {
     return std::any_of(rig.nodePaths.begin(), rig.nodePaths.end(), [](const osg::NodePath& path) {
         const bool moves = std::any_of(path.begin(), path.end(), [](const osg::Node* node) {
             return node->asTransform() != nullptr && node->getUpdateCallback() != nullptr;
@@ -389,7 +389,7 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
         DeformableSkin& skin = *made.skins[i].drawable;
         const std::string lost = whatIsLost(*taken[i]->geometry);
         if (!lost.empty()) report.notes.push_back(nameOf(*taken[i]) + " loses its own " + lost);
-        if (isMovedApart(*taken[i]))
+        if (isAnimatedAttachment(*taken[i]))
             report.notes.push_back(nameOf(*taken[i]) +
                                    " does not follow its transforms, which have update callbacks");
         replace(*taken[i], skin);

@@ -4,7 +4,7 @@
 #include "elastic/SolveElastic.h"
 #include "garments/SkinLayers.h"
 #include "ratios/JointRatios.h"
-#include "shapes/LimitSteps.h"
+#include "shapes/LimitVelocity.h"
 #include "shapes/ShapeFit.h"
 #include "shapes/ShapedJoint.h"
 
@@ -36,11 +36,11 @@ struct ElasticPlan {
 using Basis = CorrectiveJoint::Basis;
 
 /// Beyond this flexion a knee's solid begins to tangle; degrees from the straight limb.
-constexpr double kMostFlexion = 139.0;
+constexpr double kMaxFlexion = 139.0;
 
 /// Beyond this angle from the rest pose, limbs of ball joints meet skin outside of their fold;
 /// degrees.
-constexpr double kMostSwing = 90.0;
+constexpr double kMaxSwing = 90.0;
 
 /// How far shapes reach, in radii. A hinge's fold needs all that is solved. At the trunk other
 /// limbs are near that the solved flesh does not include: mainly hands beside thighs and, in
@@ -102,9 +102,9 @@ std::vector<ElasticPlan> planElastic(const RestSkeleton& skeleton,
     scope.besideLimb = kBesideLimb;
     scope.inPit = kInPit;
     scope.trunkToo = true;
-    scope.mostFlexion = kMostFlexion;
+    scope.mostFlexion = kMaxFlexion;
     scope.knotStep = kKnotStep;
-    scope.mostSwing = kMostSwing;
+    scope.mostSwing = kMaxSwing;
     const JointRatios ratios(mesh, binding);
     std::vector<ElasticPlan> plans;
     for (ShapedJoint& shaped : findShapedJoints(skeleton, joints, mesh, binding, scope)) {
@@ -187,7 +187,7 @@ ModeLimits limitsOf(bool hinge, double radius) {
 /// than the plain skin does; else the nearest good sample that bends less; none if the rest pose is
 /// nearer.
 /// \param at the samples' coordinates
-std::optional<std::size_t> standInFor(const std::vector<glm::dvec2>& at,
+std::optional<std::size_t> substituteSample(const std::vector<glm::dvec2>& at,
                                       const ElasticShapes& shapes, std::size_t sample) {
     const ElasticSample& own = shapes.samples[sample];
     if (own.reason.empty() || (!own.positions.empty() && own.crossings <= own.plainCrossings))
@@ -230,7 +230,7 @@ public:
         for (std::size_t i = 0; i < result.samples.size(); ++i) {
             // A bend that cannot be solved takes the shape of a smaller one: undetermined functions
             // would run away.
-            const std::optional<std::size_t> taken = standInFor(result.samples, _solved, i);
+            const std::optional<std::size_t> taken = substituteSample(result.samples, _solved, i);
             result.offsets.push_back(taken
                                          ? offsetsAt(result.samples[*taken], *taken)
                                          : std::vector<glm::dvec3>(_moved.size(), glm::dvec3(0.0)));
@@ -250,7 +250,7 @@ private:
 
     std::vector<glm::dvec3> offsetsAt(const glm::dvec2& xy, std::size_t sample) const {
         const BendTwist bend = _plan.shaped.bendAt(xy);
-        const double closed = _plan.shaped.pitClosedAt(bend);
+        const double closed = _plan.shaped.armpitClosure(bend);
         std::vector<glm::dvec3> offsets;
         offsets.reserve(_moved.size());
         for (const Moved& moved : _moved) {
@@ -323,7 +323,7 @@ Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<Pl
         fitted[joint] = fitShapes(ElasticOffsets(plans[i], solved[i]).shapes(),
                                   limitsOf(plans[i].joint.hinge, shaped.radius));
         fitted[joint].tolerance = kVertexTolerance * shaped.radius;
-        limitSteps(shaped, fitted[joint]);
+        limitVelocity(shaped, fitted[joint]);
         if (layers) followBelow(*layers, mesh.vertexCount(), fitted[joint]);
     }
     for (const ShapedJoint& shaped : findShapedJoints(skeleton, joints, mesh, binding)) {

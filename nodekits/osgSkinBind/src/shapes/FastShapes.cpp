@@ -608,7 +608,7 @@ std::vector<double> BentSkin::weights() const {
 std::size_t modesOf(CorrectiveJoint::Basis basis) {
     return basis == CorrectiveJoint::Basis::TurnedHinge ? 3
            : basis == CorrectiveJoint::Basis::Ball      ? 1
-                                                        : CorrectiveJoint::kMostModes;
+                                                        : CorrectiveJoint::kMaxModes;
 }
 
 /// Negligible displacement, in radii of the limb: of all vertices by a mode, and of a vertex by its

@@ -148,7 +148,7 @@ FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
     Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(fitted.rows(), fitted.cols());
     std::vector<Eigen::VectorXd> vectors;
     const std::size_t modes = std::min(
-        {limits.most, CorrectiveJoint::kMostModes, static_cast<std::size_t>(fitted.rows())});
+        {limits.most, CorrectiveJoint::kMaxModes, static_cast<std::size_t>(fitted.rows())});
     const double enough =
         std::max(limits.enough, limits.enoughOfResidual * rootMeanSquare(offsets - fitted));
     for (std::size_t k = 0; k < modes; ++k) {
@@ -187,7 +187,7 @@ Correctives packShapes(const std::vector<FittedShapes>& joints,
     std::vector<const FittedShapes*> kept;
     for (const FittedShapes& joint : joints) {
         const std::size_t modes = joint.functions.modes;
-        if (modes == 0 || kept.size() == Correctives::kMostJoints) continue;
+        if (modes == 0 || kept.size() == Correctives::kMaxJoints) continue;
         const std::vector<double> largest = largestWeights(joint.functions);
         for (std::size_t v = 0; v < joint.vertices.size(); ++v) {
             const std::size_t needed =

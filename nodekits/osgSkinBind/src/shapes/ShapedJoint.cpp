@@ -33,13 +33,13 @@ constexpr double kBeside = 3.0;
 constexpr double kOpen = 0.75, kClosed = -0.25;
 
 /// Sine of the angle up to which two directions count as parallel.
-constexpr double kLeastAcross = 0.1;
+constexpr double kMinAcross = 0.1;
 
 /// Skin that follows a joint at the trunk by less counts as the trunk's.
 constexpr double kTrunkFollows = 0.25;
 
 /// Joints with fewer vertices are not shaped.
-constexpr std::size_t kLeastVertices = 16;
+constexpr std::size_t kMinVertices = 16;
 
 /// The limb's radius where it bends: the median distance from the bone's line of edges at which the
 /// bend ratio crosses 1/2; 0 if there are none.
@@ -87,7 +87,7 @@ glm::dvec3 acrossOf(const std::vector<PlannedJoint>& joints, std::size_t joint) 
     const PlannedJoint& planned = joints[joint];
     const glm::dvec3 fromRoot = planned.centre - joints[0].centre;
     const bool isAlong =
-        glm::length(glm::cross(fromRoot, planned.twistAxis)) < kLeastAcross * glm::length(fromRoot);
+        glm::length(glm::cross(fromRoot, planned.twistAxis)) < kMinAcross * glm::length(fromRoot);
     return isAlong ? planned.comingFrom : fromRoot;
 }
 
@@ -100,19 +100,19 @@ bool isBesideLimb(const std::vector<ShapedJoint>& all, const ShapedJoint& shaped
 }
 
 /// The side of a limb towards the root, if the root is not in line with the limb.
-ShapePit pitOf(const glm::dvec3& root, const ShapedJoint& shaped, const ShapeReach& reach) {
-    ShapePit pit{reach};
+Armpit pitOf(const glm::dvec3& root, const ShapedJoint& shaped, const ShapeReach& reach) {
+    Armpit pit{reach};
     const glm::dvec3 fromRoot = shaped.centre - root;
     const glm::dvec3 across = fromRoot - shaped.bone * glm::dot(fromRoot, shaped.bone);
     const double length = glm::length(across);
-    if (length > kLeastAcross * glm::length(fromRoot)) pit.away = across / length;
+    if (length > kMinAcross * glm::length(fromRoot)) pit.away = across / length;
     return pit;
 }
 
 /// Adds the vertices and triangles within reach, in a closed armpit within the pit's reach.
 void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
              const JointRatios& ratios, bool trunkToo, bool insideOut, const ShapeReach& reach,
-             const ShapePit& pit, ShapedJoint& shaped) {
+             const Armpit& pit, ShapedJoint& shaped) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
     const auto above = static_cast<std::uint32_t>(regionAbove(joints, shaped.functions.joint));
@@ -240,7 +240,7 @@ double ShapeReach::shareAt(double radii) const {
     return 1.0 - hermiteRatio((radii - whole) / (end - whole));
 }
 
-ShapeReach reachTowards(const glm::dvec3& direction, const ShapeReach& reach, const ShapePit& pit) {
+ShapeReach reachTowards(const glm::dvec3& direction, const ShapeReach& reach, const Armpit& pit) {
     const double length = glm::length(direction);
     if (!(length > 0.0)) return reach;
     const double lean = -glm::dot(direction, pit.away) / length;
@@ -249,7 +249,7 @@ ShapeReach reachTowards(const glm::dvec3& direction, const ShapeReach& reach, co
             glm::mix(reach.end, pit.reach.end, share)};
 }
 
-double ShapedJoint::pitClosedAt(const BendTwist& bend) const {
+double ShapedJoint::armpitClosure(const BendTwist& bend) const {
     const double raised = glm::dot(partialRotation(bend, twistAxis, 1.0, 1.0) * bone, away);
     return hermiteRatio((kOpen - raised) / (kOpen - kClosed));
 }
@@ -295,13 +295,13 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         const ShapeReach& reach = !shaped.isAtTrunk() ? scope.betweenLimbs
                                   : beside            ? scope.besideLimb
                                                       : scope.atTrunk;
-        ShapePit pit{reach};
+        Armpit pit{reach};
         if (shaped.isAtTrunk() && !beside) pit = pitOf(joints[0].centre, shaped, scope.inPit);
         addSkin(mesh, joints, ratios, scope.trunkToo, insideOut, reach, pit, shaped);
     }
     result.erase(std::remove_if(result.begin(), result.end(),
                                 [](const ShapedJoint& shaped) {
-                                    return shaped.vertices.size() < kLeastVertices;
+                                    return shaped.vertices.size() < kMinVertices;
                                 }),
                  result.end());
     return result;

@@ -29,14 +29,14 @@ struct ShapeReach {
 };
 
 /// The reach on a limb's side towards the trunk: the armpit.
-struct ShapePit {
+struct Armpit {
     ShapeReach reach;
     glm::dvec3 away{0.0}; ///< unit, across the limb, away from the trunk; 0 without such a side
 };
 
 /// The reach in a direction from a joint's centre: `reach`, and the pit's where the direction leans
 /// towards the trunk by 30 degrees from the plane across `away`.
-ShapeReach reachTowards(const glm::dvec3& direction, const ShapeReach& reach, const ShapePit& pit);
+ShapeReach reachTowards(const glm::dvec3& direction, const ShapeReach& reach, const Armpit& pit);
 
 /// A joint between two limbs, or between a limb and the trunk, that correctives can shape, with the
 /// skin around it. Rest space; vertices are welded ones.
@@ -51,7 +51,7 @@ struct ShapedJoint {
     glm::dvec3 hinge{0.0};     ///< unit; findHinge() if there is a main axis. If it is not
                                ///< perpendicular to the bone, bends twist, too
     double radius = 0.0;       ///< of the limb at the joint
-    glm::dvec3 away{0.0};      ///< unit, or 0 without an armpit; see ShapePit
+    glm::dvec3 away{0.0};      ///< unit, or 0 without an armpit; see Armpit
 
     /// A vertex within the joint's reach.
     struct Vertex {
@@ -63,7 +63,7 @@ struct ShapedJoint {
             limb; ///< how much it belongs to the limb above: the bend ratio of the joint above, or
                   ///< 1 if that is the root. At the trunk, how much it belongs to the limb itself
         double fade;       ///< the share of its target that it takes
-        double fadeClosed; ///< the same for a closed armpit, see pitClosedAt()
+        double fadeClosed; ///< the same for a closed armpit, see armpitClosure()
     };
     std::vector<Vertex> vertices;
 
@@ -86,7 +86,7 @@ struct ShapedJoint {
 
     /// How far a bend closes the armpit, 0 to 1: wholly if the arm hangs at the side or lies in
     /// front of the chest, not at all if it is raised.
-    double pitClosedAt(const BendTwist& bend) const;
+    double armpitClosure(const BendTwist& bend) const;
 
     /// The rotation of a vertex about the joint's centre, by its own ratios of a bend.
     glm::dquat turnOf(const Vertex& vertex, const BendTwist& bend) const {

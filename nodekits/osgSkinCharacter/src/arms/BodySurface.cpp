@@ -133,7 +133,7 @@ namespace {
 
 enum Piece { Trunk, Head, LeftThigh, RightThigh, LeftArm, RightArm, Other, kPieces };
 
-constexpr std::array<std::size_t, Other> kMostPoints{320, 120, 120, 120, 80, 80};
+constexpr std::array<std::size_t, Other> kMaxPoints{320, 120, 120, 120, 80, 80};
 constexpr std::size_t kRimPoints = 8; ///< points that close a cut
 
 bool endsWith(const std::string& text, const std::string& end) {
@@ -271,7 +271,7 @@ void addArm(const RestSkeleton& rest, const JointRoles& roles, const std::string
     const auto shoulder = static_cast<std::size_t>(upper);
     const double length = glm::distance(rest.joints[shoulder].centre, elbow) + forearm;
     if (own.size() == 0 || !(length > 0.0)) return;
-    arms.push_back({shoulder, length, own.spread(kMostPoints[LeftArm])});
+    arms.push_back({shoulder, length, own.spread(kMaxPoints[LeftArm])});
 }
 
 } // namespace
@@ -282,7 +282,7 @@ BodyPieces findBodyPieces(const RestSkeleton& rest, const JointRoles& roles, con
     if (!roles.known()) return result;
     const SortedSkin sorted(piecesOf(rest, roles), mesh, binding);
     for (const Piece piece : {Trunk, Head, LeftThigh, RightThigh}) {
-        SkinPoints points = sorted.points[piece].averaged(kMostPoints[piece]);
+        SkinPoints points = sorted.points[piece].averaged(kMaxPoints[piece]);
         if (points.size() == 0) continue;
         for (const auto& [other, cut] : sorted.cuts[piece]) close(cut, points);
         result.surfaces.emplace_back(std::move(points));

@@ -97,7 +97,7 @@ struct ArmPiece {
     SkinPoints skin;
 };
 
-/// The parts of a body that clearHands() uses, at rest.
+/// The parts of a body that avoidBody() uses, at rest.
 struct BodyPieces {
     std::vector<BodySurface> surfaces; ///< trunk, head, thighs, as far as they exist
     std::vector<ArmPiece> arms;        ///< left, right, as far as they exist

@@ -58,17 +58,17 @@ VertexWeights meshWeights(const std::string& file, const ImportedMesh& body,
 
 /// Ratio of lengths above which body and skeleton have different units. Common units differ by
 /// factors of 10 (centimetres), 39.4 (inches), 100 and 1000.
-constexpr double kMostRatio = 5.0;
+constexpr double kMaxRatio = 5.0;
 
 /// The same for joints that weights name: a face's joints are close together.
-constexpr double kMostPaintedRatio = 8.0;
+constexpr double kMaxPaintedRatio = 8.0;
 constexpr std::size_t kFewJoints = 3; ///< fewer do not tell a body's size
 
 /// Distance of joints from the body, in its lengths, that is tolerated: in an open jacket's sleeve.
 constexpr double kRoom = 0.05;
 
 /// Rounding of vertices, relative to the body's size, that is not visible.
-constexpr double kMostRounding = 1e-4;
+constexpr double kMaxRounding = 1e-4;
 
 double lengthOf(const osg::BoundingBoxd& box) {
     return box.valid() ? 2.0 * box.radius() : 0.0;
@@ -83,7 +83,7 @@ osg::BoundingBoxd boxOf(const SkinMesh& mesh) {
 /// \param joints number of joints
 /// \param mostRatio largest ratio of lengths in the same unit
 /// \param outside number of joints outside the skin
-void tellMisfit(CharacterSource& source, const osg::BoundingBoxd& body,
+void warnUnitMismatch(CharacterSource& source, const osg::BoundingBoxd& body,
                 const osg::BoundingBoxd& skeleton, std::size_t joints, double mostRatio,
                 std::size_t outside) {
     std::ostringstream note;
@@ -108,20 +108,20 @@ void tellMisfit(CharacterSource& source, const osg::BoundingBoxd& body,
 ///
 /// \param source with body and rest skeleton; gets a note
 /// \param report of its binding by regions
-void tellMisfit(CharacterSource& source, const BindReport& report) {
+void warnUnitMismatch(CharacterSource& source, const BindReport& report) {
     osg::BoundingBoxd skeleton;
     if (source.rest.joints.size() > 1)
         for (const RestJoint& joint : source.rest.joints) {
             skeleton.expandBy(toOsg(joint.centre));
             if (joint.tip) skeleton.expandBy(toOsg(*joint.tip));
         }
-    tellMisfit(source, boxOf(source.body.mesh), skeleton,
-               report.jointsOutside + report.jointsInside, kMostRatio, report.jointsOutside);
+    warnUnitMismatch(source, boxOf(source.body.mesh), skeleton,
+               report.jointsOutside + report.jointsInside, kMaxRatio, report.jointsOutside);
 }
 
 /// As above, for a body bound by weights from another file: the joints that they name should lie
 /// around its skin.
-void tellMisfit(CharacterSource& source, const VertexWeights& weights) {
+void warnUnitMismatch(CharacterSource& source, const VertexWeights& weights) {
     std::vector<bool> named(source.rest.joints.size());
     for (const auto& entries : weights)
         for (const JointWeight& entry : entries)
@@ -142,7 +142,7 @@ void tellMisfit(CharacterSource& source, const VertexWeights& weights) {
             }
     }
     if (joints < kFewJoints) skeleton.init();
-    tellMisfit(source, body, skeleton, joints, kMostPaintedRatio, outside);
+    warnUnitMismatch(source, body, skeleton, joints, kMaxPaintedRatio, outside);
 }
 
 /// Warns about a body so far from the origin that single precision changes its shape.
@@ -154,7 +154,7 @@ void tellRounding(CharacterSource& source) {
         for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(p[axis]));
     const double rounding = farthest * double(std::numeric_limits<float>::epsilon()) / 2.0;
     const double size = source.body.mesh.size();
-    if (!(rounding > kMostRounding * size)) return;
+    if (!(rounding > kMaxRounding * size)) return;
     std::ostringstream note;
     note.imbue(std::locale::classic());
     note.precision(3);
@@ -165,7 +165,7 @@ void tellRounding(CharacterSource& source) {
 }
 
 constexpr double kWhole = 0.99; ///< share of a shell's weight that counts as painted for one joint
-constexpr double kMostOf = 0.5; ///< share of a shell's vertices that makes it a head
+constexpr double kMaxOf = 0.5; ///< share of a shell's vertices that makes it a head
 
 using Shell = std::vector<std::uint32_t>;
 
@@ -227,7 +227,7 @@ public:
         for (std::size_t j = 0; j < shares.size(); ++j)
             if (_extremities[j] == extremity) under += shares[j];
         const bool isHead = _roles.is(static_cast<std::size_t>(extremity), JointPart::Head);
-        return isHead && under > (_weights.empty() ? kMostOf : kWhole) * all ? extremity : -1;
+        return isHead && under > (_weights.empty() ? kMaxOf : kWhole) * all ? extremity : -1;
     }
 
 private:
@@ -306,7 +306,7 @@ void follow(const std::vector<int>& jointOf, Binding& binding) {
 /// \param weights of the body's mesh; empty where there are none
 /// \param binding of the body, by regions; changed
 /// \return the number of shells that were changed
-std::size_t keepShells(const CharacterSource& source, const VertexWeights& weights,
+std::size_t bindShellsRigidly(const CharacterSource& source, const VertexWeights& weights,
                        Binding& binding) {
     const std::vector<Shell> shells = shellsOf(source.body.mesh);
     if (shells.size() < 2) return 0;
@@ -422,7 +422,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
     const bool byWeights = source.painted == Painted::Yes ||
                            (source.painted == Painted::WhereGood && isWellPainted(weights));
     if (!byWeights && isWellPainted(weights)) skipUnused(source.rest, weights, options);
-    Binding binding = namingFile(source.file, [&] {
+    Binding binding = withFileContext(source.file, [&] {
         return byWeights ? bindWeights(source.body.mesh, source.rest, weights, options, &report)
                          : bind(source.body.mesh, source.rest, options, &report);
     });
@@ -432,12 +432,12 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
     if (!source.rigidNote.empty()) report.notes.push_back(source.rigidNote);
     if (source.painted == Painted::Yes) {
         tellGaps(source, weights);
-        tellMisfit(source, weights);
+        warnUnitMismatch(source, weights);
     }
     if (source.painted == Painted::WhereGood && !byWeights) tellUnused(source, weights);
     if (!byWeights) {
-        tellMisfit(source, report);
-        if (const std::size_t kept = keepShells(source, weights, binding))
+        warnUnitMismatch(source, report);
+        if (const std::size_t kept = bindShellsRigidly(source, weights, binding))
             report.notes.push_back(std::to_string(kept) +
                                    " shells follow one joint: heads, and what hands hold");
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load/LoadSteps.h"
 #include "scene/BuildScene.h"
-#include "scene/FaceViewer.h"
+#include "scene/FrontOrientation.h"
 #include "source/ApplyOptions.h"
 
 #include <osgSkin/AutoPlayManager>
@@ -205,7 +205,7 @@ void takeBody(ConvertedBody& body, const BindOptions& options, Character& charac
 /// Rotates the whole scene without changing the author's nodes.
 void faceViewer(Character& character) {
     const osg::Matrixd turn =
-        turnToViewer(recogniseJoints(character.rest), boneCentres(character.rest, *character.root));
+        orientToFront(recogniseJoints(character.rest), boneCentres(character.rest, *character.root));
     if (turn.isIdentity()) return;
     const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(turn);
     placed->setName(character.root->getName());

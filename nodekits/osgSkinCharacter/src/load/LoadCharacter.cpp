@@ -84,7 +84,7 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     character.fitReport = std::move(source.fitReport);
     character.toWorld = source.toWorld;
     character.notes = std::move(source.notes);
-    namingFile(source.file, [&] { buildScene(source, options, character); });
+    withFileContext(source.file, [&] { buildScene(source, options, character); });
     stages.finish();
     return character;
 }

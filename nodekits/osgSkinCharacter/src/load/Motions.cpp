@@ -34,7 +34,7 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
     for (const SkinFile::MotionEntry& entry : source.motions) {
         stages.begin("motion " + entry.name, LoadStages::kMotion);
         CharacterMotion& made = motions.emplace_back();
-        namingFile(entry.file, [&] {
+        withFileContext(entry.file, [&] {
             Motion motion = importMotion(entry.file, entry.skipFrames, entry.clip, readOptions);
             checkSize(source, entry, motion);
             motion.name = entry.name;
@@ -52,13 +52,13 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
 
 void animateMotions(const CharacterSource& source, const Binding& binding,
                     std::vector<CharacterMotion>& motions) {
-    const bool clears = source.options.clearHands.value_or(false);
+    const bool clears = source.options.avoidBody.value_or(false);
     for (std::size_t m = 0; m < motions.size(); ++m) {
         CharacterMotion& motion = motions[m];
         const std::string& file = source.motions[m].file;
-        namingFile(file, [&] {
+        withFileContext(file, [&] {
             if (clears)
-                motion.cleared = clearHands(motion.clip, source.rest,
+                motion.cleared = avoidBody(motion.clip, source.rest,
                                             recogniseJoints(source.rest, source.bind.names),
                                             source.body.mesh, binding);
             motion.animation = makeAnimation(motion.clip, source.rest);

@@ -64,7 +64,7 @@ private:
 /// \return what `step` returns
 /// \throw Error that begins with `file`
 template <typename Step>
-auto namingFile(const std::string& file, const Step& step) {
+auto withFileContext(const std::string& file, const Step& step) {
     try {
         return step();
     } catch (const Error& error) {

@@ -100,6 +100,19 @@ std::vector<std::string> listOf(const std::string& text) {
     return names;
 }
 
+Option renamed(Option option, const char* formerWord) {
+    option.formerWord = formerWord;
+    return option;
+}
+
+/// Also accepts the name that a value had in earlier versions.
+Option withFormerValue(Option option, const std::string& former, const std::string& now) {
+    option.set = [set = option.set, former, now](LoadOptions& options, const std::string& text) {
+        return set(options, text == former ? now : text);
+    };
+    return option;
+}
+
 Option rigidOption() {
     Option option = textsOf({"rigid",
                              "head, hands and feet, by name; not those with fingers, toes or other "
@@ -163,15 +176,17 @@ std::vector<Option> makeTable() {
             {{"none", Shapes::None}, {"fast", Shapes::Fast}, {"elastic", Shapes::Elastic}}),
         onOff({"muscles", "off", "biceps, triceps, quadriceps, hamstrings and calves swell"},
               &LoadOptions::muscles),
-        choice<std::optional<bool>, bool>(
-            {"normals", "surface; turned with paper and weights",
-             "those of the deformed surface, or the rest skin's as their vertices turn them: "
-             "faster"},
-            &LoadOptions::surfaceNormals, {{"surface", true}, {"turned", false}}),
+        withFormerValue(choice<std::optional<bool>, bool>(
+                            {"normals", "surface; rotated with paper and weights",
+                             "those of the deformed surface, or the rest skin's, rotated with "
+                             "their vertices: faster"},
+                            &LoadOptions::surfaceNormals, {{"surface", true}, {"rotated", false}}),
+                        "turned", "rotated"),
         rigidOption(),
-        onOff({"clearHands", "off",
-               "motions from files keep forearms and hands out of trunk, thighs and head"},
-              &LoadOptions::clearHands),
+        renamed(onOff({"avoidBody", "off",
+                       "motions from files keep forearms and hands out of trunk, thighs and head"},
+                      &LoadOptions::avoidBody),
+                "clearHands"),
         motionOption(),
         onOff({"gpu", "off",
                "skins are deformed on the graphics card where a context has OpenGL 4.3"},
@@ -183,10 +198,11 @@ std::vector<Option> makeTable() {
                        "file formats that may be read, as skin,obj,bvh,ply,gltf,glb, or all; all also "
                        "allows a .skin file to name .osgb, .osgt, .osgx, .osg and .ive files"},
                       "extension,extension"),
-        readingOption({"pictures", "none",
-                       "images that OpenSceneGraph reads, from trusted files, beside those of "
-                       "formats, as ktx,dds"},
-                      "extension,extension"),
+        renamed(readingOption({"images", "none",
+                               "images that OpenSceneGraph reads, from trusted files, beside "
+                               "those of formats, as ktx,dds"},
+                              "extension,extension"),
+                "pictures"),
         readingOption({"maxFileMB", number(limits.fileMegabytes), "megabytes of any file"}),
         readingOption({"maxTextMB", number(limits.textMegabytes),
                        "megabytes of a .skin file, or one of weights"}),
@@ -210,7 +226,10 @@ std::vector<Option> makeTable() {
 const Option* findOption(const std::string& word) {
     const std::vector<Option>& table = optionTable();
     const auto found = std::find_if(table.begin(), table.end(),
-                                    [&](const Option& option) { return option.word == word; });
+                                    [&](const Option& option) {
+                                        return option.word == word ||
+                                               (!word.empty() && option.formerWord == word);
+                                    });
     return found == table.end() ? nullptr : &*found;
 }
 

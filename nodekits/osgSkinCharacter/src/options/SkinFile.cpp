@@ -221,9 +221,9 @@ JointBindOptions readJoint(const JsonReader& reader) {
         if (const auto along = twist->find("along")) {
             const std::string pole = along->string();
             if (pole == "parent")
-                joint.twistPole = JointBindOptions::Pole::Parent;
+                joint.twistAxis = JointBindOptions::Pole::Parent;
             else if (pole == "child")
-                joint.twistPole = JointBindOptions::Pole::Child;
+                joint.twistAxis = JointBindOptions::Pole::Child;
             else
                 along->failWith("expected \"parent\" or \"child\", found \"" + pole + "\"");
         }
@@ -244,7 +244,9 @@ void readWeightsFile(const JsonReader& root, const std::string& folder, SkinFile
 void readOptions(const JsonReader& root, const ReadLimits& limits, SkinFile& skin) {
     skin.options.method = LoadOptions::Method::Smooth;
     for (const Option& option : optionTable()) {
-        const auto member = option.isMember ? root.find(option.word) : std::nullopt;
+        if (!option.isMember) continue;
+        auto member = root.find(option.word);
+        if (!member && !option.formerWord.empty()) member = root.find(option.formerWord);
         if (!member) continue;
         if (option.word == "muscles" && member->isList())
             readMuscles(*member, skin);
@@ -260,7 +262,8 @@ const char* const kParts[] = {"osgskin", "mesh",   "skeleton", "motions", "props
 void warnUnknownMembers(const JsonReader& root) {
     std::vector<std::string> known(std::begin(kParts), std::end(kParts));
     for (const Option& option : optionTable())
-        if (option.isMember) known.push_back(option.word);
+        for (const std::string& word : {option.word, option.formerWord})
+            if (option.isMember && !word.empty()) known.push_back(word);
     root.warnUnknown(known);
 }
 

@@ -2,7 +2,7 @@
 #include "scene/BuildScene.h"
 
 #include "options/LoadReport.h"
-#include "scene/FaceViewer.h"
+#include "scene/FrontOrientation.h"
 #include "source/CharacterSource.h"
 
 #include <osgSkin/AutoPlayManager>
@@ -173,7 +173,7 @@ void addProps(CharacterSource& source, const CharacterMotion& motion, osg::Group
                                     std::to_string(path.skeleton.joints.size()) +
                                     " joints, of which a prop follows the first alone")
                        << std::endl;
-        namingFile(prop.file, [&] {
+        withFileContext(prop.file, [&] {
             source.samples.add(prop.file, whole.frames, path.skeleton.joints.size(), source.limits);
         });
         parent.addChild(makeProp(name, mesh.parts, path, motion.report, *motion.animation));
@@ -264,8 +264,8 @@ void play(Character& character) {
 /// up.
 osg::Matrixd turnOfRig(const Character& character, const JointRoles& roles) {
     const JointCentres atRest = restCentres(character.rest, character.toWorld);
-    if (character.motions.empty() || isStraight(roles, atRest)) return turnToViewer(roles, atRest);
-    return turnToViewer(
+    if (character.motions.empty() || isStraight(roles, atRest)) return orientToFront(roles, atRest);
+    return orientToFront(
         roles, atRest,
         clipCentres(character.rest, character.motions.front().clip, character.toWorld));
 }
@@ -290,7 +290,7 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
         const JointCentres atRest = boneCentres(character.rest, *character.root);
         osg::BoundingSphere bound = playedBounds(*character.root, source.animations);
         const JointCentres played = boneCentres(character.rest, *character.root);
-        const osg::Matrixd turn = turnToViewer(roles, atRest, played);
+        const osg::Matrixd turn = orientToFront(roles, atRest, played);
         character.toWorld = character.toWorld * turn;
         upright->setMatrix(character.toWorld);
         bound.center() = bound.center() * turn;

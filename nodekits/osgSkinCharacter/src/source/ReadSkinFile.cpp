@@ -6,7 +6,7 @@
 #include "source/ApplyOptions.h"
 
 #include <osgSkinImport/ImportSkeleton>
-#include <osgSkinImport/SharePictures>
+#include <osgSkinImport/ShareImages>
 
 #include <osg/Math>
 
@@ -21,7 +21,7 @@ osg::Matrixd toWorldOf(const SkinFile& file) {
 
 void fitRest(CharacterSource& source, FitOptions fit, const Progress& progress) {
     fit.progress = progress;
-    source.rest = namingFile(source.meshFile,
+    source.rest = withFileContext(source.meshFile,
                              [&] { return fitSkeleton(source.body.mesh, fit, &source.fitReport); });
     OSG_INFO << source.file << ":\n" << source.fitReport.text();
     for (const std::string& note : source.fitReport.notes)
@@ -54,7 +54,7 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
     source.weightsFile = skin.weights;
     source.motions = skin.motions;
     source.props = skin.props;
-    source.meshOptions = sharePictures(options.readOptions.get());
+    source.meshOptions = shareImages(options.readOptions.get());
     applyOptions(source, options);
     source.files = filesOf(skin, source);
 

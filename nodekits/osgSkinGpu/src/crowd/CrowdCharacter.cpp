@@ -96,9 +96,9 @@ std::vector<GLuint> simplified([[maybe_unused]] const std::vector<osg::Vec3>& po
 }
 
 /// Texel indices that are exact in a float.
-constexpr std::size_t kMostTexels = std::size_t(1) << 24;
+constexpr std::size_t kMaxTexels = std::size_t(1) << 24;
 /// Clip numbers of CrowdInstance.
-constexpr std::size_t kMostClips = 65536;
+constexpr std::size_t kMaxClips = 65536;
 
 osg::ref_ptr<osg::TextureBuffer> textureOf(osg::Array& array, GLint format) {
     array.setVertexBufferObject(new osg::VertexBufferObject);
@@ -187,12 +187,12 @@ void CrowdCharacter::expandByRigids(osg::BoundingBox& bounds, std::size_t skin,
 }
 
 void CrowdCharacter::requireRoomFor(std::size_t samples) const {
-    if (_clips.size() >= kMostClips) throw Error("crowd: there are 65,536 clips already");
+    if (_clips.size() >= kMaxClips) throw Error("crowd: there are 65,536 clips already");
     for (const Skin& skin : _skins) {
         std::size_t all = samples;
         for (const Clip& clip : _clips) all += clip.samples;
         const std::size_t texels = skin.model->paletteSize();
-        if (all > (kMostTexels - _clips.size() - 1) / texels)
+        if (all > (kMaxTexels - _clips.size() - 1) / texels)
             throw Error("crowd: all clips together have more than 16,777,216 texels");
     }
 }
@@ -298,7 +298,7 @@ void CrowdCharacter::addCrowd(GpuCrowd& crowd) {
 
 std::size_t CrowdCharacter::addLevel(double triangles, double size) {
     requireNoCrowd();
-    if (_sizes.size() >= kMostLevels) throw Error("crowd: there are eight levels already");
+    if (_sizes.size() >= kMaxLevels) throw Error("crowd: there are eight levels already");
     const auto below = static_cast<float>(size); // as shaders have it
     if (!(triangles >= 0.0 && triangles < _share && below >= 0.0f && below < _sizes.back()))
         throw Error("crowd: a level of detail needs fewer triangles, and a smaller size, than the "

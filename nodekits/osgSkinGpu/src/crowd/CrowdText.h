@@ -14,7 +14,7 @@ enum CrowdUnit { kCrowdModelUnit = 10, kCrowdClipUnit, kCrowdInstanceUnit, kCrow
 /// Buffer indices of cullProgram().
 enum CullBuffer { kCommandBuffer, kVisibleBuffer };
 
-constexpr unsigned int kMostLevels = 8;
+constexpr unsigned int kMaxLevels = 8;
 
 /// The functions that crowdVertexShader() documents, in GLSL 3.30.
 std::string crowdText();

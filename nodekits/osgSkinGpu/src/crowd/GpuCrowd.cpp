@@ -34,7 +34,7 @@ namespace {
 
 /// Shaders count seconds in single precision, from a time that moves on after this many; their
 /// steps are then at most 15 us.
-constexpr double kMostSeconds = 256.0;
+constexpr double kMaxSeconds = 256.0;
 constexpr float kLargestScale = 1e9f; ///< as in a Pose
 
 unsigned int bitsOf(double number) {
@@ -290,7 +290,7 @@ public:
     }
 
     /// The most that one dispatch can test, in every driver.
-    static constexpr std::size_t kMostMembers = std::size_t{65535} * kCullThreads;
+    static constexpr std::size_t kMaxMembers = std::size_t{65535} * kCullThreads;
 
     osg::StateSet& state() const { return *_state; }
 
@@ -467,7 +467,7 @@ void GpuCrowd::setTime(double seconds) {
     if (!std::isfinite(seconds)) return;
     Inside& in = *_inside;
     in.seconds = seconds;
-    if (in.members && std::abs(seconds - in.members->since()) > kMostSeconds)
+    if (in.members && std::abs(seconds - in.members->since()) > kMaxSeconds)
         in.members->setSince(seconds);
     in.tellTime();
 }
@@ -495,7 +495,7 @@ void GpuCrowd::traverse(osg::NodeVisitor& nv) {
         return;
     }
     in.findBounds();
-    if (in.culling == Culling::Automatic && getInstanceCount() <= CrowdCull::kMostMembers &&
+    if (in.culling == Culling::Automatic && getInstanceCount() <= CrowdCull::kMaxMembers &&
         canCompute(state) && !in.cull->isIn(*cv)) {
         addToStage(*cv, *in.cull, in.cull->state());
         in.indirect->cull(*cv);

@@ -47,7 +47,7 @@ void writeJoints(const GpuModel& model, const Pose& pose, osg::Vec4* texels) {
 void writeWeights(const GpuModel& model, const Pose& pose, osg::Vec4* texels) {
     const std::vector<CorrectiveJoint>& joints = model.correctiveJoints();
     for (std::uint32_t j = 0; j < joints.size(); ++j) {
-        glm::vec2 weights[CorrectiveJoint::kMostModes];
+        glm::vec2 weights[CorrectiveJoint::kMaxModes];
         correctiveWeights(model.model(), pose, j, weights);
         for (unsigned int k = 0; k < joints[j].modes; ++k) {
             osg::Vec4& texel = texels[k / 2];

@@ -20,8 +20,8 @@
 namespace osgSkin {
 namespace {
 
-std::array<std::atomic<bool>, kMostContexts>& failed() {
-    static std::array<std::atomic<bool>, kMostContexts> contexts{};
+std::array<std::atomic<bool>, kMaxContexts>& failed() {
+    static std::array<std::atomic<bool>, kMaxContexts> contexts{};
     return contexts;
 }
 
@@ -29,7 +29,7 @@ std::array<std::atomic<bool>, kMostContexts>& failed() {
 
 bool canCompute(const osg::State& state) {
     const unsigned int id = state.getContextID();
-    if (id >= kMostContexts || failed()[id]) return false;
+    if (id >= kMaxContexts || failed()[id]) return false;
     // Finding the extensions needs the context; known ones may be read by any thread.
     const osg::GLExtensions* extensions = osg::GLExtensions::Get(id, false);
     // A driver without compute shaders may still have their functions.
@@ -40,15 +40,15 @@ bool canCompute(const osg::State& state) {
 }
 
 void noteCannotCompute(unsigned int contextId) {
-    if (contextId < kMostContexts) failed()[contextId] = true;
+    if (contextId < kMaxContexts) failed()[contextId] = true;
 }
 
 bool canReadTexels(unsigned int contextId, std::size_t texels) {
-    static std::array<std::atomic<GLint>, kMostContexts> known{}; // the query may be slow
-    GLint most = contextId < kMostContexts ? known[contextId].load() : 0;
+    static std::array<std::atomic<GLint>, kMaxContexts> known{}; // the query may be slow
+    GLint most = contextId < kMaxContexts ? known[contextId].load() : 0;
     if (most == 0) {
         glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-        if (contextId < kMostContexts) known[contextId] = most;
+        if (contextId < kMaxContexts) known[contextId] = most;
     }
     return most > 0 && texels <= static_cast<std::size_t>(most);
 }
@@ -71,7 +71,7 @@ void SharedBarrier::addTo(osgUtil::CullVisitor& cv) {
 
 void SharedBarrier::drawImplementation(osg::RenderInfo& renderInfo) const {
     const unsigned int id = renderInfo.getContextID();
-    if (id >= kMostContexts || !_needed[id].exchange(false)) return;
+    if (id >= kMaxContexts || !_needed[id].exchange(false)) return;
     // For vertex fetches, and applications that read buffers back.
     renderInfo.getState()->get<osg::GLExtensions>()->glMemoryBarrier(
         GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);

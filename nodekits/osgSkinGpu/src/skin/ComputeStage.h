@@ -17,7 +17,7 @@ class State;
 namespace osgSkin {
 
 /// The most contexts in which skins are computed; in others the processor deforms.
-constexpr unsigned int kMostContexts = 64;
+constexpr unsigned int kMaxContexts = 64;
 
 /// Whether a context can run the compute shaders; thread-safe. False before the context's first
 /// draw, which finds its extensions.
@@ -51,7 +51,7 @@ public:
 
 private:
     osg::ref_ptr<osg::StateSet> _place;
-    mutable std::array<std::atomic<bool>, kMostContexts> _needed{};
+    mutable std::array<std::atomic<bool>, kMaxContexts> _needed{};
     mutable std::atomic<unsigned int> _count{0};
 };
 

@@ -126,7 +126,7 @@ public:
     void drawImplementation(osg::RenderInfo& renderInfo) const override {
         osg::State& state = *renderInfo.getState();
         const unsigned int id = state.getContextID();
-        if (id >= kMostContexts || isDone(id)) return;
+        if (id >= kMaxContexts || isDone(id)) return;
         const unsigned int pose = _pose;
         const auto* extensions = state.get<osg::GLExtensions>();
         if (!state.getLastAppliedProgramObject() || !canReadTexels(id, _model->texelCount())) {
@@ -146,14 +146,14 @@ public:
     }
     void releaseGLObjects(osg::State* state) const override {
         osg::Drawable::releaseGLObjects(state);
-        for (unsigned int id = 0; id < kMostContexts; ++id)
+        for (unsigned int id = 0; id < kMaxContexts; ++id)
             if (!state || state->getContextID() == id) _done[id] = 0;
     }
 
 private:
     osg::ref_ptr<const GpuModel> _model;
     std::atomic<unsigned int> _pose{0};
-    mutable std::array<std::atomic<unsigned int>, kMostContexts> _done{};
+    mutable std::array<std::atomic<unsigned int>, kMaxContexts> _done{};
 };
 
 /// States above a skin must not affect its dispatch.
@@ -250,9 +250,9 @@ private:
 /// Draws a skin deformed by compute shaders, see setGpu().
 ///
 /// Two slots alternate: a draw thread may still read the one of the frame before.
-class ComputeDrawer : public DeformableSkin::Drawer {
+class ComputeBackend : public DeformableSkin::DrawBackend {
 public:
-    osg::ref_ptr<Drawer> clone() const override { return new ComputeDrawer; }
+    osg::ref_ptr<DrawBackend> clone() const override { return new ComputeBackend; }
     void skinChanged(const DeformableSkin& skin) override {
         const std::lock_guard<std::mutex> lock(_mutex);
         _model = GpuModel::of(*skin.getModel());
@@ -339,8 +339,8 @@ private:
 } // namespace
 
 void setGpu(DeformableSkin& skin, bool on) {
-    const bool isOn = dynamic_cast<ComputeDrawer*>(skin.getDrawer()) != nullptr;
-    if (on != isOn) skin.setDrawer(on ? new ComputeDrawer : nullptr);
+    const bool isOn = dynamic_cast<ComputeBackend*>(skin.getDrawBackend()) != nullptr;
+    if (on != isOn) skin.setDrawBackend(on ? new ComputeBackend : nullptr);
 }
 
 unsigned int setGpu(osg::Node& scene, bool on) {

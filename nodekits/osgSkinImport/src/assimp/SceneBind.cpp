@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kOneScale = 0.01;                ///< relative
 constexpr double kOnePlace = 0.01;                ///< of the bones' extent
-constexpr double kLeastPosed = glm::radians(1.0); ///< that a pose turns a bone by
-constexpr double kMostPosed =
+constexpr double kMinPosed = glm::radians(1.0); ///< that a pose turns a bone by
+constexpr double kMaxPosed =
     glm::radians(45.0); ///< more is another axis up, if nothing else tells
 constexpr double kStraight = 1e-3;
 constexpr double kFarthestPosed = 0.5; ///< of the extent, that a pose moves a bone
@@ -66,8 +66,8 @@ bool isPosed(const std::vector<const aiBone*>& bones, const aiBone& topmost,
     const glm::dmat3 turn =
         glm::dmat3(byBone) / scaleOf(byBone) * glm::inverse(glm::dmat3(byMesh) / scale);
     const double turned = angleOf(turn);
-    if (!(turned > kLeastPosed)) return false; // not a number, too
-    if (turned < kMostPosed) return moved < kFarthestPosed * extent;
+    if (!(turned > kMinPosed)) return false; // not a number, too
+    if (turned < kMaxPosed) return moved < kFarthestPosed * extent;
     // Turned about the mesh's origin, as a whole, it would stand elsewhere.
     const glm::dvec3 arm = place - glm::dvec3(byMesh[3]);
     return moved < kOnePlace * extent && glm::distance(turn * arm, arm) > 10.0 * kOnePlace * extent;
@@ -101,7 +101,7 @@ SceneBind::SceneBind(const aiScene& scene) {
         const aiMesh& mesh = *scene.mMeshes[m];
         for (unsigned b = 0; b < mesh.mNumBones; ++b)
             if (const aiNode* node = find(nameOf(*mesh.mBones[b]))) _isBone[node] = true;
-        bones.push_back(trustedBones(mesh, *this));
+        bones.push_back(reliableInverseBinds(mesh, *this));
         if (const aiBone* top = topmost(bones.back()))
             skins.emplace_back(_depth.at(find(nameOf(*top))), m);
     }

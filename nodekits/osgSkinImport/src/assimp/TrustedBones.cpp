@@ -107,7 +107,7 @@ bool agrees(const Seat& bone, const Seat& other, double size, const SceneBind& b
 
 } // namespace
 
-std::vector<const aiBone*> trustedBones(const aiMesh& mesh, const SceneBind& bind) {
+std::vector<const aiBone*> reliableInverseBinds(const aiMesh& mesh, const SceneBind& bind) {
     const std::vector<Seat> seats = seatsOf(mesh, bind);
     std::vector<Seat> weighted;
     std::vector<double> sizes;

@@ -21,7 +21,7 @@ class SceneBind;
 /// \param mesh any
 /// \param bind whose nodes and their poses are known already
 /// \return bones with a node and an offset matrix that can be inverted; where none is weighted, all
-std::vector<const aiBone*> trustedBones(const aiMesh& mesh, const SceneBind& bind);
+std::vector<const aiBone*> reliableInverseBinds(const aiMesh& mesh, const SceneBind& bind);
 
 } // namespace osgSkin
 

@@ -41,7 +41,7 @@ glm::dvec3 localPosition(const BvhJoint& joint, const double* frame) {
 }
 
 /// The scale that makes a figure smaller than one unit one unit large; 1 for others.
-double toFigure(const BvhFile& file) {
+double unitScale(const BvhFile& file) {
     glm::dvec3 low(0.0), high(0.0);
     std::vector<glm::dvec3> centres;
     for (const BvhJoint& joint : file.joints) {
@@ -77,7 +77,7 @@ glm::dvec3 offsetOf(const BvhFile& file, const BvhJoint& joint, double figure) {
 /// For each joint, whether its position channels move it from its offset.
 std::vector<bool> findMovedJoints(const BvhFile& file) {
     std::vector<bool> result(file.joints.size(), false);
-    const double figure = toFigure(file);
+    const double figure = unitScale(file);
     for (std::size_t j = 0; j < result.size(); ++j) {
         const BvhJoint& joint = file.joints[j];
         if (!joint.hasPosition()) continue;
@@ -92,7 +92,7 @@ std::vector<bool> findMovedJoints(const BvhFile& file) {
 
 RestSkeleton makeRestSkeleton(const BvhFile& file) {
     RestSkeleton result;
-    const double figure = toFigure(file);
+    const double figure = unitScale(file);
     std::vector<bool> isLeaf(file.joints.size(), true);
     for (const BvhJoint& joint : file.joints) {
         glm::dvec3 centre = offsetOf(file, joint, figure);
@@ -115,7 +115,7 @@ Motion makeMotion(const BvhFile& file, const std::string& path) {
     const std::size_t root = rootMotionJoint(skeleton, moved);
 
     Motion motion;
-    CarriedSkeleton carried(skeleton, root);
+    ReducedSkeleton carried(skeleton, root);
     noticeUnusedMoves(skeleton, moved, carried, path);
     motion.skeleton = std::move(carried.rest);
     motion.frameTime = file.frameTime;

@@ -38,11 +38,11 @@ bool hasContent(const GltfFile& file, const json& view) {
 
 /// How many bytes one can stand for at most. Version 0 of the vertices' codec spends two bits a
 /// group of 16; version 1, which younger libraries read, a quarter byte a block of 256.
-constexpr std::size_t kMostFromOne = MESHOPTIMIZER_VERSION < 230 ? 64 : 1024;
+constexpr std::size_t kMaxFromOne = MESHOPTIMIZER_VERSION < 230 ? 64 : 1024;
 
 /// Bytes that may be unpacked for each sample that a file may have: 16 MB, and 16 times the file.
 constexpr std::size_t kFairShare = 32;
-constexpr std::size_t kMostCounted = 4; ///< times a file's size that count as its own when unpacked
+constexpr std::size_t kMaxCounted = 4; ///< times a file's size that count as its own when unpacked
 
 /// What the extension says of a view; checked before the decoders see it, which only assert.
 struct Packed {
@@ -90,7 +90,7 @@ public:
     explicit Unpacker(GltfFile& file)
         : _file(file), _accessors(file), _room(file.limits.fileMegabytes << 20),
           _fair(kFairShare * file.limits.samplesOf(file.size + file.beside)),
-          _counted(kMostCounted * (file.size + file.beside)) {}
+          _counted(kMaxCounted * (file.size + file.beside)) {}
 
     /// \param name of the extension
     /// \param number of the view
@@ -118,7 +118,7 @@ private:
                  " MB unpacked in all (option maxFileMB)");
         if (packed.count * packed.stride > _fair)
             fail("no more unpacked in all than the file has room for (option maxSamples)");
-        if (packed.count * packed.stride / kMostFromOne > packed.length)
+        if (packed.count * packed.stride / kMaxFromOne > packed.length)
             fail("as many bytes as it says");
         std::string bytes(packed.count * packed.stride, '\0');
         const char* const begin = from.data() + packed.offset;

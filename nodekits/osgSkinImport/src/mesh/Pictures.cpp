@@ -4,7 +4,7 @@
 #include "text/FileText.h"
 
 #include <osgSkin/Error>
-#include <osgSkinImport/SharePictures>
+#include <osgSkinImport/ShareImages>
 
 #include <osg/UserDataContainer>
 #include <osgDB/FileNameUtils>
@@ -96,7 +96,7 @@ SharedPictures::once(const std::string& path, const std::string& part,
     return known.image;
 }
 
-osg::ref_ptr<osgDB::Options> sharePictures(const osgDB::Options* options) {
+osg::ref_ptr<osgDB::Options> shareImages(const osgDB::Options* options) {
     const osg::ref_ptr<osgDB::Options> result =
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     if (SharedPictures::of(result) != nullptr) return result;
@@ -162,7 +162,7 @@ osg::ref_ptr<osg::Image> PictureReader::decode(const std::string& name, std::str
 osg::ref_ptr<osg::Image> PictureReader::read(const std::string& name, const std::string& extension,
                                              std::string_view bytes) {
     if (decodes(extension)) return decode(name, bytes);
-    if (!contains(_limits.pictures, osgDB::convertToLowerCase(extension)))
+    if (!contains(_limits.images, osgDB::convertToLowerCase(extension)))
         failFile(name, "a picture within it in the format " + inQuotes(extension) +
                            ", expected PNG, JPEG, BMP or TGA (option pictures)");
     osgDB::ReaderWriter* reader =
@@ -178,7 +178,7 @@ PictureReader::readFile(const std::string& path,
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     if (decodes(extension))
         return decode(path, readWholeFile(path, _limits.fileMegabytes, "maxFileMB"));
-    if (!contains(_limits.pictures, extension)) _limits.checkFormat(path);
+    if (!contains(_limits.images, extension)) _limits.checkFormat(path);
     requireReadable(path, _limits);
     return otherwise();
 }

@@ -18,7 +18,7 @@
 
 namespace osgSkin {
 
-/// Pictures whose sizes count together, and which are read once each; see sharePictures().
+/// Pictures whose sizes count together, and which are read once each; see shareImages().
 class SharedPictures : public osg::Object {
 public:
     SharedPictures() = default;

@@ -68,8 +68,8 @@ constexpr NamedType kTypes[] = {
 };
 
 // Usual files have ten properties, those with splats sixty; each is compared with all others.
-constexpr std::size_t kMostElements = 100;
-constexpr std::size_t kMostProperties = 1000; ///< of an element
+constexpr std::size_t kMaxElements = 100;
+constexpr std::size_t kMaxProperties = 1000; ///< of an element
 
 /// Reads line by line; a line ends with LF, CR or both.
 class PlyHeaderReader {
@@ -150,9 +150,9 @@ private:
             failLine(_path, _line,
                      inQuotes(count) + " elements, expected no more than the file has room for");
         element.count = static_cast<std::size_t>(number);
-        if (_header.elements.size() >= kMostElements)
+        if (_header.elements.size() >= kMaxElements)
             failLine(_path, _line,
-                     "one of more than " + std::to_string(kMostElements) + " elements");
+                     "one of more than " + std::to_string(kMaxElements) + " elements");
         for (const PlyHeader::Element& known : _header.elements)
             if (known.name == element.name)
                 failLine(_path, _line, "a second element " + inQuotes(element.name));
@@ -187,9 +187,9 @@ private:
         words >> property.name;
         PlyHeader::Element& element = _header.elements.back();
         if (property.name.empty()) failLine(_path, _line, "a property without a name");
-        if (element.properties.size() >= kMostProperties)
+        if (element.properties.size() >= kMaxProperties)
             failLine(_path, _line,
-                     "one of more than " + std::to_string(kMostProperties) + " properties of " +
+                     "one of more than " + std::to_string(kMaxProperties) + " properties of " +
                          inQuotes(element.name));
         if (element.find({property.name.c_str()}))
             failLine(_path, _line,

@@ -51,7 +51,7 @@ std::size_t rootMotionJoint(const RestSkeleton& skeleton, const std::vector<bool
     }
 }
 
-CarriedSkeleton::CarriedSkeleton(const RestSkeleton& skeleton, std::size_t root) {
+ReducedSkeleton::ReducedSkeleton(const RestSkeleton& skeleton, std::size_t root) {
     for (int a = skeleton.joints[root].parent; a >= 0;
          a = skeleton.joints[static_cast<std::size_t>(a)].parent)
         above.push_back(static_cast<std::size_t>(a));
@@ -74,7 +74,7 @@ CarriedSkeleton::CarriedSkeleton(const RestSkeleton& skeleton, std::size_t root)
 }
 
 void noticeUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
-                       const CarriedSkeleton& carried, const std::string& path) {
+                       const ReducedSkeleton& carried, const std::string& path) {
     const std::vector<std::size_t>& joints = carried.joints;
     for (std::size_t i = 1; i < joints.size(); ++i) {
         const std::size_t j = joints[i];

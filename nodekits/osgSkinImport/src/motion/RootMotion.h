@@ -23,10 +23,10 @@ bool isMoved(const glm::dvec3& position, const glm::dvec3& atRest);
 std::size_t rootMotionJoint(const RestSkeleton& skeleton, const std::vector<bool>& moved);
 
 /// A skeleton from a joint of its own on.
-struct CarriedSkeleton {
+struct ReducedSkeleton {
     /// \param skeleton whole
     /// \param root of rootMotionJoint()
-    CarriedSkeleton(const RestSkeleton& skeleton, std::size_t root);
+    ReducedSkeleton(const RestSkeleton& skeleton, std::size_t root);
 
     /// `root`, then all others that do not stand above it, in their order; below the root those
     /// that stood beside it.
@@ -38,7 +38,7 @@ struct CarriedSkeleton {
 /// Says in a notice where joints other than the root move, since a Motion holds rotations only.
 /// \param skeleton whole
 void noticeUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
-                       const CarriedSkeleton& carried, const std::string& path);
+                       const ReducedSkeleton& carried, const std::string& path);
 
 } // namespace osgSkin
 

@@ -113,7 +113,7 @@ std::string whyNotPlayed(const osgAnimation::Animation& animation) {
 // Rigs and morphs.
 
 constexpr float kRounding = -1e-3f; ///< the least weight that exporters make of 0
-constexpr auto kMostWeight = static_cast<float>(kLargestCoordinate);
+constexpr auto kMaxWeight = static_cast<float>(kLargestCoordinate);
 
 /// Why an array does not hold `count` positions or directions in floats; empty where it does.
 std::string wrongWith(const osg::Array* array, std::size_t count, const std::string& what) {
@@ -134,7 +134,7 @@ std::string whyNotRigged(const osgAnimation::RigGeometry& rig) {
     const std::size_t vertices = places != nullptr ? places->getNumElements() : 0;
     for (const auto& [bone, entries] : *influences)
         for (const auto& [vertex, weight] : entries)
-            if (vertex >= vertices || !(weight >= kRounding && weight <= kMostWeight))
+            if (vertex >= vertices || !(weight >= kRounding && weight <= kMaxWeight))
                 return "bone " + inQuotes(bone) + ": weight of vertex " + std::to_string(vertex) +
                        ", expected a vertex below " + std::to_string(vertices) +
                        " and a number of 0 or more, up to 1e18";

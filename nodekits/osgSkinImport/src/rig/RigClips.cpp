@@ -91,7 +91,7 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
 }
 
 /// What is hidden by a scale of 0 shrinks almost to a point: a joint's matrix has an inverse then.
-osg::Vec3 keptApart(osg::Vec3 scale) {
+osg::Vec3 clampedTinyScale(osg::Vec3 scale) {
     constexpr float kLeast = 1e-5f;
     for (int axis = 0; axis < 3; ++axis)
         if (std::abs(scale[axis]) < kLeast) scale[axis] = std::copysign(kLeast, scale[axis]);
@@ -115,7 +115,7 @@ void addJoint(osgAnimation::Animation& animation, const std::string& joint, cons
     auto* const scales = static_cast<Vec3LinearChannel&>(*animation.getChannels().back())
                              .getSamplerTyped()
                              ->getKeyframeContainerTyped();
-    for (Vec3Keyframe& key : *scales) key.setValue(keptApart(key.getValue()));
+    for (Vec3Keyframe& key : *scales) key.setValue(clampedTinyScale(key.getValue()));
 }
 
 osg::ref_ptr<osgAnimation::Animation> makeClip(const aiAnimation& source, const std::string& name,

@@ -7,9 +7,9 @@
 namespace osgSkin {
 namespace {
 
-constexpr double kLeastRate = 29.9; ///< 30, and NTSC's 29.97
-constexpr int kMostRate = 240, kFreeRate = 120;
-constexpr double kMostSteps = 1e15; ///< far more than anybody allows
+constexpr double kMinRate = 29.9; ///< 30, and NTSC's 29.97
+constexpr int kMaxRate = 240, kFreeRate = 120;
+constexpr double kMaxSteps = 1e15; ///< far more than anybody allows
 constexpr double kOff = 0.05; ///< of a step: times are rounded to milliseconds in some formats
 
 /// Whether all keys stand on samples, seconds after the first.
@@ -21,9 +21,9 @@ bool fits(const std::vector<double>& keys, double rate) {
 
 double rateOf(const std::vector<double>& keys) {
     const double own = static_cast<double>(keys.size() - 1) / keys.back(); // where keys are even
-    const double multiple = own * std::max(1.0, std::ceil(kLeastRate / own));
+    const double multiple = own * std::max(1.0, std::ceil(kMinRate / own));
     if (fits(keys, multiple)) return multiple;
-    for (int rate = 30; rate <= kMostRate; ++rate)
+    for (int rate = 30; rate <= kMaxRate; ++rate)
         if (fits(keys, rate)) return rate;
     return kFreeRate;
 }
@@ -43,7 +43,7 @@ SampleGrid::SampleGrid(std::vector<double> times) {
                 times.end());
     times.back() = span;
     const double steps =
-        std::max(1.0, std::ceil(std::min(span * rateOf(times), kMostSteps) - kOff));
+        std::max(1.0, std::ceil(std::min(span * rateOf(times), kMaxSteps) - kOff));
     _samples = static_cast<std::size_t>(steps) + 1;
     _step = span / steps;
 }

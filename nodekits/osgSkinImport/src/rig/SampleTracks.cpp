@@ -3,7 +3,7 @@
 
 #include "assimp/AssimpScene.h"
 #include "motion/RootMotion.h"
-#include "rig/MirroredTurn.h"
+#include "rig/ReflectedRotation.h"
 #include "rig/RigBones.h"
 #include "rig/SampleGrid.h"
 #include "text/FileText.h"
@@ -73,7 +73,7 @@ std::vector<const aiNodeAnim*> tracksOf(const aiAnimation& animation,
 }
 
 /// What makes a figure two units high or long, of a skeleton.
-double toFigure(const RestSkeleton& rest) {
+double unitScale(const RestSkeleton& rest) {
     osg::BoundingBoxd box;
     for (const RestJoint& joint : rest.joints) box.expandBy(toOsg(joint.centre));
     return box.radius() > 0.0 ? 1.0 / box.radius() : 1.0;
@@ -84,7 +84,7 @@ double toFigure(const RestSkeleton& rest) {
 std::vector<bool> findMovedJoints(const std::vector<const aiNodeAnim*>& tracks,
                                   const SceneSkeleton& skeleton) {
     std::vector<bool> result(tracks.size(), false);
-    const double figure = toFigure(skeleton.rest);
+    const double figure = unitScale(skeleton.rest);
     for (std::size_t j = 0; j < tracks.size(); ++j) {
         if (tracks[j] == nullptr) continue;
         const int up = skeleton.rest.joints[j].parent;
@@ -179,7 +179,7 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
     Motion motion;
     const std::vector<bool> moved = findMovedJoints(tracks, skeleton);
     const std::size_t root = rootMotionJoint(skeleton.rest, moved);
-    CarriedSkeleton carried(skeleton.rest, root);
+    ReducedSkeleton carried(skeleton.rest, root);
     motion.skeleton = std::move(carried.rest);
     motion.frames = grid.samples();
     motion.frameTime = grid.samples() > 1 ? grid.step() : 1.0 / rate;
@@ -189,9 +189,9 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
     noticeScales(tracks, skeleton, path);
 
     const std::size_t joints = tracks.size();
-    const MirroredTurn aboveRoot{rotationOf(skeleton.aboveRoot),
+    const ReflectedRotation aboveRoot{rotationOf(skeleton.aboveRoot),
                                  glm::determinant(glm::dmat3(skeleton.aboveRoot)) < 0.0};
-    std::vector<MirroredTurn> world(joints); // the nodes' own frames
+    std::vector<ReflectedRotation> world(joints); // the nodes' own frames
     std::vector<glm::dquat> aligned(joints); // the same, as rotations from rest
     for (std::size_t f = 0; f < motion.frames; ++f) {
         const Moment moment{grid.time(f) * rate, 0.5001 * grid.step() * rate};

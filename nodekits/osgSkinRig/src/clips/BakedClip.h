@@ -28,7 +28,7 @@ public:
         osg::ref_ptr<const SkinModel> model;  ///< whose joints were posed
         std::vector<Pose> poses;              ///< of each sample
         std::vector<osg::BoundingBox> bounds; ///< of each sample
-        std::vector<osg::BoundingBox> ways;   ///< [sample * kParts + part]; see boundWay()
+        std::vector<osg::BoundingBox> ways;   ///< [sample * kParts + part]; see sweptBounds()
 
         /// A box that holds the skin at a position in the clip; not valid where none is known.
         const osg::BoundingBox& boundsAt(const SampledClip::Place& place) const {

@@ -76,7 +76,7 @@ bool isScaled(const osg::Vec3d& scale) {
     return (scale - osg::Vec3d(1.0, 1.0, 1.0)).length() > kSameScale;
 }
 
-bool holdInCallback(osgAnimation::Bone& bone, const osg::Matrixd& local) {
+bool writeToUpdateCallback(osgAnimation::Bone& bone, const osg::Matrixd& local) {
     osgAnimation::UpdateBone* update = updateOf(bone);
     if (!update) return true;
     HoldingElements held;

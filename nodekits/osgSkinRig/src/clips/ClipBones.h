@@ -45,7 +45,7 @@ bool isScaled(const osg::Vec3d& scale);
 /// \param local from the bone to its parent
 /// \return false, with the callback unchanged, where it has no HoldingElements, or none for the
 ///        matrix's scale; true where the bone has no such callback
-bool holdInCallback(osgAnimation::Bone& bone, const osg::Matrixd& local);
+bool writeToUpdateCallback(osgAnimation::Bone& bone, const osg::Matrixd& local);
 
 } // namespace osgSkin
 

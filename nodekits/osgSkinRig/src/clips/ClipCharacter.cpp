@@ -75,7 +75,7 @@ glm::vec3 marginOf(const Moments& moments, std::size_t vertex) {
 ///
 /// \param moments at even steps, both ends included
 /// \param boxes gets one for each part
-void boundWay(const Moments& moments, std::vector<osg::BoundingBox>& boxes) {
+void sweptBounds(const Moments& moments, std::vector<osg::BoundingBox>& boxes) {
     std::array<osg::BoundingBox, kWayParts> ways;
     const std::size_t vertices =
         isSmooth(moments) ? moments.front().positions.size() : std::size_t{0};
@@ -228,7 +228,7 @@ void ClipCharacter::bake(const SampledClip* clip) {
     player._baked.clear();
     // Twists are continuous from the first sample on.
     const auto poseAt = [&](double samples) {
-        player.setTrack(0, {clip, samples * clip->step(), 0.0, true});
+        player.setLayer(0, {clip, samples * clip->step(), 0.0, true});
         if (!player.poseAs(samples == 0.0 ? Pose::Twist::Shortest : Pose::Twist::Continued))
             throw Error("clip character: the clip \"" + clip->name() + "\" cannot pose its skins");
     };
@@ -253,7 +253,7 @@ void ClipCharacter::bake(const SampledClip* clip) {
             BakedClip::Skin& skin = baked->skins[i];
             skin.poses.push_back(ways[i].front().pose);
             skin.bounds.push_back(boundsOf(ways[i].front()));
-            boundWay(ways[i], skin.ways);
+            sweptBounds(ways[i], skin.ways);
             const osg::BoundingBox& box = skin.bounds.back();
             for (unsigned int corner = 0; corner < 8; ++corner)
                 bounds.expandBy(box.corner(corner) * _skins[i].toCharacter);

@@ -61,17 +61,17 @@ ClipPlayer::~ClipPlayer() = default;
 
 ClipPlayer::ClipPlayer(const ClipPlayer& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
-      _tracks(other._tracks), _weight(other._weight), _interpolated(other._interpolated),
+      _layers(other._layers), _weight(other._weight), _interpolated(other._interpolated),
       _root(other._root), _up(other._up) {
     OSG_WARN << "osgSkin: a copy of a ClipPlayer poses nothing, expected ClipCharacter to make one"
              << std::endl;
 }
 
-void ClipPlayer::setTrack(std::size_t index, const Track& track) {
-    if (index >= _tracks.size()) return;
-    _tracks[index] = track;
-    _tracks[index].time = finite(track.time);
-    _tracks[index].speed = finite(track.speed);
+void ClipPlayer::setLayer(std::size_t index, const Layer& track) {
+    if (index >= _layers.size()) return;
+    _layers[index] = track;
+    _layers[index].time = finite(track.time);
+    _layers[index].speed = finite(track.speed);
 }
 
 void ClipPlayer::setWeight(double weight) {
@@ -104,7 +104,7 @@ void ClipPlayer::addRigid(osg::MatrixTransform* transform, const std::string& jo
     _found[0] = nullptr;
 }
 
-osg::Vec3d ClipPlayer::rootAt(const Track& track) const {
+osg::Vec3d ClipPlayer::rootAt(const Layer& track) const {
     if (!track.clip) return {};
     const SampledClip& clip = *track.clip;
     const std::size_t root = clip.rootJoint(), last = clip.sampleCount() - 1;
@@ -129,19 +129,19 @@ osg::Vec3d ClipPlayer::rootAt(const Track& track) const {
 
 void ClipPlayer::advance(double seconds) {
     if (!std::isfinite(seconds)) return;
-    for (std::size_t i = 0; i < _tracks.size(); ++i) {
-        Track& track = _tracks[i];
+    for (std::size_t i = 0; i < _layers.size(); ++i) {
+        Layer& track = _layers[i];
         const bool follows = _root == Root::Extracted && track.clip;
         const osg::Vec3d before = follows ? rootAt(track) : osg::Vec3d();
         track.time = finite(track.time + track.speed * seconds);
-        const double share = i == 1 ? _weight : _tracks[1].clip ? 1.0 - _weight : 1.0;
+        const double share = i == 1 ? _weight : _layers[1].clip ? 1.0 - _weight : 1.0;
         if (follows) _motion += (rootAt(track) - before) * share;
     }
 }
 
 bool ClipPlayer::knowsJoints() const {
-    return _found[0].get() == _tracks[0].clip.get() && _found[1].get() == _tracks[1].clip.get() &&
-           _base == baseTrack() && std::all_of(_skins.begin(), _skins.end(), [](const Skin& skin) {
+    return _found[0].get() == _layers[0].clip.get() && _found[1].get() == _layers[1].clip.get() &&
+           _base == baseLayer() && std::all_of(_skins.begin(), _skins.end(), [](const Skin& skin) {
                return skin.model.get() == skin.skin->getModel();
            });
 }
@@ -149,26 +149,26 @@ bool ClipPlayer::knowsJoints() const {
 void ClipPlayer::compareClips() {
     _alike = true;
     _covers = false;
-    if (!_tracks[1].clip) return;
-    const std::vector<SampledClip::Joint>& own = _tracks[0].clip->joints();
-    const std::vector<SampledClip::Joint>& others = _tracks[1].clip->joints();
+    if (!_layers[1].clip) return;
+    const std::vector<SampledClip::Joint>& own = _layers[0].clip->joints();
+    const std::vector<SampledClip::Joint>& others = _layers[1].clip->joints();
     _alike = std::equal(others.begin(), others.end(), own.begin(), own.end(),
                         [](const auto& a, const auto& b) { return a.name == b.name; });
     _covers =
         others.size() > own.size() && std::all_of(own.begin(), own.end(), [&](const auto& joint) {
-            return _tracks[1].clip->find(joint.name) >= 0;
+            return _layers[1].clip->find(joint.name) >= 0;
         });
 }
 
-std::size_t ClipPlayer::baseTrack() const {
-    if (!_tracks[1].clip || _weight == 0.0 || _alike) return 0;
+std::size_t ClipPlayer::baseLayer() const {
+    if (!_layers[1].clip || _weight == 0.0 || _alike) return 0;
     return _weight == 1.0 || _covers ? 1 : 0;
 }
 
 void ClipPlayer::findJoints() {
     compareClips();
-    _base = baseTrack();
-    const SampledClip& clip = *_tracks[_base].clip;
+    _base = baseLayer();
+    const SampledClip& clip = *_layers[_base].clip;
     _needsWhole = !_rigids.empty();
     for (Skin& skin : _skins) {
         skin.model = skin.skin->getModel();
@@ -190,15 +190,15 @@ void ClipPlayer::findJoints() {
     }
     for (Rigid& rigid : _rigids) rigid.joint = clip.find(rigid.name);
     _others.clear();
-    if (const SampledClip* other = _tracks[1 - _base].clip.get())
+    if (const SampledClip* other = _layers[1 - _base].clip.get())
         for (const SampledClip::Joint& joint : clip.joints())
             _others.push_back(other->find(joint.name));
-    for (std::size_t i = 0; i < _found.size(); ++i) _found[i] = _tracks[i].clip.get();
+    for (std::size_t i = 0; i < _found.size(); ++i) _found[i] = _layers[i].clip.get();
 }
 
 void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
     static thread_local std::vector<JointSample> others;
-    const auto take = [&](const Track& track, std::vector<JointSample>& to) {
+    const auto take = [&](const Layer& track, std::vector<JointSample>& to) {
         to.resize(track.clip->joints().size());
         SampledClip::Place at = track.clip->place(track.time, track.loop);
         if (!_interpolated) at.share = 0.0;
@@ -212,10 +212,10 @@ void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
         const glm::dvec3 up = toGlm(_up);
         to[root].translation -= gone - up * glm::dot(gone, up);
     };
-    take(_tracks[_base], joints);
+    take(_layers[_base], joints);
     const double weight = _base == 0 ? _weight : 1.0 - _weight;
-    if (!_tracks[1].clip || weight == 0.0) return;
-    take(_tracks[1 - _base], others);
+    if (!_layers[1].clip || weight == 0.0) return;
+    take(_layers[1 - _base], others);
     const SampleBlend weighted(weight);
     for (std::size_t j = 0; j < joints.size(); ++j)
         joints[j] =
@@ -259,13 +259,13 @@ bool ClipPlayer::poseSkin(Skin& skin, const std::vector<JointMap>& own,
     return set(maps);
 }
 
-const ClipPlayer::Track* ClipPlayer::trackAlone() const {
-    if (!_tracks[1].clip || _weight == 0.0) return _tracks.data();
-    return _weight == 1.0 ? &_tracks[1] : nullptr;
+const ClipPlayer::Layer* ClipPlayer::trackAlone() const {
+    if (!_layers[1].clip || _weight == 0.0) return _layers.data();
+    return _weight == 1.0 ? &_layers[1] : nullptr;
 }
 
 const BakedClip* ClipPlayer::findBaked() const {
-    const Track* track = trackAlone();
+    const Layer* track = trackAlone();
     if (_baked.empty() || !track || _root != Root::Moving) return nullptr;
     const auto baked = std::find_if(_baked.begin(), _baked.end(),
                                     [&](const auto& b) { return b->clip == track->clip; });
@@ -292,24 +292,24 @@ bool ClipPlayer::poseBaked(const BakedClip& baked, std::size_t sample) const {
 
 bool ClipPlayer::isContinued() const {
     const auto isNear = [&](std::size_t i) {
-        return std::abs(_tracks[i].time - _posedTimes[i]) <= kSeekSeconds;
+        return std::abs(_layers[i].time - _posedTimes[i]) <= kSeekSeconds;
     };
-    return _posed && knowsJoints() && isNear(0) && (!_tracks[1].clip || isNear(1));
+    return _posed && knowsJoints() && isNear(0) && (!_layers[1].clip || isNear(1));
 }
 
 bool ClipPlayer::pose() {
     const bool good = poseAs(isContinued() ? Pose::Twist::Continued : Pose::Twist::Shortest);
     _posed = good;
-    for (std::size_t i = 0; i < _tracks.size(); ++i) _posedTimes[i] = _tracks[i].time;
+    for (std::size_t i = 0; i < _layers.size(); ++i) _posedTimes[i] = _layers[i].time;
     return good;
 }
 
 bool ClipPlayer::poseAs(Pose::Twist twist) {
-    if (!_tracks[0].clip) return false;
+    if (!_layers[0].clip) return false;
     const BakedClip* baked = findBaked();
     SampledClip::Place at;
     if (baked) {
-        const Track& track = *trackAlone();
+        const Layer& track = *trackAlone();
         at = track.clip->place(track.time, track.loop);
         if ((!_interpolated || at.share == 0.0) && poseBaked(*baked, at.from)) return true;
     }
@@ -317,7 +317,7 @@ bool ClipPlayer::poseAs(Pose::Twist twist) {
     static thread_local std::vector<JointSample> samples;
     static thread_local std::vector<JointMap> own, whole;
     sampleJoints(samples);
-    const std::vector<SampledClip::Joint>& joints = _tracks[_base].clip->joints();
+    const std::vector<SampledClip::Joint>& joints = _layers[_base].clip->joints();
     own.resize(samples.size());
     whole.resize(samples.size());
     for (std::size_t j = 0; j < samples.size(); ++j) {

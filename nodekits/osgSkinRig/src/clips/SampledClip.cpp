@@ -132,7 +132,7 @@ void BoneSampler::append(double time, std::vector<JointSample>& samples) {
 }
 
 /// Limit for all joints together, 640 MB: 100 joints for half an hour.
-constexpr double kMostJointSamples = 1e7;
+constexpr double kMaxJointSamples = 1e7;
 
 } // namespace
 
@@ -168,7 +168,7 @@ osg::ref_ptr<const SampledClip> SampledClip::create(const osgAnimation::Animatio
     const double steps = seconds * samplesPerSecond; // whole ones, as floats round them
     const double samples = std::max(1.0, std::ceil(steps - std::min(0.01, 1e-6 * (1.0 + steps))));
     const double joints = static_cast<double>(sampler.joints().size());
-    if (!(samples * joints <= kMostJointSamples)) // for NaN, too
+    if (!(samples * joints <= kMaxJointSamples)) // for NaN, too
         throw Error("sampled clip: animation \"" + animation.getName() + "\" of " +
                     std::to_string(seconds) +
                     " s has more than 10,000,000 samples of all joints together");

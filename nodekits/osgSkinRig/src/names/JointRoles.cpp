@@ -45,7 +45,7 @@ private:
     bool isFree(int j) {
         const std::vector<std::string> words = nameWords(joint(j).name);
         return role(j).empty() && !isPivot(joint(j).name) &&
-               std::none_of(words.begin(), words.end(), isForeign);
+               std::none_of(words.begin(), words.end(), isAccessory);
     }
 
     /// The joints without a role between two joints, the lowest first; none where `below` is no
@@ -125,7 +125,7 @@ private:
 /// from there to the head, the collar bone on the way to an arm. Skips joints whose names say that
 /// they are helpers (twists, ends, props), and keeps existing roles.
 /// \param roles [joint] as in JointNames, empty for none
-void fillGaps(const RestSkeleton& skeleton, std::vector<std::string>& roles) {
+void inferMissingRoles(const RestSkeleton& skeleton, std::vector<std::string>& roles) {
     Filler(skeleton, roles).fill();
 }
 
@@ -317,10 +317,10 @@ JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<Joint
         told = mainRoles(result.roles);
         if (told < kFewestMain) {
             const std::vector<std::string> shape = shapeRoles(skeleton);
-            if (mainRoles(shape) > told) result = madeOf(shape, kToldByShape);
+            if (mainRoles(shape) > told) result = madeOf(shape, kInferredFromGeometry);
         }
         if (result.known()) {
-            fillGaps(skeleton, result.roles);
+            inferMissingRoles(skeleton, result.roles);
             result = madeOf(result.roles, result.family);
         }
     }

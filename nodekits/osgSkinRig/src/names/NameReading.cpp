@@ -127,8 +127,8 @@ private:
 
     /// A part of one or more whole words, perhaps with the side between them ("Arm_L_Upper").
     bool readWhole() {
-        constexpr std::size_t kMostWords = 5;
-        for (std::size_t count = std::min(_end, kMostWords); count > 0; --count) {
+        constexpr std::size_t kMaxWords = 5;
+        for (std::size_t count = std::min(_end, kMaxWords); count > 0; --count) {
             const std::size_t first = _end - count;
             std::string joined;
             Side between = Side::None;
@@ -191,7 +191,7 @@ private:
             const bool centre = !centred && _result.side == Side::None && isCentre(last(), false);
             centred = centred || centre;
             if (!centre && !isNumber(last()) && !takeSide(last()) &&
-                !saysWhere(last(), _result.word))
+                !isPositional(last(), _result.word))
                 return;
         }
     }
@@ -204,10 +204,10 @@ private:
             // further ahead still counts.
             if (isNumber(_words[w]) || (hasSides(_result.word) && takeSide(_words[w]))) continue;
             _result.prefix += _words[w];
-            _result.foreign = _result.foreign || isForeign(_words[w]);
+            _result.foreign = _result.foreign || isAccessory(_words[w]);
         }
         _result.prefix += _rest;
-        _result.foreign = _result.foreign || isForeign(_rest);
+        _result.foreign = _result.foreign || isAccessory(_rest);
         const bool sided = _result.side != Side::None;
         if (sided && _result.word == BodyWord::Hips) _result.word = BodyWord::Hip;
         if (sided && _result.word == BodyWord::Pelvis) _result.word = BodyWord::HipJoint;
@@ -458,10 +458,10 @@ using Readings = std::vector<std::optional<NameReading>>;
 constexpr std::size_t kFewestShared = 4;
 
 /// A foreign word is a valid prefix where nearly all joints have it: a figure may be called Wing.
-constexpr double kMostJoints = 0.8;
+constexpr double kMaxJoints = 0.8;
 
 /// How many prefixes are tried: each visits all joints, and figures have few.
-constexpr std::size_t kMostPrefixes = 100;
+constexpr std::size_t kMaxPrefixes = 100;
 
 std::set<std::string> distinct(const std::vector<std::string>& roles) {
     std::set<std::string> result(roles.begin(), roles.end());
@@ -508,12 +508,12 @@ WordRoles wordRoles(const RestSkeleton& skeleton) {
     }
     std::size_t most = 0, tried = 0;
     for (const auto& [prefix, count] : prefixes) {
-        if (count < kFewestShared || count < most || ++tried > kMostPrefixes) continue;
+        if (count < kFewestShared || count < most || ++tried > kMaxPrefixes) continue;
         if (foreign.count(prefix) != 0) {
             const auto sharing =
                 std::count_if(names.begin(), names.end(),
                               [p = prefix](const auto& words) { return beginsWith(words, p); });
-            if (static_cast<double>(sharing) < kMostJoints * static_cast<double>(names.size()))
+            if (static_cast<double>(sharing) < kMaxJoints * static_cast<double>(names.size()))
                 continue;
         }
         std::vector<std::string> roles = rolesUnder(skeleton, result.readings, prefix);

@@ -29,7 +29,7 @@ struct NameHabits {
 struct NameReading {
     std::string prefix; ///< the words before part and side, joined, without numbers
     bool foreign =
-        false; ///< a word of the prefix says that this is no part of the body; see isForeign()
+        false; ///< a word of the prefix says that this is no part of the body; see isAccessory()
     Side side = Side::None;
     BodyWord word = BodyWord::Hips;
     std::vector<std::string> numbers; ///< after the part, in order

@@ -221,7 +221,7 @@ bool hasSides(BodyWord word) {
     return word >= BodyWord::Hip;
 }
 
-bool saysWhere(const std::string& before, BodyWord word) {
+bool isPositional(const std::string& before, BodyWord word) {
     const bool ofArm = word >= BodyWord::Collar;
     const bool ofLeg = word >= BodyWord::Hip && word <= BodyWord::Toe;
     const bool ofTrunk = word <= BodyWord::Spine;
@@ -229,7 +229,7 @@ bool saysWhere(const std::string& before, BodyWord word) {
            (before == "spine" && ofTrunk) || (before == "neck" && word == BodyWord::Head);
 }
 
-bool isForeign(const std::string& word) {
+bool isAccessory(const std::string& word) {
     static const std::set<std::string> words{
         // controls, helpers and what corrects a skin
         "ik", "fk", "ctrl", "ctl", "cntrl", "control", "con", "mch", "wgt", "pole", "target", "tgt",

@@ -76,11 +76,11 @@ std::optional<BodyWord> findBodyWord(const std::string& joined);
 bool hasSides(BodyWord word);
 
 /// Words before a part that only locate it: "leg" before "knee".
-bool saysWhere(const std::string& before, BodyWord word);
+bool isPositional(const std::string& before, BodyWord word);
 
 /// Words that are never part of a skeleton's common prefix: a joint behind them is no part of the
 /// body (helpers, controls, clothes, held things).
-bool isForeign(const std::string& word);
+bool isAccessory(const std::string& word);
 
 } // namespace osgSkin
 

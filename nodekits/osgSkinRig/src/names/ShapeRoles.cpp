@@ -18,8 +18,8 @@ constexpr double kUpright = 0.64;      ///< cosine between trunk and legs: a qua
 constexpr double kApart = 0.12;     ///< least distance of both limbs' first joints, in their length
 constexpr double kToesPoint = 0.05; ///< leg lengths
 // Limits on the search. Chains of hair and skirts are many, but shorter than limbs.
-constexpr std::size_t kMostLimbs = 24;  ///< of one joint; the longest are kept
-constexpr std::size_t kMostPairs = 256; ///< the longest
+constexpr std::size_t kMaxLimbs = 24;  ///< of one joint; the longest are kept
+constexpr std::size_t kMaxPairs = 256; ///< the longest
 
 using Chain = std::vector<int>;
 
@@ -107,7 +107,7 @@ private:
                         _pairs.push_back({base, a, b, length, upperOf(a, b, length)});
                 }
         }
-        keepLongest(_pairs, kMostPairs, [](const Pair& pair) { return pair.length; });
+        keepLongest(_pairs, kMaxPairs, [](const Pair& pair) { return pair.length; });
     }
 
     /// The chains below a joint that are long enough for limbs.
@@ -115,7 +115,7 @@ private:
         std::vector<Chain> limbs;
         for (const int child : _tree.children(base))
             if (through(child) >= kShortestLimb * _tree.reach()) limbs.push_back({child});
-        keepLongest(limbs, kMostLimbs, [&](const Chain& limb) { return through(limb.front()); });
+        keepLongest(limbs, kMaxLimbs, [&](const Chain& limb) { return through(limb.front()); });
         for (Chain& limb : limbs) limb = chainFrom(limb.front());
         limbs.erase(std::remove_if(limbs.begin(), limbs.end(),
                                    [](const Chain& limb) { return limb.size() < 3; }),

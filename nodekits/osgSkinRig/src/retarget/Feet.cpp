@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "names/BodyParts.h"
-#include "retarget/DrivenRig.h"
+#include "retarget/RetargetTarget.h"
 #include "retarget/MotionSteps.h"
 
 #include <glm/geometric.hpp>
@@ -68,8 +68,8 @@ std::vector<FootContact> findFootContacts(const std::vector<glm::dvec3>& positio
 
 } // namespace
 
-FootRoll::FootRoll(const DrivenRig& body, const std::vector<glm::dquat>& alignment)
-    : _rig(body.rig), _rolledOver(alignment.size(), 0) {
+FootRoll::FootRoll(const RetargetTarget& body, const std::vector<glm::dquat>& alignment)
+    : _rig(body.rig), _flippedFrames(alignment.size(), 0) {
     for (const int ankle : body.rigParts.ankles) {
         const auto j = static_cast<std::size_t>(ankle);
         if (body.driver(ankle) < 0) continue;
@@ -86,7 +86,7 @@ void FootRoll::straighten(std::vector<glm::dquat>& world) {
         const double roll = twistAbout(foot.length, glm::conjugate(shin) * world[j]);
         const double beyond = std::abs(roll) - glm::half_pi<double>();
         if (!(beyond > 0.0)) continue;
-        ++_rolledOver[j];
+        ++_flippedFrames[j];
         const glm::dquat back =
             glm::angleAxis(std::copysign(2.0 * beyond, -roll), world[j] * foot.length);
         rotate(foot.joint, back, world);
@@ -124,7 +124,7 @@ double sliding(const std::vector<glm::dvec3>& positions, const FootContact& cont
 
 } // namespace
 
-MeasureFeet::MeasureFeet(const DrivenRig& body) : _body(body) {
+MeasureFeet::MeasureFeet(const RetargetTarget& body) : _body(body) {
     for (const int ankle : body.rigParts.ankles) {
         const int driver = body.driver(ankle);
         if (driver < 0) continue;

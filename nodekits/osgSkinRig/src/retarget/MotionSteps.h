@@ -2,7 +2,7 @@
 #ifndef OSGSKINRIG_RETARGET_MOTIONSTEPS_H
 #define OSGSKINRIG_RETARGET_MOTIONSTEPS_H
 
-#include "retarget/DrivenRig.h"
+#include "retarget/RetargetTarget.h"
 
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/FootSkate>
@@ -30,14 +30,14 @@ class FootRoll {
 public:
     /// \param body the rig and its motion; it must outlive this
     /// \param alignment for each rig joint, from its rest bone to the motion's
-    FootRoll(const DrivenRig& body, const std::vector<glm::dquat>& alignment);
+    FootRoll(const RetargetTarget& body, const std::vector<glm::dquat>& alignment);
 
     /// Corrects the feet and rotates their descendants along.
     /// \param world rotations of the rig's joints from rest, one for each
     void straighten(std::vector<glm::dquat>& world);
 
     /// The number of poses so far in which a foot was upside down; 0 for other joints.
-    std::size_t rolledOver(std::size_t joint) const { return _rolledOver[joint]; }
+    std::size_t flippedFrames(std::size_t joint) const { return _flippedFrames[joint]; }
 
 private:
     struct Foot {
@@ -48,7 +48,7 @@ private:
 
     const SkeletonTree& _rig;
     std::vector<Foot> _feet;
-    std::vector<std::size_t> _rolledOver; ///< [joint]
+    std::vector<std::size_t> _flippedFrames; ///< [joint]
 };
 
 /// Measures how far the rig's feet slide while the actor's feet are planted.
@@ -57,7 +57,7 @@ private:
 class MeasureFeet {
 public:
     /// \param body the rig and its motion; it must outlive this
-    explicit MeasureFeet(const DrivenRig& body);
+    explicit MeasureFeet(const RetargetTarget& body);
 
     /// Positions of a skeleton's joints in a sample, and their rotations from the zero pose.
     struct Posed {
@@ -81,7 +81,7 @@ private:
         std::vector<glm::dvec3> rig, motion; ///< positions, [frame]
     };
 
-    const DrivenRig& _body;
+    const RetargetTarget& _body;
     std::vector<Foot> _feet;
 };
 
@@ -95,7 +95,7 @@ private:
 class RootMotion {
 public:
     /// \param body the rig and its motion; it must outlive this
-    explicit RootMotion(const DrivenRig& body);
+    explicit RootMotion(const RetargetTarget& body);
 
     double scale() const { return _scale; }
 
@@ -122,7 +122,7 @@ private:
     void startAtOrigin();
     double lowestFoot(const std::vector<glm::dquat>& rigWorld) const;
 
-    const DrivenRig& _body;
+    const RetargetTarget& _body;
     int _rigHips = 0;
     int _motionHips = 0;
     double _rigHeight = 0.0; ///< of the hips

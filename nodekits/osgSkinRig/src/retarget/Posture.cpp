@@ -14,10 +14,10 @@ namespace osgSkin {
 namespace {
 
 // Limits of a standing pose. Zero poses and scanned bodies have legs apart and knees slightly bent.
-constexpr double kMostKnees = 40.0; // degrees, as the others
-constexpr double kMostSpread = 35.0;
-constexpr double kMostLean = 30.0;
-constexpr double kMostTilt = 25.0;
+constexpr double kMaxKnees = 40.0; // degrees, as the others
+constexpr double kMaxSpread = 35.0;
+constexpr double kMaxLean = 30.0;
+constexpr double kMaxTilt = 25.0;
 
 double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
@@ -67,11 +67,11 @@ constexpr double kOnFloor = 0.25; ///< of a body on the floor
 } // namespace
 
 bool Stance::stands() const {
-    return knees <= kMostKnees && spread <= kMostSpread && lean <= kMostLean && tilt <= kMostTilt;
+    return knees <= kMaxKnees && spread <= kMaxSpread && lean <= kMaxLean && tilt <= kMaxTilt;
 }
 
 double Stance::untidiness() const {
-    return knees / kMostKnees + spread / kMostSpread + lean / kMostLean + tilt / kMostTilt +
+    return knees / kMaxKnees + spread / kMaxSpread + lean / kMaxLean + tilt / kMaxTilt +
            elbows / 90.0 + asymmetry / 45.0;
 }
 

@@ -2,7 +2,7 @@
 #include <osgSkinRig/Retarget>
 
 #include "names/BodyParts.h"
-#include "retarget/DrivenRig.h"
+#include "retarget/RetargetTarget.h"
 #include "retarget/MotionSteps.h"
 #include "retarget/Posture.h"
 #include "skeleton/SkeletonTree.h"
@@ -45,8 +45,8 @@ std::string RetargetReport::text() const {
         else
             out << onOneLine(entry.motionJoint) << ", aligned by " << entry.alignmentDegrees
                 << " degrees";
-        if (entry.rolledOver > 0)
-            out << ", upside down in " << entry.rolledOver << " samples: rolled back";
+        if (entry.flippedFrames > 0)
+            out << ", upside down in " << entry.flippedFrames << " samples: rolled back";
         if (entry.twistShared > 0)
             out << ", twisted by more than 90 degrees in " << entry.twistShared
                 << " samples: the excess is shared out";
@@ -173,7 +173,7 @@ Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& ma
         findUprightFrames(SkeletonTree(rig), SkeletonTree(motion.skeleton), map);
     const RestSkeleton uprightRig = rotated(rig, frames.rigUpright);
     const RestSkeleton uprightMotion = rotated(motion.skeleton, frames.motionUpright);
-    const DrivenRig body(uprightRig, uprightMotion, map);
+    const RetargetTarget body(uprightRig, uprightMotion, map);
     const std::vector<glm::dquat> alignment = alignBones(body);
     const glm::dquat back = glm::conjugate(frames.rigUpright);
 
@@ -208,7 +208,7 @@ Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& ma
     if (report != nullptr) {
         fillReport(*report, motion, rig, motionJoint, alignment);
         for (std::size_t j = 0; j < clip.joints; ++j)
-            report->entries[j].rolledOver = feetRoll.rolledOver(j);
+            report->entries[j].flippedFrames = feetRoll.flippedFrames(j);
         report->notes.clear();
         if (doFeetDisagree(body.rigParts, alignment))
             report->notes.emplace_back("the rig's feet point backwards where the actor's do not, "
@@ -256,7 +256,7 @@ std::string listed(const std::vector<std::string>& names) {
 /// Notes the roles that were found by the skeleton's shape, for a person to check.
 void noteShape(const JointRoles& roles, const RestSkeleton& skeleton, const std::string& whose,
                std::vector<std::string>& notes) {
-    if (roles.family != kToldByShape) return;
+    if (roles.family != kInferredFromGeometry) return;
     std::string told;
     for (const auto& [role, joints] : roles.joints)
         for (const char* shown : {"Hips", "Head", "LeftUpperArm", "LeftUpperLeg"})

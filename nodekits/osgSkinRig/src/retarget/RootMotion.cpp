@@ -50,7 +50,7 @@ double floorHeight(std::vector<double> feet, double band) {
 
 } // namespace
 
-RootMotion::RootMotion(const DrivenRig& body) : _body(body) {
+RootMotion::RootMotion(const RetargetTarget& body) : _body(body) {
     // The hips, or else the first joint that has a driver.
     const int joints = static_cast<int>(body.rig.rest().joints.size());
     while (_rigHips < joints && body.driver(_rigHips) != 0) ++_rigHips;

@@ -26,7 +26,7 @@ namespace {
 /// \param motion as it is
 /// \param world rotations of its joints in that pose, from its zero pose, one for each
 /// \param root position of the root joint there
-Motion countedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
+Motion rebasedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
                    const glm::dvec3& root) {
     Motion result = motion;
     std::vector<glm::dvec3> positions;
@@ -145,7 +145,7 @@ Clip copyRotations(const Motion& motion, const RestSkeleton& rig,
 namespace {
 
 /// Number of samples that are measured in long motions.
-constexpr std::size_t kMostSamples = 4000;
+constexpr std::size_t kMaxSamples = 4000;
 
 /// Largest untidiness() of a pose that nearly stands, where no sample stands.
 constexpr double kNearlyStands = 5.0;
@@ -184,7 +184,7 @@ public:
 
     Samples look() {
         Samples result;
-        const std::size_t step = std::max<std::size_t>(1, _motion.frames / kMostSamples);
+        const std::size_t step = std::max<std::size_t>(1, _motion.frames / kMaxSamples);
         std::vector<std::pair<std::size_t, Stance>> stances;
         for (std::size_t f = 0; f < _motion.frames; f += step) {
             const auto stance = measure(f);
@@ -226,7 +226,7 @@ public:
     Motion from(std::size_t frame, const Stance& stance) {
         measure(frame);
         const glm::dvec3 hips = stance.hips - glm::dot(stance.hips, up(stance)) * up(stance);
-        return countedFrom(_motion, _world, _motion.rootPositions[frame] - hips);
+        return rebasedFrom(_motion, _world, _motion.rootPositions[frame] - hips);
     }
 
 private:
@@ -303,7 +303,7 @@ void countFromRig(const Motion& motion, const RestSkeleton& rig, const SameSkele
     for (std::size_t j = 0; j < rig.joints.size(); ++j)
         if (rig.joints[j].name == motion.skeleton.joints[0].name) root = static_cast<int>(j);
     const glm::dvec3 place = turn * rig.joints[static_cast<std::size_t>(root)].centre / same.scale;
-    result.counted = countedFrom(motion, world, place);
+    result.counted = rebasedFrom(motion, world, place);
     result.notes.emplace_back("the rig is the motion's own skeleton: local rotations are copied");
 }
 

@@ -32,7 +32,7 @@ constexpr double kOnEdge = 1e-6;
 constexpr double kAcross = 0.3, kFacing = -0.5;
 
 /// Contacts with less weight are removed.
-constexpr double kLeastWeight = 0.01;
+constexpr double kMinWeight = 0.01;
 
 } // namespace
 
@@ -218,7 +218,7 @@ void FoldContact::detect(const Points& nodes) {
         touch.stiffness *= 1.0 - share;
     }
     _touches.erase(std::remove_if(_touches.begin(), _touches.end(),
-                                  [](const Touch& touch) { return touch.weight < kLeastWeight; }),
+                                  [](const Touch& touch) { return touch.weight < kMinWeight; }),
                    _touches.end());
     for (const Probe& probe : _skin.probes()) {
         const Point here = on(probe.triangle, probe.shares, vertices);

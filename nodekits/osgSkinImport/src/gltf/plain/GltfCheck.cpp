@@ -268,7 +268,7 @@ private:
             _parts.copyNumbers(from, "rotation", 4, where, node);
             _parts.copyNumbers(from, "scale", 3, where, node);
             makeUnit(node);
-            keepApart(node);
+            clampTinyScale(node);
             if (node.contains("matrix")) _placedTwice += keepMatrix(node);
             _parts.copyWeights(from, where, node);
             if (from.contains("mesh"))
@@ -318,7 +318,7 @@ private:
     }
 
     /// What is hidden by a scale of 0 is almost a point: a joint's matrix has an inverse then.
-    static void keepApart(json& node) {
+    static void clampTinyScale(json& node) {
         constexpr double kLeast = 1e-5;
         if (!node.contains("scale")) return;
         for (json& number : node["scale"]) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "rig/MirroredTurn.h"
+#include "rig/ReflectedRotation.h"
 
 namespace osgSkin {
 
-MirroredTurn MirroredTurn::below(const glm::dquat& turn, const glm::dvec3& scale) const {
+ReflectedRotation ReflectedRotation::below(const glm::dquat& turn, const glm::dvec3& scale) const {
     // With F, mirroring along x: F R F is a rotation, too, and so is what is left of the scale's
     // signs, half a turn about an axis or none.
     const glm::dquat own = isMirrored ? glm::dquat(turn.w, turn.x, -turn.y, -turn.z) : turn;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Fields for the turns that a joint makes: on a sheet, and on bodies.
-#include "ratios/EvenStretch.h"
+#include "ratios/MinimizeStretch.h"
 #include "KnownBody.h"
 #include "Stretches.h"
 #include "mesh/HeatGraph.h"
@@ -67,10 +67,10 @@ const std::vector<glm::dvec3> kTurn = {{0.0, 0.0, 1.5}};
 
 } // namespace
 
-TEST(EvenStretch, SpreadsWhereSkinIsStretched) {
+TEST(MinimizeStretch, SpreadsWhereSkinIsStretched) {
     Rise rise;
     const double before = rise.steepestAt(-0.8);
-    evenStretch(HeatGraph(rise.mesh), rise.field, rise.isFree, glm::dvec3(0.0), kTurn);
+    minimizeStretch(HeatGraph(rise.mesh), rise.field, rise.isFree, glm::dvec3(0.0), kTurn);
     EXPECT_LT(rise.steepestAt(-0.8), 0.7 * before);
     EXPECT_GT(rise.steepestAt(0.0), 1.2 * rise.steepestAt(-0.8));
     for (const double a : rise.field) {
@@ -79,11 +79,11 @@ TEST(EvenStretch, SpreadsWhereSkinIsStretched) {
     }
 }
 
-TEST(EvenStretch, KeepsWhatIsNotFree) {
+TEST(MinimizeStretch, KeepsWhatIsNotFree) {
     Rise rise;
     const std::vector<double> before = rise.field;
     for (std::size_t v = 0; v < before.size(); v += 3) rise.isFree[v] = false;
-    evenStretch(HeatGraph(rise.mesh), rise.field, rise.isFree, glm::dvec3(0.0), kTurn);
+    minimizeStretch(HeatGraph(rise.mesh), rise.field, rise.isFree, glm::dvec3(0.0), kTurn);
     EXPECT_NE(rise.field, before);
     for (std::size_t v = 0; v < before.size(); ++v)
         if (!rise.isFree[v]) {
@@ -91,22 +91,22 @@ TEST(EvenStretch, KeepsWhatIsNotFree) {
         }
     rise.field = before;
     rise.isFree.assign(before.size(), false);
-    evenStretch(HeatGraph(rise.mesh), rise.field, rise.isFree, glm::dvec3(0.0), kTurn);
+    minimizeStretch(HeatGraph(rise.mesh), rise.field, rise.isFree, glm::dvec3(0.0), kTurn);
     EXPECT_EQ(rise.field, before);
 }
 
-TEST(EvenStretch, IsNearlyTheSameOnACoarserCopy) {
+TEST(MinimizeStretch, IsNearlyTheSameOnACoarserCopy) {
     Rise fine(121);
     const std::vector<double> before = fine.field;
     Rise whole = fine;
-    evenStretch(HeatGraph(whole.mesh), whole.field, whole.isFree, glm::dvec3(0.0), kTurn);
+    minimizeStretch(HeatGraph(whole.mesh), whole.field, whole.isFree, glm::dvec3(0.0), kTurn);
     const SkinSmoother smoother(fine.mesh, 0.7);
     std::size_t vertices = 0;
     smoother.change(fine.field, fine.isFree, 0.7,
                     [&vertices](const HeatGraph& skin, std::vector<double>& field,
                                 const std::vector<bool>& isFree) {
                         vertices = field.size();
-                        evenStretch(skin, field, isFree, glm::dvec3(0.0), kTurn);
+                        minimizeStretch(skin, field, isFree, glm::dvec3(0.0), kTurn);
                     });
     EXPECT_LT(vertices, fine.field.size() / 3);
     double most = 0.0, moved = 0.0;

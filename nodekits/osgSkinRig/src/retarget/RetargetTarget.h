@@ -33,11 +33,11 @@ JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
 
 /// A rig and the motion that drives it, with both skeletons upright (+y up) and facing the same
 /// direction.
-struct DrivenRig {
+struct RetargetTarget {
     /// \param uprightRig must outlive this
     /// \param uprightMotion must outlive this
     /// \param joints driving joints and roles; must outlive this
-    DrivenRig(const RestSkeleton& uprightRig, const RestSkeleton& uprightMotion,
+    RetargetTarget(const RestSkeleton& uprightRig, const RestSkeleton& uprightMotion,
               const JointPairs& joints)
         : rig(uprightRig), motion(uprightMotion), map(joints),
           rigParts(findBodyParts(rig, map.rig)), motionParts(findBodyParts(motion, map.motion)) {}
@@ -58,14 +58,14 @@ struct BonePair {
 
 /// The bone of rig joint `j`, which the motion drives: to a descendant that both skeletons have, or
 /// else to each skeleton's own end. Nothing where either has no length.
-std::optional<BonePair> findBone(const DrivenRig& body, int j);
+std::optional<BonePair> findBone(const RetargetTarget& body, int j);
 
 /// The rotations A that take the rig's rest bones to the motion's zero-pose bones, one per rig
 /// joint.
 ///
 /// Trunk joints are not aligned. A limb joint whose bone has no direction in either skeleton takes
 /// its parent's rotation, so that it does not rotate against the limb.
-std::vector<glm::dquat> alignBones(const DrivenRig& body);
+std::vector<glm::dquat> alignBones(const RetargetTarget& body);
 
 /// Rotations from a rig's and a motion's space to a common upright one, found by both skeletons'
 /// rest poses.

@@ -26,7 +26,7 @@ using JointCentres = std::vector<std::optional<osg::Vec3d>>;
 /// \param played the same at an animation's start; empty where there is none. The pose in which the
 ///        figure already stands counts; a figure that lies in only one of them is not stood up
 /// \return a rotation; the identity where up and left are unknown
-osg::Matrixd turnToViewer(const JointRoles& roles, const JointCentres& centres,
+osg::Matrixd orientToFront(const JointRoles& roles, const JointCentres& centres,
                           const JointCentres& played = {});
 
 /// Whether trunk, thighs and shins lie along one axis. Such a rest pose shows which axis is up,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "retarget/DrivenRig.h"
+#include "retarget/RetargetTarget.h"
 
 #include "names/NameWords.h"
 #include "skeleton/SkeletonTree.h"
@@ -121,7 +121,7 @@ bool isOfHand(const SkeletonTree& tree, const JointRoles& roles, int hand, int c
         return std::count(words.begin(), words.end(), word) > 0;
     };
     if (has("end") || has("nub") || has("tip") || has("finger") || has("fingers")) return true;
-    if (std::any_of(words.begin(), words.end(), isForeign)) return false;
+    if (std::any_of(words.begin(), words.end(), isAccessory)) return false;
     const std::vector<int>& all = tree.children(hand);
     return all.size() > 1 && std::none_of(all.begin(), all.end(), isKnown);
 }
@@ -154,7 +154,7 @@ BonePair alongFloor(const BonePair& bone) {
 }
 
 /// The bone from rig joint `j` to `below` and from the one's driver to the other's.
-std::optional<BonePair> boneTo(const DrivenRig& body, int j, int below) {
+std::optional<BonePair> boneTo(const RetargetTarget& body, int j, int below) {
     const int from = body.driver(j);
     const int to = body.driver(below);
     if (to < 0 || to == from || !body.motion.rest().isInSubtree(to, from)) return std::nullopt;
@@ -166,7 +166,7 @@ std::optional<BonePair> boneTo(const DrivenRig& body, int j, int below) {
 
 } // namespace
 
-std::optional<BonePair> findBone(const DrivenRig& body, int j) {
+std::optional<BonePair> findBone(const RetargetTarget& body, int j) {
     std::optional<BonePair> result;
     int best = 3;
     std::vector<int> open = body.rig.children(j);
@@ -192,7 +192,7 @@ std::optional<BonePair> findBone(const DrivenRig& body, int j) {
     return result;
 }
 
-std::vector<glm::dquat> alignBones(const DrivenRig& body) {
+std::vector<glm::dquat> alignBones(const RetargetTarget& body) {
     const BodyParts& parts = body.rigParts;
     const glm::dquat identity(1.0, 0.0, 0.0, 0.0);
     std::vector<glm::dquat> result(parts.isLimb.size(), identity);

@@ -103,7 +103,7 @@ HWY_INLINE void sineCosine(const KernelAngle& angle, V ratio, V& sine, V& cosine
 }
 
 /// Subtracts v's azimuth from the twist: rest data is in the fixed frame, not in (v, w x v, w).
-HWY_INLINE void takeAzimuthOff(const KernelCall& call, const KernelLink& link, V& sine, V& cosine) {
+HWY_INLINE void subtractAzimuth(const KernelCall& call, const KernelLink& link, V& sine, V& cosine) {
     const V old = cosine;
     const V of = constant(call.joints->azimuthCosine[link.joint]);
     const V by = constant(call.joints->azimuthSine[link.joint]);
@@ -112,7 +112,7 @@ HWY_INLINE void takeAzimuthOff(const KernelCall& call, const KernelLink& link, V
 }
 
 /// Rotates (a, b) in its plane.
-HWY_INLINE void turnPlane(V sine, V cosine, V& a, V& b) {
+HWY_INLINE void rotate2D(V sine, V cosine, V& a, V& b) {
     const V old = a;
     a = hn::MulSub(cosine, a, hn::Mul(sine, b));
     b = hn::MulAdd(sine, old, hn::Mul(cosine, b));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/mesh/MovedApart.h"
+#include "assimp/mesh/AnimatedAttachments.h"
 
 #include <assimp/scene.h>
 

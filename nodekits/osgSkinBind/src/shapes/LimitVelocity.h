@@ -12,7 +12,7 @@ namespace osgSkin {
 /// much faster, and a single vertex would visibly slip. Such shapes begin earlier and grow slower;
 /// if that is not enough, they are weakened, and those of neighbours gradually with them, so that
 /// no crease forms.
-void limitSteps(const ShapedJoint& joint, FittedShapes& shapes);
+void limitVelocity(const ShapedJoint& joint, FittedShapes& shapes);
 
 } // namespace osgSkin
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <osgSkinCharacter/ClearHands>
+#include <osgSkinCharacter/AvoidBody>
 
 #include "arms/BodySurface.h"
 
@@ -71,9 +71,9 @@ glm::dquat fromVector(const glm::dvec3& rotation) {
 }
 
 /// Clamps a rotation vector smoothly, so that all steps together never exceed
-/// ClearedHands::kMostDegrees.
+/// AvoidBodyReport::kMaxDegrees.
 glm::dvec3 limited(const glm::dvec3& step) {
-    const double share = glm::length(step) * kSteps / glm::radians(ClearedHands::kMostDegrees);
+    const double share = glm::length(step) * kSteps / glm::radians(AvoidBodyReport::kMaxDegrees);
     return step / std::sqrt(1.0 + share * share);
 }
 
@@ -182,7 +182,7 @@ PosedJoints restPose(const RestSkeleton& rest) {
 
 } // namespace
 
-std::string ClearedHands::text() const {
+std::string AvoidBodyReport::text() const {
     std::ostringstream text;
     text.precision(3);
     text << turned << " of " << samples << " samples of arms turned, by " << meanDegrees
@@ -190,10 +190,10 @@ std::string ClearedHands::text() const {
     return text.str();
 }
 
-ClearedHands clearHands(Clip& clip, const RestSkeleton& rest, const JointRoles& roles,
+AvoidBodyReport avoidBody(Clip& clip, const RestSkeleton& rest, const JointRoles& roles,
                         const SkinMesh& mesh, const Binding& binding) {
     check(clip, rest, roles, mesh, binding);
-    ClearedHands result;
+    AvoidBodyReport result;
     BodyPieces body = findBodyPieces(rest, roles, mesh, binding);
     PosedJoints pose = restPose(rest);
     for (BodySurface& surface : body.surfaces) surface.pose(pose);

@@ -17,7 +17,7 @@ namespace osgSkin {
 /// \param toScene the mesh's place, as bind.mesh() has it
 /// \return a matrix for each vertex, from the mesh's space into the scene's; none where `toScene`
 ///         is right for all, but for a thousandth of the mesh's size
-std::vector<glm::dmat4> boundApart(const aiMesh& mesh, const glm::dmat4& toScene,
+std::vector<glm::dmat4> perVertexBindPose(const aiMesh& mesh, const glm::dmat4& toScene,
                                    const SceneBind& bind);
 
 } // namespace osgSkin

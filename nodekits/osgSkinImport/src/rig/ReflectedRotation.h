@@ -9,13 +9,13 @@ namespace osgSkin {
 
 /// How axes stand that negative scales above them may have mirrored: along x, and turned then, as
 /// rotationOf() tells it of a matrix.
-struct MirroredTurn {
+struct ReflectedRotation {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     bool isMirrored = false;
 
     /// Those of a node below that is turned, and mirrored along its own axes where its scale is
     /// negative.
-    MirroredTurn below(const glm::dquat& turn, const glm::dvec3& scale) const;
+    ReflectedRotation below(const glm::dquat& turn, const glm::dvec3& scale) const;
 };
 
 } // namespace osgSkin

@@ -3,7 +3,7 @@
 // Which parts of a skin are drawn out, on a ring: closed, cut, and alone.
 #include "mesh/HeatGraph.h"
 #include "mesh/WeldedMesh.h"
-#include "ratios/EvenStretch.h"
+#include "ratios/MinimizeStretch.h"
 
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ struct Ring {
     /// How many vertices above the middle stay free, and below.
     std::pair<std::size_t, std::size_t> freeAfter() const {
         std::vector<bool> free = isFree;
-        keepLooseSkin(HeatGraph(WeldedMesh(mesh)), field, free);
+        pinUnanchoredPatches(HeatGraph(WeldedMesh(mesh)), field, free);
         std::size_t above = 0, below = 0;
         for (std::size_t v = 0; v < free.size(); ++v)
             if (free[v]) ++(mesh.positions[v].y > 0.0 ? above : below);
@@ -56,7 +56,7 @@ struct Ring {
 
 } // namespace
 
-TEST(HeldSkin, BetweenBothKindsStaysFree) {
+TEST(PinnedPatches, BetweenBothKindsStaysFree) {
     const Ring ring;
     const auto all =
         static_cast<std::size_t>(std::count(ring.isFree.begin(), ring.isFree.end(), true));
@@ -66,7 +66,7 @@ TEST(HeldSkin, BetweenBothKindsStaysFree) {
     EXPECT_EQ(above + below, all);
 }
 
-TEST(HeldSkin, WhatEndsIsKept) {
+TEST(PinnedPatches, WhatEndsIsKept) {
     Ring ring;
     const auto whole = ring.freeAfter();
     // One triangle less, at the top.
@@ -77,7 +77,7 @@ TEST(HeldSkin, WhatEndsIsKept) {
     EXPECT_EQ(ring.freeAfter(), std::make_pair(std::size_t(0), whole.second));
 }
 
-TEST(HeldSkin, WhatNobodyHoldsAtBothEndsIsKept) {
+TEST(PinnedPatches, WhatNobodyHoldsAtBothEndsIsKept) {
     const std::pair<std::size_t, std::size_t> none;
     Ring ring;
     ring.isFree.assign(ring.isFree.size(), true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scene/FaceViewer.h"
+#include "scene/FrontOrientation.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkinRig/ForwardKinematics>
@@ -111,9 +111,9 @@ public:
 
 } // namespace
 
-osg::Matrixd turnToViewer(const JointRoles& roles, const JointCentres& centres,
+osg::Matrixd orientToFront(const JointRoles& roles, const JointCentres& centres,
                           const JointCentres& played) {
-    if (!roles.known() || roles.family == kToldByShape) return {};
+    if (!roles.known() || roles.family == kInferredFromGeometry) return {};
     const Figure resting(roles, centres);
     const osg::Matrixd stand = standUp(resting);
     if (played.empty() || stand.isIdentity()) return stand * faceAhead(resting, stand);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes that move no vertex much faster than the joint turns.
-#include "shapes/LimitSteps.h"
+#include "shapes/LimitVelocity.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -47,7 +47,7 @@ double fastest(const ShapedJoint& joint, const FittedShapes& shapes, std::size_t
     const ShapedJoint::Vertex& of = joint.vertices[vertex];
     const auto at = [&](double degrees) {
         const glm::dvec2 xy(std::sin(glm::radians(0.5 * degrees)), 0.0);
-        double weights[CorrectiveJoint::kMostModes];
+        double weights[CorrectiveJoint::kMaxModes];
         shapes.functions.weights(xy, weights);
         const std::size_t modes = shapes.functions.modes;
         glm::dvec3 moved = of.from;
@@ -63,20 +63,20 @@ double fastest(const ShapedJoint& joint, const FittedShapes& shapes, std::size_t
 
 } // namespace
 
-TEST(LimitSteps, HoldBackWhatIsNearTheAxis) {
+TEST(LimitVelocity, HoldBackWhatIsNearTheAxis) {
     const ShapedJoint joint = jointWith({0.2, 0.6, 3.0});
     FittedShapes shapes = lifted(joint, 0.25);
     ASSERT_GT(fastest(joint, shapes, 0), 2.0); // else there was nothing to limit
-    limitSteps(joint, shapes);
+    limitVelocity(joint, shapes);
     EXPECT_LT(fastest(joint, shapes, 0), 1.53);
     EXPECT_GT(fastest(joint, shapes, 0), 1.4); // no more than it takes
     EXPECT_LT(fastest(joint, shapes, 1), 1.53);
 }
 
-TEST(LimitSteps, TakeNeighboursAlongAndLeaveOthersAlone) {
+TEST(LimitVelocity, TakeNeighboursAlongAndLeaveOthersAlone) {
     const ShapedJoint joint = jointWith({0.2, 0.6, 3.0});
     FittedShapes shapes = lifted(joint, 0.25);
-    limitSteps(joint, shapes);
+    limitVelocity(joint, shapes);
     EXPECT_GT(shapes.vectors[0].z, 0.0);
     const double left = 1.0 - glm::distance(shapes.vectors[0], glm::dvec3(0, 0, 1));
     EXPECT_NEAR(shapes.vectors[1].z, left + 0.4 / 0.7, 1e-9);
@@ -84,7 +84,7 @@ TEST(LimitSteps, TakeNeighboursAlongAndLeaveOthersAlone) {
 }
 
 // A shape that comes in a part of the bend only is made to come in slower, not to stay away.
-TEST(LimitSteps, SlowDownWhatComesFast) {
+TEST(LimitVelocity, SlowDownWhatComesFast) {
     const ShapedJoint joint = jointWith({1.0});
     FittedShapes shapes = lifted(joint, 0.0);
     const std::size_t functions = shapes.functions.functionCount();
@@ -105,17 +105,17 @@ TEST(LimitSteps, SlowDownWhatComesFast) {
     };
     const glm::dvec3 before = offsetAt(0.6);
     ASSERT_GT(fastest(joint, shapes, 0), 1.6);
-    limitSteps(joint, shapes);
+    limitVelocity(joint, shapes);
     EXPECT_LT(fastest(joint, shapes, 0), 1.53);
     EXPECT_GT(offsetAt(0.6).y, 0.9 * before.y);
 }
 
-TEST(LimitSteps, LeaveSlowShapesAsTheyAre) {
+TEST(LimitVelocity, LeaveSlowShapesAsTheyAre) {
     const ShapedJoint joint = jointWith({1.0, 2.0});
     FittedShapes shapes = lifted(joint, 0.1);
-    limitSteps(joint, shapes);
+    limitVelocity(joint, shapes);
     for (const glm::dvec3& vector : shapes.vectors) EXPECT_EQ(vector, glm::dvec3(0, 0, 1));
     FittedShapes none;
-    limitSteps(joint, none);
+    limitVelocity(joint, none);
     EXPECT_TRUE(none.vectors.empty());
 }

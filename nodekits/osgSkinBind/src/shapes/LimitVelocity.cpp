@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shapes/LimitSteps.h"
+#include "shapes/LimitVelocity.h"
 
 #include "shapes/ShapedJoint.h"
 
@@ -20,19 +20,19 @@ namespace osgSkin {
 namespace {
 
 /// Axes around the joint; how far it bends about each, and between steps, degrees.
-constexpr int kAxes = 8, kMostBend = 176, kBendStep = 4;
+constexpr int kAxes = 8, kMaxBend = 176, kBendStep = 4;
 
 /// Coordinates that are clamped by less count as in range.
 constexpr double kHardlyClamped = 0.02;
 
 /// Steps of one degree by which a joint may bend: about axes all around it, each over the whole
 /// range of bends, sampled or not.
-class BendSteps {
+class PoseSweep {
 public:
     /// A bend and the modes' weights at it.
     struct Bend {
         BendTwist bend;
-        std::array<double, CorrectiveJoint::kMostModes> weights;
+        std::array<double, CorrectiveJoint::kMaxModes> weights;
     };
 
     struct Step {
@@ -42,7 +42,7 @@ public:
     };
 
     /// \param functions the joint's, with modes and coefficients
-    BendSteps(const ShapedJoint& joint, const CorrectiveJoint& functions) {
+    PoseSweep(const ShapedJoint& joint, const CorrectiveJoint& functions) {
         const auto bendAt = [&](const glm::dvec2& xy) {
             Bend result{joint.bendAt(xy), {}};
             functions.weights(xy, result.weights.data());
@@ -52,7 +52,7 @@ public:
             const double direction = glm::pi<double>() * i / kAxes;
             const glm::dvec2 way(std::cos(direction), std::sin(direction));
             const glm::dvec3 axis = joint.bendAt(way * 0.5).bendAxis;
-            for (int degrees = -kMostBend; degrees < kMostBend; degrees += kBendStep) {
+            for (int degrees = -kMaxBend; degrees < kMaxBend; degrees += kBendStep) {
                 const glm::dvec2 from = std::sin(glm::radians(0.5 * degrees)) * way,
                                  to = std::sin(glm::radians(0.5 * (degrees + 1))) * way;
                 _steps.push_back({bendAt(from), bendAt(to), axis,
@@ -79,7 +79,7 @@ class HeldVectors {
 public:
     /// \param steps must outlive this object
     /// \param modes at least 1
-    HeldVectors(const ShapedJoint& joint, const BendSteps& steps, std::size_t modes);
+    HeldVectors(const ShapedJoint& joint, const PoseSweep& steps, std::size_t modes);
 
     /// \param vectors `modes` of them, changed if steps are too long
     /// \return the share of the shapes that is left, 0 to 1: 1 minus the relative change
@@ -89,7 +89,7 @@ private:
     double sizeOf(const Eigen::MatrixXd& vectors) const;
 
     const ShapedJoint& _joint;
-    const BendSteps& _steps;
+    const PoseSweep& _steps;
     std::size_t _modes;
     Eigen::MatrixXd _gram;    ///< of the modes' weights over the sampled bends
     Eigen::MatrixXd _inverse; ///< of `_gram`
@@ -104,7 +104,7 @@ constexpr double kAtAxis = 0.1;
 /// Regularises the modes' Gram matrix, relative to the weights' mean square.
 constexpr double kRegular = 1e-6;
 
-constexpr int kMostRounds = 100;
+constexpr int kMaxRounds = 100;
 
 /// Relative tolerance of steps' lengths.
 constexpr double kSlack = 1e-3;
@@ -122,16 +122,16 @@ Eigen::Vector3d toEigen(const glm::dvec3& v) {
 }
 
 double mostOf(const ShapedJoint& joint, const ShapedJoint::Vertex& vertex,
-              const BendSteps::Step& step) {
+              const PoseSweep::Step& step) {
     const double radius =
         std::max(glm::length(glm::cross(step.axis, vertex.from)), kAtAxis * joint.radius);
-    return kFastest * BendSteps::rigid() * radius;
+    return kFastest * PoseSweep::rigid() * radius;
 }
 
 /// Whether a step is too long: a quick test that most vertices pass.
 bool isTooLong(const ShapedJoint& joint, const ShapedJoint::Vertex& vertex,
-               const BendSteps::Step& step, const glm::dvec3* vectors, std::size_t modes) {
-    const auto at = [&](const BendSteps::Bend& bend) {
+               const PoseSweep::Step& step, const glm::dvec3* vectors, std::size_t modes) {
+    const auto at = [&](const PoseSweep::Bend& bend) {
         glm::dvec3 sum = vertex.from;
         for (std::size_t k = 0; k < modes; ++k) sum += bend.weights[k] * vectors[k];
         return joint.turnOf(vertex, bend.bend) * sum;
@@ -150,7 +150,7 @@ struct VertexStep {
 };
 
 VertexStep stepOf(const ShapedJoint& joint, const ShapedJoint::Vertex& vertex,
-                  const BendSteps::Step& step, std::size_t modes) {
+                  const PoseSweep::Step& step, std::size_t modes) {
     const Eigen::Matrix3d from = toEigen(joint.turnOf(vertex, step.from.bend)),
                           to = toEigen(joint.turnOf(vertex, step.to.bend));
     VertexStep result{(to - from) * toEigen(vertex.from), {}, 0.0};
@@ -186,11 +186,11 @@ Eigen::VectorXd changeBy(const VertexStep& step, const Eigen::MatrixXd& inverse,
     return along * Eigen::Matrix3d(step.shares * along).fullPivLu().solve(by);
 }
 
-HeldVectors::HeldVectors(const ShapedJoint& joint, const BendSteps& steps, std::size_t modes)
+HeldVectors::HeldVectors(const ShapedJoint& joint, const PoseSweep& steps, std::size_t modes)
     : _joint(joint), _steps(steps), _modes(modes) {
     const auto count = Eigen::Index(modes);
     _gram = Eigen::MatrixXd::Zero(count, count);
-    for (const BendSteps::Step& step : steps.all()) {
+    for (const PoseSweep::Step& step : steps.all()) {
         if (!step.isInRange) continue;
         const Eigen::Map<const Eigen::VectorXd> weights(step.to.weights.data(), count);
         _gram += weights * weights.transpose();
@@ -204,8 +204,8 @@ double HeldVectors::sizeOf(const Eigen::MatrixXd& vectors) const {
 }
 
 double HeldVectors::hold(const ShapedJoint::Vertex& vertex, glm::dvec3* vectors) const {
-    const std::vector<BendSteps::Step>& steps = _steps.all();
-    if (std::none_of(steps.begin(), steps.end(), [&](const BendSteps::Step& step) {
+    const std::vector<PoseSweep::Step>& steps = _steps.all();
+    if (std::none_of(steps.begin(), steps.end(), [&](const PoseSweep::Step& step) {
             return isTooLong(_joint, vertex, step, vectors, _modes);
         }))
         return 1.0;
@@ -218,11 +218,11 @@ double HeldVectors::hold(const ShapedJoint::Vertex& vertex, glm::dvec3* vectors)
 
     std::vector<VertexStep> all;
     all.reserve(steps.size());
-    for (const BendSteps::Step& step : steps) all.push_back(stepOf(_joint, vertex, step, _modes));
+    for (const PoseSweep::Step& step : steps) all.push_back(stepOf(_joint, vertex, step, _modes));
 
     // Projections onto one step after the other.
     bool isHeld = false;
-    for (int round = 0; round < kMostRounds && !isHeld; ++round) {
+    for (int round = 0; round < kMaxRounds && !isHeld; ++round) {
         isHeld = true;
         for (const VertexStep& step : all) {
             const Eigen::Vector3d now = step.with(held);
@@ -260,12 +260,12 @@ std::vector<double> faded(const std::vector<const ShapedJoint::Vertex*>& vertice
 
 } // namespace
 
-void limitSteps(const ShapedJoint& joint, FittedShapes& shapes) {
+void limitVelocity(const ShapedJoint& joint, FittedShapes& shapes) {
     const std::size_t modes = shapes.functions.modes;
     if (modes == 0) return;
     std::unordered_map<std::uint32_t, const ShapedJoint::Vertex*> known;
     for (const ShapedJoint::Vertex& vertex : joint.vertices) known[vertex.index] = &vertex;
-    const BendSteps steps(joint, shapes.functions);
+    const PoseSweep steps(joint, shapes.functions);
     const HeldVectors vectors(joint, steps, modes);
     std::vector<const ShapedJoint::Vertex*> vertices;
     std::vector<double> shares; // that are left of their shapes

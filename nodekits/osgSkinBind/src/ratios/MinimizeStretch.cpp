@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ratios/EvenStretch.h"
+#include "ratios/MinimizeStretch.h"
 
 #include <Eigen/SparseCholesky>
 #include <glm/geometric.hpp>
@@ -30,7 +30,7 @@ constexpr double kEven = 0.02;
 
 /// Newton's method ends when a step gains less than this share, or after kNewtonSteps. A step that
 /// gains nothing is halved, up to kHalvings times.
-constexpr double kLeastGain = 1e-3;
+constexpr double kMinGain = 1e-3;
 constexpr int kNewtonSteps = 12;
 constexpr int kHalvings = 6;
 
@@ -145,7 +145,7 @@ private:
 
 } // namespace
 
-void keepLooseSkin(const HeatGraph& skin, const std::vector<double>& field,
+void pinUnanchoredPatches(const HeatGraph& skin, const std::vector<double>& field,
                    std::vector<bool>& isFree) {
     const std::vector<bool> isBorder = bordersOf(skin);
     std::vector<bool> isSeen(isFree.size());
@@ -172,7 +172,7 @@ void keepLooseSkin(const HeatGraph& skin, const std::vector<double>& field,
     }
 }
 
-void evenStretch(const HeatGraph& skin, std::vector<double>& field, const std::vector<bool>& isFree,
+void minimizeStretch(const HeatGraph& skin, std::vector<double>& field, const std::vector<bool>& isFree,
                  const glm::dvec3& centre, const std::vector<glm::dvec3>& turns) {
     const Stretch stretch(skin, isFree, centre, turns);
     double now = stretch.of(field);
@@ -190,7 +190,7 @@ void evenStretch(const HeatGraph& skin, std::vector<double>& field, const std::v
         }
         if (!(then < now)) return;
         field.swap(moved);
-        if (now - then < kLeastGain * now) return;
+        if (now - then < kMinGain * now) return;
         now = then;
     }
 }

@@ -42,7 +42,7 @@ std::string toldOf(const std::string& file) {
 
 } // namespace
 
-TEST(MovedApart, ThingsThatStandStillAreToldOf) {
+TEST(AnimatedAttachments, ThingsThatStandStillAreToldOf) {
     const std::string told =
         "1 things that clips move beside the skeleton stand still, \"box\" among them";
     EXPECT_NE(toldOf(saveBox("translation", {0, 1, 0, 0, 2, 0})).find(told), std::string::npos);

@@ -5,7 +5,7 @@
 #include "Command.h"
 
 #include <osgSkin/Error>
-#include <osgSkinCharacter/ClearHands>
+#include <osgSkinCharacter/AvoidBody>
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinCharacter/OptionString>
 #include <osgSkinRig/ForwardKinematics>
@@ -112,8 +112,8 @@ struct RoundBody {
         return clip;
     }
 
-    osgSkin::ClearedHands clear(Clip& clip) const {
-        return osgSkin::clearHands(clip, rest, roles, mesh, binding);
+    osgSkin::AvoidBodyReport clear(Clip& clip) const {
+        return osgSkin::avoidBody(clip, rest, roles, mesh, binding);
     }
 
     /// How deep the left arm's skin is in the trunk, whose axis is y.
@@ -154,12 +154,12 @@ std::vector<double> sweep(double from, double to, std::size_t frames) {
 
 } // namespace
 
-TEST(ClearHands, TakesAHandOutOfTheTrunk) {
+TEST(AvoidBody, TakesAHandOutOfTheTrunk) {
     const RoundBody body;
     const Clip before = body.clip({18.0});
     ASSERT_GT(body.depth(before, 0), 0.02);
     Clip after = before;
-    const osgSkin::ClearedHands cleared = body.clear(after);
+    const osgSkin::AvoidBodyReport cleared = body.clear(after);
     EXPECT_LT(body.depth(after, 0), 0.004);
     EXPECT_GT(body.depth(after, 0), -0.015) << "farther than needed";
     EXPECT_EQ(cleared.turned, 1u);
@@ -172,7 +172,7 @@ TEST(ClearHands, TakesAHandOutOfTheTrunk) {
         }
 }
 
-TEST(ClearHands, LeavesFreeArmsToTheBit) {
+TEST(AvoidBody, LeavesFreeArmsToTheBit) {
     const RoundBody body;
     const Clip before = body.clip(sweep(-60.0, 2.0, 40));
     Clip after = before;
@@ -180,7 +180,7 @@ TEST(ClearHands, LeavesFreeArmsToTheBit) {
     EXPECT_EQ(after.rotations, before.rotations);
 }
 
-TEST(ClearHands, LeavesTheRestPoseAndItsContacts) {
+TEST(AvoidBody, LeavesTheRestPoseAndItsContacts) {
     const RoundBody body(0.17); // forearms rest inside the trunk
     Clip before = body.clip({0.0});
     std::fill(before.rotations.begin(), before.rotations.end(), glm::dquat(1, 0, 0, 0));
@@ -190,23 +190,23 @@ TEST(ClearHands, LeavesTheRestPoseAndItsContacts) {
     EXPECT_EQ(after.rotations, before.rotations);
 }
 
-TEST(ClearHands, TurnsNoFasterThanTheArmItself) {
+TEST(AvoidBody, TurnsNoFasterThanTheArmItself) {
     const RoundBody body;
     const std::vector<double> inwards = sweep(-5.0, 45.0, 126); // by 0.4 degrees a frame
     const Clip before = body.clip(inwards);
     Clip after = before;
-    const osgSkin::ClearedHands cleared = body.clear(after);
+    const osgSkin::AvoidBodyReport cleared = body.clear(after);
     const std::vector<double> added = turns(body, before, after);
     EXPECT_EQ(added.front(), 0.0);
     EXPECT_GT(*std::max_element(added.begin(), added.end()), 8.0);
-    EXPECT_LE(cleared.largestDegrees, osgSkin::ClearedHands::kMostDegrees);
+    EXPECT_LE(cleared.largestDegrees, osgSkin::AvoidBodyReport::kMaxDegrees);
     double fastest = 0.0;
     for (std::size_t f = 1; f < added.size(); ++f)
         fastest = std::max(fastest, std::abs(added[f] - added[f - 1]));
     EXPECT_LT(fastest, 0.8);
 }
 
-TEST(ClearHands, AWalkersHandsKeepOutOfAWideBody) {
+TEST(AvoidBody, AWalkersHandsKeepOutOfAWideBody) {
     const CharacterCase* walk = nullptr;
     for (const CharacterCase& known : test::characterCases())
         if (std::string(known.name) == "neutral_walk") walk = &known;
@@ -229,8 +229,8 @@ TEST(ClearHands, AWalkersHandsKeepOutOfAWideBody) {
     }
     before.clip = thinned;
     osgSkin::CharacterMotion after = before;
-    const osgSkin::ClearedHands cleared =
-        osgSkin::clearHands(after.clip, character.rest, osgSkin::recogniseJoints(character.rest),
+    const osgSkin::AvoidBodyReport cleared =
+        osgSkin::avoidBody(after.clip, character.rest, osgSkin::recogniseJoints(character.rest),
                             character.body.mesh, character.binding);
     test::ArmCuts cuts(character);
     std::size_t cutsBefore = 0, cutsAfter = 0;
@@ -243,27 +243,27 @@ TEST(ClearHands, AWalkersHandsKeepOutOfAWideBody) {
     EXPECT_GT(cutsBefore, 20 * thinned.frames); // the CMU actor's elbows on a wide body
     EXPECT_LT(double(cutsAfter), 0.15 * double(cutsBefore));
     EXPECT_LT(cleared.meanDegrees, 3.0);
-    EXPECT_LE(cleared.largestDegrees, osgSkin::ClearedHands::kMostDegrees);
+    EXPECT_LE(cleared.largestDegrees, osgSkin::AvoidBodyReport::kMaxDegrees);
 }
 
-TEST(ClearHands, FilesAndOptionsAskForIt) {
+TEST(AvoidBody, FilesAndOptionsAskForIt) {
     const std::string folder = test::makeTestFolder();
     const std::string file = folder + "/clear.skin";
     std::ofstream(file) << R"({"osgskin": 1, "mesh": ")" OSGSKIN_DATA R"(/thrower.obj",
-        "skeleton": ")" OSGSKIN_DATA R"(/thrower.bvh", "clearHands": true,
+        "skeleton": ")" OSGSKIN_DATA R"(/thrower.bvh", "avoidBody": true,
         "motions": [{"file": ")" OSGSKIN_DATA R"(/throw.bvh"}]})";
     const osgSkin::Character asked = osgSkin::loadCharacter(file);
     EXPECT_EQ(asked.motions.front().cleared.samples, 2 * asked.motions.front().clip.frames);
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("clearHands=off");
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("avoidBody=off");
     const osgSkin::Character forbidden =
         osgSkin::loadCharacter(file, osgSkin::toLoadOptions(options));
     EXPECT_EQ(forbidden.motions.front().cleared.samples, 0u);
     EXPECT_EQ(osgSkin::loadCharacter(OSGSKIN_DATA "/thrower.skin").motions.front().cleared.samples,
               0u);
-    EXPECT_THROW(osgSkin::toLoadOptions(new osgDB::Options("clearHands=maybe")), osgSkin::Error);
+    EXPECT_THROW(osgSkin::toLoadOptions(new osgDB::Options("avoidBody=maybe")), osgSkin::Error);
 }
 
-TEST(ClearHands, RefusesWhatDoesNotFit) {
+TEST(AvoidBody, RefusesWhatDoesNotFit) {
     const RoundBody body;
     Clip clip = body.clip({0.0});
     clip.rotations.pop_back();
@@ -271,6 +271,6 @@ TEST(ClearHands, RefusesWhatDoesNotFit) {
     clip = body.clip({0.0});
     osgSkin::Binding other = body.binding;
     other.regions.back() = 1000;
-    EXPECT_THROW(osgSkin::clearHands(clip, body.rest, body.roles, body.mesh, other),
+    EXPECT_THROW(osgSkin::avoidBody(clip, body.rest, body.roles, body.mesh, other),
                  osgSkin::Error);
 }

@@ -40,7 +40,7 @@ std::string saveTwo(const std::string& name, double degrees) {
 
 } // namespace
 
-TEST(BoundApart, MeshesStandAsTheirOwnSkinsSay) {
+TEST(PerVertexBindPose, MeshesStandAsTheirOwnSkinsSay) {
     for (const double degrees : {0.0, 50.0, -120.0}) {
         const test::BlendError error = test::blendError(saveTwo("apart.gltf", degrees));
         EXPECT_EQ(error.clips, 1u) << degrees;
@@ -48,7 +48,7 @@ TEST(BoundApart, MeshesStandAsTheirOwnSkinsSay) {
     }
 }
 
-TEST(BoundApart, MatricesThatAreNoneMoveNothing) {
+TEST(PerVertexBindPose, MatricesThatAreNoneMoveNothing) {
     GltfColumn column;
     std::vector<double> matrices(48, 0.0);
     for (std::size_t k = 0; k < 32; ++k) // of the first two

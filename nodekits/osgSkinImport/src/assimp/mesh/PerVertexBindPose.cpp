@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "assimp/mesh/BoundApart.h"
+#include "assimp/mesh/PerVertexBindPose.h"
 
 #include "assimp/AssimpScene.h"
 
@@ -58,7 +58,7 @@ void forEachWeight(const aiMesh& mesh, const glm::dmat4& toScene, const SceneBin
 
 } // namespace
 
-std::vector<glm::dmat4> boundApart(const aiMesh& mesh, const glm::dmat4& toScene,
+std::vector<glm::dmat4> perVertexBindPose(const aiMesh& mesh, const glm::dmat4& toScene,
                                    const SceneBind& bind) {
     const double most = kOff * sizeOf(mesh, toScene);
     bool isApart = false;
