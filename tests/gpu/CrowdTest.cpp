@@ -1,14 +1,33 @@
 // SPDX-License-Identifier: MIT
+//
 // Crowds beside skins that the processor deforms, and the ways to draw a crowd beside each other.
+//
+// What a crowd's character and its members refuse; it leaves them as they were.
+//
+// Crowds that are larger than a driver reads, or than one dispatch looks at.
+//
+// Crowds in scenes that show them more than once, for long, or with states of their own.
 #include "CrowdPicture.h"
+#include "CrowdSubject.h"
 #include "Pixels.h"
+#include "TubeSkin.h"
+#include "crowd/CrowdDraws.h"
+
+#include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
 
 #include <gtest/gtest.h>
-
+#include <osg/Geode>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/Shape>
+#include <osg/ShapeDrawable>
 #include <osg/TextureBuffer>
 #include <osgUtil/RenderBin>
 
 #include <chrono>
+#include <limits>
+#include <set>
 #include <utility>
 
 namespace {
@@ -170,4 +189,403 @@ TEST_F(Crowd, TheProcessorsWorkDoesNotGrowWithTheMembers) {
     EXPECT_GT(few.first, 0u);
     EXPECT_EQ(few.second, 0u);
     EXPECT_EQ(workOfAFrame(character, 1000), few);
+}
+
+namespace {
+
+using osgSkin::CrowdCharacter;
+using osgSkin::CrowdInstance;
+using osgSkin::Error;
+using osgSkin::GpuCrowd;
+using test::CrowdSubject;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A tube with palettes of more than 800 texels.
+osg::ref_ptr<osgSkin::DeformableSkin> skinOfLargePalettes() {
+    test::Tube tube;
+    osgSkin::Correctives& correctives = tube.binding.correctives;
+    osgSkin::CorrectiveJoint breath;
+    breath.basis = osgSkin::CorrectiveJoint::Basis::Input;
+    breath.low.x = -1.0;
+    breath.high.x = 1.0;
+    breath.modes = osgSkin::CorrectiveJoint::kMaxModes;
+    breath.coefficients.assign(breath.modes, 0.1);
+    correctives.inputs = {"breath"};
+    correctives.joints.assign(osgSkin::Correctives::kMaxJoints, breath);
+    correctives.firstEntry.assign(tube.positions.size() + 1, 1);
+    correctives.firstEntry.front() = 0;
+    correctives.entries = {{0, 0}};
+    correctives.shares.assign(3 * breath.modes, 1);
+    osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    skin->setSkin(test::makeGeometry(tube), tube.model());
+    return skin;
+}
+
+osg::PrimitiveSet* triangles(const std::vector<GLuint>& corners) {
+    return new osg::DrawElementsUInt(GL_TRIANGLES, corners.begin(), corners.end());
+}
+
+CrowdCharacter::Samples restSamples(std::size_t count) {
+    return {
+        std::vector<std::vector<glm::dmat4>>(count, std::vector<glm::dmat4>(3, glm::dmat4(1.0)))};
+}
+
+} // namespace
+
+TEST(CrowdCharacter, RefusesWhatDoesNotFit) {
+    const CrowdSubject subject(1);
+    EXPECT_THROW(osg::ref_ptr<GpuCrowd>(new GpuCrowd(new CrowdCharacter)), Error);
+    const osg::ref_ptr<osg::Geometry> nothing = new osg::Geometry;
+    const auto character = subject.character();
+    EXPECT_THROW(character->addClip({}, 30.0, true), Error);
+    EXPECT_THROW(character->addClip({{{}}}, 30.0, true), Error);
+    EXPECT_FALSE(character->setSample(7, 0, 0, osgSkin::Pose()));
+    EXPECT_THROW(character->addRigid(*nothing, nullptr, 0, "end"), Error);
+    EXPECT_THROW(character->addRigid(*nothing, nullptr, 0, "tail"), Error);
+    EXPECT_THROW(character->addRigid(*nothing, nullptr, 9, "end"), Error);
+}
+
+TEST(CrowdCharacter, KeepsNoClipThatItRefuses) {
+    const osg::ref_ptr<CrowdCharacter> character = new CrowdCharacter;
+    character->addSkin(*skinOfLargePalettes(), osg::Matrixd());
+    EXPECT_THROW(character->addClip(restSamples(25000), 30.0, true), Error) << "texels";
+    EXPECT_THROW(osg::ref_ptr<GpuCrowd>(new GpuCrowd(character)), Error) << "it has no clip";
+    auto far = restSamples(2);
+    far[0][0][0][3].x = 1000.0;
+    far[0][1][1][0].x = kNaN;
+    EXPECT_THROW(character->addClip(far, 30.0, true), Error);
+    EXPECT_FALSE(character->bounds().valid());
+    EXPECT_EQ(character->addClip(restSamples(2), 30.0, true), 0u);
+    EXPECT_EQ(character->clipCount(), 1u);
+    EXPECT_LT(character->bounds().xMax(), 100.0f);
+}
+
+TEST(CrowdCharacter, ClipsNeedRatesThatShadersHave) {
+    const auto character = CrowdSubject(1).character();
+    for (const double rate : {0.0, -1.0, kNaN, kInf, 1e39, 1e-46})
+        EXPECT_THROW(character->addClip(restSamples(2), rate, true), Error) << rate;
+    EXPECT_EQ(character->clipCount(), 3u);
+    EXPECT_DOUBLE_EQ(character->loopSeconds(0), 0.8);
+    EXPECT_EQ(character->loopSeconds(2), 0.0);
+}
+
+TEST(CrowdCharacter, LevelsGrowCoarserOneByOne) {
+    const auto character = CrowdSubject(1).character();
+    for (const double wrong : {-0.1, 1.0, 2.0, kNaN, kInf, -kInf})
+        EXPECT_THROW(character->addLevel(wrong, 0.5), Error) << wrong;
+    for (const double wrong : {-0.1, kNaN, kInf, 1e39})
+        EXPECT_THROW(character->addLevel(0.5, wrong), Error) << wrong;
+    EXPECT_EQ(character->levelCount(), 1u);
+    character->addLevel(0.5, 0.5);
+    EXPECT_THROW(character->addLevel(0.5, 0.1), Error);
+    EXPECT_THROW(character->addLevel(0.1, 0.5), Error);
+    EXPECT_EQ(character->levelCount(), 2u);
+    // Not a skin without triangles in the levels.
+    EXPECT_THROW(character->addSkin(*test::makeSkin(), osg::Matrixd()), Error);
+    EXPECT_EQ(character->skins().size(), 1u);
+}
+
+TEST(CrowdCharacter, RefusesTrianglesOfVerticesThatAreNotThere) {
+    const CrowdSubject subject(1);
+    const osg::ref_ptr<CrowdCharacter> character = new CrowdCharacter;
+    for (const GLuint beyond : {72u, 4000000000u}) {
+        const osg::ref_ptr<osgSkin::DeformableSkin> skin = test::makeSkin();
+        const osg::ref_ptr<osg::Geometry> rest =
+            new osg::Geometry(*skin->getRestGeometry(), osg::CopyOp::SHALLOW_COPY);
+        const GLuint last = beyond == 72u ? rest->getVertexArray()->getNumElements() : beyond;
+        skin->setSkin(rest, skin->getModel());
+        rest->addPrimitiveSet(triangles({0, 1, last}));
+        EXPECT_THROW(character->addSkin(*skin, osg::Matrixd()), Error);
+    }
+    const std::size_t skin = character->addSkin(*test::makeSkin(), osg::Matrixd());
+    EXPECT_EQ(skin, 0u) << "what was refused is not kept";
+    subject.knob().setPrimitiveSet(0, triangles({0, 1, 2, 3}));
+    EXPECT_THROW(character->addRigid(subject.knob(), nullptr, skin, "end"), Error);
+    subject.knob().setPrimitiveSet(0, new osg::DrawArrays(GL_TRIANGLES, 0, 3000000));
+    EXPECT_THROW(character->addRigid(subject.knob(), nullptr, skin, "end"), Error);
+    EXPECT_EQ(character->parts().size(), 1u);
+    EXPECT_THROW(character->addSkin(*test::makeSkin(), osg::Matrixd::scale(1, 0, 1)), Error);
+    EXPECT_THROW(character->addSkin(*test::makeSkin(), osg::Matrixd::scale(1, kNaN, 1)), Error);
+}
+
+TEST(CrowdCharacter, StaysAsItIsOnceACrowdIsMadeOfIt) {
+    const CrowdSubject subject(2);
+    const auto character = subject.character();
+    const osg::ref_ptr<GpuCrowd> crowd = new GpuCrowd(character);
+    EXPECT_THROW(character->addClip(restSamples(2), 30.0, true), Error);
+    EXPECT_THROW(character->addLevel(0.5, 0.5), Error);
+    EXPECT_THROW(character->addRigid(subject.knob(), nullptr, 0, "end"), Error);
+}
+
+TEST(GpuCrowd, RefusesMembersThatItCannotShow) {
+    const CrowdSubject subject(2);
+    const auto character = subject.character();
+    const osg::ref_ptr<GpuCrowd> crowd = new GpuCrowd(character);
+    crowd->setInstances(subject.members);
+    const osg::BoundingSphere before = crowd->getBound();
+    const auto refuses = [&](void (*spoil)(CrowdInstance&)) {
+        std::vector<CrowdInstance> members(3, subject.members.front());
+        spoil(members[2]);
+        EXPECT_THROW(crowd->setInstances(members), Error);
+    };
+    refuses([](CrowdInstance& one) { one.clip = 3; });
+    refuses([](CrowdInstance& one) { one.otherClip = 65536, one.blend = 0.5f; });
+    refuses([](CrowdInstance& one) { one.blend = 1.5f; });
+    refuses([](CrowdInstance& one) { one.blend = std::numeric_limits<float>::quiet_NaN(); });
+    refuses([](CrowdInstance& one) { one.position.x() = 1e39; });
+    refuses([](CrowdInstance& one) { one.rotation.y() = kNaN; });
+    refuses([](CrowdInstance& one) { one.position.z() = -2e18; });
+    refuses([](CrowdInstance& one) { one.scale = 1e38f; });
+    refuses([](CrowdInstance& one) { one.rotation *= 1e10; });
+    refuses([](CrowdInstance& one) { one.phase = kInf; });
+    refuses([](CrowdInstance& one) { one.scale = std::numeric_limits<float>::infinity(); });
+    refuses([](CrowdInstance& one) { one.colour.a() = std::numeric_limits<float>::quiet_NaN(); });
+    EXPECT_EQ(crowd->getInstanceCount(), 2u);
+    EXPECT_EQ(crowd->getBound(), before);
+}
+
+namespace {
+
+using osgSkin::CrowdInstance;
+using osgSkin::TexelCheck;
+using test::GpuStage;
+using CrowdLimits = test::CrowdTest;
+
+/// What draws a drawable, and counts how often.
+struct CountedDraw : osg::Drawable::DrawCallback {
+    void drawImplementation(osg::RenderInfo& renderInfo,
+                            const osg::Drawable* drawable) const override {
+        ++count;
+        drawable->drawImplementation(renderInfo);
+    }
+    mutable int count = 0;
+};
+
+unsigned int seenOf(osg::Drawable::DrawCallback* draw) {
+    const osg::ref_ptr<osg::ShapeDrawable> ball =
+        new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1.0f));
+    ball->setUseDisplayList(false);
+    ball->setDrawCallback(draw);
+    const osg::ref_ptr<osg::Geode> scene = new osg::Geode;
+    scene->addDrawable(ball);
+    GpuStage stage(scene);
+    stage.look({0.0, -1.0, 0.0}, 3.0);
+    stage.draw();
+    return test::seenPixels(stage.picture());
+}
+
+} // namespace
+
+TEST_F(CrowdLimits, BuffersThatTheDriverDoesNotReadAreNotDrawn) {
+    EXPECT_GT(seenOf(new TexelCheck(65536, nullptr)), 1000u) << "what OpenGL promises";
+    EXPECT_EQ(seenOf(new TexelCheck(std::numeric_limits<std::size_t>::max(), nullptr)), 0u);
+}
+
+TEST_F(CrowdLimits, ADrawableIsDrawnByItsOwnCallback) {
+    const osg::ref_ptr<CountedDraw> own = new CountedDraw;
+    EXPECT_GT(seenOf(new TexelCheck(1, own)), 1000u);
+    EXPECT_GT(own->count, 0);
+}
+
+TEST_F(CrowdLimits, MoreMembersThanADispatchLooksAtAreDrawn) {
+    constexpr std::size_t kMost = std::size_t{65535} * 64;
+    const auto character = subject.character();
+    CrowdInstance away = subject.members.front();
+    away.position += osg::Vec3d(0.0, 0.0, 1e6);
+    std::vector<CrowdInstance> members(kMost + 1, away);
+    members.back() = subject.members.front();
+    const auto alone = pictureOf(crowdOf(character, {subject.members.front()}));
+    EXPECT_GT(test::seenPixels(*alone), 50u);
+    EXPECT_EQ(test::unlikePixels(*pictureOf(crowdOf(character, members)), *alone), 0u);
+}
+
+namespace {
+
+using osgSkin::CrowdCharacter;
+using osgSkin::CrowdInstance;
+using osgSkin::GpuCrowd;
+using test::GpuStage;
+using CrowdScene = test::CrowdTest;
+
+void addLeaves(osgUtil::RenderBin& bin, std::set<const osg::Drawable*>& drawables) {
+    for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
+        for (const auto& leaf : graph->_leaves) drawables.insert(leaf->getDrawable());
+    for (const auto& [number, child] : bin.getRenderBinList()) addLeaves(*child, drawables);
+}
+
+osg::ref_ptr<osg::Group> moved(osg::Node* node, const osg::Vec3d& way) {
+    osg::ref_ptr<osg::MatrixTransform> result =
+        new osg::MatrixTransform(osg::Matrixd::translate(way));
+    result->addChild(node);
+    return result;
+}
+
+/// A crowd culled by the processor, on a stage that has drawn once and looks away.
+class CulledCrowd : public test::CrowdTest {
+protected:
+    const osg::ref_ptr<CrowdCharacter> character = subject.character();
+    const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, subject.members);
+    GpuStage stage{crowd};
+
+    CulledCrowd() {
+        crowd->setCulling(GpuCrowd::Culling::Processor);
+        stage.lookAway();
+        stage.frame(0.0);
+    }
+    ~CulledCrowd() override { crowd->releaseGLObjects(nullptr); }
+};
+
+} // namespace
+
+TEST_F(CulledCrowd, DrawnOverAndOverTakesNoMoreMemory) {
+    std::set<const osg::Drawable*> drawables;
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    for (unsigned int i = 0; i < 300; ++i) {
+        const osg::ref_ptr<osgUtil::CullVisitor> cv = stage.cullVisitor();
+        // First without a frame stamp, then with numbers that begin again.
+        if (i >= 100) cv->setFrameStamp(stamp);
+        stamp->setFrameNumber(i < 200 ? 1000 + i : i - 200);
+        crowd->traverse(*cv);
+        addLeaves(*cv->getCurrentRenderBin()->getStage(), drawables);
+    }
+    EXPECT_GT(drawables.size(), 0u);
+    EXPECT_LE(drawables.size(), 3 * character->parts().size());
+}
+
+TEST_F(CulledCrowd, WhatWaitsForItsDrawIsNotListedAnew) {
+    const osg::ref_ptr<osgUtil::CullVisitor> one = stage.cullVisitor(), other = stage.cullVisitor();
+    crowd->traverse(*one);
+    crowd->traverse(*other);
+    std::set<const osg::Drawable*> ofOne, ofOther;
+    addLeaves(*one->getCurrentRenderBin()->getStage(), ofOne);
+    addLeaves(*other->getCurrentRenderBin()->getStage(), ofOther);
+    EXPECT_GT(ofOne.size(), 0u);
+    for (const osg::Drawable* drawable : ofOther) EXPECT_EQ(ofOne.count(drawable), 0u);
+}
+
+TEST_F(CrowdScene, BelowTwoParentsIsTheSameAsTwoCrowds) {
+    const auto character = subject.character();
+    const osg::Vec3d aside(9.0, 2.0, 0.0), back(-6.0, 7.0, 1.0);
+    const osg::ref_ptr<GpuCrowd> one = crowdOf(character, subject.members);
+    const osg::ref_ptr<GpuCrowd> other = crowdOf(character, subject.members);
+    const osg::ref_ptr<osg::Group> two = new osg::Group, shared = new osg::Group;
+    two->addChild(moved(one, aside));
+    two->addChild(moved(other, back));
+    shared->addChild(moved(one, aside));
+    shared->addChild(moved(one, back));
+    const auto expected = pictureOf(two, 1.2); // some out of view of each
+    EXPECT_GT(test::seenPixels(*expected), 10000u);
+    for (const GpuCrowd::Culling culling : kCullings) {
+        one->setCulling(culling);
+        EXPECT_EQ(test::unlikePixels(*pictureOf(shared, 1.2), *expected), 0u);
+    }
+}
+
+TEST_F(CrowdScene, PlaysForYearsAsAtFirst) {
+    const auto character = subject.character();
+    const auto expected = pictureOf(crowdOf(character, subject.members));
+    // Whole loops of the clips, of 0.8 s.
+    for (const double before : {0.8 * 126000, -0.8 * 126000, 0.8 * 40e6}) {
+        const auto late = pictureOf(crowdOf(character, subject.members, kTime + before));
+        EXPECT_LE(test::unlikePixels(*late, *expected), 20u) << before << " s";
+        // Clips that begin now.
+        std::vector<CrowdInstance> begun = subject.members;
+        for (CrowdInstance& member : begun) member.phase -= before;
+        const auto now = pictureOf(crowdOf(character, begun, kTime + before));
+        EXPECT_LE(test::unlikePixels(*now, *expected), 20u) << before << " s";
+    }
+    const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, subject.members);
+    crowd->setTime(std::numeric_limits<double>::infinity());
+    crowd->setTime(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(test::unlikePixels(*pictureOf(crowd), *expected), 0u);
+}
+
+TEST_F(CrowdScene, FollowsSamplesThatLeaveItsBounds) {
+    std::vector<CrowdInstance> members = subject.posedMembers();
+    for (CrowdInstance& member : members) {
+        member.rotation = osg::Quat();
+        member.scale = 1.0f;
+    }
+    const glm::dvec3 aside(20.0, 0.0, 0.0);
+    // All figures go aside, and the crowd back.
+    const auto standing = subject.character(), gone = subject.character();
+    const osg::ref_ptr<GpuCrowd> crowd = crowdOf(gone, members);
+    EXPECT_FALSE(crowd->getBound().contains(members.back().position + osgSkin::toOsg(aside)));
+    const std::vector<osgSkin::BoundJoint>& joints = gone->skins()[0].model->model().joints();
+    osgSkin::Pose pose(joints), rest(joints);
+    const std::vector<glm::dmat4> skinning(joints.size(), glm::translate(glm::dmat4(1.0), aside));
+    ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        ASSERT_TRUE(standing->setSample(2, i, 0, rest));
+        ASSERT_TRUE(gone->setSample(2, i, 0, pose));
+    }
+    EXPECT_TRUE(crowd->getBound().contains(members.back().position + osgSkin::toOsg(aside)));
+    const auto expected = pictureOf(crowdOf(standing, members));
+    EXPECT_GT(test::seenPixels(*expected), 10000u);
+    for (const GpuCrowd::Culling culling : kCullings) {
+        crowd->setCulling(culling);
+        const auto is = pictureOf(moved(crowd, osgSkin::toOsg(-aside)));
+        EXPECT_LE(test::unlikePixels(*is, *expected), 60u);
+    }
+}
+
+TEST_F(CrowdScene, IsSeenWholeWhereNearAndFarComeFromPrimitives) {
+    const auto character = subject.character();
+    const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, subject.members);
+    const auto expected = pictureOf(crowd);
+    EXPECT_GT(test::seenPixels(*expected), 10000u);
+    for (const GpuCrowd::Culling culling : kCullings) {
+        crowd->setCulling(culling);
+        const auto is = pictureOf(crowd, 2.2, osg::CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES);
+        EXPECT_EQ(test::unlikePixels(*is, *expected), 0u);
+    }
+}
+
+TEST_F(CrowdScene, IsComputedBeforeItsDrawsInOthersBins) {
+    const auto character = subject.character();
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(crowdOf(character, subject.members));
+    const auto expected = pictureOf(root);
+    root->getOrCreateStateSet()->setRenderBinDetails(10, "DepthSortedBin",
+                                                     osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+    GpuStage stage(root);
+    stage.setSphere({{7.5, 7.5, 2.0}, 13.0});
+    stage.look({0.4, -1.0, 0.6}, 2.2);
+    stage.draw();
+    EXPECT_EQ(test::unlikePixels(stage.picture(), *expected), 0u);
+    // Not what was seen a frame before, when most were out of view.
+    stage.look({1.0, 0.0, 0.1}, 0.3);
+    stage.frame(0.0);
+    EXPECT_GT(test::unlikePixels(stage.picture(), *expected), 1000u);
+    stage.look({0.4, -1.0, 0.6}, 2.2);
+    stage.frame(0.0);
+    EXPECT_EQ(test::unlikePixels(stage.picture(), *expected), 0u);
+    root->releaseGLObjects(nullptr);
+}
+
+TEST_F(CrowdScene, RigidPartsKeepTheStateOfTheirOwn) {
+    const osg::ref_ptr<osg::StateSet> red = new osg::StateSet;
+    const osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(1, 0, 0, 1));
+    red->setAttribute(material);
+    const auto plain = pictureOf(crowdOf(subject.character(), subject.members));
+    const auto expected = pictureOf(crowdOf(subject.character(0.0, red), subject.members));
+    EXPECT_GT(test::unlikePixels(*plain, *expected), 100u);
+    subject.knob().setStateSet(red);
+    const auto is = pictureOf(crowdOf(subject.character(), subject.members));
+    EXPECT_EQ(test::unlikePixels(*is, *expected), 0u);
+}
+
+TEST_F(CrowdScene, CopiesAreCrowdsOfTheirOwn) {
+    const auto character = subject.character();
+    const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, subject.members);
+    const auto expected = pictureOf(crowd);
+    const osg::ref_ptr<GpuCrowd> copy = osg::clone(crowd.get(), osg::CopyOp::DEEP_COPY_ALL);
+    ASSERT_TRUE(copy);
+    crowd->setTime(0.0);
+    crowd->setInstances({});
+    EXPECT_EQ(copy->getInstanceCount(), subject.members.size());
+    EXPECT_EQ(test::unlikePixels(*pictureOf(copy), *expected), 0u);
 }

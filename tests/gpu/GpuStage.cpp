@@ -106,7 +106,8 @@ osg::ref_ptr<osgUtil::CullVisitor> GpuStage::cullVisitor() {
 GpuStage::Posed GpuStage::computed(const osgSkin::DeformableSkin& skin) {
     EglWindow& window = *_windows.front();
     const osg::ref_ptr<osgUtil::CullVisitor> cv = cullVisitor();
-    const osg::Geometry* drawn = skin.getDrawBackend() ? skin.getDrawBackend()->cull(skin, *cv) : nullptr;
+    const osg::Geometry* drawn =
+        skin.getDrawBackend() ? skin.getDrawBackend()->cull(skin, *cv) : nullptr;
     if (!drawn) throw std::runtime_error("the context does not compute skins");
     if (!window.makeCurrent()) throw std::runtime_error("the context cannot be made current");
     const unsigned int id = window.getState()->getContextID();

@@ -7,7 +7,6 @@
 #include <osgSkinBind/Bind>
 
 #include <elastic/SolveElastic.h>
-#include <elastic/SolveElastic.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>

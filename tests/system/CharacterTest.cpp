@@ -1,22 +1,41 @@
 // SPDX-License-Identifier: MIT
+//
 // The whole scene as the plug-in builds it: parts, seams, and a pose that a person could be in.
+//
+// Each bad file is refused with one line that names the file and the place, by the plug-in and by
+// osgskinbake alike.
+//
+// What a .skin file may ask for beside the default way to find ratios.
+//
+// One motion of a file with several: in a .skin file and in options.
 #include "CharacterFiles.h"
 #include "Command.h"
 #include "DrawnSkin.h"
+#include "GltfBuilder.h"
+#include "Notices.h"
+#include "WhyRefused.h"
 
-#include <osg/TriangleIndexFunctor>
-#include <osgAnimation/BoneMapVisitor>
+#include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinCharacter/OptionString>
 #include <osgSkinRig/ClipCharacter>
 
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
+#include <osg/TriangleIndexFunctor>
+#include <osgAnimation/BoneMapVisitor>
+#include <osgDB/ReadFile>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <functional>
 #include <map>
+#include <ostream>
 #include <set>
+#include <sstream>
 
 namespace {
 
@@ -199,3 +218,279 @@ TEST_P(LoadedCharacter, BakedBoundsHoldTheSkinBetweenSamples) {
 
 INSTANTIATE_TEST_SUITE_P(Characters, LoadedCharacter, testing::ValuesIn(test::characterCases()),
                          [](const auto& c) { return std::string(c.param.name); });
+
+namespace {
+
+struct BadFile {
+    const char* name;
+    const char* file;     ///< that the complaint must name
+    const char* place;    ///< in it
+    const char* expected; ///< some of what it says was expected
+};
+
+std::ostream& operator<<(std::ostream& out, const BadFile& bad) {
+    return out << bad.name;
+}
+
+const BadFile kBadFiles[] = {
+    {"missing_mesh", "nowhere.obj", "", "cannot open"},
+    {"mesh_without_faces", "no_faces.obj", "", "expected at least one"},
+    {"mesh_with_nan", "nan_vertex.obj", "line 2", "expected"},
+    {"missing_skeleton", "nowhere.bvh", "", "cannot open"},
+    {"empty_skeleton", "no_root.bvh", "line 2", "expected a ROOT"},
+    {"cyclic_skeleton", "cyclic.gltf", "nodes", "recursive"},
+    {"no_skeleton_named", "body.obj", "skeleton", "expected"},
+    {"fit_false", "fit_false.skin", "skeleton.fit", "expected true"},
+    {"fit_missing", "fit_missing.skin", "skeleton", "\"fit\" is missing, expected true"},
+    {"fit_no_person", "body.obj", "cannot fit a skeleton", "expected"},
+    {"fit_unknown_landmark", "fit_unknown_landmark.skin", "skeleton.landmarks.Nose",
+     "expected the name of a CMU joint"},
+    {"fit_landmark_not_a_point", "fit_landmark_not_a_point.skin", "skeleton.landmarks.Head",
+     "expected a list of three numbers"},
+    {"fit_facing_nowhere", "fit_facing_nowhere.skin", "skeleton.facing", "expected a direction"},
+    {"truncated_motion", "truncated_motion.bvh", "line", "expected"},
+    {"missing_motion", "nowhere.bvh", "", "cannot open"},
+    {"foreign_motion", "root_only.bvh", "", "no joint"},
+    {"all_frames_skipped", "move.bvh", "4 frame", "expected"},
+    {"motion_name_twice", "motion_name_twice.skin", "motions[1]", "expected"},
+    {"motion_without_file", "motion_without_file.skin", "motions[0]", "expected"},
+    {"negative_skip", "negative_skip.skin", "motions[0].skipFrames", "expected a whole number"},
+    {"unknown_mapped_joint", "move.bvh", "\"nobody\"", "joint"},
+    {"unknown_joint", "unknown_joint.skin", "\"nobody\"", "expected"},
+    {"muscles_of_no_kind", "muscles_of_no_kind.skin", "muscles", "expected true or false"},
+    {"muscle_of_unknown_joint", "muscle_of_unknown_joint.skin", "\"nobody\"", "expected one of"},
+    {"muscle_on_no_side", "muscle_on_no_side.skin", "muscles[0].side", "expected \"flexor\""},
+    {"unknown_rigid", "unknown_rigid.skin", "\"nobody\"", "expected"},
+    {"unknown_method", "unknown_method.skin", "bind", "expected \"smooth\""},
+    {"weights_not_named", "body.obj", "carries no weights", "expected bones"},
+    {"mesh_weights_of_unknown_joint", "tube.gltf", "\"base\"", "expected the name of a joint"},
+    {"weights_without_method", "weights_without_method.skin", "weights", "expected \"bind\""},
+    {"missing_weights", "nowhere.json", "", "cannot open"},
+    {"weights_malformed", "weights_malformed.json", "line 1", "malformed JSON"},
+    {"weights_without_member", "weights_without_member.json", "weights", "expected"},
+    {"weights_as_list", "weights_as_list.json", "weights", "expected an object"},
+    {"weights_of_unknown_joint", "weights_of_unknown_joint.json", "weights.nobody", "expected"},
+    {"weights_beyond_mesh", "weights_beyond_mesh.json", "weights.arm[1][0]", "below 56"},
+    {"weights_not_a_pair", "weights_not_a_pair.json", "weights.arm[1]", "expected"},
+    {"weights_vertex_as_text", "weights_vertex_as_text.json", "weights.arm[0][0]",
+     "expected a whole number"},
+    {"weights_negative", "weights_negative.json", "weights.arm[0][1]", "0 or more"},
+    {"weights_as_text", "weights_as_text.json", "weights.arm[0][1]", "expected a number"},
+    {"weights_all_zero", "weights_all_zero.skin", "weights", "above 0"},
+    {"names_of_unknown_role", "names_of_unknown_role.skin", "names.robot.Elbow", "expected Hips"},
+    {"names_as_number", "names_as_number.skin", "names.robot.Hips", "expected a string"},
+    {"unknown_pole", "unknown_pole.skin", "joints.arm.twist.along", "expected"},
+    {"crossed_boundaries", "crossed_boundaries.skin", "joints.arm.bend", "expected"},
+    {"unknown_up", "unknown_up.skin", "up", "expected"},
+    {"prop_without_motion", "prop_without_motion.skin", "props[0].motion", "expected"},
+    {"malformed", "malformed.skin", "line 3", "malformed JSON"},
+    {"empty_file", "empty_file.skin", "line 1", "malformed JSON"},
+    {"not_an_object", "not_an_object.skin", "", "expected an object"},
+    {"no_version", "no_version.skin", "osgskin", "expected"},
+    {"future_version", "future_version.skin", "osgskin", "version 2 is not supported, expected 1"},
+    {"version_as_text", "version_as_text.skin", "osgskin", "expected a whole number"},
+    {"mesh_as_number", "mesh_as_number.skin", "mesh", "expected a string"},
+    {"empty_mesh_name", "empty_mesh_name.skin", "mesh", "expected a file name"},
+    {"motions_as_object", "motions_as_object.skin", "motions", "expected a list"},
+    {"joints_as_list", "joints_as_list.skin", "joints", "expected an object"},
+    {"rigid_as_text", "rigid_as_text.skin", "rigid", "expected a list"},
+    {"skip_as_number", "skip_as_number.skin", "joints.arm.skip", "expected true or false"},
+    {"no_such_character", "no_such_character.skin", "", "cannot open"},
+};
+
+std::string path(const BadFile& bad) {
+    return std::string(OSGSKIN_TEST_DATA "/character/bad/") + bad.name + ".skin";
+}
+
+class BadInput : public testing::TestWithParam<BadFile> {
+protected:
+    static void expectClear(const std::string& complaint) {
+        const BadFile& bad = GetParam();
+        for (const char* part : {bad.file, bad.place, bad.expected})
+            EXPECT_NE(complaint.find(part), std::string::npos)
+                << '"' << part << "\" in: " << complaint;
+    }
+};
+
+} // namespace
+
+TEST_P(BadInput, BakeExitsWithOneAndOneLine) {
+    const auto result =
+        test::runBake("'" + path(GetParam()) + "' --rest rest.obj", test::makeTestFolder());
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    expectClear(result.err);
+}
+
+TEST_P(BadInput, ReadNodeFileReturnsNull) {
+    const test::Notices notices;
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(path(GetParam()));
+    EXPECT_FALSE(node.valid());
+    if (std::string(GetParam().name) == "no_such_character") {
+        EXPECT_TRUE(notices.say("no_such_character.skin"));
+        return; // osgDB finds out by itself, in its own words
+    }
+    expectClear(notices.text());
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, BadInput, testing::ValuesIn(kBadFiles),
+                         [](const auto& c) { return std::string(c.param.name); });
+
+using osgSkin::Character;
+
+namespace {
+
+/// Compares the bend ratios of the joint "arm" with what its file makes of a vertex's height.
+void expectBend(const Character& character, const std::function<double(double)>& expected) {
+    const osgSkin::Binding& binding = character.binding;
+    ASSERT_EQ(binding.vertexCount(), character.body.mesh.positions.size());
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const double height = character.body.mesh.positions[v].y;
+        float arm = 0.0f;
+        for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i)
+            if (binding.influences[i].joint == 1) arm = binding.influences[i].bend;
+        EXPECT_NEAR(arm, static_cast<float>(expected(height)), 1e-4f)
+            << "vertex " << v << " at " << height;
+    }
+}
+
+} // namespace
+
+TEST(BindMethod, WeightsGivesTheRatiosOfTheFile) {
+    expectBend(osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/painted.skin"),
+               [](double height) { return std::clamp(height - 1.5, 0.0, 1.0); });
+}
+
+TEST(BindMethod, WeightsAreReported) {
+    const Character character = osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/painted.skin");
+    EXPECT_EQ(character.bindReport.vertices, 56u);
+    EXPECT_EQ(character.bindReport.regions.size(), 2u);
+    EXPECT_TRUE(character.bindReport.notes.empty()) << character.bindReport.text();
+}
+
+TEST(BindMethod, WeightsMayBeTheMeshsOwn) {
+    const Character character =
+        osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/mesh_weights.skin");
+    const osgSkin::Binding& binding = character.binding;
+    ASSERT_EQ(binding.vertexCount(), 36u);
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const double height =
+            2.0 * character.body.mesh.positions[v].z; // the file's armature halves
+        const osgSkin::Influence* last = &binding.influences[binding.firstInfluence[v + 1] - 1];
+        const float arm = last->joint == 1 ? last->bend : 0.0f;
+        EXPECT_NEAR(arm, std::clamp(height - 1.5, 0.0, 1.0), 1e-5) << "vertex " << v;
+    }
+}
+
+TEST(BindMethod, PaperGivesEquation5BetweenTheFilesBoundaries) {
+    expectBend(osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/printed.skin"),
+               [](double height) {
+                   const double t = std::clamp((height - 1.0) / 2.0, 0.0, 1.0);
+                   return t * t * (3.0 - 2.0 * t);
+               });
+}
+
+namespace {
+
+using osgSkin::Character;
+using test::GltfColumn;
+
+/// A column with clips "Armature|still", "Armature|bow" and "twist", which hold turns of 0, 30 and
+/// 60 degrees.
+std::string movesFile() {
+    GltfColumn column;
+    double angle = 0.0;
+    for (const char* name : {"Armature|still", "Armature|bow", "twist"}) {
+        column.animate(name, column.joints[1], "rotation", {0.0, 1.0},
+                       GltfColumn::turns({angle, angle}));
+        angle += 30.0;
+    }
+    return column.save("moves.gltf");
+}
+
+/// A .skin file over the column itself.
+std::string skinFile(const std::string& motions) {
+    std::string path = testing::TempDir() + "choice.skin";
+    std::ofstream(path) << R"({"osgskin": 1, "mesh": "moves.gltf", "rigid": [], "motions": [)"
+                        << motions << "]}";
+    return path;
+}
+
+double angleOf(const osgSkin::CharacterMotion& motion, const Character& character) {
+    const int joint = character.rest.find("middle");
+    const glm::dquat& q = motion.clip.rotations.at(std::size_t(joint));
+    return 2.0 * std::atan2(std::abs(q.x), q.w) * 57.29577951308232;
+}
+
+} // namespace
+
+TEST(ClipChoice, InASkinFile) {
+    movesFile();
+    const Character character =
+        osgSkin::loadCharacter(skinFile(R"({"file": "moves.gltf", "clip": "bow"},
+                    {"file": "moves.gltf", "clip": 2},
+                    {"file": "moves.gltf", "clip": "twist", "name": "turn"},
+                    {"file": "moves.gltf"})"));
+    ASSERT_EQ(character.motions.size(), 4u);
+    const char* const names[] = {"bow", "moves 2", "turn", "moves"};
+    const double angles[] = {30, 60, 60, 0};
+    for (std::size_t m = 0; m < 4; ++m) {
+        EXPECT_EQ(character.motions[m].name(), names[m]);
+        EXPECT_NEAR(angleOf(character.motions[m], character), angles[m], 0.01) << names[m];
+    }
+    const std::string why = test::whyRefused(skinFile(R"({"file": "moves.gltf", "clip": "fly"})"));
+    EXPECT_NE(why.find(R"(no clip "fly", expected one of 0 "Armature|still", 1 "Armature|bow", 2)"),
+              std::string::npos)
+        << why;
+    EXPECT_NE(test::whyRefused(skinFile(R"({"file": "moves.gltf", "clip": true})"))
+                  .find("motions[0].clip"),
+              std::string::npos);
+}
+
+/// A clip that moves faces alone keeps its number, and is not the first one.
+TEST(ClipChoice, NumbersAreTheFiles) {
+    GltfColumn column;
+    for (const char* name : {"blink", "walk", "run"})
+        column.animate(name, column.joints[1], "rotation", {0.0, 1.0},
+                       GltfColumn::turns({name[0] == 'r' ? 60.0 : 30.0, 60.0}));
+    column.json["animations"][0]["channels"][0]["target"]["path"] = "weights";
+    column.save("blinks.gltf");
+    const auto skin = [](const std::string& clip) {
+        std::string path = testing::TempDir() + "blinks.skin";
+        std::ofstream(path) << R"({"osgskin": 1, "mesh": "blinks.gltf", "rigid": [], "motions": [)"
+                            << R"({"file": "blinks.gltf")" << clip << "}]}";
+        return path;
+    };
+    for (const auto& [clip, angle] :
+         {std::pair("", 30), std::pair(R"(, "clip": 1)", 30), std::pair(R"(, "clip": 2)", 60)}) {
+        const Character character = osgSkin::loadCharacter(skin(clip));
+        ASSERT_EQ(character.motions.size(), 1u);
+        EXPECT_NEAR(angleOf(character.motions[0], character), angle, 0.01) << clip;
+    }
+    EXPECT_NE(test::whyRefused(skin(R"(, "clip": 0)")).find("clip \"blink\" moves no joint"),
+              std::string::npos);
+}
+
+TEST(ClipChoice, InOptions) {
+    const std::string moves = movesFile();
+    const std::string skin = skinFile("");
+    for (const auto& [wanted, angle] : {std::pair<std::string, double>{"bow", 30},
+                                        {"Armature|bow", 30},
+                                        {"2", 60},
+                                        {"twist", 60}}) {
+        osgSkin::LoadOptions options;
+        options.motion = moves + "#" + wanted;
+        const Character character = osgSkin::loadCharacter(skin, options);
+        ASSERT_EQ(character.motions.size(), 1u);
+        EXPECT_EQ(character.motions[0].name(), wanted);
+        EXPECT_NEAR(angleOf(character.motions[0], character), angle, 0.01) << wanted;
+    }
+    const std::string why = test::whyRefused(skin, test::loadOptions("motion=" + moves + "#fly"));
+    EXPECT_NE(why.find(R"(no clip "fly")"), std::string::npos) << why;
+    EXPECT_NE(test::whyRefused(skin, test::loadOptions("motion=nowhere.gltf#bow")).find("neither"),
+              std::string::npos);
+    // Of a rigged model's own clips, what stands behind the bar will do.
+    osgSkin::LoadOptions own;
+    own.motion = "bow";
+    EXPECT_EQ(osgSkin::loadCharacter(moves, own).motions.front().name(), "Armature|bow");
+}

@@ -1,28 +1,41 @@
 // SPDX-License-Identifier: MIT
+//
 // loadCharacter() as an application calls it: what it takes, what it gives, what it refuses.
+//
+// Who loads a character can be told how far it has come; nothing but our programs prints it.
 #include "Command.h"
 #include "DrawnSkin.h"
 #include "FindNodes.h"
+#include "ProgressLine.h"
 #include "QuadRig.h"
 #include "WhyRefused.h"
 
 #include <osgSkin/DeformJob>
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinCharacter/ProgressOption>
 
+#include <gtest/gtest.h>
+#include <osg/Group>
 #include <osg/Math>
 #include <osg/MatrixTransform>
 #include <osg/Notify>
 #include <osgAnimation/Bone>
 #include <osgAnimation/RigGeometry>
+#include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
+#include <poll.h>
+#include <pty.h>
+#include <unistd.h>
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -344,4 +357,216 @@ TEST(LoadCharacter, RefusesWhatIsNotThere) {
         EXPECT_EQ(why.rfind("nowhere.", 0), 0u) << file << ": " << why;
     }
     osg::setNotifyLevel(osg::NOTICE);
+}
+
+namespace {
+
+using Strings = std::vector<std::string>;
+
+/// Keeps what it is told, and may cancel.
+struct Recorder {
+    osgSkin::Progress progress() {
+        return [this](const osgSkin::ProgressStep& step) {
+            if (step.what == cancelAt) throw std::runtime_error("cancelled");
+            whats.push_back(step.what);
+            fractions.push_back(step.fraction);
+        };
+    }
+    /// The stages: what is told without a colon in it.
+    Strings stages() const {
+        Strings result;
+        for (const std::string& what : whats)
+            if (what.find(": ") == std::string::npos) result.push_back(what);
+        return result;
+    }
+    void expectRising() const {
+        ASSERT_FALSE(fractions.empty());
+        EXPECT_EQ(fractions.front(), 0.0);
+        EXPECT_EQ(fractions.back(), 1.0);
+        EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    }
+    bool has(const std::string& what) const {
+        return std::find(whats.begin(), whats.end(), what) != whats.end();
+    }
+    std::string cancelAt;
+    Strings whats;
+    std::vector<double> fractions;
+};
+
+/// By osgDB and its `.skin` plug-in.
+osg::ref_ptr<osg::Node> read(const std::string& file, const osgSkin::Progress& progress) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
+    osgSkin::setProgress(*options, progress);
+    return osgDB::readRefNodeFile(file, options);
+}
+
+osgSkin::Character load(const std::string& file, Recorder& recorder) {
+    osgSkin::LoadOptions options;
+    options.progress = recorder.progress();
+    return osgSkin::loadCharacter(file, options);
+}
+
+/// Standard error is a terminal while this lives.
+class Terminal {
+public:
+    Terminal() : _before(dup(STDERR_FILENO)) {
+        int slave = -1;
+        if (openpty(&_master, &slave, nullptr, nullptr, nullptr) != 0) return;
+        dup2(slave, STDERR_FILENO);
+        close(slave);
+    }
+    ~Terminal() {
+        dup2(_before, STDERR_FILENO);
+        close(_before);
+        close(_master);
+    }
+    bool works() const { return _master >= 0; }
+
+    /// What has been written to it.
+    std::string text() const {
+        std::string result;
+        pollfd ready{_master, POLLIN, 0};
+        char part[1024];
+        while (poll(&ready, 1, 0) > 0) {
+            const ssize_t length = ::read(_master, part, sizeof part);
+            if (length <= 0) break;
+            result.append(part, std::size_t(length));
+        }
+        return result;
+    }
+
+private:
+    int _before, _master = -1;
+};
+
+} // namespace
+
+TEST(LoadProgress, TellsTheStagesOfACharacter) {
+    Recorder recorder;
+    load(OSGSKIN_TEST_DATA "/character/good.skin", recorder);
+    EXPECT_EQ(recorder.stages(), (Strings{"mesh", "skeleton", "motion move", "motion later",
+                                          "binding", "scene", "done"}));
+    recorder.expectRising();
+}
+
+TEST(LoadProgress, TellsTheStagesOfARiggedModel) {
+    Recorder recorder;
+    load(OSGSKIN_TEST_DATA "/rig/tube.gltf.skin", recorder);
+    EXPECT_EQ(recorder.stages(), (Strings{"model", "binding", "scene", "done"}));
+    recorder.expectRising();
+}
+
+TEST(LoadProgress, TellsTheStagesOfARetargetedModel) {
+    Recorder recorder;
+    osgSkin::LoadOptions options;
+    options.motion = OSGSKIN_TEST_DATA "/character/move.bvh";
+    options.progress = recorder.progress();
+    const osgSkin::Character character =
+        osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/rig/tube.gltf", options);
+    EXPECT_EQ(recorder.stages(), (Strings{"model", "motion move", "binding", "scene", "done"}));
+    recorder.expectRising();
+}
+
+TEST(LoadProgress, TellsTheJointsWithinABinding) {
+    Recorder recorder;
+    load(OSGSKIN_DATA "/thrower.skin", recorder);
+    recorder.expectRising();
+    EXPECT_GT(recorder.whats.size(), 20u);
+    EXPECT_TRUE(recorder.has("binding: bend of LeftForeArm"));
+}
+
+TEST(LoadProgress, TellsTheStagesOfAFit) {
+    const std::string file = testing::TempDir() + "fitted_progress.skin";
+    std::ofstream(file) << R"({"osgskin": 1, "mesh": ")" OSGSKIN_DATA
+                           R"(/thrower.obj", "skeleton": {"fit": true}})";
+    Recorder recorder;
+    load(file, recorder);
+    recorder.expectRising();
+    const Strings& whats = recorder.whats;
+    EXPECT_GT(std::count(whats.begin(), whats.end(), "skeleton: medial curves"), 10)
+        << "the longest stage";
+    Strings fit;
+    for (const std::string& what : whats)
+        if (what.rfind("skeleton: ", 0) == 0 && (fit.empty() || fit.back() != what))
+            fit.push_back(what);
+    EXPECT_EQ(fit, (Strings{"skeleton: surface", "skeleton: medial curves", "skeleton: facing",
+                            "skeleton: joints", "skeleton: done"}));
+}
+
+TEST(LoadProgress, ThePlugInTellsTheSame) {
+    for (const char* file :
+         {OSGSKIN_DATA "/thrower.skin", OSGSKIN_TEST_DATA "/rig/tube.gltf.skin"}) {
+        Recorder direct, throughOsgDB;
+        load(file, direct);
+        ASSERT_NE(read(file, throughOsgDB.progress()), nullptr);
+        EXPECT_EQ(throughOsgDB.whats, direct.whats);
+        EXPECT_EQ(throughOsgDB.fractions, direct.fractions);
+    }
+}
+
+TEST(LoadProgress, MayCancel) {
+    for (const char* at : {"binding", "binding: bend of LeftForeArm", "scene"}) {
+        Recorder recorder;
+        recorder.cancelAt = at;
+        EXPECT_THROW(load(OSGSKIN_DATA "/thrower.skin", recorder), std::runtime_error) << at;
+        EXPECT_FALSE(recorder.has("done"));
+        EXPECT_EQ(read(OSGSKIN_DATA "/thrower.skin", recorder.progress()), nullptr) << at;
+    }
+}
+
+TEST(LoadProgress, TheLastOneSetCounts) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    EXPECT_FALSE(osgSkin::getProgress(options));
+    EXPECT_FALSE(osgSkin::getProgress(nullptr));
+    Recorder first, second;
+    options->getOrCreateUserDataContainer()->addUserObject(new osg::Group); // somebody else's
+    osgSkin::setProgress(*options, first.progress());
+    osgSkin::setProgress(*options, second.progress());
+    const osg::ref_ptr<osgDB::Options> copy = options->cloneOptions();
+    osgSkin::getProgress(copy)({"mesh", 0.5});
+    EXPECT_TRUE(first.whats.empty());
+    EXPECT_EQ(second.whats, Strings{"mesh"});
+    osgSkin::setProgress(*options, {});
+    EXPECT_FALSE(osgSkin::getProgress(options));
+}
+
+TEST(LoadProgress, ThePlugInWritesNothingToATerminal) {
+    const Terminal terminal;
+    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
+    // A load that waits for longer than any display would keep silent.
+    const auto slow = [](const osgSkin::ProgressStep& step) {
+        if (step.what == "scene") std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    };
+    ASSERT_NE(read(OSGSKIN_DATA "/thrower.skin", slow), nullptr);
+    ASSERT_NE(read(OSGSKIN_DATA "/thrower.skin", {}), nullptr);
+    EXPECT_EQ(terminal.text(), "");
+}
+
+TEST(ProgressLine, ShowsLongWorkOnATerminalWhileItLasts) {
+    const Terminal terminal;
+    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
+    {
+        example::ProgressLine line("body.skin");
+        line.show({"mesh", 0.0});
+        // One second of nothing is not shown; then it is, though the work says nothing itself.
+        while (terminal.text().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        line.progress()({"binding: bend of Spine", 0.425});
+        std::string text;
+        while (text.find("body.skin: binding: bend of Spine, 42 %, ") == std::string::npos)
+            text += terminal.text();
+        line.show({"done", 1.0});
+    }
+    EXPECT_NE(terminal.text().find("body.skin: done, 100 %"), std::string::npos);
+}
+
+TEST(ProgressLine, IsSilentOnShortWork) {
+    const Terminal terminal;
+    if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
+    {
+        example::ProgressLine line("body.skin");
+        line.show({"mesh", 0.0});
+        line.show({"done", 1.0});
+    }
+    EXPECT_EQ(terminal.text(), "");
 }

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
+//
 // What exporters write into glTF: each thing in a small file of its own, beside linear blending by
 // the format's definition.
+//
+// Clips that jump from key to key, as glTF's steps do and keys that share a time.
+//
+// Clips that turn joints within another one's uneven scale, which shears what hangs on them.
 #include "BlendError.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
@@ -8,12 +13,16 @@
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinImport/ImportMotion>
 
 #include <osgAnimation/Bone>
 #include <osgAnimation/BoneMapVisitor>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -401,4 +410,131 @@ TEST(WildGltf, FilesMayHaveSpacesInTheirNames) {
         {{"byteLength", column.bytes().size()}, {"uri", "with%20a%20space.bin"}}};
     Character character = loadCharacter(column.save("outside.gltf"));
     EXPECT_LT(blendError(character, inside).whole, kExact);
+}
+
+namespace {
+
+using osgSkin::Character;
+using test::GltfColumn;
+
+constexpr double kRate = 30.0;
+
+/// By how many degrees a rotation turns about x, 0 to 180.
+double degreesOf(double sine, double cosine) {
+    return 2.0 * std::atan2(std::abs(sine), std::abs(cosine)) * 180.0 / std::acos(-1.0);
+}
+
+/// How the column's middle is turned.
+double turnAt(Character& character, double time) {
+    character.poseAt(character.motions.at(0), time);
+    osgAnimation::BoneMapVisitor bones;
+    character.skeleton->accept(bones);
+    const osg::Matrixd matrix = bones.getBoneMap().at("middle")->getMatrix();
+    const osg::Quat turn = matrix.getRotate();
+    return degreesOf(turn.x(), turn.w());
+}
+
+/// A pose for every frame of two seconds, none like those beside it.
+std::vector<double> angles() {
+    std::vector<double> result;
+    for (int k = 0; k <= 60; ++k) result.push_back(k * 37 % 90);
+    return result;
+}
+
+/// A file whose middle has angles(), each until the next; its times are floats, as all of glTF's.
+std::string saveSteps(const std::string& name, double first) {
+    GltfColumn column;
+    std::vector<double> times;
+    for (std::size_t k = 0; k < angles().size(); ++k)
+        times.push_back(double(float(first + double(k) / kRate)));
+    column.animate("steps", column.joints[1], "rotation", times, GltfColumn::turns(angles()),
+                   "STEP");
+    return column.save(name);
+}
+
+} // namespace
+
+TEST(GltfSteps, FramesAreKeysAndNoBlends) {
+    for (const double first : {0.0, 100.0}) {
+        Character character = osgSkin::loadCharacter(saveSteps("steps.gltf", first));
+        for (std::size_t k = 0; k < angles().size(); ++k)
+            EXPECT_NEAR(turnAt(character, double(k) / kRate), angles()[k], 0.01)
+                << first << " " << k;
+        EXPECT_NEAR(character.motions.at(0).duration(), 2.0, 1e-5) << first;
+    }
+}
+
+TEST(GltfSteps, SamplesOfMotionsAreKeysOfTheirTime) {
+    const osgSkin::Motion motion = osgSkin::importMotion(saveSteps("step_motion.gltf", 0.0));
+    ASSERT_EQ(motion.frames, angles().size());
+    for (std::size_t k = 0; k < motion.frames; ++k) {
+        const glm::dquat turn = motion.rotation(k, 1);
+        EXPECT_NEAR(degreesOf(turn.x, turn.w), angles()[k], 0.01) << k;
+    }
+}
+
+TEST(GltfSteps, KeysThatShareATimeAreAJump) {
+    GltfColumn column;
+    column.animate("jump", column.joints[1], "rotation", {0.0, 0.0, 0.5, 0.5, 0.5, 1.0, 1.0},
+                   GltfColumn::turns({70, 10, 10, 80, 40, 40, 20}));
+    Character character = osgSkin::loadCharacter(column.save("jump.gltf"));
+    for (const double time : {0.0, 0.2, 0.4, 0.499})
+        EXPECT_NEAR(turnAt(character, time), 10.0, 0.01) << time;
+    for (const double time : {0.5, 0.6, 0.8, 0.999})
+        EXPECT_NEAR(turnAt(character, time), 40.0, 0.01) << time;
+}
+
+/// As osgAnimation plays them.
+TEST(GltfSteps, ClipsAreAsLongAsTheyAreTold) {
+    GltfColumn column;
+    column.bend();
+    Character character = osgSkin::loadCharacter(column.save("slow.gltf"));
+    osgAnimation::Animation& clip = *character.motions.at(0).animation;
+    for (const double duration : {1.0, 4.0, 0.25}) {
+        clip.setDuration(duration);
+        EXPECT_NEAR(turnAt(character, 0.5 * duration), 60.0, 0.01) << duration;
+        EXPECT_NEAR(turnAt(character, duration), 90.0, 0.01) << duration;
+    }
+}
+
+namespace {
+
+using test::GltfColumn;
+
+/// A column on joints below a base that is longer along one axis, in its bind pose, too; "top"
+/// turns about y or x.
+GltfColumn uneven(bool isAboutY, double length) {
+    GltfColumn column;
+    column.json["nodes"][0]["scale"] = {1.0, length, 1.0};
+    std::vector<double> matrices;
+    for (int j = 0; j < 3; ++j)
+        for (int k = 0; k < 16; ++k)
+            matrices.push_back(k == 5       ? 1.0 / length
+                               : k == 13    ? -double(j)
+                               : k % 5 == 0 ? 1.0
+                                            : 0.0);
+    column.json["skins"][0]["inverseBindMatrices"] = column.accessor("MAT4", matrices);
+    std::vector<double> turns = GltfColumn::turns({0, 60});
+    for (std::size_t k = 0; isAboutY && k < turns.size(); k += 4) std::swap(turns[k], turns[k + 1]);
+    column.animate("turn", column.joints[2], "rotation", {0.0, 1.0}, turns);
+    return column;
+}
+
+std::string notesOf(GltfColumn column) {
+    const test::Notices notices;
+    const osgSkin::Character character = osgSkin::loadCharacter(column.save("uneven.gltf"));
+    std::string result;
+    for (const std::string& note : character.notes) result += note;
+    EXPECT_EQ(notices.lines(), character.notes.size()) << notices.text();
+    return result;
+}
+
+} // namespace
+
+TEST(UnevenGltf, TurnsThatShearAreNoted) {
+    EXPECT_NE(
+        notesOf(uneven(false, 2.0)).find("bone \"top\" in the clip \"turn\" scaled non-uniformly"),
+        std::string::npos);
+    EXPECT_EQ(notesOf(uneven(true, 2.0)), "") << "about the axis that is longer";
+    EXPECT_EQ(notesOf(uneven(false, 1.0)), "");
 }

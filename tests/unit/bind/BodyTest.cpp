@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A body is bound alike whatever family its joints' names are of.
+#include "JointSpellings.h"
+#include "KnownBody.h"
 #include "Ratios.h"
+#include "RenamedBody.h"
+#include "Shapes.h"
 #include "SharedBody.h"
 
 #include <osgSkin/DeformJob>
 #include <osgSkinBind/Bind>
+#include <osgSkinBind/BindWeights>
 #include <osgSkinBind/RigidJoints>
 #include <osgSkinBind/RigidSplit>
 
@@ -12,6 +19,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numeric>
 #include <ostream>
 #include <set>
@@ -248,3 +257,295 @@ INSTANTIATE_TEST_SUITE_P(
                     Named{"body4k_neutral", "cmu_mb_neutral", 0.5, "HalfWay"},
                     Named{"body4k_neutral", "cmu_mb_neutral", 1.5, "BeyondMale"}),
     [](const auto& named) { return std::string(named.param.name); });
+
+namespace {
+
+enum class LastBone { Tip, EndJoint, Nothing };
+
+/// A cylinder, radius 1 and 8 long, over two joints; the upper half turns.
+class Cylinder : public testing::TestWithParam<std::tuple<int, LastBone>> {
+protected:
+    void SetUp() override {
+        const auto [sides, last] = GetParam();
+        mesh = shapes::cylinder(8.0, sides);
+        RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
+        if (last != LastBone::Tip) skeleton.joints.back().tip.reset();
+        if (last == LastBone::EndJoint)
+            shapes::addJoint(skeleton, "end", skeleton.joints.back().name, {0, 8, 0});
+        BindOptions options; // the ratios alone: the fold's press takes volume
+        options.shapes = BindOptions::Shapes::None;
+        binding = bind(mesh, skeleton, options);
+        std::vector<std::uint32_t> source(mesh.positions.size());
+        std::iota(source.begin(), source.end(), 0u);
+        model = SkinModel::create(binding, {mesh.positions.begin(), mesh.positions.end()},
+                                  std::vector<glm::vec3>(source.size(), {0, 1, 0}), source);
+    }
+
+    std::vector<glm::dvec3> turned(const glm::dvec3& axis, double degrees) const {
+        const glm::dmat4 unit(1.0);
+        const glm::dmat4 turn = glm::translate(unit, glm::dvec3(0, 4, 0)) *
+                                glm::rotate(unit, glm::radians(degrees), axis) *
+                                glm::translate(unit, glm::dvec3(0, -4, 0));
+        std::vector<glm::dmat4> skinning(binding.joints.size(), turn);
+        skinning[0] = unit;
+        Pose pose(binding.joints);
+        EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
+        std::vector<glm::vec3> posed(mesh.positions.size());
+        DeformJob job;
+        job.model = model.get();
+        job.pose = &pose;
+        job.positions = posed.data();
+        job.positionCount = posed.size();
+        EXPECT_NO_THROW(job.validate());
+        EXPECT_TRUE(job.run());
+        return {posed.begin(), posed.end()};
+    }
+
+    /// Smallest area of a ring over its own at rest.
+    double leastArea(const std::vector<glm::dvec3>& points) const {
+        std::map<double, std::vector<std::size_t>> rings;
+        for (std::size_t v = 0; v < points.size(); ++v)
+            if (glm::length(glm::dvec2(mesh.positions[v].x, mesh.positions[v].z)) > 0.99)
+                rings[mesh.positions[v].y].push_back(v);
+        double least = 1.0;
+        for (auto& [height, ring] : rings) {
+            std::sort(ring.begin(), ring.end(), [&](std::size_t a, std::size_t b) {
+                const glm::dvec3 &p = mesh.positions[a], &q = mesh.positions[b];
+                return std::atan2(p.z, p.x) < std::atan2(q.z, q.x);
+            });
+            glm::dvec3 now(0.0), rest(0.0);
+            for (std::size_t k = 0; k < ring.size(); ++k) {
+                const std::size_t a = ring[k], b = ring[(k + 1) % ring.size()];
+                now += glm::cross(points[a] - points[ring[0]], points[b] - points[ring[0]]);
+                rest += glm::cross(mesh.positions[a] - mesh.positions[ring[0]],
+                                   mesh.positions[b] - mesh.positions[ring[0]]);
+            }
+            least = std::min(least, glm::length(now) / glm::length(rest));
+        }
+        return least;
+    }
+
+    double volume(const std::vector<glm::dvec3>& points) const {
+        const std::vector<std::uint32_t> corners = mesh.triangles();
+        double sum = 0.0;
+        for (std::size_t t = 0; t + 2 < corners.size(); t += 3)
+            sum += glm::dot(points[corners[t]],
+                            glm::cross(points[corners[t + 1]], points[corners[t + 2]]));
+        return sum;
+    }
+
+    SkinMesh mesh;
+    Binding binding;
+    osg::ref_ptr<const SkinModel> model;
+};
+
+} // namespace
+
+TEST_P(Cylinder, KeepsItsCrossSectionsInTwists) {
+    for (double degrees = 0.0; degrees <= 330.0; degrees += 30.0)
+        EXPECT_GE(leastArea(turned({0, 1, 0}, degrees)), 0.99) << "at " << degrees;
+}
+
+TEST_P(Cylinder, KeepsItsVolumeInBends) {
+    for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)})
+        for (double degrees = 30.0; degrees <= 120.0; degrees += 30.0)
+            EXPECT_NEAR(volume(turned(axis, degrees)) / volume(mesh.positions), 1.0, 0.01)
+                << "at " << degrees;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Cylinder,
+                         testing::Combine(testing::Values(8, 16, 48),
+                                          testing::Values(LastBone::Tip, LastBone::EndJoint,
+                                                          LastBone::Nothing)));
+
+namespace {
+
+/// Only the skeleton matters here.
+glm::dvec3 boneAxis(const RestSkeleton& skeleton, const std::string& joint) {
+    const Binding binding = bind(shapes::cylinder(), skeleton);
+    return binding.joints[jointCalled(binding, joint)].boneAxis;
+}
+
+RestSkeleton body() {
+    RestSkeleton s;
+    shapes::addJoint(s, "Hips", "", {0, 1, 0});
+    shapes::addJoint(s, "LHipJoint", "Hips", {0, 1, 0}); // no length
+    shapes::addJoint(s, "LeftUpLeg", "LHipJoint", {0.5, 0.9, 0});
+    shapes::addJoint(s, "LeftLeg", "LeftUpLeg", {0.5, 0.1, 0});
+    shapes::addJoint(s, "Spine", "Hips", {0, 2, -0.1});
+    shapes::addJoint(s, "Spine1", "Spine", {0, 3, 0});
+    shapes::addJoint(s, "LeftShoulder", "Spine1", {0.2, 3.8, 0.3});
+    shapes::addJoint(s, "RightShoulder", "Spine1", {-0.2, 3.8, 0.3});
+    shapes::addJoint(s, "Neck", "Spine1", {0, 4.2, 0});
+    shapes::addJoint(s, "Head", "Neck", {0, 5, 0});
+    s.joints.back().tip = glm::dvec3(0, 6, 0.2);
+    shapes::addJoint(s, "LeftHand", "LeftShoulder", {3, 3.8, 0});
+    shapes::addJoint(s, "LeftHandThumb", "LeftHand", {3.5, 3.8, 0.01}); // straight on, but a thumb
+    shapes::addJoint(s, "LeftHandIndex", "LeftHand", {3.8, 3.6, 0.2});
+    shapes::addJoint(s, "Tail", "LeftHandIndex", {4.4, 3.4, 0.3});
+    return s;
+}
+
+} // namespace
+
+TEST(Axes, FollowTheChain) {
+    const RestSkeleton s = body();
+    const auto towards = [&s](const std::string& from, const std::string& to) {
+        const auto centre = [&s](const std::string& name) {
+            return s.joints[static_cast<std::size_t>(s.find(name))].centre;
+        };
+        return glm::normalize(centre(to) - centre(from));
+    };
+    const char* const pairs[][2] = {{"Hips", "Spine"},
+                                    {"LHipJoint", "LeftUpLeg"},
+                                    {"LeftUpLeg", "LeftLeg"},
+                                    {"Spine1", "Neck"},
+                                    {"LeftHand", "LeftHandIndex"}};
+    for (const auto& [from, to] : pairs)
+        EXPECT_LT(glm::distance(boneAxis(s, from), towards(from, to)), 1e-12)
+            << from << " should point to " << to;
+    EXPECT_LT(glm::distance(boneAxis(s, "Head"), glm::normalize(glm::dvec3(0, 1, 0.2))), 1e-12);
+    EXPECT_LT(glm::distance(boneAxis(s, "Tail"), boneAxis(s, "LeftHandIndex")), 1e-12)
+        << "a leaf without a tip goes on like its parent";
+}
+
+TEST(Axes, SingleJointHasOne) {
+    RestSkeleton s;
+    shapes::addJoint(s, "only", "", {0, 1, 0});
+    EXPECT_EQ(boneAxis(s, "only"), glm::dvec3(0, 1, 0));
+}
+
+namespace {
+
+/// Heads, hands and feet whose fingers and toes nothing moves.
+std::vector<std::string> rigidIn(const RestSkeleton& skeleton,
+                                 const std::vector<JointNames>& names = {}) {
+    return automaticRigidJoints(skeleton, names, std::vector<bool>(skeleton.joints.size(), false));
+}
+
+/// Equal to the last bit, but for the joints' names.
+void expectSame(const Binding& a, const Binding& b) {
+    ASSERT_EQ(a.joints.size(), b.joints.size());
+    for (std::size_t j = 0; j < a.joints.size(); ++j) {
+        EXPECT_EQ(a.joints[j].twistAxis, b.joints[j].twistAxis) << a.joints[j].name;
+        EXPECT_EQ(a.joints[j].boneAxis, b.joints[j].boneAxis) << a.joints[j].name;
+    }
+    EXPECT_EQ(a.regions, b.regions);
+    EXPECT_EQ(a.firstInfluence, b.firstInfluence);
+    ASSERT_EQ(a.influences.size(), b.influences.size());
+    for (std::size_t i = 0; i < a.influences.size(); ++i) {
+        ASSERT_EQ(a.influences[i].joint, b.influences[i].joint) << i;
+        ASSERT_EQ(a.influences[i].bend, b.influences[i].bend) << i;
+        ASSERT_EQ(a.influences[i].twist, b.influences[i].twist) << i;
+    }
+}
+
+class BodyNames : public testing::Test {
+protected:
+    /// Binds the thrower under the names that `family` gives its joints, and compares with CMU's.
+    void expectAlike(const JointNames& family, const BindOptions& options) {
+        const auto names = test::namesIn(body.truth, family);
+        const RestSkeleton other = test::renamed(body.truth, names);
+
+        std::vector<std::string> expected;
+        for (const std::string& name : rigidIn(body.truth)) expected.push_back(names.at(name));
+        ASSERT_EQ(expected.size(), 5u); // head, hands, feet
+        EXPECT_EQ(rigidIn(other, options.names), expected);
+
+        const Binding theirs = bind(body.mesh, other, options);
+        expectSame(bind(body.mesh, body.truth), theirs);
+        for (const std::string side : {"Left", "Right"}) {
+            const auto hand = std::size_t(body.truth.find(side + "Hand"));
+            const auto foreArm = std::size_t(body.truth.find(side + "ForeArm"));
+            const glm::dvec3 above =
+                glm::normalize(body.truth.joints[hand].centre - body.truth.joints[foreArm].centre);
+            EXPECT_LT(glm::distance(theirs.joints[hand].twistAxis, above), 1e-9)
+                << "the forearm twists with the hand";
+        }
+    }
+
+    const KnownBody body = KnownBody::thrower();
+};
+
+} // namespace
+
+TEST_F(BodyNames, EveryKnownFamilyIsBoundAlike) {
+    for (const JointNames& family : knownJointNames()) {
+        if (family.roles.count("LeftThumb1") == 0) continue; // or else "extra" here
+        SCOPED_TRACE(family.name);
+        expectAlike(family, {});
+    }
+}
+
+/// The joints' names as other tools spell them; a body's head, hands and feet are the same.
+TEST_F(BodyNames, EverySpellingHasTheSameRigidParts) {
+    const std::map<std::string, std::string> roles = [] {
+        std::map<std::string, std::string> result;
+        for (const auto& [role, members] : test::knownNames("CMU (MotionBuilder)").roles)
+            for (const std::string& member : members) result.emplace(member, role);
+        return result;
+    }();
+    const std::vector<std::string> ours = rigidIn(body.truth);
+    for (const test::Dialect& dialect : test::dialects())
+        for (const test::SideStyle& side : test::sideStyles())
+            for (const std::string prefix : {"mixamorig_", "Neo_", "DEF-"}) {
+                std::map<std::string, std::string> names;
+                std::map<std::string, int> used;
+                for (const RestJoint& joint : body.truth.joints) {
+                    const std::string& role = roles.at(joint.name);
+                    const bool left = role[0] == 'L', right = role[0] == 'R';
+                    const bool has = dialect.names.count(role.substr(left ? 4 : right ? 5 : 0));
+                    names[joint.name] =
+                        has && used[role]++ == 0
+                            ? test::spelled(dialect, role, side, prefix, "_#", names.size())
+                            : prefix + "extra_" + std::to_string(names.size());
+                }
+                std::vector<std::string> expected;
+                expected.reserve(ours.size());
+                for (const std::string& name : ours) expected.push_back(names.at(name));
+                EXPECT_EQ(rigidIn(test::renamed(body.truth, names)), expected)
+                    << dialect.name << ", side " << side.text() << ", " << prefix;
+            }
+}
+
+TEST_F(BodyNames, ASpelledBodyIsBoundAlike) {
+    RestSkeleton other = body.truth;
+    for (std::size_t j = 0; j < other.joints.size(); ++j) {
+        // Neo_LeftArm_04Bone; one word says less than CMU's families know: fingers and hips
+        other.joints[j].name = "Neo_" + other.joints[j].name + "_" + std::to_string(j) + "Bone";
+    }
+    expectSame(bind(body.mesh, body.truth), bind(body.mesh, other));
+}
+
+TEST_F(BodyNames, NamesOfTheCallersAreBoundAlike) {
+    BindOptions options;
+    options.names.push_back(test::robotNames());
+    expectAlike(options.names.front(), options);
+}
+
+TEST_F(BodyNames, WithoutThemTheShapeTells) {
+    const auto names = test::namesIn(body.truth, test::robotNames());
+    const RestSkeleton robot = test::renamed(body.truth, names);
+    std::vector<std::string> expected;
+    for (const std::string& name : rigidIn(body.truth)) expected.push_back(names.at(name));
+    EXPECT_EQ(rigidIn(robot), expected);
+
+    RestSkeleton folded = robot; // no shape of a body
+    for (RestJoint& joint : folded.joints) {
+        joint.centre = glm::dvec3(0.0);
+        joint.tip.reset();
+    }
+    EXPECT_TRUE(rigidIn(folded).empty());
+}
+
+TEST_F(BodyNames, WeightsTakeTheirPolesFromTheCallersNames) {
+    BindOptions options;
+    options.names.push_back(test::robotNames());
+    const RestSkeleton robot =
+        test::renamed(body.truth, test::namesIn(body.truth, options.names.front()));
+    const VertexWeights weights(body.mesh.positions.size(), {{0, 1.0}});
+    const Binding theirs = bindWeights(body.mesh, robot, weights, options);
+    const Binding ours = bindWeights(body.mesh, body.truth, weights);
+    for (std::size_t j = 0; j < ours.joints.size(); ++j)
+        EXPECT_EQ(theirs.joints[j].twistAxis, ours.joints[j].twistAxis) << ours.joints[j].name;
+}

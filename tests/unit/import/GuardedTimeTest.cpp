@@ -1,22 +1,35 @@
 // SPDX-License-Identifier: MIT
+//
 // Files of less than a megabyte that took minutes, or gigabytes: what they have many of was
 // compared with all others, or copied for each.
+//
+// What becomes of the test models of Assimp's makers (Debian: assimp-testmodels), the broken ones
+// among them: read, or refused with a reason, and never a crash.
 #include "ExpectError.h"
 #include "GltfBuilder.h"
+#include "LeaksOfOthers.h"
 #include "Paths.h"
+#include "RiggedModels.h"
 
+#include <osgSkin/Error>
 #include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinRig/JointRoles>
+#include <osgSkinRig/Motion>
 
 #include <osg/Geometry>
 #include <osg/Group>
+#include <osg/Texture2D>
 #include <osgDB/Options>
 #include <osgDB/WriteFile>
 
+#include <algorithm>
+#include <cctype>
 #include <ctime>
 #include <fstream>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -244,4 +257,149 @@ TEST_F(GuardedTime, WhatASceneShowsOftenIsOnePart) {
     const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
     EXPECT_EQ(mesh.parts.size(), 1u);
     EXPECT_EQ(mesh.mesh.faceSizes.size(), 4096u);
+}
+
+namespace {
+
+using test::kModels;
+using test::kRigged;
+using test::Rigged;
+
+std::vector<std::filesystem::path> allModels() {
+    std::vector<std::filesystem::path> result;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(kModels))
+        if (entry.is_regular_file()) result.push_back(entry.path());
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+/// Whether a file is in a format that is for trusted files only: Assimp loses memory where it gives
+/// up.
+bool isForTrustedOnly(const std::filesystem::path& file) {
+    const std::string ours[] = {".obj", ".ply", ".bvh", ".gltf", ".glb", ".vrm"};
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(std::begin(ours), std::end(ours), extension) == std::end(ours);
+}
+
+} // namespace
+
+TEST(TestModels, RiggedOnesAreReadWhole) {
+    OSGSKIN_NEEDS(kModels);
+    for (const Rigged& expected : kRigged) {
+        SCOPED_TRACE(expected.file);
+        try {
+            const osgSkin::ImportedRig rig =
+                osgSkin::importRig(std::string(kModels) + expected.file);
+            EXPECT_EQ(rig.rest.joints.size(), expected.joints);
+            EXPECT_EQ(rig.body.mesh.positions.size(), expected.vertices);
+            EXPECT_EQ(rig.animations.size(), expected.clips);
+            EXPECT_FALSE(rig.body.weights.empty());
+        } catch (const osgSkin::Error& error) {
+            ADD_FAILURE() << error.what();
+        }
+    }
+}
+
+/// The file has weights for joint3 and joint4, and no frames for them.
+TEST(TestModels, BonesWithoutANodeFollowTheirNeighbours) {
+    OSGSKIN_NEEDS(kModels);
+    const osgSkin::ImportedRig rig = osgSkin::importRig(std::string(kModels) + "X/anim_test.x");
+    const std::vector<osgSkin::RestJoint>& joints = rig.rest.joints;
+    ASSERT_EQ(joints.size(), 4u);
+    double height = -4.8; // of a cylinder from -5 to 5: joint1's
+    for (int j = 0; j < 4; ++j) {
+        const osgSkin::RestJoint& joint = joints[std::size_t(j)];
+        EXPECT_EQ(joint.name, "joint" + std::to_string(j + 1));
+        EXPECT_EQ(joint.parent, j - 1);
+        EXPECT_NEAR(joint.centre.x, 0.0, 1e-3);
+        EXPECT_GT(joint.centre.y, height + (j > 0 ? 1.0 : -0.1));
+        height = joint.centre.y;
+    }
+    EXPECT_LT(height, 5.0);
+    // Whole weights: what the file paints, it paints in full.
+    std::vector<double> sums(rig.body.mesh.positions.size(), 0.0);
+    for (const osgSkin::BoneWeights& weights : rig.body.weights)
+        for (const auto& entry : weights.entries) sums[entry.vertex] += entry.weight;
+    for (const double sum : sums) EXPECT_NEAR(sum, 1.0, 1e-3);
+}
+
+TEST(TestModels, TexturesInsideTheFileAreRead) {
+    OSGSKIN_NEEDS(kModels);
+    const osgSkin::ImportedRig rig =
+        osgSkin::importRig(std::string(kModels) + "MDL/MDL (HL1)/alpha_test.mdl");
+    ASSERT_EQ(rig.body.parts.size(), 1u);
+    const auto* texture = dynamic_cast<const osg::Texture2D*>(
+        rig.body.parts[0].geometry->getStateSet()->getTextureAttribute(
+            0, osg::StateAttribute::TEXTURE));
+    ASSERT_NE(texture, nullptr);
+    ASSERT_EQ(texture->getImage()->s(), 512);
+    EXPECT_EQ(texture->getImage()->getColor(0, 0), osg::Vec4(0.0f, 0.0f, 1.0f, 1.0f));
+    EXPECT_GT(texture->getImage()->getColor(256, 256).r(), 0.7f);
+}
+
+TEST(TestModels, AllOthersAreRefusedWithAReason) {
+    OSGSKIN_NEEDS(kModels);
+    std::map<std::string, std::size_t> reasons;
+    std::size_t read = 0;
+    for (const std::filesystem::path& file : allModels()) {
+        try {
+            const test::LeaksOfOthers leaks(isForTrustedOnly(file));
+            osgSkin::importRig(file.string());
+            ++read;
+            const std::string name = std::filesystem::relative(file, kModels).string();
+            const bool known =
+                std::any_of(std::begin(kRigged), std::end(kRigged),
+                            [&](const Rigged& rigged) { return name == rigged.file; });
+            EXPECT_TRUE(known) << name << " is rigged, and not on the list";
+        } catch (const osgSkin::Error& error) {
+            const std::string what = error.what();
+            EXPECT_EQ(what.rfind(file.string() + ": ", 0), 0u) << what;
+            EXPECT_GT(what.size(), file.string().size() + 5) << what;
+            EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+            ++reasons[what.substr(file.string().size() + 2, 30)];
+        }
+    }
+    EXPECT_EQ(read, std::size(kRigged));
+    EXPECT_GT(reasons["no mesh with bones, expected a"], 200u);
+}
+
+/// Whatever a `.skin` file may name for its mesh, its skeleton and its motions.
+TEST(TestModels, NoneDoesHarmAsAMeshASkeletonOrAMotion) {
+    OSGSKIN_NEEDS(kModels);
+    std::size_t read = 0, refused = 0;
+    const auto attempt = [&](const std::string& file, const auto& import) {
+        try {
+            const test::LeaksOfOthers leaks(isForTrustedOnly(file));
+            import(file);
+            ++read;
+        } catch (const osgSkin::Error& error) {
+            const std::string what = error.what();
+            EXPECT_EQ(what.rfind(file, 0), 0u) << what;
+            EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+            ++refused;
+        }
+    };
+    for (const std::filesystem::path& file : allModels()) {
+        attempt(file.string(), [](const std::string& f) { osgSkin::importMesh(f); });
+        attempt(file.string(), [](const std::string& f) { osgSkin::importSkeleton(f); });
+        attempt(file.string(), [](const std::string& f) { osgSkin::importMotion(f); });
+    }
+    EXPECT_GT(read, 300u);
+    EXPECT_GT(refused, 300u);
+}
+
+TEST(TestModels, BrokenOnesAreRefusedAsMeshesToo) {
+    OSGSKIN_NEEDS(kModels);
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(kModels) + "invalid")) {
+        const std::string file = entry.path().string();
+        try {
+            osgSkin::importMesh(file);
+            ADD_FAILURE() << file << " was read";
+        } catch (const osgSkin::Error& error) {
+            EXPECT_EQ(std::string(error.what()).rfind(file, 0), 0u) << error.what();
+        }
+    }
 }

@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: MIT
+//
+// What a mesh file says wrongly, and how much is said about it.
+//
+// OFF files as others write them, and byte order marks before texts of meshes.
+#include "ExpectError.h"
+#include "NamedCase.h"
+#include "Notices.h"
 #include "Paths.h"
+#include "TextFile.h"
 
 #include <osgSkinImport/ImportMesh>
 
+#include <glm/geometric.hpp>
+#include <osg/Array>
+#include <osg/Geometry>
 #include <osg/Group>
 #include <osg/Material>
 #include <osg/MatrixTransform>
+#include <osgDB/Options>
 #include <osgDB/WriteFile>
 
-#include <glm/geometric.hpp>
-
+#include <filesystem>
+#include <fstream>
 #include <ostream>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -218,4 +232,257 @@ INSTANTIATE_TEST_SUITE_P(Files, SharedBody,
                              return "faces" + std::to_string(body.param.faces);
                          });
 
+class BadMesh : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadMesh, IsRefusedWithFileAndPlace) {
+    const std::string path = testData(std::string("mesh/") + GetParam().file);
+    ASSERT_TRUE(std::filesystem::exists(path));
+    expectError([&] { osgSkin::importMesh(path); }, path + ": " + GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadMesh,
+    testing::Values(
+        BadFile{"empty.obj", "no face, expected at least one"},
+        BadFile{"no_faces.obj", "no face, expected at least one"},
+        BadFile{"nan_vertex.obj", "line 2: \"nan\" in a \"v\" line, expected 3 finite numbers"},
+        BadFile{"word_vertex.obj", "line 2: \"zero\" in a \"v\" line"},
+        BadFile{"trailing_letters.obj", "line 2: \"0x\" in a \"v\" line"},
+        BadFile{"short_vertex.obj", "line 2: nothing in a \"v\" line"},
+        BadFile{"huge_vertex.obj", "line 2: \"1e999\" in a \"v\" line"},
+        BadFile{"zero_index.obj", "line 4: \"0\" in a face, expected a vertex from 1 to 3"},
+        BadFile{"index_too_large.obj", "line 4: \"4\" in a face, expected a vertex from 1 to 3"},
+        BadFile{"index_too_negative.obj", "line 4: \"-4\" in a face"},
+        BadFile{"index_beyond_integers.obj", "line 4: \"99999999999999999999\" in a face"},
+        BadFile{"word_index.obj", "line 4: \"three\" in a face"},
+        BadFile{"texture_index_too_large.obj", "line 5: \"3/2\" in a face"},
+        BadFile{"two_corners.obj", "line 4: a face with 2 corners"},
+        BadFile{"face_of_256.obj", "line 257: a face with 256 corners"},
+        BadFile{"nan_vertex.ply", "mesh: vertex 2 has a coordinate that is not finite"},
+        BadFile{"index_too_large.ply", "face 0 names vertex 9, expected less than 4"},
+        BadFile{"too_many_elements.ply", "line 3: \"4000000000\" elements, expected no more"},
+        BadFile{"list_too_long.ply", "element \"face\" 1: a list of 4294967295 entries"},
+        BadFile{"list_too_long_binary.ply", "element \"face\" 0: a list of 4294967295 entries"},
+        BadFile{"list_negative_big_endian.ply", "element \"face\" 0: a list of -1 entries"},
+        BadFile{"list_by_float.ply", "line 8: \"float\" counts no entries"},
+        BadFile{"too_many_vertices.off", "\"353535235358\" vertices, expected no more"},
+        BadFile{"too_many_faces.off", "\"99999999999\" faces, expected no more"},
+        BadFile{"no_header_end.ply", "the header has no end"},
+        BadFile{"truncated.ply", "element \"vertex\" 0: the file ends here"},
+        BadFile{"broken.osgt", ""}, BadFile{"unknown.format", ""},
+        BadFile{"../bvh/two_joints.bvh", "no face"}),
+    nameOf);
+
+TEST(MeshErrors, MissingFileNamesTheReason) {
+    for (const char* name : {"mesh/none.obj", "mesh/none.ply", "mesh/none.osgt", "mesh/none.zzz"}) {
+        const std::string path = testData(name);
+        expectError([&] { osgSkin::importMesh(path); }, path + ": cannot open: No such file");
+    }
+}
+
+/// A cube, its normals along the faces' own or against them, as an OBJ file.
+std::string cube(const std::string& name, double side, const std::string& materials = "") {
+    std::string path = testing::TempDir() + name;
+    std::ofstream out(path);
+    if (!materials.empty()) out << "mtllib " << materials << "\n";
+    for (int v = 0; v < 8; ++v)
+        out << "v " << (v & 1) << " " << (v >> 1 & 1) << " " << (v >> 2) << "\n";
+    const int faces[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
+                             {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+    const int normals[6][3] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
+    for (const auto& n : normals)
+        out << "vn " << side * n[0] << " " << side * n[1] << " " << side * n[2] << "\n";
+    for (int f = 0; f < 6; ++f) {
+        if (!materials.empty()) out << "usemtl m" << f << "\n";
+        out << "f";
+        for (const int v : faces[f]) out << " " << v << "//" << f + 1;
+        out << "\n";
+    }
+    return path;
+}
+
+/// How far the normals point outwards at the cube's corners, at least.
+double outwards(const osgSkin::ImportedMesh& mesh) {
+    double least = 1.0;
+    for (const osgSkin::MeshPart& part : mesh.parts) {
+        const auto& normals = dynamic_cast<const osg::Vec3Array&>(*part.geometry->getNormalArray());
+        const auto& places = dynamic_cast<const osg::Vec3Array&>(*part.geometry->getVertexArray());
+        for (std::size_t v = 0; v < normals.size(); ++v)
+            least = std::min(least, double(normals[v] * (places[v] - osg::Vec3(0.5f, 0.5f, 0.5f))));
+    }
+    return least;
+}
+
 } // namespace
+
+TEST(MeshTrust, NormalsThatContradictTheirFacesAreComputedAnew) {
+    {
+        const test::Notices notices;
+        const osgSkin::ImportedMesh mesh = osgSkin::importMesh(cube("inward.obj", -1.0));
+        EXPECT_GT(outwards(mesh), 0.4);
+        EXPECT_EQ(notices.lines(), 1u) << notices.text();
+        EXPECT_TRUE(notices.say("normals of 6 of 6 faces")) << notices.text();
+    }
+    const test::Notices notices;
+    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(cube("outward.obj", 1.0));
+    EXPECT_GT(outwards(mesh), 0.4);
+    const auto& normals =
+        dynamic_cast<const osg::Vec3Array&>(*mesh.parts[0].geometry->getNormalArray());
+    EXPECT_EQ(normals.size(), 24u) << "the file's own, a face";
+    EXPECT_EQ(notices.text(), "");
+}
+
+TEST(MeshTrust, MissingTexturesAreOneLine) {
+    std::ofstream materials(testing::TempDir() + "textured.mtl");
+    for (int m = 0; m < 6; ++m) materials << "newmtl m" << m << "\nmap_Kd nowhere" << m << ".png\n";
+    materials.close();
+    const test::Notices notices;
+    osgSkin::importMesh(cube("textured.obj", 1.0, "textured.mtl"));
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
+    EXPECT_TRUE(notices.say("6 textures, \"nowhere0.png\" among them, cannot be read"))
+        << notices.text();
+}
+
+TEST(MeshTrust, MissingMaterialsAreOneLine) {
+    const test::Notices notices;
+    osgSkin::importMesh(cube("unmade.obj", 1.0, "no_such.mtl"));
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
+}
+
+/// The colours of an OBJ mesh's parts, red, green and blue, in the order of its faces.
+static std::vector<osg::Vec4> coloursOf(const osgSkin::ImportedMesh& mesh) {
+    std::vector<osg::Vec4> result;
+    for (const osgSkin::MeshPart& part : mesh.parts)
+        result.push_back(
+            dynamic_cast<const osg::Material&>(
+                *part.geometry->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL))
+                .getDiffuse(osg::Material::FRONT));
+    return result;
+}
+
+TEST(MeshTrust, NamesOfMaterialsAndLibrariesMayHaveBlanks) {
+    const std::string folder = testing::TempDir() + "blanks/";
+    std::filesystem::create_directories(folder + "a b");
+    std::ofstream(folder + "a b/my looks.mtl")
+        << "newmtl skin\nKd 0 0 1\nnewmtl skin of the face\nKd 1 0 0\r\n"
+           "newmtl  skin of the hands \nKd 0 1 0\n";
+    for (const char* library :
+         {"a b/my looks.mtl", "a b\\my looks.mtl", " .\\a b\\my looks.mtl "}) {
+        std::ofstream(folder + "mesh.obj")
+            << "mtllib " << library
+            << "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl skin of the face\nf 1 2 3\n"
+               "usemtl skin of the hands\t\nf 1 2 3\nusemtl skin\nf 1 2 3\n";
+        const test::Notices notices;
+        const std::vector<osg::Vec4> colours = coloursOf(osgSkin::importMesh(folder + "mesh.obj"));
+        EXPECT_EQ(notices.text(), "");
+        ASSERT_EQ(colours.size(), 3u) << library;
+        EXPECT_EQ(colours[0], osg::Vec4(1, 0, 0, 1));
+        EXPECT_EQ(colours[1], osg::Vec4(0, 1, 0, 1));
+        EXPECT_EQ(colours[2], osg::Vec4(0, 0, 1, 1));
+    }
+}
+
+/// Three bytes a vertex: each is bound.
+TEST(MeshTrust, VerticesAreInProportion) {
+    const std::string path = testing::TempDir() + "bytes.ply";
+    const std::size_t vertices = 200'000;
+    std::ofstream out(path, std::ios::binary);
+    out << "ply\nformat binary_little_endian 1.0\nelement vertex " << vertices
+        << "\nproperty uchar x\nproperty uchar y\nproperty uchar z\nelement face 1\n"
+           "property list uchar int vertex_indices\nend_header\n";
+    for (std::size_t v = 0; v < vertices; ++v)
+        out << char(v % 256) << char(v / 256 % 256) << char(v / 65536);
+    out.write("\x03\0\0\0\0\x01\0\0\0\0\x01\0\0", 13);
+    out.close();
+    expectError([&] { osgSkin::importMesh(path); }, "200000 vertices, expected at most ");
+    const osg::ref_ptr<osgDB::Options> more = new osgDB::Options("maxSamples=2000000");
+    EXPECT_EQ(osgSkin::importMesh(path, more).mesh.positions.size(), vertices);
+}
+
+TEST(MeshTrust, ColoursOfFacesAreToldOf) {
+    const std::string ply = testing::TempDir() + "faces.ply",
+                      off = testing::TempDir() + "faces.off";
+    std::ofstream(ply) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                          "property float y\nproperty float z\nelement face 1\n"
+                          "property list uchar int vertex_indices\nproperty uchar red\n"
+                          "property uchar green\nproperty uchar blue\nend_header\n"
+                          "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n";
+    std::ofstream(off) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n";
+    const test::Notices notices;
+    EXPECT_EQ(osgSkin::importMesh(ply).mesh.faceSizes.size(), 1u);
+    EXPECT_TRUE(notices.say("faces.ply: colours of faces are left out")) << notices.text();
+    EXPECT_EQ(osgSkin::importMesh(off).mesh.faceSizes.size(), 1u);
+    EXPECT_TRUE(notices.say("1 of 1 faces have colours, which are left out")) << notices.text();
+}
+
+namespace {
+
+using test::saveText;
+
+constexpr char kMark[] = "\xef\xbb\xbf";
+
+/// A triangle; `more` follows each vertex.
+std::string off(const std::string& keyword, const std::string& more = "",
+                const std::string& x = "0") {
+    return keyword + "\n3 1 0\n" + x + " 0 0 " + more + "\n1 0 0 " + more + "\n0 1 0 " + more +
+           "\n3 0 1 2\n";
+}
+
+const std::string kPly = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                         "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+} // namespace
+
+TEST(Off, NumbersOfAnyLengthAreTheirValues) {
+    const auto first = [](const std::string& x) {
+        return osgSkin::importMesh(saveText("long.off", off("OFF", "", x))).mesh.positions.at(0)[0];
+    };
+    EXPECT_EQ(first("123456789012345678"), double(123456789012345678.0f));
+    EXPECT_EQ(first("-12345678901234567"), double(-12345678901234567.0f));
+    EXPECT_EQ(first("-" + std::string(30, '0') + "12.5"), -12.5);
+    EXPECT_EQ(first("1." + std::string(500, '3')), double(1.0f / 0.75f));
+    EXPECT_EQ(first("2e" + std::string(30, '0') + "3"), 2000.0);
+    EXPECT_EQ(first("1e-99999999999999999999"), 0.0);
+    for (const char* number : {"12345678901234567890123", "1e99999999999999999999"})
+        expectError([&] { first(number); }, "mesh: vertex 0 has a coordinate");
+}
+
+TEST(Off, ColoursAndTextureCoordinatesFollowNormals) {
+    const auto arrays = [](const std::string& text) {
+        const osgSkin::ImportedMesh mesh = osgSkin::importMesh(saveText("kinds.off", text));
+        return mesh.parts.at(0).geometry;
+    };
+    for (const auto& [keyword, more] :
+         {std::pair("COFF", "255 0 0 255"), std::pair("CNOFF", "0 0 1 255 0 0 255"),
+          std::pair("C4OFF", "1 255 0 0 255"), std::pair("CN4OFF", "1 0 0 1 255 0 0 255")}) {
+        const auto geometry = arrays(off(keyword, more));
+        const auto* colours = dynamic_cast<const osg::Vec4Array*>(geometry->getColorArray());
+        ASSERT_NE(colours, nullptr) << keyword;
+        EXPECT_EQ(colours->at(0), osg::Vec4(1, 0, 0, 1)) << keyword;
+    }
+    for (const auto& [keyword, more] :
+         {std::pair("STOFF", ".25 .5"), std::pair("STNOFF", "0 0 1 .25 .5")}) {
+        const auto geometry = arrays(off(keyword, more));
+        const auto* places = dynamic_cast<const osg::Vec2Array*>(geometry->getTexCoordArray(0));
+        ASSERT_NE(places, nullptr) << keyword;
+        EXPECT_EQ(places->at(0), osg::Vec2(.25f, .5f)) << keyword;
+    }
+    const std::string path = saveText("short.off", off("CNOFF", "0 0"));
+    expectError([&] { osgSkin::importMesh(path); }, path + ": vertex 0: expected a line of 6");
+}
+
+TEST(Marks, MayBeginMeshes) {
+    const auto vertices = [](const std::string& name, const std::string& content) {
+        return osgSkin::importMesh(saveText(name, kMark + content)).mesh.positions.size();
+    };
+    EXPECT_EQ(vertices("marked.off", off("OFF")), 3u);
+    EXPECT_EQ(
+        vertices("marked.ply", "ply\nformat ascii 1.0\n" + kPly + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+        3u);
+    const std::string zero(4, '\0'), one("\x00\x00\x80\x3f", 4), next("\x01\x00\x00\x00", 4),
+        last("\x02\x00\x00\x00", 4);
+    EXPECT_EQ(vertices("binary.ply", "ply\nformat binary_little_endian 1.0\n" + kPly + zero + zero +
+                                         zero + one + zero + zero + zero + one + zero + "\x03" +
+                                         zero + next + last),
+              3u);
+}

@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: MIT
+//
+// Which joint's position carries a motion's figure, and what is told of what does not.
 #include "ExpectError.h"
 #include "Figure.h"
+#include "GltfBuilder.h"
 #include "JointIndex.h"
+#include "Notices.h"
+#include "Paths.h"
 
+#include <osgSkinImport/ImportMotion>
+#include <osgSkinImport/ImportSkeleton>
 #include <osgSkinRig/Retarget>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -297,4 +309,234 @@ TEST(RetargetErrors, NameWhatDoesNotMatch) {
     expectError([&] { osgSkin::retarget(motion, {}); }, "skeleton: no joint");
 }
 
+using osgSkin::Clip;
+using osgSkin::Motion;
+using osgSkin::RestSkeleton;
+
+struct Limb {
+    const char* from;
+    const char* to;
+};
+
+constexpr Limb kLimbs[] = {
+    {"Arm", "ForeArm"}, {"ForeArm", "Hand"}, {"UpLeg", "Leg"}, {"Leg", "Foot"}};
+
+class CmuClip : public testing::TestWithParam<const char*> {
+protected:
+    void SetUp() override {
+        const std::string rigPath = sharedData("makehuman/rig/cmu_mb_neutral.bvh");
+        const std::string path = sharedData(std::string("cmu/mb/") + GetParam());
+        OSGSKIN_NEEDS(rigPath);
+        OSGSKIN_NEEDS(path);
+        rig = osgSkin::importSkeleton(rigPath);
+        motion = osgSkin::importMotion(path, 1);
+        clip = osgSkin::retarget(motion, rig, {}, &report);
+    }
+
+    RestSkeleton rig;
+    Motion motion;
+    Clip clip;
+    osgSkin::RetargetReport report;
+};
+
+TEST_P(CmuClip, LimbsPointWhereTheMotionsLimbsPoint) {
+    for (std::size_t f = 0; f < clip.frames; f += 7) {
+        const Placed ours = place(clip, rig, f);
+        const Placed theirs = place(motion, f);
+        for (const char* side : {"Left", "Right"})
+            for (const Limb& bone : kLimbs) {
+                const std::string from = std::string(side) + bone.from;
+                const std::string to = std::string(side) + bone.to;
+                const glm::dvec3 a =
+                    ours.places[jointIndex(rig, to)] - ours.places[jointIndex(rig, from)];
+                const glm::dvec3 b = theirs.places[jointIndex(motion.skeleton, to)] -
+                                     theirs.places[jointIndex(motion.skeleton, from)];
+                ASSERT_LT(angleBetween(a, b), 0.1) << from << ", frame " << f;
+            }
+    }
+}
+
+/// The rig's sole is as flat as the motion's is, however steep the two skeletons' foot bones are.
+TEST_P(CmuClip, FeetTurnWithTheMotionButForTheirHeading) {
+    for (const std::string name : {"LeftFoot", "RightFoot"}) {
+        const auto ours = static_cast<std::size_t>(rig.find(name));
+        for (std::size_t f = 0; f < clip.frames; f += 7) {
+            const glm::dvec3 up(0, 1, 0); // the sole's normal at rest
+            ASSERT_LT(angleBetween(place(clip, rig, f).turns[ours] * up,
+                                   place(motion, f).turns[jointIndex(motion.skeleton, name)] * up),
+                      1e-3)
+                << name << ", frame " << f;
+        }
+    }
+}
+
+TEST_P(CmuClip, TrunkTurnsWithTheMotion) {
+    for (std::size_t f = 0; f < clip.frames; f += 7) {
+        const Placed ours = place(clip, rig, f);
+        const Placed theirs = place(motion, f);
+        for (const char* name : {"Hips", "Spine", "Spine1", "Neck", "Head", "LeftShoulder"})
+            ASSERT_LT(angleBetween(ours.turns[jointIndex(rig, name)],
+                                   theirs.turns[jointIndex(motion.skeleton, name)]),
+                      1e-3)
+                << name << ", frame " << f;
+    }
+}
+
+TEST_P(CmuClip, MapsEveryRigJoint) {
+    for (const osgSkin::RetargetReport::Entry& entry : report.entries)
+        EXPECT_FALSE(entry.motionJoint.empty()) << entry.rigJoint;
+    EXPECT_TRUE(report.unusedMotionJoints.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, CmuClip,
+                         testing::Values("12_01_walk_pybvh.bvh", "01_01.bvh",
+                                         "124_01_pitch_excerpt_120hz.bvh"),
+                         [](const auto& file) {
+                             return "clip" + std::string(file.param).substr(0, 5);
+                         });
+
+class CmuWalk : public CmuClip {};
+
+TEST_P(CmuWalk, FeetStandOnTheFloorOfTheRestPose) {
+    constexpr double bodyHeight = 16.4; // decimeters
+    const std::size_t feet[] = {jointIndex(rig, "LeftFoot"), jointIndex(rig, "RightFoot"),
+                                jointIndex(rig, "LeftToeBase"), jointIndex(rig, "RightToeBase")};
+    for (std::size_t f = 0; f < clip.frames; ++f) {
+        const Placed placed = place(clip, rig, f);
+        double lowest = 1e9;
+        for (const std::size_t j : feet)
+            lowest = std::min(lowest, placed.places[j].y - rig.joints[j].centre.y);
+        ASSERT_LT(std::abs(lowest), 0.03 * bodyHeight) << "frame " << f;
+    }
+}
+
+TEST_P(CmuWalk, HandsHangBelowTheShoulders) {
+    for (std::size_t f = 0; f < clip.frames; ++f) {
+        const Placed placed = place(clip, rig, f);
+        for (const char* side : {"Left", "Right"})
+            ASSERT_LT(placed.places[jointIndex(rig, std::string(side) + "Hand")].y,
+                      placed.places[jointIndex(rig, std::string(side) + "Arm")].y - 2.0)
+                << side << ", frame " << f;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, CmuWalk, testing::Values("12_01_walk_pybvh.bvh"));
+
+using test::GltfColumn;
+
+constexpr char kOnly[] = "only moves of \"base\" are used";
+
+/// How far the figure goes from its first sample to its last.
+double wayOf(const osgSkin::Motion& motion) {
+    return glm::distance(motion.rootPositions.front(), motion.rootPositions.back());
+}
+
 } // namespace
+
+TEST(RootMotion, NodesMayCountInUnitsOfTheirOwn) {
+    for (const double unit : {0.01, 1.0, 100.0, 10000.0}) {
+        GltfColumn column;
+        const std::size_t armature =
+            column.node({{"name", "armature"}, {"children", {0}}, {"scale", {unit, unit, unit}}});
+        for (const std::size_t joint : {column.joints[1], column.joints[2]})
+            column.json["nodes"][joint]["translation"] = {0, 1.0 / unit, 0};
+        column.json["scenes"][0]["nodes"] = {armature};
+        column.json.erase("skins"); // a motion only
+        column.json.erase("meshes");
+        column.json["nodes"][column.meshNode] = {{"name", "empty"}};
+        column.animate("walk", column.joints[0], "rotation", {0.0, 1.0},
+                       GltfColumn::turns({0, 10}));
+        column.animate("walk", column.joints[1], "translation", {0.0, 1.0},
+                       {0, 1.0 / unit, 0, 0, 1.05 / unit, 0});
+        column.animate("walk", column.joints[2], "rotation", {0.0, 1.0},
+                       GltfColumn::turns({0, 10}));
+        const osgSkin::Motion motion = osgSkin::importMotion(column.save("units.gltf"));
+        ASSERT_EQ(motion.skeleton.joints.front().name, "middle") << unit;
+        EXPECT_GT(wayOf(motion), 0.04) << unit;
+    }
+}
+
+/// Of a figure that crouches in place below a root that stays.
+TEST(RootMotion, FiguresOfBvhFilesMayBeSmall) {
+    for (const double unit : {0.002, 0.01, 1.0, 100.0}) {
+        const auto vector = [&](double y) { return "0 " + std::to_string(unit * y) + " 0"; };
+        const std::string path = testing::TempDir() + "small_figure.bvh";
+        std::ofstream(path)
+            << "HIERARCHY\nROOT reference\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation "
+               "Yrotation\nJOINT hips\n{\nOFFSET "
+            << vector(1.0)
+            << "\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\nJOINT "
+               "spine\n{\nOFFSET "
+            << vector(0.5) << "\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET "
+            << vector(0.3) << "\n}\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0 "
+            << vector(1.0) << " 0 0 0 0 0 0\n0 0 0 " << vector(0.92) << " 0 0 0 0 0 0\n";
+        const osgSkin::Motion motion = osgSkin::importMotion(path);
+        EXPECT_EQ(motion.skeleton.joints.front().name, "hips") << unit;
+        EXPECT_NEAR(wayOf(motion), 0.08 * unit, 0.01 * unit);
+    }
+}
+
+TEST(RootMotion, AnEndCarriesNothing) {
+    GltfColumn column;
+    column.bend();
+    column.animate("bend", column.joints[2], "translation", {0.0, 1.0}, {0, 1, 0, 0, 2, 0});
+    const test::Notices notices;
+    const osgSkin::Motion motion = osgSkin::importMotion(column.save("end.gltf"));
+    EXPECT_EQ(motion.skeleton.joints.size(), 3u);
+    EXPECT_TRUE(notices.say(kOnly)) << notices.text();
+}
+
+TEST(RootMotion, ScalesAreToldOf) {
+    for (const double scale : {1.0, 2.0}) {
+        GltfColumn column;
+        column.bend();
+        column.animate("bend", column.joints[2], "scale", {0.0, 1.0},
+                       {1, 1, 1, scale, scale, scale});
+        const test::Notices notices;
+        osgSkin::importMotion(column.save("scaled.gltf"));
+        EXPECT_EQ(notices.say("joint \"top\" is scaled, which motions are read without"),
+                  scale > 1.0)
+            << notices.text();
+    }
+}
+
+/// Game engines' skeletons have a root on the ground, and targets beside the hips.
+TEST(RootMotion, HipsBesideTargetsCarryTheFigure) {
+    const std::string moves =
+        "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n";
+    const std::string turns = "CHANNELS 3 Zrotation Xrotation Yrotation\n";
+    const auto joint = [](const std::string& name, const std::string& offset,
+                          const std::string& channels, const std::string& below) {
+        return "JOINT " + name + "\n{\nOFFSET " + offset + "\n" + channels + below + "}\n";
+    };
+    const std::string end = "End Site\n{\nOFFSET 0 0.1 0\n}\n";
+    std::string body = joint("spine_01", "0 0.2 0", turns, joint("head", "0 0.4 0", turns, end));
+    for (const std::string side : {"l", "r"}) {
+        const std::string foot = joint("foot_" + side, "0 -0.5 0", turns, end);
+        const std::string calf = joint("calf_" + side, "0 -0.5 0", turns, foot);
+        body += joint("thigh_" + side, side == "l" ? "0.1 0 0" : "-0.1 0 0", turns, calf);
+    }
+    std::string rest;
+    for (int i = 0; i < 24; ++i) rest += "0 ";
+    const std::string path = testing::TempDir() + "engine.bvh";
+    std::ofstream(path) << "HIERARCHY\nROOT root\n{\nOFFSET 0 0 0\n"
+                        << moves << joint("ik_foot_root", "0 0 0", turns, end)
+                        << joint("pelvis", "0 1 0", moves, body)
+                        << "}\nMOTION\nFrames: 2\nFrame Time: 0.1\n"
+                        << "0 0 0 0 0 0  0 0 0  0 1 0 0 0 0 " << rest << "\n"
+                        << "1 0 0 0 0 90  0 40 0  0 0.5 0 0 30 0 " << rest << "\n";
+    const test::Notices notices;
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
+    ASSERT_EQ(motion.skeleton.joints.size(), 10u);
+    EXPECT_EQ(motion.skeleton.joints[0].name, "pelvis");
+    EXPECT_EQ(motion.skeleton.joints[1].name, "ik_foot_root");
+    EXPECT_EQ(motion.skeleton.joints[1].parent, 0);
+    EXPECT_EQ(motion.skeleton.joints[1].centre, glm::dvec3(0.0));
+    EXPECT_LT(glm::distance(motion.rootPositions[0], {0, 1, 0}), 1e-9);
+    EXPECT_LT(glm::distance(motion.rootPositions[1], {1, 0.5, 0}), 1e-9);
+    const glm::dquat above = turnDegrees(90, {0, 1, 0});
+    const glm::dquat pelvis = motion.rotation(1, 0), target = pelvis * motion.rotation(1, 1);
+    EXPECT_GT(std::abs(glm::dot(pelvis, above * turnDegrees(30, {1, 0, 0}))), 1.0 - 1e-9);
+    EXPECT_GT(std::abs(glm::dot(target, above * turnDegrees(40, {1, 0, 0}))), 1.0 - 1e-9);
+    EXPECT_EQ(notices.text(), "");
+}

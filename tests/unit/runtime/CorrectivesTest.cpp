@@ -2,16 +2,20 @@
 //
 // Correctives on every instruction set that this machine has, and in the scalar reference, against
 // the formula worked out in double precision.
-#include <osgSkin/DeformJob>
-#include <osgSkin/PoseBounds>
-
 #include "EachTarget.h"
 #include "SomeCorrectives.h"
 #include "Tube.h"
 #include "Turns.h"
 
+#include <osgSkin/DeformJob>
+#include <osgSkin/Error>
+#include <osgSkin/Pose>
+#include <osgSkin/PoseBounds>
+
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <string>
 
 namespace {
@@ -165,4 +169,139 @@ TEST(CorrectedBounds, ContainEveryVertex) {
             }
     }
     EXPECT_TRUE(anyNearby); // they are no larger than they need to be
+}
+
+using osgSkin::CorrectiveJoint;
+using Basis = osgSkin::CorrectiveJoint::Basis;
+
+namespace {
+
+CorrectiveJoint functionsOf(Basis basis) {
+    std::mt19937_64 random(3);
+    return test::someFunctions(test::Tube().binding, 1, basis, 1.0, random);
+}
+
+} // namespace
+
+TEST(CorrectiveJoint, CoordinatesAreTheBendQuaternions) {
+    const CorrectiveJoint joint = functionsOf(Basis::Ball);
+    const glm::dvec3 w(0, 1, 0), e1 = joint.axis, e2 = glm::cross(w, e1);
+    for (const double angle : {0.0, 0.4, 2.0, 3.1})
+        for (const double azimuth : {0.0, 1.0, -2.5}) {
+            const glm::dvec3 v = std::cos(azimuth) * e1 + std::sin(azimuth) * e2;
+            const glm::dvec2 xy = joint.coordinates(v, angle, w);
+            EXPECT_NEAR(xy.x, std::sin(angle / 2) * std::cos(azimuth), 1e-14);
+            EXPECT_NEAR(xy.y, std::sin(angle / 2) * std::sin(azimuth), 1e-14);
+        }
+}
+
+TEST(CorrectiveJoint, ClampIsTheIdentityAroundRestAndEndsAtTheRange) {
+    for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round, Basis::TurnedHinge}) {
+        const CorrectiveJoint joint = functionsOf(basis);
+        EXPECT_EQ(joint.clamped({0.3, -0.2}), glm::dvec2(0.3, -0.2));
+        EXPECT_NEAR(joint.clamped({0.9, 0.0}).x, 0.9 * (0.9 + 0.1 * std::tanh(1.0)), 1e-14);
+        EXPECT_NEAR(joint.clamped({0.0, -50.0}).y, -0.8, 1e-12);
+        // No step and no corner anywhere.
+        glm::dvec2 last = joint.clamped({-1.0, 0.1}), lastSlope(0.0);
+        for (double x = -0.999; x < 1.0; x += 0.001) {
+            const glm::dvec2 now = joint.clamped({x, 0.1});
+            const glm::dvec2 slope = (now - last) / 0.001;
+            EXPECT_LE(glm::length(slope), 1.02) << x;
+            if (x > -0.9985) {
+                EXPECT_LE(glm::length(slope - lastSlope), 0.02) << x;
+            }
+            last = now;
+            lastSlope = slope;
+        }
+    }
+}
+
+TEST(CorrectiveJoint, EveryFunctionIsNothingAtRestAndSmooth) {
+    for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round, Basis::TurnedHinge}) {
+        const CorrectiveJoint joint = functionsOf(basis);
+        CorrectiveJoint::Functions phi{}, before{}, behind{};
+        joint.evaluate({0.0, 0.0}, phi);
+        for (std::size_t i = 0; i < joint.functionCount(); ++i) EXPECT_EQ(phi[i], 0.0);
+        const double h = 1e-5;
+        for (double x = -0.45; x < 0.88; x += 0.01) {
+            joint.evaluate({x, 0.2}, phi);
+            joint.evaluate({x - h, 0.2}, before);
+            joint.evaluate({x + h, 0.2}, behind);
+            for (std::size_t i = 0; i < joint.functionCount(); ++i) // a corner would be of order 1
+                EXPECT_NEAR((behind[i] - phi[i]) / h, (phi[i] - before[i]) / h, 2e-3)
+                    << i << " at " << x;
+        }
+    }
+}
+
+TEST(CorrectiveJoint, HingesSplinesSpanEveryQuadraticFunction) {
+    // Greville's points reproduce x; with the constant taken off, x itself.
+    const CorrectiveJoint joint = functionsOf(Basis::Hinge);
+    const std::vector<double>& t = joint.knots;
+    std::vector<double> points = {t[0]};
+    for (std::size_t i = 0; i + 1 < t.size(); ++i) points.push_back(0.5 * (t[i] + t[i + 1]));
+    points.push_back(t.back());
+    CorrectiveJoint::Functions phi;
+    for (double x = -0.5; x <= 0.9; x += 0.1) {
+        joint.evaluate({x, 0.0}, phi);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < points.size(); ++i) sum += points[i] * phi[i];
+        EXPECT_NEAR(sum, x, 1e-12);
+    }
+}
+
+TEST(Correctives, AreRefusedWithAReason) {
+    using Spoil = std::function<void(osgSkin::Correctives&)>;
+    const test::Tube tube;
+    const std::pair<const char*, Spoil> cases[] = {
+        {"is not there", [](auto& c) { c.joints[0].joint = 9; }},
+        {"perpendicular",
+         [](auto& c) {
+             c.joints[0].axis = {0, 1, 0};
+         }},
+        {"perpendicular", [](auto& c) { c.joints[0].axis *= 2.0; }},
+        {"range", [](auto& c) { c.joints[0].low.x = 0.0; }},
+        {"range", [](auto& c) { c.joints[0].high.y = std::nan(""); }},
+        {"knots", [](auto& c) { c.joints[0].knots = {0.5}; }},
+        {"ascend", [](auto& c) { std::swap(c.joints[1].knots[0], c.joints[1].knots[1]); }},
+        {"modes", [](auto& c) { c.joints[0].modes = 0; }},
+        {"input 5 is not there", [](auto& c) { c.joints.back().joint = 5; }},
+        {"input 0 is not there", [](auto& c) { c.inputs.clear(); }},
+        {"does not hold 0", [](auto& c) { c.joints.back().low.x = 0.5; }},
+        {"does not hold 0", [](auto& c) { c.joints.back().high.x = std::nan(""); }},
+        {"none for an input",
+         [](auto& c) {
+             c.joints.back().knots = {0.0, 1.0};
+         }},
+        {"two inputs", [](auto& c) { c.inputs.push_back(c.inputs.front()); }},
+        {"each mode and function", [](auto& c) { c.joints[0].coefficients.pop_back(); }},
+        {"not finite", [](auto& c) { c.joints[0].coefficients[0] = std::nan(""); }},
+        {"beyond", [](auto& c) { c.joints[0].coefficients[0] = -1e30; }},
+        {"scale of normals", [](auto& c) { c.joints[0].normalScales = {1.0}; }},
+        {"offsets", [](auto& c) { c.firstEntry.pop_back(); }},
+        {"no joint's modes", [](auto& c) { c.entries[0].joint = 7; }},
+        {"shares that are not there", [](auto& c) { c.entries[0].firstShare = 1u << 30; }},
+        {"less than", [](auto& c) { c.shares[0] = -32768; }},
+        {"as many shares",
+         [](auto& c) {
+             c.normalShares = {1};
+             for (auto& joint : c.joints) joint.normalScales.assign(joint.modes, 1.0);
+         }},
+        {"out of order", [](auto& c) {
+             for (std::size_t v = 0; v + 1 < c.firstEntry.size(); ++v)
+                 if (c.firstEntry[v + 1] - c.firstEntry[v] == 2)
+                     std::swap(c.entries[c.firstEntry[v]], c.entries[c.firstEntry[v] + 1]);
+         }}};
+    for (const auto& [reason, spoil] : cases) {
+        osgSkin::Binding binding = tube.binding;
+        binding.correctives = test::someCorrectives(binding, 0.1, 4);
+        EXPECT_NO_THROW(binding.validate());
+        spoil(binding.correctives);
+        try {
+            binding.validate();
+            ADD_FAILURE() << "accepted: " << reason;
+        } catch (const osgSkin::Error& error) {
+            EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+        }
+    }
 }

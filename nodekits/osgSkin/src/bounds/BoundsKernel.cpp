@@ -44,7 +44,7 @@ namespace osgSkin {
 HWY_EXPORT(box);
 
 Box4 boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
-              const float* weights) noexcept {
+           const float* weights) noexcept {
     return HWY_DYNAMIC_DISPATCH(box)(proxy, pose, room, weights);
 }
 

@@ -35,6 +35,6 @@ struct Box4 {
 /// \param room one for each joint of the pose, and at least PoseAccess::kAtOnce
 /// \param weights CorrectiveDisplacementBound's; null without correctives
 Box4 boxOf(const BoundsProxy& proxy, const Pose& pose, JointMotion* room,
-              const float* weights) noexcept;
+           const float* weights) noexcept;
 
 } // namespace osgSkin

@@ -46,7 +46,7 @@ float bounded(float side, float otherwise) {
 }
 
 Box4 boxOfCorrected(const BoundsProxy& proxy, const SkinModel& model, const Pose& pose,
-                       JointMotion* room) {
+                    JointMotion* room) {
     const CorrectiveDisplacementBound corrections(model, pose);
     return boxOf(proxy, pose, room, corrections.weights());
 }
@@ -59,9 +59,8 @@ PoseBounds computePoseBounds(const SkinModel& model, const Pose& pose) noexcept 
     std::array<JointMotion, 128> few;
     std::vector<JointMotion> many(pose.size() > few.size() ? pose.size() : 0);
     JointMotion* room = many.empty() ? few.data() : many.data();
-    const Box4 box = SkinModelAccess::correctives(model)
-                            ? boxOfCorrected(*proxy, model, pose, room)
-                            : boxOf(*proxy, pose, room, nullptr);
+    const Box4 box = SkinModelAccess::correctives(model) ? boxOfCorrected(*proxy, model, pose, room)
+                                                         : boxOf(*proxy, pose, room, nullptr);
     PoseBounds bounds{box.low.xyz(), box.high.xyz()};
     for (int axis = 0; axis < 3; ++axis) {
         bounds.low[axis] = bounded(bounds.low[axis], -static_cast<float>(kLargestCoordinate));

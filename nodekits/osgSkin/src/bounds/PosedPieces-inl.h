@@ -292,7 +292,7 @@ PosedPieces::straysOf(const BoundsProxy::Piece& piece) const noexcept {
 }
 
 HWY_INLINE Box4 PosedPieces::turned(const BoundsProxy::Piece& piece,
-                                       float corrected) const noexcept {
+                                    float corrected) const noexcept {
     const JointMotion& anchor = _motions[piece.anchor];
     const Strays strays = _motions.isPlain() ? straysOf<true>(piece) : straysOf<false>(piece);
     PosedPiece posed(piece);

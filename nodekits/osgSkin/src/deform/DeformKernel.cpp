@@ -13,9 +13,9 @@
 
 #include "deform/KernelCorrect-inl.h"
 #include "deform/KernelPasses-inl.h"
+#include "deform/KernelRotations-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelSurface-inl.h"
-#include "deform/KernelRotations-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace osgSkin {

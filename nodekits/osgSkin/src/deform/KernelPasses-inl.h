@@ -13,9 +13,9 @@
 
 #include "deform/DeformKernel.h"
 #include "deform/KernelCorrect-inl.h"
+#include "deform/KernelRotations-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelSurface-inl.h"
-#include "deform/KernelRotations-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace osgSkin {
@@ -134,7 +134,7 @@ HWY_NOINLINE void pass(const KernelCall& call, const Chunk& chunk, const KernelM
             V x = hn::Load(d, at), y = hn::Load(d, at + kBlock), z = hn::Load(d, at + 2 * kBlock);
             if (kTurns) {
                 rotate2D(hn::Load(d, chunk.twistSine + v), hn::Load(d, chunk.twistCosine + v), x,
-                          y);
+                         y);
                 rotate2D(hn::Load(d, chunk.bendSine + v), hn::Load(d, chunk.bendCosine + v), y, z);
                 if (HWY_UNLIKELY(adjusted))
                     adjust(call, *link, hn::Load(d, chunk.ratios + b * chunk.ratioStride + lane), x,

@@ -103,7 +103,8 @@ HWY_INLINE void sineCosine(const KernelAngle& angle, V ratio, V& sine, V& cosine
 }
 
 /// Subtracts v's azimuth from the twist: rest data is in the fixed frame, not in (v, w x v, w).
-HWY_INLINE void subtractAzimuth(const KernelCall& call, const KernelLink& link, V& sine, V& cosine) {
+HWY_INLINE void subtractAzimuth(const KernelCall& call, const KernelLink& link, V& sine,
+                                V& cosine) {
     const V old = cosine;
     const V of = constant(call.joints->azimuthCosine[link.joint]);
     const V by = constant(call.joints->azimuthSine[link.joint]);

@@ -87,11 +87,9 @@ struct BoundsProxy {
     };
     /// The index of a corrective joint's mode.
     static std::uint32_t weightOf(std::uint32_t joint, std::size_t mode) {
-        return joint * std::uint32_t{CorrectiveJoint::kMaxModes} +
-               static_cast<std::uint32_t>(mode);
+        return joint * std::uint32_t{CorrectiveJoint::kMaxModes} + static_cast<std::uint32_t>(mode);
     }
-    static constexpr std::size_t kMaxWeights =
-        Correctives::kMaxJoints * CorrectiveJoint::kMaxModes;
+    static constexpr std::size_t kMaxWeights = Correctives::kMaxJoints * CorrectiveJoint::kMaxModes;
     /// Pieces that are processed together; unused lanes repeat the first.
     struct Block {
         Lanes centre[3], axes[3][3]; ///< of the cylinders

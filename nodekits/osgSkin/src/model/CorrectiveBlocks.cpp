@@ -115,10 +115,9 @@ CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& bindin
 
 bool CorrectiveBlocks::keepsTurned(const SkinModel& model, std::size_t group) const {
     return SkinModelAccess::blocks(model).groups[group].frame != SkinBlocks::kRestFrame &&
-           std::all_of(ranges.begin() + firstRange[group], ranges.begin() + firstRange[group + 1],
-                       [this](const Range& range) {
-                           return joints[range.joint].modes <= kMaxTurnedModes;
-                       });
+           std::all_of(
+               ranges.begin() + firstRange[group], ranges.begin() + firstRange[group + 1],
+               [this](const Range& range) { return joints[range.joint].modes <= kMaxTurnedModes; });
 }
 
 void CorrectiveBlocks::addTurned(const glm::dmat3& frame, const Range& range) {

@@ -155,7 +155,7 @@ CorrectiveJoint takeJoint(BlockReader& in) {
     joint.normalScales = takeList(in, "scales of normals");
     if (joint.modes > CorrectiveJoint::kMaxModes)
         BlockReader::fail("correctives have " + std::to_string(joint.modes) + " modes, expected " +
-                         std::to_string(CorrectiveJoint::kMaxModes) + " at most");
+                          std::to_string(CorrectiveJoint::kMaxModes) + " at most");
     return joint;
 }
 
@@ -242,7 +242,8 @@ void putGradients(const Binding& binding, BlockWriter& out) {
     }
 }
 
-std::vector<RatioGradient> takeGradients(BlockReader& in, const std::vector<Influence>& influences) {
+std::vector<RatioGradient> takeGradients(BlockReader& in,
+                                         const std::vector<Influence>& influences) {
     std::vector<RatioGradient> gradients(influences.size());
     for (std::size_t i = 0; i < influences.size(); ++i) {
         if (!influences[i].isPartial()) continue;

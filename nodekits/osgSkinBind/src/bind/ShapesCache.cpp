@@ -110,7 +110,7 @@ private:
 /// The digest of all input of elastic shapes: mesh, skeleton, roles of the joints, ratios, and the
 /// version of the code.
 std::string inputDigest(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
-                     const WeldedMesh& mesh, const Binding& binding) {
+                        const WeldedMesh& mesh, const Binding& binding) {
     ByteWriter writer;
     writer.addText(OSGSKIN_VERSION);
     writer.add(kMakerVersion);
@@ -210,7 +210,8 @@ std::string digestOf(const std::string& bytes) {
 ShapesCache::ShapesCache(const std::string& folder, const std::string& digest)
     : _folder(folder), _file((fs::path(folder) / ("shapes-" + digest)).string()), _digest(digest) {}
 
-std::optional<MadeShapes> ShapesCache::read(const Binding& binding, std::vector<std::string>& notes) const {
+std::optional<MadeShapes> ShapesCache::read(const Binding& binding,
+                                            std::vector<std::string>& notes) const {
     std::error_code missing;
     if (!fs::exists(_file, missing)) return std::nullopt;
     const std::string all = bytesOf(_file, binding.vertexCount());

@@ -71,7 +71,8 @@ constexpr double kRoom = 1.2;
 /// A field is in transition between this value and 1 minus it.
 constexpr double kBetween = 0.02;
 
-/// Upper limit of gradientFactor(): a single needle of the mesh must not spread a field over the body.
+/// Upper limit of gradientFactor(): a single needle of the mesh must not spread a field over the
+/// body.
 constexpr double kMost = 3.0;
 
 /// The width, in limb radii, that makes a field with given boundaries continuous across regions,
@@ -309,8 +310,8 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
         planned.collarBone ? skinOf(binary, planned.child) : std::vector<bool>();
     std::vector<double> share;
     if (limb && binary.joints[above].trunk)
-        share =
-            gradientFactor(binary.mesh, spread(smoother, start, widths, {}, isHeld, options.cutOff));
+        share = gradientFactor(binary.mesh,
+                               spread(smoother, start, widths, {}, isHeld, options.cutOff));
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
         field = spread(smoother, start, widths, share, isHeld, options.cutOff);

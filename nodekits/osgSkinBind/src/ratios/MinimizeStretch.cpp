@@ -146,7 +146,7 @@ private:
 } // namespace
 
 void pinUnanchoredPatches(const HeatGraph& skin, const std::vector<double>& field,
-                   std::vector<bool>& isFree) {
+                          std::vector<bool>& isFree) {
     const std::vector<bool> isBorder = bordersOf(skin);
     std::vector<bool> isSeen(isFree.size());
     std::vector<std::uint32_t> part;
@@ -172,8 +172,9 @@ void pinUnanchoredPatches(const HeatGraph& skin, const std::vector<double>& fiel
     }
 }
 
-void minimizeStretch(const HeatGraph& skin, std::vector<double>& field, const std::vector<bool>& isFree,
-                 const glm::dvec3& centre, const std::vector<glm::dvec3>& turns) {
+void minimizeStretch(const HeatGraph& skin, std::vector<double>& field,
+                     const std::vector<bool>& isFree, const glm::dvec3& centre,
+                     const std::vector<glm::dvec3>& turns) {
     const Stretch stretch(skin, isFree, centre, turns);
     double now = stretch.of(field);
     for (int i = 0; i < kNewtonSteps && now > 0.0; ++i) {

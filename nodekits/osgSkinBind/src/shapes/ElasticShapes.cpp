@@ -188,7 +188,7 @@ ModeLimits limitsOf(bool hinge, double radius) {
 /// nearer.
 /// \param at the samples' coordinates
 std::optional<std::size_t> substituteSample(const std::vector<glm::dvec2>& at,
-                                      const ElasticShapes& shapes, std::size_t sample) {
+                                            const ElasticShapes& shapes, std::size_t sample) {
     const ElasticSample& own = shapes.samples[sample];
     if (own.reason.empty() || (!own.positions.empty() && own.crossings <= own.plainCrossings))
         return sample;

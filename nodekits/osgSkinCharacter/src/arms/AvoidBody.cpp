@@ -191,7 +191,7 @@ std::string AvoidBodyReport::text() const {
 }
 
 AvoidBodyReport avoidBody(Clip& clip, const RestSkeleton& rest, const JointRoles& roles,
-                        const SkinMesh& mesh, const Binding& binding) {
+                          const SkinMesh& mesh, const Binding& binding) {
     check(clip, rest, roles, mesh, binding);
     AvoidBodyReport result;
     BodyPieces body = findBodyPieces(rest, roles, mesh, binding);

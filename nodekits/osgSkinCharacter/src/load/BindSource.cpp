@@ -84,8 +84,8 @@ osg::BoundingBoxd boxOf(const SkinMesh& mesh) {
 /// \param mostRatio largest ratio of lengths in the same unit
 /// \param outside number of joints outside the skin
 void warnUnitMismatch(CharacterSource& source, const osg::BoundingBoxd& body,
-                const osg::BoundingBoxd& skeleton, std::size_t joints, double mostRatio,
-                std::size_t outside) {
+                      const osg::BoundingBoxd& skeleton, std::size_t joints, double mostRatio,
+                      std::size_t outside) {
     std::ostringstream note;
     note.imbue(std::locale::classic());
     note.precision(3);
@@ -116,7 +116,7 @@ void warnUnitMismatch(CharacterSource& source, const BindReport& report) {
             if (joint.tip) skeleton.expandBy(toOsg(*joint.tip));
         }
     warnUnitMismatch(source, boxOf(source.body.mesh), skeleton,
-               report.jointsOutside + report.jointsInside, kMaxRatio, report.jointsOutside);
+                     report.jointsOutside + report.jointsInside, kMaxRatio, report.jointsOutside);
 }
 
 /// As above, for a body bound by weights from another file: the joints that they name should lie
@@ -165,7 +165,7 @@ void tellRounding(CharacterSource& source) {
 }
 
 constexpr double kWhole = 0.99; ///< share of a shell's weight that counts as painted for one joint
-constexpr double kMaxOf = 0.5; ///< share of a shell's vertices that makes it a head
+constexpr double kMaxOf = 0.5;  ///< share of a shell's vertices that makes it a head
 
 using Shell = std::vector<std::uint32_t>;
 
@@ -307,7 +307,7 @@ void follow(const std::vector<int>& jointOf, Binding& binding) {
 /// \param binding of the body, by regions; changed
 /// \return the number of shells that were changed
 std::size_t bindShellsRigidly(const CharacterSource& source, const VertexWeights& weights,
-                       Binding& binding) {
+                              Binding& binding) {
     const std::vector<Shell> shells = shellsOf(source.body.mesh);
     if (shells.size() < 2) return 0;
     std::size_t largest = 0;

@@ -204,8 +204,8 @@ void takeBody(ConvertedBody& body, const BindOptions& options, Character& charac
 
 /// Rotates the whole scene without changing the author's nodes.
 void faceViewer(Character& character) {
-    const osg::Matrixd turn =
-        orientToFront(recogniseJoints(character.rest), boneCentres(character.rest, *character.root));
+    const osg::Matrixd turn = orientToFront(recogniseJoints(character.rest),
+                                            boneCentres(character.rest, *character.root));
     if (turn.isIdentity()) return;
     const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(turn);
     placed->setName(character.root->getName());

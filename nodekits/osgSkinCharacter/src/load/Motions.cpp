@@ -59,8 +59,8 @@ void animateMotions(const CharacterSource& source, const Binding& binding,
         withFileContext(file, [&] {
             if (clears)
                 motion.cleared = avoidBody(motion.clip, source.rest,
-                                            recogniseJoints(source.rest, source.bind.names),
-                                            source.body.mesh, binding);
+                                           recogniseJoints(source.rest, source.bind.names),
+                                           source.body.mesh, binding);
             motion.animation = makeAnimation(motion.clip, source.rest);
         });
         if (clears) OSG_INFO << file << ": " << motion.cleared.text() << "\n";

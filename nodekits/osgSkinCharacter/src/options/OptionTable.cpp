@@ -194,10 +194,11 @@ std::vector<Option> makeTable() {
         choice<bool, bool>({"show", "skin", "regions: each joint's region in a colour of its own"},
                            &LoadOptions::showRegions, {{"skin", false}, {"regions", true}},
                            In::StringsOnly),
-        readingOption({"formats", "all but scenes named in .skin files",
-                       "file formats that may be read, as skin,obj,bvh,ply,gltf,glb, or all; all also "
-                       "allows a .skin file to name .osgb, .osgt, .osgx, .osg and .ive files"},
-                      "extension,extension"),
+        readingOption(
+            {"formats", "all but scenes named in .skin files",
+             "file formats that may be read, as skin,obj,bvh,ply,gltf,glb, or all; all also "
+             "allows a .skin file to name .osgb, .osgt, .osgx, .osg and .ive files"},
+            "extension,extension"),
         renamed(readingOption({"images", "none",
                                "images that OpenSceneGraph reads, from trusted files, beside "
                                "those of formats, as ktx,dds"},
@@ -225,11 +226,9 @@ std::vector<Option> makeTable() {
 
 const Option* findOption(const std::string& word) {
     const std::vector<Option>& table = optionTable();
-    const auto found = std::find_if(table.begin(), table.end(),
-                                    [&](const Option& option) {
-                                        return option.word == word ||
-                                               (!word.empty() && option.formerWord == word);
-                                    });
+    const auto found = std::find_if(table.begin(), table.end(), [&](const Option& option) {
+        return option.word == word || (!word.empty() && option.formerWord == word);
+    });
     return found == table.end() ? nullptr : &*found;
 }
 

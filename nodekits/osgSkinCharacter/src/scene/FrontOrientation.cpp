@@ -112,7 +112,7 @@ public:
 } // namespace
 
 osg::Matrixd orientToFront(const JointRoles& roles, const JointCentres& centres,
-                          const JointCentres& played) {
+                           const JointCentres& played) {
     if (!roles.known() || roles.family == kInferredFromGeometry) return {};
     const Figure resting(roles, centres);
     const osg::Matrixd stand = standUp(resting);

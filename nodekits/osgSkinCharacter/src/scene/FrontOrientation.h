@@ -27,7 +27,7 @@ using JointCentres = std::vector<std::optional<osg::Vec3d>>;
 ///        figure already stands counts; a figure that lies in only one of them is not stood up
 /// \return a rotation; the identity where up and left are unknown
 osg::Matrixd orientToFront(const JointRoles& roles, const JointCentres& centres,
-                          const JointCentres& played = {});
+                           const JointCentres& played = {});
 
 /// Whether trunk, thighs and shins lie along one axis. Such a rest pose shows which axis is up,
 /// even if a motion begins on the floor.

@@ -21,8 +21,8 @@ osg::Matrixd toWorldOf(const SkinFile& file) {
 
 void fitRest(CharacterSource& source, FitOptions fit, const Progress& progress) {
     fit.progress = progress;
-    source.rest = withFileContext(source.meshFile,
-                             [&] { return fitSkeleton(source.body.mesh, fit, &source.fitReport); });
+    source.rest = withFileContext(
+        source.meshFile, [&] { return fitSkeleton(source.body.mesh, fit, &source.fitReport); });
     OSG_INFO << source.file << ":\n" << source.fitReport.text();
     for (const std::string& note : source.fitReport.notes)
         takeNote(source.notes, source.file + ": fitted skeleton: " + note);

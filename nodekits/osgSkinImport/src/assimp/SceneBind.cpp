@@ -16,11 +16,10 @@ namespace osgSkin {
 
 namespace {
 
-constexpr double kOneScale = 0.01;                ///< relative
-constexpr double kOnePlace = 0.01;                ///< of the bones' extent
-constexpr double kMinPosed = glm::radians(1.0); ///< that a pose turns a bone by
-constexpr double kMaxPosed =
-    glm::radians(45.0); ///< more is another axis up, if nothing else tells
+constexpr double kOneScale = 0.01;               ///< relative
+constexpr double kOnePlace = 0.01;               ///< of the bones' extent
+constexpr double kMinPosed = glm::radians(1.0);  ///< that a pose turns a bone by
+constexpr double kMaxPosed = glm::radians(45.0); ///< more is another axis up, if nothing else tells
 constexpr double kStraight = 1e-3;
 constexpr double kFarthestPosed = 0.5; ///< of the extent, that a pose moves a bone
 

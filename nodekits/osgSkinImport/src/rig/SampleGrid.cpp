@@ -10,7 +10,7 @@ namespace {
 constexpr double kMinRate = 29.9; ///< 30, and NTSC's 29.97
 constexpr int kMaxRate = 240, kFreeRate = 120;
 constexpr double kMaxSteps = 1e15; ///< far more than anybody allows
-constexpr double kOff = 0.05; ///< of a step: times are rounded to milliseconds in some formats
+constexpr double kOff = 0.05;      ///< of a step: times are rounded to milliseconds in some formats
 
 /// Whether all keys stand on samples, seconds after the first.
 bool fits(const std::vector<double>& keys, double rate) {
@@ -42,8 +42,7 @@ SampleGrid::SampleGrid(std::vector<double> times) {
                             [same](double a, double b) { return b - a <= same; }),
                 times.end());
     times.back() = span;
-    const double steps =
-        std::max(1.0, std::ceil(std::min(span * rateOf(times), kMaxSteps) - kOff));
+    const double steps = std::max(1.0, std::ceil(std::min(span * rateOf(times), kMaxSteps) - kOff));
     _samples = static_cast<std::size_t>(steps) + 1;
     _step = span / steps;
 }

@@ -190,9 +190,9 @@ Motion sampleTracks(const aiAnimation& animation, const SceneSkeleton& skeleton,
 
     const std::size_t joints = tracks.size();
     const ReflectedRotation aboveRoot{rotationOf(skeleton.aboveRoot),
-                                 glm::determinant(glm::dmat3(skeleton.aboveRoot)) < 0.0};
+                                      glm::determinant(glm::dmat3(skeleton.aboveRoot)) < 0.0};
     std::vector<ReflectedRotation> world(joints); // the nodes' own frames
-    std::vector<glm::dquat> aligned(joints); // the same, as rotations from rest
+    std::vector<glm::dquat> aligned(joints);      // the same, as rotations from rest
     for (std::size_t f = 0; f < motion.frames; ++f) {
         const Moment moment{grid.time(f) * rate, 0.5001 * grid.step() * rate};
         for (std::size_t j = 0; j < joints; ++j) {

@@ -247,7 +247,8 @@ void applyFrame(const Clip& clip, const RestSkeleton& rig, std::size_t frame,
         if (!bone) continue;
         bone->setMatrix(posed[j].local);
         bone->setMatrixInSkeletonSpace(posed[j].inSkeleton);
-        if (!writeToUpdateCallback(*bone, posed[j].local) && notHeld.empty()) notHeld = bone->getName();
+        if (!writeToUpdateCallback(*bone, posed[j].local) && notHeld.empty())
+            notHeld = bone->getName();
     }
     if (!notHeld.empty())
         OSG_WARN << onOneLine("osgSkin: applyFrame(): bone \"" + notHeld + "\" of skeleton \"" +

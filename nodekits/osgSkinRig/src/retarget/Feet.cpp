@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "names/BodyParts.h"
-#include "retarget/RetargetTarget.h"
 #include "retarget/MotionSteps.h"
+#include "retarget/RetargetTarget.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

@@ -2,9 +2,9 @@
 #include <osgSkinRig/Retarget>
 
 #include "names/BodyParts.h"
-#include "retarget/RetargetTarget.h"
 #include "retarget/MotionSteps.h"
 #include "retarget/Posture.h"
+#include "retarget/RetargetTarget.h"
 #include "skeleton/SkeletonTree.h"
 
 #include <osgSkin/Error>

@@ -38,7 +38,7 @@ struct RetargetTarget {
     /// \param uprightMotion must outlive this
     /// \param joints driving joints and roles; must outlive this
     RetargetTarget(const RestSkeleton& uprightRig, const RestSkeleton& uprightMotion,
-              const JointPairs& joints)
+                   const JointPairs& joints)
         : rig(uprightRig), motion(uprightMotion), map(joints),
           rigParts(findBodyParts(rig, map.rig)), motionParts(findBodyParts(motion, map.motion)) {}
 

@@ -4,9 +4,9 @@
 #include "assimp/AssimpScene.h"
 #include "assimp/SceneBind.h"
 #include "assimp/SceneSkeleton.h"
+#include "assimp/mesh/AnimatedAttachments.h"
 #include "assimp/mesh/AssimpMaterials.h"
 #include "assimp/mesh/PerVertexBindPose.h"
-#include "assimp/mesh/AnimatedAttachments.h"
 #include "assimp/mesh/Scenery.h"
 #include "text/FileText.h"
 
@@ -162,7 +162,8 @@ CornerMesh readSceneMesh(const aiScene& scene, const std::string& path,
             const std::string where = path + ": mesh \"" + mesh.mName.C_Str() + "\"";
             const auto places = placesOf(mesh, result.mesh.positions.size(), where);
             const glm::dmat4 toScene = bind.mesh(*node, node->mMeshes[m]);
-            addMesh(mesh, toScene, perVertexBindPose(mesh, toScene, bind), places, materials, result);
+            addMesh(mesh, toScene, perVertexBindPose(mesh, toScene, bind), places, materials,
+                    result);
             addWeights(mesh, above, places, where, result);
         }
     tellOfSome(path, leftOut, " things beside the figure are left out");

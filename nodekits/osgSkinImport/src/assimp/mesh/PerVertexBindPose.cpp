@@ -59,7 +59,7 @@ void forEachWeight(const aiMesh& mesh, const glm::dmat4& toScene, const SceneBin
 } // namespace
 
 std::vector<glm::dmat4> perVertexBindPose(const aiMesh& mesh, const glm::dmat4& toScene,
-                                   const SceneBind& bind) {
+                                          const SceneBind& bind) {
     const double most = kOff * sizeOf(mesh, toScene);
     bool isApart = false;
     forEachWeight(mesh, toScene, bind, [&](const aiVertexWeight& entry, const glm::dmat4& own) {

@@ -18,6 +18,6 @@ namespace osgSkin {
 /// \return a matrix for each vertex, from the mesh's space into the scene's; none where `toScene`
 ///         is right for all, but for a thousandth of the mesh's size
 std::vector<glm::dmat4> perVertexBindPose(const aiMesh& mesh, const glm::dmat4& toScene,
-                                   const SceneBind& bind);
+                                          const SceneBind& bind);
 
 } // namespace osgSkin
