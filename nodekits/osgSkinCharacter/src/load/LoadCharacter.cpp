@@ -10,6 +10,7 @@
 #include <osgSkinGpu/GpuSkin>
 #include <osgSkinImport/FindNamedFile>
 #include <osgSkinImport/ImportRig>
+#include <osgSkinImport/ShareScenes>
 
 #include <osgDB/FileNameUtils>
 
@@ -89,6 +90,13 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     return character;
 }
 
+/// The same options for one load, which reads each file once.
+LoadOptions withSharedScenes(const LoadOptions& options) {
+    LoadOptions result = options;
+    result.readOptions = shareScenes(options.readOptions.get());
+    return result;
+}
+
 Character loadFrom(const std::string& path, const LoadOptions& options) {
     const std::string found = findNamedFile(path, options.readOptions.get());
     const std::string& file = found.empty() ? path : found;
@@ -98,9 +106,13 @@ Character loadFrom(const std::string& path, const LoadOptions& options) {
         const std::string model = osgDB::getNameLessExtension(path);
         if (found.empty() && !osgDB::getFileExtension(model).empty())
             return loadFrom(model, options);
-        return makeCharacter(readSkinFile(file, options, stages), options, stages);
+        const LoadOptions own = withSharedScenes(options);
+        return makeCharacter(readSkinFile(file, own, stages), own, stages);
     }
-    if (isReadByAssimp(file)) return makeCharacter(readRig(file, options, stages), options, stages);
+    if (isReadByAssimp(file)) {
+        const LoadOptions own = withSharedScenes(options);
+        return makeCharacter(readRig(file, own, stages), own, stages);
+    }
     return convertScene(file, options, stages);
 }
 

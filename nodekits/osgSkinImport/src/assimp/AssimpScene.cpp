@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/AssimpScene.h"
 
-#include "assimp/MissingBones.h"
-#include "assimp/NodeNames.h"
-#include "assimp/SceneFile.h"
-#include "gltf/plain/PlainGltf.h"
 #include "text/FileText.h"
 
+#include <osg/Math>
 #include <osgDB/FileNameUtils>
 
+#include <assimp/Importer.hpp>
 #include <assimp/config.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
 
 #include <algorithm>
 #include <exception>
@@ -20,11 +20,216 @@ namespace osgSkin {
 
 namespace {
 
+// --- materials ---
+
+osg::Vec4 colour(const aiMaterial& material, const char* key, unsigned type, unsigned index,
+                 const osg::Vec4& otherwise) {
+    aiColor4D value;
+    if (material.Get(key, type, index, value) != AI_SUCCESS) return otherwise;
+    return {value.r, value.g, value.b, otherwise.a()};
+}
+
+/// A texture that stands in the scene texel by texel, from the upper left, as in .mdl.
+osg::ref_ptr<osg::Image> rawImage(const aiTexture& texture) {
+    constexpr unsigned most = 1u << 14;
+    if (texture.mWidth == 0 || texture.mWidth > most || texture.mHeight > most) return nullptr;
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(static_cast<int>(texture.mWidth), static_cast<int>(texture.mHeight), 1,
+                         GL_RGBA, GL_UNSIGNED_BYTE);
+    const aiTexel* texel = texture.pcData;
+    for (unsigned row = texture.mHeight; row > 0; --row) {
+        unsigned char* to = image->data(0, row - 1);
+        for (unsigned column = 0; column < texture.mWidth; ++column, ++texel)
+            for (const unsigned char part : {texel->r, texel->g, texel->b, texel->a}) *to++ = part;
+    }
+    return image;
+}
+
+SourceImage readImage(const aiTexture& texture) {
+    SourceImage result;
+    if (texture.mHeight != 0) {
+        result.image = rawImage(texture);
+        return result;
+    }
+    result.format = texture.achFormatHint;
+    result.bytes.assign(reinterpret_cast<const char*>(texture.pcData), texture.mWidth);
+    return result;
+}
+
+osg::Texture::WrapMode wrapOf(const aiMaterial& material, const char* key) {
+    int mode = aiTextureMapMode_Wrap;
+    material.Get(key, aiTextureType_DIFFUSE, 0, mode);
+    if (mode == aiTextureMapMode_Clamp) return osg::Texture::CLAMP_TO_EDGE;
+    return mode == aiTextureMapMode_Mirror ? osg::Texture::MIRROR : osg::Texture::REPEAT;
+}
+
+/// Of a texture of emission the colour alone would make all of the surface glow.
+bool glowsByTexture(const aiMaterial& source) {
+    return source.GetTextureCount(aiTextureType_EMISSIVE) > 0 ||
+           source.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
+}
+
+SourceMaterial readMaterial(const aiScene& scene, const aiMaterial& source) {
+    SourceMaterial result;
+    Material& look = result.look;
+    look.diffuse = colour(source, AI_MATKEY_COLOR_DIFFUSE, look.diffuse);
+    look.specular = colour(source, AI_MATKEY_COLOR_SPECULAR, look.specular);
+    if (!glowsByTexture(source))
+        look.emission = colour(source, AI_MATKEY_COLOR_EMISSIVE, look.emission);
+    float opacity = 1.0f;
+    if (source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) look.diffuse.a() = opacity;
+    source.Get(AI_MATKEY_SHININESS, look.shininess);
+    aiString name;
+    if (source.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS) return result;
+    result.texture = name.C_Str();
+    const int embedded = scene.GetEmbeddedTextureAndIndex(name.C_Str()).second;
+    if (embedded >= 0) result.image = static_cast<std::size_t>(embedded);
+    look.wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE);
+    look.wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE);
+    return result;
+}
+
+void readMaterials(const aiScene& scene, const std::string& path, SourceScene& result) {
+    std::size_t glowing = 0;
+    for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
+        glowing += glowsByTexture(*scene.mMaterials[m]);
+        result.materials.push_back(readMaterial(scene, *scene.mMaterials[m]));
+    }
+    result.materials.emplace_back(); // for meshes without
+    if (glowing > 0)
+        tellOf(path, "textures of emission: " + std::to_string(glowing) +
+                         ", left out, and that surfaces glow with them");
+    for (unsigned t = 0; t < scene.mNumTextures; ++t)
+        result.images.push_back(
+            std::make_shared<const SourceImage>(readImage(*scene.mTextures[t])));
+}
+
+// --- nodes, meshes and animations ---
+
+glm::vec3 toGlm(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::quat toGlm(const aiQuaternion& q) {
+    return {q.w, q.x, q.y, q.z};
+}
+
+glm::dmat4 toGlm(const aiMatrix4x4& m) {
+    glm::dmat4 result; // columns
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            result[column][row] = static_cast<double>(m[static_cast<unsigned>(row)][column]);
+    return result;
+}
+
+std::string toString(const aiString& text) {
+    return {text.C_Str(), text.length};
+}
+
+/// The set of texture coordinates that a mesh's texture takes.
+unsigned texCoordsOf(const aiMesh& mesh, const aiMaterial* material) {
+    int set = 0;
+    if (material != nullptr) material->Get(AI_MATKEY_UVWSRC_DIFFUSE(0), set);
+    const auto wanted = static_cast<unsigned>(std::max(set, 0));
+    return wanted < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(wanted) ? wanted : 0;
+}
+
+SourceMesh readMesh(const aiScene& scene, const aiMesh& source) {
+    SourceMesh result;
+    result.name = source.mName.C_Str();
+    result.material = std::min(source.mMaterialIndex, scene.mNumMaterials);
+    const aiMaterial* const material = source.mMaterialIndex < scene.mNumMaterials
+                                           ? scene.mMaterials[source.mMaterialIndex]
+                                           : nullptr;
+    const unsigned set = texCoordsOf(source, material), vertices = source.mNumVertices;
+    for (unsigned v = 0; v < vertices; ++v) {
+        result.positions.push_back(toGlm(source.mVertices[v]));
+        if (source.HasNormals()) result.normals.push_back(toGlm(source.mNormals[v]));
+        if (source.HasTextureCoords(set))
+            result.texCoords.emplace_back(source.mTextureCoords[set][v].x,
+                                          source.mTextureCoords[set][v].y);
+        if (source.HasVertexColors(0)) {
+            const aiColor4D& c = source.mColors[0][v];
+            result.colours.emplace_back(c.r, c.g, c.b, c.a);
+        }
+    }
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+        const aiFace& face = source.mFaces[f];
+        result.faceSizes.push_back(face.mNumIndices);
+        result.corners.insert(result.corners.end(), face.mIndices,
+                              face.mIndices + face.mNumIndices);
+    }
+    for (unsigned b = 0; b < source.mNumBones; ++b) {
+        const aiBone& from = *source.mBones[b];
+        SourceBone& bone = result.bones.emplace_back();
+        bone.name = toString(from.mName);
+        bone.offset = toGlm(from.mOffsetMatrix);
+        for (unsigned w = 0; w < from.mNumWeights; ++w)
+            bone.weights.push_back({from.mWeights[w].mVertexId, from.mWeights[w].mWeight});
+    }
+    return result;
+}
+
+template <typename Key, typename Value>
+void readKeys(const Key* keys, unsigned count, std::vector<SourceKey<Value>>& result) {
+    result.reserve(count);
+    for (unsigned k = 0; k < count; ++k) result.push_back({keys[k].mTime, toGlm(keys[k].mValue)});
+}
+
+SourceAnimation readAnimation(const aiAnimation& source) {
+    SourceAnimation result;
+    result.name = source.mName.C_Str();
+    if (source.mTicksPerSecond > 0.0) result.ticksPerSecond = source.mTicksPerSecond;
+    for (unsigned c = 0; c < source.mNumChannels; ++c) {
+        const aiNodeAnim& from = *source.mChannels[c];
+        SourceTrack& track = result.tracks.emplace_back();
+        track.node = from.mNodeName.C_Str();
+        readKeys(from.mPositionKeys, from.mNumPositionKeys, track.positions);
+        readKeys(from.mRotationKeys, from.mNumRotationKeys, track.rotations);
+        readKeys(from.mScalingKeys, from.mNumScalingKeys, track.scales);
+    }
+    return result;
+}
+
+/// Reads the nodes below the root, and the root. Some readers of Assimp's leave null among a node's
+/// children.
+void readNodes(const aiScene& scene, const std::string& path, const ReadLimits& limits,
+               SourceScene& result) {
+    struct Open {
+        const aiNode* node;
+        int parent;
+        std::size_t depth;
+    };
+    std::vector<Open> open{{scene.mRootNode, -1, 1}};
+    while (!open.empty()) {
+        const Open at = open.back();
+        const aiNode& node = *at.node;
+        open.pop_back();
+        if (at.depth > limits.depth)
+            failFile(path, "node " + inQuotes(node.mName.C_Str()) + " is nested more than " +
+                               std::to_string(limits.depth) + " deep (option maxDepth)");
+        const int index =
+            result.addNode(toString(node.mName), at.parent, toGlm(node.mTransformation));
+        for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+            if (node.mMeshes[m] >= scene.mNumMeshes)
+                failFile(path, "node " + inQuotes(node.mName.C_Str()) + " names mesh " +
+                                   std::to_string(node.mMeshes[m]) + ", expected less than " +
+                                   std::to_string(scene.mNumMeshes));
+            result.nodes.back().meshes.push_back(node.mMeshes[m]);
+        }
+        if (node.mChildren == nullptr) continue;
+        for (unsigned c = node.mNumChildren; c > 0; --c)
+            if (const aiNode* child = node.mChildren[c - 1])
+                open.push_back({child, index, at.depth + 1});
+    }
+}
+
+// --- the file ---
+
 /// Refuses what Assimp would hang on, and what it would look into for itself: of a file whose name
 /// says nothing to it, or that another reader here has, it asks each of its readers whether they
 /// know the first bytes, and some read beyond those.
-void checkBefore(const std::string& path, const ReadLimits& limits) {
-    requireReadable(path, limits);
+void checkBefore(const std::string& path) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     // Read by readBvh(): Assimp believes any number of frames.
     if (extension == "bvh")
@@ -37,94 +242,62 @@ void checkBefore(const std::string& path, const ReadLimits& limits) {
                                  "that Assimp reads");
 }
 
-/// Makes a scene safe to walk: some readers of Assimp's leave null among a node's children.
-void checkAfter(aiScene& scene, const std::string& path, const ReadLimits& limits) {
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
-        if (scene.mMeshes[m] == nullptr) failFile(path, "Assimp reads a mesh that is not there");
-    std::vector<std::pair<aiNode*, std::size_t>> open{{scene.mRootNode, 1}};
-    while (!open.empty()) {
-        const auto [above, depth] = open.back();
-        aiNode& node = *above;
-        open.pop_back();
-        if (depth > limits.depth)
-            failFile(path, "node " + inQuotes(node.mName.C_Str()) + " is nested more than " +
-                               std::to_string(limits.depth) + " deep (option maxDepth)");
-        for (unsigned m = 0; m < node.mNumMeshes; ++m)
-            if (node.mMeshes[m] >= scene.mNumMeshes)
-                failFile(path, "node " + inQuotes(node.mName.C_Str()) + " names mesh " +
-                                   std::to_string(node.mMeshes[m]) + ", expected less than " +
-                                   std::to_string(scene.mNumMeshes));
-        if (node.mChildren == nullptr) node.mNumChildren = 0;
-        aiNode** const end = node.mChildren + node.mNumChildren;
-        aiNode** const kept = std::remove(node.mChildren, end, nullptr);
-        node.mNumChildren = static_cast<unsigned>(kept - node.mChildren);
-        for (aiNode** child = node.mChildren; child != kept; ++child)
-            open.emplace_back(*child, depth + 1);
-    }
+/// OSG's world has Z up and a figure faces -Y. Assimp turns most formats to Y up; FBX files say
+/// what they have and are left as they are, and so is SMD, which has Z up.
+osg::Matrixd toWorld(const aiScene& scene, const std::string& path) {
+    if (osgDB::getLowerCaseFileExtension(path) == "smd") return {};
+    int up = 1;
+    if (scene.mMetaData != nullptr && scene.mMetaData->Get("UpAxis", up) && up == 2) return {};
+    return osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
+}
+
+double metresPerUnit(const aiScene& scene) {
+    double centimetres = 0.0;
+    float single = 0.0f;
+    if (scene.mMetaData == nullptr) return 0.0;
+    if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return 0.01 * centimetres;
+    if (scene.mMetaData->Get("UnitScaleFactor", single)) return 0.01 * double(single);
+    return 0.0;
 }
 
 } // namespace
 
-bool holdsMeshesOnly(const std::string& path) {
-    const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    return extension == "obj" || extension == "ply" || extension == "off" || extension == "stl";
-}
-
-const aiScene& readAssimpScene(Assimp::Importer& importer, const std::string& path,
-                               const ReadLimits& limits) {
+SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
+    Assimp::Importer importer;
     // Assimp would add a mesh of its own to a file that holds a skeleton only.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-    checkBefore(path, limits);
-    std::string name = path;
-    bool facesBackwards = false;
-    if (isGltfName(path)) {
-        PlainGltf plain = plainGltf(path, limits);
-        name += ".glb"; // Assimp goes by the extension
-        facesBackwards = plain.facesBackwards;
-        importer.SetIOHandler(new SceneFile(name, std::move(plain.bytes))); // takes it over
-    }
+    SourceScene result;
+    result.bytes = requireReadable(path, limits);
+    checkBefore(path);
     const aiScene* scene = nullptr;
     std::string reason;
     try {
-        scene = importer.ReadFile(name, 0);
+        scene = importer.ReadFile(path, 0);
         if (scene == nullptr) reason = importer.GetErrorString();
     } catch (const std::exception& error) {
         reason = error.what();
     }
     if (scene == nullptr || scene->mRootNode == nullptr)
         failFile(path, reason.empty() ? "cannot be read" : reason);
-    auto& owned = const_cast<aiScene&>(*scene); // the importer's, which nobody else sees
-    checkAfter(owned, path, limits);
-    if (facesBackwards) {
-        if (owned.mMetaData == nullptr) owned.mMetaData = new aiMetadata; // the scene's
-        owned.mMetaData->Add(kFacesBackwards, true);
-    }
-    separateNames(owned, path);
-    addMissingBones(owned, path);
-    return owned;
-}
-
-glm::dvec3 toGlm(const aiVector3D& v) {
-    return {v.x, v.y, v.z};
-}
-
-glm::dquat toGlm(const aiQuaternion& q) {
-    return {q.w, q.x, q.y, q.z};
-}
-
-glm::dmat4 toGlm(const aiMatrix4x4& m) {
-    glm::dmat4 result; // columns
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-            result[column][row] = static_cast<double>(m[static_cast<unsigned>(row)][column]);
+    for (unsigned m = 0; m < scene->mNumMeshes; ++m)
+        if (scene->mMeshes[m] == nullptr) failFile(path, "Assimp reads a mesh that is not there");
+    readNodes(*scene, path, limits, result);
+    readMaterials(*scene, path, result);
+    for (unsigned m = 0; m < scene->mNumMeshes; ++m)
+        result.meshes.push_back(
+            std::make_shared<const SourceMesh>(readMesh(*scene, *scene->mMeshes[m])));
+    for (unsigned a = 0; a < scene->mNumAnimations; ++a)
+        result.animations.push_back(
+            std::make_shared<const SourceAnimation>(readAnimation(*scene->mAnimations[a])));
+    result.toWorld = toWorld(*scene, path);
+    result.metresPerUnit = metresPerUnit(*scene);
     return result;
 }
 
 bool assimpReads(const std::string& path) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    return isGltfName(path) ||
-           (!extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension));
+    return !extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension);
 }
 
 } // namespace osgSkin

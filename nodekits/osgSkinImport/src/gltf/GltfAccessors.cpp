@@ -1,220 +1,250 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/GltfAccessors.h"
+#include "gltf/GltfDocument.h"
 
 #include "text/FileText.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
-#include <limits>
-#include <utility>
 
 namespace osgSkin {
 namespace {
 
+using nlohmann::json;
+
 enum ComponentType { kByte = 5120, kUByte, kShort, kUShort, kInt, kUInt, kFloat };
 
-std::size_t sizeOf(int type) {
-    if (type == kByte || type == kUByte) return 1;
-    return type == kShort || type == kUShort ? 2 : 4;
+/// 0 for what is no component type.
+std::size_t componentSize(int component) {
+    if (component == kByte || component == kUByte) return 1;
+    if (component == kShort || component == kUShort) return 2;
+    return component == kUInt || component == kFloat ? 4 : 0;
 }
 
-std::size_t widthOf(const std::string& type) {
+std::size_t typeWidth(const std::string& type) {
     if (type == "SCALAR") return 1;
-    if (type == "MAT2") return 4;
+    if (type == "VEC2") return 2;
+    if (type == "VEC3") return 3;
+    if (type == "VEC4" || type == "MAT2") return 4;
     if (type == "MAT3") return 9;
-    if (type == "MAT4") return 16;
-    return type == "VEC2" ? 2 : type == "VEC3" ? 3 : 4;
+    return type == "MAT4" ? 16 : 0;
 }
 
-template <typename Number>
-double numberFrom(const char* at) {
-    Number value;
-    std::memcpy(&value, at, sizeof value);
-    return static_cast<double>(value);
+/// A size or an offset; 0 where there is none.
+std::size_t sizeOf(const json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end()) return 0;
+    const auto value = found->is_number_unsigned() ? found->get<std::size_t>() : ~std::size_t(0);
+    return std::min<std::size_t>(value, std::size_t(1) << 40); // far beyond any buffer
 }
 
-double component(const char* at, int type) {
-    switch (type) {
-    case kByte:
-        return numberFrom<std::int8_t>(at);
-    case kUByte:
-        return numberFrom<std::uint8_t>(at);
-    case kShort:
-        return numberFrom<std::int16_t>(at);
-    case kUShort:
-        return numberFrom<std::uint16_t>(at);
-    case kInt:
-        return numberFrom<std::int32_t>(at);
-    case kUInt:
-        return numberFrom<std::uint32_t>(at);
-    default:
-        return numberFrom<float>(at);
-    }
+/// Converts numbers that stand in the file; `bytes` from one element to the next.
+template <typename Number, typename Result>
+void convert(const char* from, std::size_t bytes, std::size_t width, std::size_t count,
+             Result* to) {
+    for (std::size_t i = 0; i < count; ++i, from += bytes)
+        for (std::size_t k = 0; k < width; ++k) {
+            Number value;
+            std::memcpy(&value, from + k * sizeof value, sizeof value);
+            *to++ = static_cast<Result>(value);
+        }
 }
 
 /// What the largest number of a type stands for is 1.
-double normalised(double value, int type) {
-    switch (type) {
+float normalised(float value, int component) {
+    const auto exact = static_cast<double>(value);
+    switch (component) {
     case kByte:
-        return std::max(value / 127.0, -1.0);
+        return static_cast<float>(std::max(exact / 127.0, -1.0));
     case kUByte:
-        return value / 255.0;
+        return static_cast<float>(exact / 255.0);
     case kShort:
-        return std::max(value / 32767.0, -1.0);
+        return static_cast<float>(std::max(exact / 32767.0, -1.0));
     case kUShort:
-        return value / 65535.0;
+        return static_cast<float>(exact / 65535.0);
     default:
         return value;
     }
 }
 
-template <typename Number>
-std::string bytesOf(const std::vector<double>& values) {
-    std::string bytes;
-    bytes.reserve(values.size() * sizeof(Number));
-    for (const double value : values) {
-        const auto stored = static_cast<Number>(value);
-        char raw[sizeof stored];
-        std::memcpy(raw, &stored, sizeof stored);
-        bytes.append(raw, sizeof stored);
-    }
-    return bytes;
-}
-
-std::size_t sizeAt(const nlohmann::json& object, const char* key) {
-    return object.value(key, std::size_t(0));
-}
-
 } // namespace
 
-const nlohmann::json& GltfAccessors::accessor(std::size_t index) const {
-    return _file.json.at("accessors").at(index);
+GltfAccessors::GltfAccessors(const GltfFile& file) : _file(file) {
+    _views.reserve(file.size("bufferViews"));
+    file.forEach("bufferViews", [&](const json& from, const std::string& where) {
+        _views.push_back({file.indexOf(from.at("buffer"), "buffers", where + ".buffer"),
+                          sizeOf(from, "byteOffset"), sizeOf(from, "byteLength"),
+                          sizeOf(from, "byteStride")});
+    });
+    _accessors.reserve(file.size("accessors"));
+    file.forEach("accessors", [&](const json& from, const std::string& where) {
+        GltfAccessor known;
+        known.count = sizeOf(from, "count");
+        known.type = from.at("type").get<std::string>();
+        known.width = typeWidth(known.type);
+        const json& component = from.at("componentType");
+        known.component =
+            component.is_number_unsigned() && component.get<std::size_t>() < 5127
+                ? component.get<int>()
+                : static_cast<int>(file.index(component, 5127, where + ".componentType"));
+        known.normalised = from.value("normalized", false);
+        known.stored = from.contains("bufferView");
+        known.sparse = from.contains("sparse");
+        known.wrong = wrongWith(from, known);
+        _accessors.push_back(std::move(known));
+    });
 }
 
-std::size_t GltfAccessors::count(std::size_t index) const {
-    return accessor(index).at("count").get<std::size_t>();
+std::string GltfAccessors::beyondView(const json& view, std::size_t offset, std::size_t elements,
+                                      std::size_t bytes, bool packed) const {
+    if (!view.is_number_unsigned() || view.get<std::size_t>() >= _views.size())
+        return "a buffer view that is there";
+    const View& source = _views[view.get<std::size_t>()];
+    const std::string* const content = _file.buffers[source.buffer].get();
+    const std::size_t buffer = content == nullptr ? 0 : content->size();
+    if (source.offset > buffer || source.length > buffer - source.offset)
+        return "a buffer view within its buffer";
+    const std::size_t given = packed ? 0 : source.stride;
+    if (given != 0 && given < bytes) return "a stride of an element at least";
+    const std::size_t stride = given == 0 ? bytes : given;
+    if (elements == 0 || bytes == 0) return {};
+    if (offset > source.length || bytes > source.length - offset ||
+        (elements - 1) > (source.length - offset - bytes) / stride)
+        return "elements within the buffer view";
+    return {};
 }
 
-std::size_t GltfAccessors::width(std::size_t index) const {
-    return widthOf(accessor(index).at("type").get<std::string>());
+std::string_view GltfAccessors::bytesOf(std::size_t view) const {
+    const View& source = _views[view];
+    const std::string* const content = _file.buffers[source.buffer].get();
+    if (content == nullptr) return {};
+    return std::string_view(*content).substr(source.offset, source.length);
 }
 
-std::size_t GltfAccessors::componentBytes(std::size_t index) const {
-    return sizeOf(accessor(index).at("componentType").get<int>());
+std::string GltfAccessors::wrongWith(const json& from, GltfAccessor& known) const {
+    const std::size_t component = componentSize(known.component), width = known.width;
+    if (component == 0) return "a component type of 5120 to 5126";
+    if (width == 0) return "a type SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4";
+    if ((known.type == "MAT2" || known.type == "MAT3") && component < 4)
+        return "matrices of floats";
+    if (known.stored) {
+        const json& view = from.at("bufferView");
+        known.offset = sizeOf(from, "byteOffset");
+        std::string wrong = beyondView(view, known.offset, known.count, component * width, false);
+        if (!wrong.empty()) return wrong;
+        known.view = view.get<std::size_t>();
+    } else if (known.count > 2 * _file.limits.samplesOf(_file.allBytes())) {
+        return "no more zeros than the file has room for (option maxSamples)";
+    }
+    if (!known.sparse) return {};
+    const json& sparse = from.at("sparse");
+    const json &places = sparse.at("indices"), &values = sparse.at("values");
+    known.changes = sizeOf(sparse, "count");
+    known.indexComponent = places.at("componentType").get<int>();
+    if (known.indexComponent != kUByte && known.indexComponent != kUShort &&
+        known.indexComponent != kUInt)
+        return "sparse indices of the component type 5121, 5123 or 5125";
+    known.indexOffset = sizeOf(places, "byteOffset");
+    std::string wrong = beyondView(places.at("bufferView"), known.indexOffset, known.changes,
+                                   componentSize(known.indexComponent), true);
+    if (!wrong.empty()) return wrong;
+    known.indexView = places.at("bufferView").get<std::size_t>();
+    known.changeOffset = sizeOf(values, "byteOffset");
+    wrong = beyondView(values.at("bufferView"), known.changeOffset, known.changes,
+                       component * width, true);
+    if (wrong.empty()) known.changeView = values.at("bufferView").get<std::size_t>();
+    return wrong;
 }
 
-bool GltfAccessors::isWhole(std::size_t index) const {
-    const nlohmann::json& source = accessor(index);
-    if (!source.contains("bufferView") || source.contains("sparse")) return false;
-    const nlohmann::json& view =
-        _file.json.at("bufferViews").at(source.at("bufferView").get<std::size_t>());
-    const std::size_t stride = sizeAt(view, "byteStride");
-    return stride == 0 || count(index) <= sizeAt(view, "byteLength") / stride;
+std::size_t GltfAccessors::indexOf(const json& value, const std::string& where) const {
+    const bool isThere = value.is_number_unsigned() && value.get<std::size_t>() < _accessors.size();
+    const std::size_t index =
+        isThere ? value.get<std::size_t>() : _file.indexOf(value, "accessors", where);
+    const std::string& wrong = _accessors[index].wrong;
+    if (!wrong.empty()) _file.fail("accessors[" + std::to_string(index) + "], " + where, wrong);
+    return index;
 }
 
-bool GltfAccessors::isPlain(std::size_t index) const {
-    return accessor(index).at("componentType") == int(kFloat) && isWhole(index);
+void GltfAccessors::requireType(std::size_t accessor, std::initializer_list<const char*> types,
+                                const std::string& where) const {
+    for (const char* type : types)
+        if (_accessors[accessor].type == type) return;
+    _file.fail(where, std::string("an accessor of ") + *types.begin());
 }
 
-bool GltfAccessors::hasValues(std::size_t index) const {
-    return accessor(index).contains("bufferView") || accessor(index).contains("sparse");
+void GltfAccessors::requireIndices(std::size_t accessor, bool wide,
+                                   const std::string& where) const {
+    const int component = _accessors[accessor].component;
+    if (component != kUByte && component != kUShort && !(wide && component == kUInt))
+        _file.fail(where, "unsigned whole numbers");
 }
 
-const std::string& GltfAccessors::buffer(std::size_t index) const {
-    if (!_file.buffers.isThere(index))
-        failFile(_file.path, "buffer " + std::to_string(index) + " has no content");
-    return _file.buffers[index];
+void GltfAccessors::requireValues(std::size_t accessor, const std::string& where) const {
+    if (!_accessors[accessor].hasValues())
+        _file.fail("accessors[" + std::to_string(accessor) + "], " + where, "a buffer view");
 }
 
-void GltfAccessors::read(std::size_t view, std::size_t offset, int type, std::size_t wide,
-                         std::size_t many, std::vector<double>& result) {
-    const nlohmann::json& source = _file.json.at("bufferViews").at(view);
-    const std::string& bytes = buffer(source.at("buffer").get<std::size_t>());
-    const std::size_t size = sizeOf(type);
-    // Columns of small matrices begin at multiples of four bytes.
-    const bool padded = wide == 9 && size < 4;
-    const std::size_t columns = padded ? 3 : 1;
-    const std::size_t rows = wide / columns;
-    const std::size_t column = padded ? (rows * size + 3) / 4 * 4 : rows * size;
-    const std::size_t stride = std::max(sizeAt(source, "byteStride"), columns * column);
-    const std::size_t begin = sizeAt(source, "byteOffset") + offset;
-    if (many > 0 && (begin > bytes.size() || (bytes.size() - begin) / stride + 1 < many ||
-                     begin + stride * (many - 1) + columns * column > bytes.size()))
-        failFile(_file.path, "buffer view " + std::to_string(view) + " ends beyond its buffer");
-    result.reserve(result.size() + many * wide);
-    for (std::size_t i = 0; i < many; ++i)
-        for (std::size_t c = 0; c < columns; ++c)
-            for (std::size_t r = 0; r < rows; ++r)
-                result.push_back(
-                    component(bytes.data() + begin + i * stride + c * column + r * size, type));
+template <typename Result>
+void GltfAccessors::read(std::size_t view, std::size_t offset, int component, std::size_t width,
+                         std::size_t count, bool packed, std::vector<Result>& result) const {
+    const std::string_view bytes = bytesOf(view);
+    const std::size_t element = componentSize(component) * width;
+    const std::size_t given = packed ? 0 : _views[view].stride;
+    const std::size_t stride = given == 0 ? element : given;
+    result.resize(count * width);
+    if (result.empty()) return;
+    const char* const from = bytes.data() + offset;
+    Result* const to = result.data();
+    switch (component) {
+    case kByte:
+        return convert<std::int8_t>(from, stride, width, count, to);
+    case kUByte:
+        return convert<std::uint8_t>(from, stride, width, count, to);
+    case kShort:
+        return convert<std::int16_t>(from, stride, width, count, to);
+    case kUShort:
+        return convert<std::uint16_t>(from, stride, width, count, to);
+    case kUInt:
+        return convert<std::uint32_t>(from, stride, width, count, to);
+    default:
+        return convert<float>(from, stride, width, count, to);
+    }
 }
 
-std::vector<double> GltfAccessors::values(std::size_t index) {
-    std::vector<double> result = stored(index);
-    const nlohmann::json& source = accessor(index);
-    if (source.value("normalized", false))
-        for (double& value : result)
-            value = normalised(value, source.at("componentType").get<int>());
-    return result;
-}
-
-std::vector<double> GltfAccessors::stored(std::size_t index) {
-    const nlohmann::json& source = accessor(index);
-    const int type = source.at("componentType").get<int>();
-    const std::size_t wide = width(index), many = count(index);
-    std::vector<double> result;
-    if (source.contains("bufferView"))
-        read(source.at("bufferView").get<std::size_t>(), sizeAt(source, "byteOffset"), type, wide,
-             many, result);
-    else if (many < std::numeric_limits<std::uint32_t>::max() / 16)
-        result.assign(many * wide, 0.0);
-    if (source.contains("sparse")) {
-        const nlohmann::json& sparse = source.at("sparse");
-        const auto changes = sparse.at("count").get<std::size_t>();
-        const nlohmann::json& places = sparse.at("indices");
-        const nlohmann::json& changed = sparse.at("values");
-        std::vector<double> indices, numbers;
-        read(places.at("bufferView").get<std::size_t>(), sizeAt(places, "byteOffset"),
-             places.at("componentType").get<int>(), 1, changes, indices);
-        read(changed.at("bufferView").get<std::size_t>(), sizeAt(changed, "byteOffset"), type, wide,
-             changes, numbers);
-        const bool fits = std::all_of(indices.begin(), indices.end(),
-                                      [&](double place) { return place < double(many); });
-        if (!fits)
-            failFile(_file.path, "malformed glTF: accessors[" + std::to_string(index) +
-                                     "].sparse.indices: expected numbers below " +
-                                     std::to_string(many));
-        for (std::size_t i = 0; i < changes; ++i)
-            for (std::size_t k = 0; k < wide; ++k)
-                result.at(static_cast<std::size_t>(indices[i]) * wide + k) = numbers[i * wide + k];
+template <typename Result>
+std::vector<Result> GltfAccessors::all(std::size_t index) const {
+    const GltfAccessor& source = _accessors[index];
+    std::vector<Result> result;
+    if (source.stored)
+        read(source.view, source.offset, source.component, source.width, source.count, false,
+             result);
+    else
+        result.assign(source.count * source.width, Result(0));
+    if (!source.sparse) return result;
+    std::vector<std::uint32_t> indices;
+    std::vector<Result> values;
+    read(source.indexView, source.indexOffset, source.indexComponent, 1, source.changes, true,
+         indices);
+    read(source.changeView, source.changeOffset, source.component, source.width, source.changes,
+         true, values);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (indices[i] >= source.count)
+            _file.fail("accessors[" + std::to_string(index) + "].sparse.indices",
+                       "numbers below " + std::to_string(source.count));
+        std::copy_n(values.begin() + std::ptrdiff_t(i * source.width), source.width,
+                    result.begin() + std::ptrdiff_t(indices[i] * source.width));
     }
     return result;
 }
 
-std::size_t GltfAccessors::addBytes(const std::string& type, int component, std::size_t numbers,
-                                    std::string bytes) {
-    nlohmann::json& views = _file.json["bufferViews"];
-    nlohmann::json& accessors = _file.json["accessors"];
-    const std::size_t length = bytes.size();
-    views.push_back({{"buffer", _file.addBuffer(std::move(bytes))}, {"byteLength", length}});
-    accessors.push_back({{"bufferView", views.size() - 1},
-                         {"componentType", component},
-                         {"count", numbers / widthOf(type)},
-                         {"type", type}});
-    return accessors.size() - 1;
+std::vector<float> GltfAccessors::floats(std::size_t index) const {
+    std::vector<float> result = all<float>(index);
+    if (_accessors[index].normalised)
+        for (float& value : result) value = normalised(value, _accessors[index].component);
+    return result;
 }
 
-std::size_t GltfAccessors::add(const std::string& type, const std::vector<double>& values) {
-    return addBytes(type, kFloat, values.size(), bytesOf<float>(values));
-}
-
-std::size_t GltfAccessors::addShorts(const std::string& type, const std::vector<double>& values) {
-    return addBytes(type, kUShort, values.size(), bytesOf<std::uint16_t>(values));
-}
-
-std::size_t GltfAccessors::addInts(const std::string& type, const std::vector<double>& values) {
-    return addBytes(type, kUInt, values.size(), bytesOf<std::uint32_t>(values));
+std::vector<std::uint32_t> GltfAccessors::integers(std::size_t index) const {
+    return all<std::uint32_t>(index);
 }
 
 } // namespace osgSkin

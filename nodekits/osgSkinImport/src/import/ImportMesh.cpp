@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ImportMesh>
 
-#include "assimp/AssimpScene.h"
-#include "assimp/mesh/AssimpMesh.h"
+#include "import/ShareScenes.h"
 #include "mesh/FinishMesh.h"
 #include "mesh/ObjMesh.h"
 #include "mesh/OffMesh.h"
 #include "mesh/PlyMesh.h"
 #include "osg/OsgScene.h"
+#include "scene/SceneMesh.h"
 #include "text/FileText.h"
 
 #include <osgDB/FileNameUtils>
@@ -36,8 +36,8 @@ CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
         failFile(path, "a character, expected a mesh: name the file that its \"mesh\" names");
     if (format == "obj" || format == "off" || format == "ply")
         return readOwn(format, path, options);
-    if (!assimpReads(path)) return readOsgMesh(path, options);
-    return readAssimpMesh(path, options);
+    if (!hasSceneReader(path)) return readOsgMesh(path, options);
+    return readSceneMesh(*readSourceScene(path, options), path, options);
 }
 
 } // namespace

@@ -1,24 +1,340 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ImportMotion>
 
-#include "assimp/AssimpScene.h"
-#include "assimp/SceneSkeleton.h"
 #include "bvh/BvhFile.h"
 #include "bvh/BvhMotion.h"
-#include "gltf/plain/PlainGltf.h"
-#include "rig/ClipNames.h"
-#include "rig/SampleTracks.h"
-#include "rig/TrackOffsets.h"
+#include "gltf/ReadGltf.h"
+#include "import/ShareScenes.h"
+#include "scene/ClipNames.h"
+#include "scene/RootMotion.h"
+#include "scene/SceneSkeleton.h"
+#include "scene/SourceScene.h"
 #include "text/FileText.h"
 
+#include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkinRig/Motion>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+#include <osg/BoundingBox>
 #include <osgDB/FileNameUtils>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace osgSkin {
+
 namespace {
+
+/// How axes stand that negative scales above them may have mirrored: along x, and turned then, as
+/// rotationOf() tells it of a matrix.
+struct ReflectedRotation {
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    bool isMirrored = false;
+
+    /// Those of a node below that is turned, and mirrored along its own axes where its scale is
+    /// negative.
+    ReflectedRotation below(const glm::dquat& turn, const glm::dvec3& scale) const {
+        // With F, mirroring along x: F R F is a rotation, too, and so is what is left of the
+        // scale's signs, half a turn about an axis or none.
+        const glm::dquat own = isMirrored ? glm::dquat(turn.w, turn.x, -turn.y, -turn.z) : turn;
+        const bool x = scale.x < 0.0, y = scale.y < 0.0, z = scale.z < 0.0;
+        glm::dquat rest(1.0, 0.0, 0.0, 0.0);
+        if (y && z) rest = {0.0, 1.0, 0.0, 0.0};
+        if (y && !z) rest = {0.0, 0.0, 0.0, 1.0};
+        if (!y && z) rest = {0.0, 0.0, 1.0, 0.0};
+        return {rotation * own * rest, isMirrored != (x != (y != z))};
+    }
+};
+
+constexpr double kMinRate = 29.9; ///< 30, and NTSC's 29.97
+constexpr int kMaxRate = 240, kFreeRate = 120;
+constexpr double kMaxSteps = 1e15; ///< far more than anybody allows
+constexpr double kOff = 0.05;      ///< of a step: times are rounded to milliseconds in some formats
+
+/// Whether all keys stand on samples, seconds after the first.
+bool fits(const std::vector<double>& keys, double rate) {
+    return std::all_of(keys.begin(), keys.end(), [rate](double key) {
+        return std::abs(key * rate - std::round(key * rate)) <= kOff;
+    });
+}
+
+double rateOf(const std::vector<double>& keys) {
+    const double own = static_cast<double>(keys.size() - 1) / keys.back(); // where keys are even
+    const double multiple = own * std::max(1.0, std::ceil(kMinRate / own));
+    if (fits(keys, multiple)) return multiple;
+    for (int rate = 30; rate <= kMaxRate; ++rate)
+        if (fits(keys, rate)) return rate;
+    return kFreeRate;
+}
+
+/// Even samples of tracks whose keys may stand anywhere: 30 a second or more, and where keys keep
+/// to some rate up to 240, at every key. Where they keep to none, 120 a second; then each key is
+/// within half a step of a sample, which is to take it (see step()).
+class SampleGrid {
+public:
+    /// \param times of all keys, in seconds; finite, at least one
+    explicit SampleGrid(std::vector<double> times);
+
+    std::size_t samples() const { return _samples; }
+    double step() const { return _step; } ///< seconds between samples; 0 for a single one
+    double time(std::size_t sample) const { return _first + _step * static_cast<double>(sample); }
+
+private:
+    double _first = 0.0, _step = 0.0;
+    std::size_t _samples = 1;
+};
+
+SampleGrid::SampleGrid(std::vector<double> times) {
+    std::sort(times.begin(), times.end());
+    _first = times.front();
+    const double span = times.back() - _first;
+    if (!(span > 0.0)) return;
+    for (double& time : times) time -= _first;
+    // Tracks share their keys' times, but for rounding.
+    const double same = 1e-6 * span;
+    times.erase(std::unique(times.begin(), times.end(),
+                            [same](double a, double b) { return b - a <= same; }),
+                times.end());
+    times.back() = span;
+    const double steps = std::max(1.0, std::ceil(std::min(span * rateOf(times), kMaxSteps) - kOff));
+    _samples = static_cast<std::size_t>(steps) + 1;
+    _step = span / steps;
+}
+
+/// Gives nodes at their parents' origin the one position that their track holds. Some exporters
+/// write the bones' lengths there only.
+///
+/// \param scene whose nodes may be changed
+void takeTrackOffsets(const SourceAnimation& animation, SourceScene& scene) {
+    std::unordered_map<std::string, SourceNode*> nodes;
+    for (SourceNode& node : scene.nodes) nodes.emplace(node.name, &node);
+    for (const SourceTrack& track : animation.tracks) {
+        if (track.positions.empty()) continue;
+        const auto found = nodes.find(track.node);
+        if (found == nodes.end() || found->second->parent < 0) continue;
+        glm::dmat4& matrix = found->second->matrix;
+        if (glm::dvec3(matrix[3]) != glm::dvec3(0.0)) continue;
+        const glm::vec3& first = track.positions.front().value;
+        const bool moves =
+            std::any_of(track.positions.begin(), track.positions.end(), [&first](const auto& key) {
+                return glm::length(key.value - first) > 1e-3f * glm::length(first);
+            });
+        if (!moves) matrix[3] = glm::dvec4(first, 1.0);
+    }
+}
+
+/// The times of a track's keys, in seconds. A single key holds its value at all times, and readers
+/// add some at 0.
+template <typename Keys>
+void addTimes(const Keys& keys, double rate, std::vector<double>& times) {
+    if (keys.size() < 2) return;
+    for (const auto& key : keys)
+        if (std::isfinite(key.time)) times.push_back(key.time / rate);
+}
+
+glm::dquat blend(const glm::dquat& a, const glm::dquat& b, double t) {
+    return glm::slerp(a, b, t);
+}
+glm::dvec3 blend(const glm::dvec3& a, const glm::dvec3& b, double t) {
+    return glm::mix(a, b, t);
+}
+
+/// A sample's time, in ticks, and how far around it a key counts as standing there.
+struct Moment {
+    double time, reach;
+};
+
+/// The track's value: a key's own where one stands there.
+template <typename Result, typename Key>
+Result valueAt(const std::vector<Key>& keys, const Moment& moment) {
+    const double time = moment.time;
+    const auto next = std::lower_bound(keys.begin(), keys.end(), time,
+                                       [](const Key& key, double t) { return key.time < t; });
+    if (next == keys.end()) return Result(keys.back().value);
+    if (next == keys.begin()) return Result(next->value);
+    const auto before = next - 1;
+    const double since = time - before->time, until = next->time - time;
+    if (std::min(since, until) <= moment.reach)
+        return Result(since < until ? before->value : next->value);
+    return blend(Result(before->value), Result(next->value), since / (since + until));
+}
+
+std::vector<const SourceTrack*> tracksOf(const SourceAnimation& animation,
+                                         const SceneSkeleton& skeleton) {
+    std::map<std::string, const SourceTrack*> byName;
+    for (const SourceTrack& track : animation.tracks) byName.emplace(track.node, &track);
+    std::vector<const SourceTrack*> result;
+    for (const RestJoint& joint : skeleton.rest.joints) {
+        const auto found = byName.find(joint.name);
+        result.push_back(found == byName.end() ? nullptr : found->second);
+    }
+    return result;
+}
+
+/// What makes a figure two units high or long, of a skeleton.
+double unitScale(const RestSkeleton& rest) {
+    osg::BoundingBoxd box;
+    for (const RestJoint& joint : rest.joints) box.expandBy(toOsg(joint.centre));
+    return box.radius() > 0.0 ? 1.0 / box.radius() : 1.0;
+}
+
+/// For each joint, whether its track moves it from the position that its node has: in the size that
+/// a figure has, since nodes may count in other units than the scene.
+std::vector<bool> findMovedJoints(const std::vector<const SourceTrack*>& tracks,
+                                  const SceneSkeleton& skeleton) {
+    std::vector<bool> result(tracks.size(), false);
+    const double figure = unitScale(skeleton.rest);
+    for (std::size_t j = 0; j < tracks.size(); ++j) {
+        if (tracks[j] == nullptr) continue;
+        const int up = skeleton.rest.joints[j].parent;
+        const glm::dmat4& above =
+            up < 0 ? skeleton.aboveRoot : skeleton.bind[static_cast<std::size_t>(up)];
+        const double unit = figure * std::cbrt(std::abs(glm::determinant(glm::dmat3(above))));
+        const glm::dvec3 rest = unit * glm::dvec3(skeleton.nodes[j]->matrix[3]);
+        const auto& keys = tracks[j]->positions;
+        result[j] = std::any_of(keys.begin(), keys.end(), [&](const auto& key) {
+            return isMoved(unit * glm::dvec3(key.value), rest);
+        });
+    }
+    return result;
+}
+
+/// Tells of a joint whose track scales it: motions have no scale.
+void noticeScales(const std::vector<const SourceTrack*>& tracks, const SceneSkeleton& skeleton,
+                  const std::string& path) {
+    constexpr double kSame = 0.01;
+    for (std::size_t j = 0; j < tracks.size(); ++j) {
+        if (tracks[j] == nullptr) continue;
+        const glm::dvec3 rest = decompose(skeleton.nodes[j]->matrix).scale;
+        const auto& keys = tracks[j]->scales;
+        const auto isOther = [&](const auto& key) {
+            const glm::dvec3 off = glm::abs(glm::dvec3(key.value)) - glm::abs(rest);
+            return glm::length(off) > kSame * glm::length(rest);
+        };
+        if (!std::any_of(keys.begin(), keys.end(), isOther)) continue;
+        tellOf(path, "joint " + inQuotes(skeleton.rest.joints[j].name) +
+                         " is scaled, which motions are read without");
+        return;
+    }
+}
+
+glm::dquat localRotation(const SourceTrack* track, const SourceNode& node, const Moment& moment) {
+    if (track == nullptr || track->rotations.empty()) return decompose(node.matrix).rotation;
+    return glm::normalize(valueAt<glm::dquat>(track->rotations, moment));
+}
+
+glm::dvec3 localPosition(const SourceTrack* track, const SourceNode& node, const Moment& moment) {
+    if (track == nullptr || track->positions.empty()) return glm::dvec3(node.matrix[3]);
+    return valueAt<glm::dvec3>(track->positions, moment);
+}
+
+/// The scale that a node has beside localRotation(), with its signs.
+glm::dvec3 localScale(const SourceTrack* track, const SourceNode& node) {
+    glm::dvec3 result = decompose(node.matrix).scale;
+    if (track == nullptr || track->rotations.empty() || track->scales.empty()) return result;
+    const glm::dvec3 told = glm::dvec3(track->scales.front().value);
+    for (int axis = 0; axis < 3; ++axis) result[axis] = std::copysign(result[axis], told[axis]);
+    return result;
+}
+
+/// A node's matrix as its track has it, with the scale that the node has.
+glm::dmat4 localMatrix(const SourceTrack* track, const SourceNode& node, const Moment& moment) {
+    const glm::dvec3 scale = localScale(track, node);
+    glm::dmat4 result = glm::mat4_cast(localRotation(track, node, moment));
+    for (int axis = 0; axis < 3; ++axis) result[axis] *= scale[axis];
+    result[3] = glm::dvec4(localPosition(track, node, moment), 1.0);
+    return result;
+}
+
+/// Samples an animation at equal steps, 30 a second or more, and at every key (see SampleGrid).
+/// Rotations are brought into frames that are aligned with the world at rest, as a Motion has them.
+///
+/// Of positions, those of the root are used, or of the joint that rootMotionJoint() finds; moves of
+/// others are left out, with a notice.
+/// \throw osgSkin::Error with `path` where no track has a key, the keys' times make no sense, or
+///        joints times frames are more than `mostSamples`.
+Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skeleton,
+                    std::size_t mostSamples, const std::string& path) {
+    const std::vector<const SourceTrack*> tracks = tracksOf(animation, skeleton);
+    const double rate = animation.ticksPerSecond;
+    std::vector<double> times;
+    bool any = false;
+    for (const SourceTrack* track : tracks) {
+        if (track == nullptr) continue;
+        addTimes(track->rotations, rate, times);
+        addTimes(track->positions, rate, times);
+        any = any || !track->rotations.empty() || !track->positions.empty();
+    }
+    if (times.empty() && any) times.push_back(0.0); // a pose
+    if (times.empty()) failFile(path, "no key in its animation, expected at least one");
+    const SampleGrid grid(std::move(times));
+    if (!(static_cast<double>(grid.samples()) * static_cast<double>(tracks.size()) <=
+          static_cast<double>(mostSamples)))
+        failFile(path, "its animation lasts " +
+                           std::to_string(grid.step() * double(grid.samples())) + " s, " +
+                           std::to_string(grid.samples()) + " frames of " +
+                           std::to_string(tracks.size()) + " joints, expected at most " +
+                           std::to_string(mostSamples) + " rotations (option maxSamples)");
+
+    Motion motion;
+    const std::vector<bool> moved = findMovedJoints(tracks, skeleton);
+    const std::size_t root = rootMotionJoint(skeleton.rest, moved);
+    ReducedSkeleton carried(skeleton.rest, root);
+    motion.skeleton = std::move(carried.rest);
+    motion.frames = grid.samples();
+    motion.frameTime = grid.samples() > 1 ? grid.step() : 1.0 / rate;
+    if (!std::isfinite(motion.frameTime) || !(motion.frameTime > 0.0))
+        failFile(path, "the time between its samples is not positive");
+    noticeUnusedMoves(skeleton.rest, moved, carried, path);
+    noticeScales(tracks, skeleton, path);
+
+    const std::size_t joints = tracks.size();
+    const ReflectedRotation aboveRoot{rotationOf(skeleton.aboveRoot),
+                                      glm::determinant(glm::dmat3(skeleton.aboveRoot)) < 0.0};
+    std::vector<ReflectedRotation> world(joints); // the nodes' own frames
+    std::vector<glm::dquat> aligned(joints);      // the same, as rotations from rest
+    for (std::size_t f = 0; f < motion.frames; ++f) {
+        const Moment moment{grid.time(f) * rate, 0.5001 * grid.step() * rate};
+        for (std::size_t j = 0; j < joints; ++j) {
+            const int up = skeleton.rest.joints[j].parent;
+            const auto p = static_cast<std::size_t>(std::max(up, 0));
+            world[j] = (up < 0 ? aboveRoot : world[p])
+                           .below(localRotation(tracks[j], *skeleton.nodes[j], moment),
+                                  localScale(tracks[j], *skeleton.nodes[j]));
+            aligned[j] = world[j].rotation * glm::conjugate(skeleton.worldRotations[j]);
+        }
+        for (std::size_t k = 0; k < carried.joints.size(); ++k) {
+            const glm::dquat& own = aligned[carried.joints[k]];
+            const int up = motion.skeleton.joints[k].parent;
+            motion.rotations.push_back(glm::normalize(
+                up < 0
+                    ? own
+                    : glm::conjugate(aligned[carried.joints[static_cast<std::size_t>(up)]]) * own));
+        }
+        glm::dvec3 position = skeleton.rest.joints[0].centre;
+        if (root > 0 || (tracks[0] != nullptr && !tracks[0]->positions.empty())) {
+            glm::dmat4 above = skeleton.aboveRoot;
+            for (const std::size_t j : carried.above)
+                above *= localMatrix(tracks[j], *skeleton.nodes[j], moment);
+            position = glm::dvec3(
+                above *
+                glm::dvec4(localPosition(tracks[root], *skeleton.nodes[root], moment), 1.0));
+        }
+        motion.rootPositions.push_back(position);
+    }
+    return motion;
+}
 
 /// Refuses what Assimp lets pass: numbers that overflow, and broken binary files.
 void validate(const Motion& motion, const std::string& path) {
@@ -42,11 +358,11 @@ Motion readBvhMotion(const std::string& path, const std::string& clip, const Rea
 }
 
 /// The first animation that moves joints, and tells of the others that do.
-std::size_t firstClip(const aiScene& scene, const std::vector<std::string>& names,
+std::size_t firstClip(const SourceScene& scene, const std::vector<std::string>& names,
                       const std::string& path) {
     std::size_t first = 0, count = 0;
     for (std::size_t a = 0; a < names.size(); ++a) {
-        if (scene.mAnimations[a]->mNumChannels == 0) continue;
+        if (scene.animations[a]->tracks.empty()) continue;
         if (count++ == 0) first = a;
     }
     if (count > 1)
@@ -55,24 +371,24 @@ std::size_t firstClip(const aiScene& scene, const std::vector<std::string>& name
     return first;
 }
 
-Motion readAssimpMotion(const std::string& path, const std::string& clip,
-                        const ReadLimits& limits) {
-    const std::size_t bytes = requireReadable(path, limits);
-    if (holdsMeshesOnly(path))
+Motion readSceneMotion(const std::string& path, const std::string& clip, const ReadLimits& limits,
+                       const osgDB::Options* options) {
+    if (holdsMeshesOnly(path)) {
+        requireReadable(path, limits);
         failFile(path, "no animation in files of its kind, expected one of another");
-    Assimp::Importer importer;
-    const aiScene& scene = readAssimpScene(importer, path, limits);
-    if (scene.mNumAnimations == 0) failFile(path, "no animation, expected at least one");
+    }
+    SourceScene scene = *readSourceScene(path, options); // a copy, whose nodes may change
+    if (scene.animations.empty()) failFile(path, "no animation, expected at least one");
     const std::vector<std::string> names = clipNames(scene);
     const std::size_t chosen =
         clip.empty() ? firstClip(scene, names, path) : findClip(names, clip, path);
-    if (scene.mAnimations[chosen]->mNumChannels == 0)
+    const SourceAnimation& animation = *scene.animations[chosen];
+    if (animation.tracks.empty())
         failFile(path,
                  "clip " + inQuotes(names[chosen]) + " moves no joint, expected one that does");
-    auto& owned = const_cast<aiScene&>(scene); // the importer's, which nobody else sees
-    takeTrackOffsets(*scene.mAnimations[chosen], *owned.mRootNode);
-    Motion motion = sampleTracks(*scene.mAnimations[chosen], readSceneSkeleton(scene, path, limits),
-                                 limits.samplesOf(bytes), path);
+    takeTrackOffsets(animation, scene);
+    Motion motion = sampleTracks(animation, readSceneSkeleton(scene, path, limits),
+                                 limits.samplesOf(scene.bytes), path);
     validate(motion, path);
     motion.name = names[chosen];
     motion.yIsUp = isGltfName(path);
@@ -95,7 +411,7 @@ Motion importMotion(const std::string& path, std::size_t skipFrames, const std::
     limits.checkFormat(path);
     const bool isBvh = osgDB::getLowerCaseFileExtension(path) == "bvh";
     Motion motion =
-        isBvh ? readBvhMotion(path, clip, limits) : readAssimpMotion(path, clip, limits);
+        isBvh ? readBvhMotion(path, clip, limits) : readSceneMotion(path, clip, limits, options);
     if (isBvh || clip.empty()) motion.name = osgDB::getStrippedName(path);
     if (skipFrames >= motion.frames)
         failFile(path, std::to_string(motion.frames) + " frame(s), expected more than the " +

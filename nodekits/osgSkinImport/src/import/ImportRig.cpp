@@ -1,66 +1,268 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ImportRig>
 
-#include "assimp/AssimpScene.h"
-#include "assimp/SceneSkeleton.h"
-#include "assimp/mesh/AssimpMesh.h"
+#include "import/ShareScenes.h"
 #include "mesh/FinishMesh.h"
-#include "rig/RigBones.h"
-#include "rig/RigClips.h"
+#include "scene/ClipNames.h"
+#include "scene/SceneMesh.h"
+#include "scene/SceneSkeleton.h"
 #include "text/FileText.h"
 
-#include <osg/Math>
-#include <osgDB/FileNameUtils>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/GlmTypes>
 
+#include <glm/geometric.hpp>
+#include <osgAnimation/Animation>
+#include <osgAnimation/Bone>
+#include <osgAnimation/Channel>
+#include <osgAnimation/Sampler>
+#include <osgAnimation/StackedMatrixElement>
+#include <osgAnimation/StackedQuaternionElement>
+#include <osgAnimation/StackedScaleElement>
+#include <osgAnimation/StackedTranslateElement>
+#include <osgAnimation/UpdateBone>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
+
 namespace {
 
-bool isRigged(const aiScene& scene) {
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
-        if (scene.mMeshes[m]->mNumBones > 0) return true;
-    return false;
+osg::ref_ptr<osgAnimation::Bone> makeBone(const std::string& name, const glm::dmat4& local,
+                                          bool moves) {
+    osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone(name);
+    const osg::ref_ptr<osgAnimation::UpdateBone> update = new osgAnimation::UpdateBone(name);
+    osgAnimation::StackedTransform& stack = update->getStackedTransforms();
+    if (moves) {
+        const NodeTransform parts = decompose(local);
+        stack.push_back(new osgAnimation::StackedTranslateElement(
+            "translate", osg::Vec3(toOsg(parts.translation))));
+        stack.push_back(
+            new osgAnimation::StackedQuaternionElement("quaternion", toOsg(parts.rotation)));
+        stack.push_back(
+            new osgAnimation::StackedScaleElement("scale", osg::Vec3(toOsg(parts.scale))));
+    } else {
+        stack.push_back(new osgAnimation::StackedMatrixElement("matrix", toOsg(local)));
+    }
+    bone->setUpdateCallback(update);
+    bone->setMatrix(toOsg(local));
+    return bone;
 }
 
-/// OSG's world has Z up and a figure faces -Y. Assimp turns most formats to Y up; FBX files say
-/// what they have and are left as they are, and so is SMD, which has Z up.
-osg::Matrixd toWorld(const aiScene& scene, const std::string& path) {
-    const osg::Matrixd fromY = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
-    bool backwards = false;
-    if (scene.mMetaData != nullptr && scene.mMetaData->Get(kFacesBackwards, backwards) && backwards)
-        return osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 1, 0)) * fromY;
-    if (osgDB::getLowerCaseFileExtension(path) == "smd") return {};
-    int up = 1;
-    if (scene.mMetaData != nullptr && scene.mMetaData->Get("UpAxis", up) && up == 2) return {};
-    return fromY;
+/// Builds the bones of a scene's joints in their nodes' pose. What clips move gets the elements
+/// "translate", "quaternion" and "scale"; other bones hold their matrix.
+/// \param moves whether some clip moves the joint, one a joint
+osg::ref_ptr<osgAnimation::Skeleton> makeBones(const SceneSkeleton& joints,
+                                               const std::vector<bool>& moves) {
+    osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    skeleton->setName("skeleton");
+    skeleton->setDefaultUpdateCallback();
+    osg::Group* top = skeleton.get();
+    if (joints.aboveRoot != glm::dmat4(1.0)) {
+        const osg::ref_ptr<osgAnimation::Bone> above =
+            makeBone(joints.rest.joints[0].name + ":above", joints.aboveRoot, false);
+        above->setMatrixInSkeletonSpace(toOsg(joints.aboveRoot));
+        skeleton->addChild(above);
+        top = above.get();
+    }
+    std::vector<osgAnimation::Bone*> bones;
+    std::vector<glm::dmat4> toScene;
+    for (std::size_t j = 0; j < joints.nodes.size(); ++j) {
+        const RestJoint& joint = joints.rest.joints[j];
+        const glm::dmat4 local = joints.nodes[j]->matrix;
+        const osg::ref_ptr<osgAnimation::Bone> bone = makeBone(joint.name, local, moves[j]);
+        const auto parent = static_cast<std::size_t>(joint.parent);
+        toScene.push_back((joint.parent < 0 ? joints.aboveRoot : toScene[parent]) * local);
+        bone->setMatrixInSkeletonSpace(toOsg(toScene[j]));
+        bone->setInvBindMatrixInSkeletonSpace(osg::Matrixd::inverse(toOsg(joints.bind[j])));
+        (joint.parent < 0 ? top : bones[parent])->addChild(bone);
+        bones.push_back(bone);
+    }
+    return skeleton;
 }
 
-double metresPerUnit(const aiScene& scene, const std::string& path) {
-    const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    if (extension == "gltf" || extension == "glb" || extension == "vrm") return 1.0;
-    double centimetres = 0.0;
-    float single = 0.0f;
-    if (scene.mMetaData == nullptr) return 0.0;
-    if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return 0.01 * centimetres;
-    if (scene.mMetaData->Get("UnitScaleFactor", single)) return 0.01 * double(single);
-    return 0.0;
+using Tracks = std::map<std::string, const SourceTrack*>;
+
+Tracks tracksOf(const SourceAnimation& animation) {
+    Tracks result;
+    for (const SourceTrack& track : animation.tracks) result.emplace(track.node, &track);
+    return result;
+}
+
+bool isValid(const glm::dvec3& v) {
+    return isInRange(v);
+}
+
+bool isValid(const glm::dquat& q) {
+    const double length = glm::length(q);
+    return std::isfinite(length) && length > 0.0;
+}
+
+osg::Vec3 stored(const glm::dvec3& v) {
+    return osg::Vec3(toOsg(v));
+}
+
+osg::Quat stored(const glm::dquat& q) {
+    return toOsg(glm::normalize(q));
+}
+
+/// The clip's time, from ticks.
+struct Clock {
+    double first = std::numeric_limits<double>::infinity();
+    double ticksPerSecond = 25.0;
+    bool any = false; ///< key
+
+    double seconds(double ticks) const { return (ticks - first) / ticksPerSecond; }
+
+    /// A single key holds its value at all times, and readers add some at 0.
+    template <typename Keys>
+    void include(const Keys& keys) {
+        any = any || !keys.empty();
+        if (keys.size() < 2) return;
+        for (const auto& key : keys)
+            if (std::isfinite(key.time)) first = std::min(first, key.time);
+    }
+};
+
+/// One element's channel: the track's keys, or a single one where the track has none.
+template <typename Channel, typename Keyframe, typename Keys, typename Value>
+void addChannel(osgAnimation::Animation& animation, const std::string& joint, const char* element,
+                const Keys& keys, const Value& otherwise, const Clock& clock,
+                const std::string& path) {
+    const osg::ref_ptr<Channel> channel = new Channel;
+    channel->setName(element);
+    channel->setTargetName(joint);
+    auto* container = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
+    double last = -std::numeric_limits<double>::infinity();
+    container->reserve(keys.size());
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        const Value value(keys[k].value);
+        if (!isValid(value) || !std::isfinite(keys[k].time))
+            failFile(path, "animation " + inQuotes(animation.getName()) + ": joint " +
+                               inQuotes(joint) + ": key " + std::to_string(k) + " of its " +
+                               element + " is not finite, or beyond -1e18 to 1e18");
+        const double time = keys.size() > 1 ? clock.seconds(keys[k].time) : 0.0;
+        if (!(time > last)) continue; // interpolation needs keys in order
+        container->push_back(Keyframe(time, stored(value)));
+        last = time;
+    }
+    if (container->empty()) container->push_back(Keyframe(0.0, stored(otherwise)));
+    animation.getChannels().push_back(channel); // addChannel() would look at all others again
+}
+
+/// What is hidden by a scale of 0 shrinks almost to a point: a joint's matrix has an inverse then.
+osg::Vec3 clampedTinyScale(osg::Vec3 scale) {
+    constexpr float kLeast = 1e-5f;
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(scale[axis]) < kLeast) scale[axis] = std::copysign(kLeast, scale[axis]);
+    return scale;
+}
+
+void addJoint(osgAnimation::Animation& animation, const std::string& joint, const SourceNode& node,
+              const SourceTrack* track, const Clock& clock, const std::string& path) {
+    using namespace osgAnimation;
+    const NodeTransform rest = decompose(node.matrix);
+    static const SourceTrack none{};
+    if (track == nullptr) track = &none;
+    addChannel<Vec3LinearChannel, Vec3Keyframe>(animation, joint, "translate", track->positions,
+                                                rest.translation, clock, path);
+    addChannel<QuatSphericalLinearChannel, QuatKeyframe>(
+        animation, joint, "quaternion", track->rotations, rest.rotation, clock, path);
+    addChannel<Vec3LinearChannel, Vec3Keyframe>(animation, joint, "scale", track->scales,
+                                                rest.scale, clock, path);
+    auto* const scales = static_cast<Vec3LinearChannel&>(*animation.getChannels().back())
+                             .getSamplerTyped()
+                             ->getKeyframeContainerTyped();
+    for (Vec3Keyframe& key : *scales) key.setValue(clampedTinyScale(key.getValue()));
+}
+
+osg::ref_ptr<osgAnimation::Animation> makeClip(const SourceAnimation& source,
+                                               const std::string& name, const SceneSkeleton& joints,
+                                               const std::vector<bool>& moves,
+                                               const std::string& path) {
+    const Tracks tracks = tracksOf(source);
+    const auto trackOf = [&](std::size_t joint) -> const SourceTrack* {
+        const auto found = tracks.find(joints.rest.joints[joint].name);
+        return found == tracks.end() ? nullptr : found->second;
+    };
+    Clock clock;
+    clock.ticksPerSecond = source.ticksPerSecond;
+    for (std::size_t j = 0; j < moves.size(); ++j)
+        if (const SourceTrack* track = trackOf(j)) {
+            clock.include(track->positions);
+            clock.include(track->rotations);
+            clock.include(track->scales);
+        }
+    if (!clock.any) return nullptr;
+    if (!std::isfinite(clock.first)) clock.first = 0.0; // a pose
+    osg::ref_ptr<osgAnimation::Animation> clip = new osgAnimation::Animation;
+    clip->setName(name);
+    clip->setPlayMode(osgAnimation::Animation::LOOP);
+    for (std::size_t j = 0; j < moves.size(); ++j)
+        if (moves[j])
+            addJoint(*clip, joints.rest.joints[j].name, *joints.nodes[j], trackOf(j), clock, path);
+    clip->computeDuration();
+    return clip;
+}
+
+/// For each joint, whether some clip of the scene moves it.
+std::vector<bool> movedJoints(const SourceScene& scene, const SceneSkeleton& joints) {
+    std::vector<bool> moves(joints.nodes.size(), false);
+    for (const auto& animation : scene.animations) {
+        const Tracks tracks = tracksOf(*animation);
+        for (std::size_t j = 0; j < moves.size(); ++j)
+            moves[j] = moves[j] || tracks.count(joints.rest.joints[j].name) != 0;
+    }
+    return moves;
+}
+
+/// The scene's clips for the bones of makeBones(); clips that move no joint are left out.
+/// \throw osgSkin::Error where a key is not finite
+osgAnimation::AnimationList makeClips(const SourceScene& scene, const SceneSkeleton& joints,
+                                      std::size_t mostSamples, const std::string& path) {
+    const std::vector<bool> moves = movedJoints(scene, joints);
+    const auto moved = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), true));
+    // Every clip has channels for all joints that any clip moves.
+    if (moved * scene.animations.size() > mostSamples / 8)
+        failFile(path, std::to_string(scene.animations.size()) + " animations of " +
+                           std::to_string(moved) + " joints, expected at most " +
+                           std::to_string(mostSamples / 8) + " tracks (option maxSamples)");
+    osgAnimation::AnimationList result;
+    const std::vector<std::string> names = clipNames(scene);
+    for (std::size_t a = 0; a < scene.animations.size(); ++a)
+        if (const auto clip = makeClip(*scene.animations[a], names[a], joints, moves, path))
+            result.push_back(clip);
+    return result;
+}
+
+bool isRigged(const SourceScene& scene) {
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                       [](const auto& mesh) { return !mesh->bones.empty(); });
 }
 
 } // namespace
 
 bool isReadByAssimp(const std::string& path) {
-    return assimpReads(path);
+    return hasSceneReader(path);
 }
 
 ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
-    const std::size_t bytes = requireReadable(path, limits);
     const std::string none = "no mesh with bones, expected a rigged character";
-    if (holdsMeshesOnly(path)) failFile(path, none);
-    Assimp::Importer importer;
-    const aiScene& scene = readAssimpScene(importer, path, limits);
+    if (holdsMeshesOnly(path)) {
+        requireReadable(path, limits);
+        failFile(path, none);
+    }
+    const std::shared_ptr<const SourceScene> source = readSourceScene(path, options);
+    const SourceScene& scene = *source;
     if (!isRigged(scene)) failFile(path, none);
 
     ImportedRig result;
@@ -70,9 +272,9 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     const SceneSkeleton joints = readSceneSkeleton(scene, path, limits);
     result.rest = joints.rest;
     result.skeleton = makeBones(joints, movedJoints(scene, joints));
-    result.animations = makeClips(scene, joints, limits.samplesOf(bytes), path);
-    result.toWorld = toWorld(scene, path);
-    result.metresPerUnit = metresPerUnit(scene, path);
+    result.animations = makeClips(scene, joints, limits.samplesOf(scene.bytes), path);
+    result.toWorld = scene.toWorld;
+    result.metresPerUnit = scene.metresPerUnit;
     return result;
 }
 

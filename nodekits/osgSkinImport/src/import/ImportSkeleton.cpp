@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ImportSkeleton>
 
-#include "assimp/AssimpScene.h"
-#include "assimp/SceneSkeleton.h"
 #include "bvh/BvhFile.h"
 #include "bvh/BvhMotion.h"
+#include "import/ShareScenes.h"
 #include "osg/OsgScene.h"
+#include "scene/SceneSkeleton.h"
 #include "text/FileText.h"
 
 #include <osgSkinImport/ReadScene>
@@ -19,12 +19,13 @@ RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* optio
     limits.checkFormat(path);
     if (osgDB::getLowerCaseFileExtension(path) == "bvh")
         return makeRestSkeleton(readBvh(path, limits));
-    if (!assimpReads(path)) return readOsgSkeleton(*readScene(path, options), path);
-    requireReadable(path, limits);
-    if (holdsMeshesOnly(path))
+    if (!hasSceneReader(path)) return readOsgSkeleton(*readScene(path, options), path);
+    if (holdsMeshesOnly(path)) {
+        requireReadable(path, limits);
         failFile(path, "no skeleton in files of its kind, expected one of another");
-    Assimp::Importer importer;
-    return readSceneSkeleton(readAssimpScene(importer, path, limits), path, limits).rest;
+    }
+    const std::shared_ptr<const SourceScene> scene = readSourceScene(path, options);
+    return readSceneSkeleton(*scene, path, limits).rest;
 }
 
 } // namespace osgSkin

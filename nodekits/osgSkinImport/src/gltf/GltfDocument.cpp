@@ -1,0 +1,500 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/GltfDocument.h"
+
+#include "text/FileText.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <unordered_set>
+
+namespace osgSkin {
+
+using nlohmann::json;
+
+namespace {
+
+// What a mesh takes, in elements of 64 bytes.
+constexpr std::size_t kRead = 1;        // elements of a vertex that is read
+constexpr std::size_t kDrawn = 12;      // of one that is bound and deformed
+constexpr std::size_t kReadCorners = 4; // that are one element
+constexpr std::size_t kDrawnCorners = 2;
+
+/// A set of attributes that are called alike but for their numbers: "TEXCOORD_1".
+std::string numbered(const char* start, std::size_t set) {
+    return start + std::to_string(set);
+}
+
+} // namespace
+
+class DocumentReader {
+public:
+    explicit DocumentReader(GltfDocument& document)
+        : _document(document), _file(document.file), _accessors(document.accessors) {}
+
+    void run() {
+        readMaterials(_document);
+        readMeshes();
+        readSkins();
+        readNodes();
+        readScenes();
+        readAnimations();
+        _file.checkEntries();
+        if (_unfinished > 0)
+            tellOf(_file.path, "corners that make no whole triangle are left out, of " +
+                                   std::to_string(_unfinished) + " of the meshes' primitives");
+        if (_placedTwice > 0)
+            tellOf(_file.path,
+                   "translations, rotations and scales beside a matrix are left out, of " +
+                       std::to_string(_placedTwice) + " of the nodes");
+    }
+
+private:
+    /// What a mesh costs where it is read, and where a node shows it.
+    struct Cost {
+        std::size_t elements = 0, drawn = 0, targets = 0, allTargets = 0;
+    };
+
+    // --- meshes ---
+
+    void readMeshes() {
+        _file.forEach("meshes", [&](const json& from, const std::string& where) {
+            GltfMesh mesh;
+            mesh.name = nameOf(from);
+            mesh.weights = _file.weights(from, where);
+            _costs.emplace_back();
+            const json& primitives = from.at("primitives");
+            if (!primitives.is_array()) _file.fail(where + ".primitives", "a list");
+            for (std::size_t p = 0; p < primitives.size(); ++p)
+                readPrimitive(primitives[p], where + ".primitives[" + std::to_string(p) + "]",
+                              mesh);
+            if (mesh.primitives.empty())
+                _file.fail(where + ".primitives", "at least one with positions");
+            for (const GltfPrimitive& primitive : mesh.primitives) {
+                _costs.back().targets = std::max(_costs.back().targets, primitive.targets.size());
+                _costs.back().allTargets += primitive.targets.size();
+            }
+            if (mesh.weights.size() > _costs.back().targets)
+                mesh.weights.resize(_costs.back().targets);
+            _file.addEntries(mesh.primitives.size());
+            _document.meshes.push_back(std::move(mesh));
+        });
+    }
+
+    void readPrimitive(const json& from, const std::string& where, GltfMesh& mesh) {
+        const json& attributes = from.at("attributes");
+        if (!attributes.is_object()) _file.fail(where + ".attributes", "an object");
+        if (!attributes.contains("POSITION")) return; // nothing to be drawn
+        GltfPrimitive primitive;
+        const std::size_t vertices =
+            _accessors[_accessors.indexOf(attributes.at("POSITION"), where + ".POSITION")].count;
+        for (const char* fifth : {"JOINTS_4", "WEIGHTS_4"})
+            if (attributes.contains(fifth))
+                _file.fail(where + "." + fifth, "four sets of joints and weights at most");
+        const auto attribute = [&](const std::string& name,
+                                   std::initializer_list<const char*> types) -> GltfIndex {
+            const auto found = attributes.find(name);
+            if (found == attributes.end()) return std::nullopt;
+            const std::string place = where + "." + name;
+            const std::size_t accessor = _accessors.indexOf(*found, place);
+            _accessors.requireType(accessor, types, place);
+            if (name.rfind("JOINTS_", 0) == 0) _accessors.requireIndices(accessor, false, place);
+            if (_accessors[accessor].count != vertices)
+                _file.fail(place, std::to_string(vertices) + " elements, as many as of POSITION");
+            return accessor;
+        };
+        primitive.positions = *attribute("POSITION", {"VEC3"});
+        primitive.normals = attribute("NORMAL", {"VEC3"});
+        primitive.colours = attribute("COLOR_0", {"VEC3", "VEC4"});
+        for (std::size_t set = 0; set < primitive.texCoords.size(); ++set)
+            primitive.texCoords[set] = attribute(numbered("TEXCOORD_", set), {"VEC2"});
+        for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
+            const GltfIndex joints = attribute(numbered("JOINTS_", set), {"VEC4"});
+            const GltfIndex weights = attribute(numbered("WEIGHTS_", set), {"VEC4"});
+            if (!joints || !weights) continue; // one without the other means nothing
+            primitive.joints[set] = joints;
+            primitive.weights[set] = weights;
+        }
+        std::size_t corners = vertices;
+        if (from.contains("indices")) {
+            const std::string place = where + ".indices";
+            primitive.indices = _accessors.indexOf(from.at("indices"), place);
+            _accessors.requireType(*primitive.indices, {"SCALAR"}, place);
+            _accessors.requireIndices(*primitive.indices, true, place);
+            corners = _accessors[*primitive.indices].count;
+        }
+        if (from.contains("mode"))
+            primitive.mode = _file.index(from.at("mode"), 7, where + ".mode");
+        if (from.contains("material"))
+            primitive.material = _file.indexOf(from.at("material"), "materials", where);
+        readDraco(from, where, primitive);
+        if (!primitive.draco) {
+            checkStored(primitive, where);
+            checkMode(corners, primitive);
+            if (primitive.mode == 0 && !primitive.indices) corners = vertices;
+        }
+        readTargets(from, vertices, where, primitive);
+        countPrimitive(primitive, vertices, corners, where);
+        mesh.primitives.push_back(std::move(primitive));
+    }
+
+    void countPrimitive(const GltfPrimitive& primitive, std::size_t vertices, std::size_t corners,
+                        const std::string& where) {
+        const std::size_t read = kRead * vertices + corners / kReadCorners;
+        _file.take(read, where);
+        Cost& cost = _costs.back();
+        cost.elements += read;
+        if (primitive.mode == 0) return; // no points
+        const std::size_t named =
+            primitive.indices ? countNamed(*primitive.indices, vertices) : vertices;
+        cost.drawn += kDrawn * named + corners / kDrawnCorners;
+    }
+
+    /// How many of so many vertices corners name. A primitive of one material often names a few of
+    /// the vertices that all of a body's share.
+    std::size_t countNamed(std::size_t accessor, std::size_t vertices) {
+        const GltfAccessor& source = _accessors[accessor];
+        if (!source.stored || source.sparse) return std::min(source.count, vertices);
+        const auto [known, isNew] = _named.emplace(std::make_pair(accessor, vertices), 0);
+        if (!isNew) return known->second;
+        std::vector<bool> isNamed(vertices, false);
+        for (const std::uint32_t vertex : _accessors.integers(accessor)) {
+            if (vertex >= vertices || isNamed[vertex]) continue;
+            isNamed[vertex] = true;
+            ++known->second;
+        }
+        return known->second;
+    }
+
+    void readDraco(const json& from, const std::string& where, GltfPrimitive& primitive) const {
+        constexpr std::size_t kFarthest = 1 << 30; // ids beyond are none
+        const auto extensions = from.find("extensions");
+        if (extensions == from.end()) return;
+        const auto found = extensions->find("KHR_draco_mesh_compression");
+        if (found == extensions->end()) return;
+        GltfPrimitive::Draco draco;
+        draco.view = _file.indexOf(found->at("bufferView"), "bufferViews", where);
+        const std::string wrong = _accessors.beyondView(found->at("bufferView"), 0, 0, 0, true);
+        if (!wrong.empty()) _file.fail(where + ".extensions", wrong);
+        for (const auto& [name, id] : found->at("attributes").items())
+            if (from.at("attributes").contains(name))
+                draco.ids[name] = _file.index(id, kFarthest, where + ".extensions");
+        primitive.draco = std::move(draco);
+    }
+
+    /// Points, lines and what has too few corners for a triangle becomes points, which are not
+    /// drawn.
+    void checkMode(std::size_t corners, GltfPrimitive& primitive) {
+        constexpr std::size_t kTriangles = 4;
+        const bool isSurface = primitive.mode >= kTriangles;
+        if (isSurface && (corners < 3 || (primitive.mode == kTriangles && corners % 3 != 0)))
+            ++_unfinished;
+        if (isSurface && corners >= 3) return;
+        primitive.mode = 0;
+        primitive.indices.reset();
+    }
+
+    /// What names vertices and joints is there, where Draco does not hold it, and the rest is not
+    /// zeros without end.
+    void checkStored(const GltfPrimitive& primitive, const std::string& where) {
+        const auto takeZeros = [&](const GltfIndex& accessor, const std::string& place) {
+            if (accessor && !_accessors[*accessor].stored)
+                _file.take(_accessors[*accessor].width * _accessors[*accessor].count, place);
+        };
+        if (primitive.indices) _accessors.requireValues(*primitive.indices, where + ".indices");
+        takeZeros(primitive.indices, where + ".indices");
+        takeZeros(primitive.positions, where + ".POSITION");
+        takeZeros(primitive.normals, where + ".NORMAL");
+        takeZeros(primitive.colours, where + ".COLOR_0");
+        for (std::size_t set = 0; set < primitive.texCoords.size(); ++set)
+            takeZeros(primitive.texCoords[set], where + "." + numbered("TEXCOORD_", set));
+        for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
+            const std::string place = where + "." + numbered("JOINTS_", set);
+            if (primitive.joints[set]) _accessors.requireValues(*primitive.joints[set], place);
+            takeZeros(primitive.joints[set], place);
+            takeZeros(primitive.weights[set], where + "." + numbered("WEIGHTS_", set));
+        }
+    }
+
+    void readTargets(const json& from, std::size_t vertices, const std::string& where,
+                     GltfPrimitive& primitive) {
+        const auto targets = from.find("targets");
+        if (targets == from.end()) return;
+        if (!targets->is_array()) _file.fail(where + ".targets", "a list");
+        for (const json& target : *targets) {
+            const auto attribute = [&](const char* name) -> GltfIndex {
+                if (!target.contains(name)) return std::nullopt;
+                const std::string place = where + ".targets." + name;
+                const std::size_t accessor = _accessors.indexOf(target.at(name), place);
+                _accessors.requireType(accessor, {"VEC3"}, place);
+                if (_accessors[accessor].count != vertices)
+                    _file.fail(place, std::to_string(vertices) + " elements, one a vertex");
+                return accessor;
+            };
+            const GltfIndex positions = attribute("POSITION");
+            primitive.targets.push_back({positions, attribute("NORMAL")});
+            _file.addEntries(1);
+        }
+    }
+
+    // --- skins and nodes ---
+
+    void readSkins() {
+        _file.forEach("skins", [&](const json& from, const std::string& where) {
+            GltfSkin skin;
+            skin.name = nameOf(from);
+            const json& joints = from.at("joints");
+            if (!joints.is_array() || joints.empty()) _file.fail(where + ".joints", "a list");
+            std::unordered_set<std::size_t> named;
+            for (const json& joint : joints) {
+                const std::size_t node = _file.indexOf(joint, "nodes", where + ".joints");
+                if (!named.insert(node).second)
+                    _file.fail(where + ".joints",
+                               "each node once, found " + std::to_string(node) + " again");
+                skin.joints.push_back(node);
+            }
+            if (from.contains("inverseBindMatrices")) {
+                const std::string place = where + ".inverseBindMatrices";
+                skin.inverseBinds = _accessors.indexOf(from.at("inverseBindMatrices"), place);
+                _accessors.requireType(*skin.inverseBinds, {"MAT4"}, place);
+                _file.take(4 * _accessors[*skin.inverseBinds].count, place); // 16 numbers each
+            }
+            _file.addEntries(joints.size());
+            _document.skins.push_back(std::move(skin));
+        });
+    }
+
+    void readNodes() {
+        std::vector<GltfNode>& nodes = _document.nodes;
+        nodes.resize(_file.size("nodes"));
+        std::set<std::size_t> shown; // meshes
+        std::size_t index = 0;
+        _file.forEach("nodes", [&](const json& from, const std::string& where) {
+            GltfNode& node = nodes[index];
+            node.name = nameOf(from);
+            readPlace(from, where, node);
+            node.weights = _file.weights(from, where);
+            node.hasWeights = from.contains("weights") && from.at("weights").is_array();
+            if (from.contains("mesh"))
+                node.mesh = _file.indexOf(from.at("mesh"), "meshes", where + ".mesh");
+            const std::size_t targets = node.mesh ? _costs[*node.mesh].targets : 0;
+            if (node.weights.size() > targets) node.weights.resize(targets);
+            if (targets == 0) node.hasWeights = false;
+            if (node.mesh) { // every node that shows a mesh makes a copy of it
+                const Cost& cost = _costs[*node.mesh];
+                if (!shown.insert(*node.mesh).second) {
+                    _file.addEntries(cost.allTargets);
+                    _file.take(cost.elements, where + ".mesh");
+                }
+                _file.take(cost.drawn, where + ".mesh");
+                _file.addEntries(_document.meshes[*node.mesh].primitives.size());
+            }
+            if (from.contains("skin"))
+                node.skin = _file.indexOf(from.at("skin"), "skins", where + ".skin");
+            if (node.mesh && node.skin) // each mesh has bones of its own
+                _file.addEntries(_document.meshes[*node.mesh].primitives.size() *
+                                 _document.skins[*node.skin].joints.size());
+            if (from.contains("children")) {
+                const json& children = from.at("children");
+                if (!children.is_array()) _file.fail(where + ".children", "a list");
+                for (const json& child : children) {
+                    const std::size_t below = _file.indexOf(child, "nodes", where + ".children");
+                    if (nodes[below].parent)
+                        _file.fail(where + ".children",
+                                   "nodes without another parent, or recursive reference");
+                    nodes[below].parent = index;
+                    node.children.push_back(below);
+                }
+            }
+            ++index;
+        });
+        checkDepths();
+    }
+
+    void readPlace(const json& from, const std::string& where, GltfNode& node) {
+        const std::vector<double> matrix = _file.numbers(from, "matrix", 16, where);
+        node.translation = _file.numbers(from, "translation", 3, where);
+        node.rotation = _file.numbers(from, "rotation", 4, where);
+        node.scale = _file.numbers(from, "scale", 3, where);
+        if (!matrix.empty()) {
+            if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty())
+                ++_placedTwice;
+            node.translation.clear();
+            node.rotation.clear();
+            node.scale.clear();
+            node.hasMatrix = true;
+            for (int k = 0; k < 16; ++k) node.matrix[k / 4][k % 4] = matrix[std::size_t(k)];
+            return;
+        }
+        makeUnit(node.rotation);
+        // What is hidden by a scale of 0 is almost a point: a joint's matrix has an inverse then.
+        constexpr double kLeast = 1e-5;
+        for (double& scale : node.scale)
+            if (std::abs(scale) < kLeast) scale = std::copysign(kLeast, scale);
+        if (!node.rotation.empty())
+            node.matrix = glm::mat4_cast(
+                glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (!node.scale.empty()) node.matrix[int(axis)] *= node.scale[axis];
+            if (!node.translation.empty()) node.matrix[3][int(axis)] = node.translation[axis];
+        }
+    }
+
+    /// Rotations that are rounded or no unit quaternions otherwise would scale unevenly.
+    static void makeUnit(std::vector<double>& rotation) {
+        double squares = 0.0;
+        for (const double number : rotation) squares += number * number;
+        if (!(squares > 0.0) || std::abs(squares - 1.0) < 1e-6) return;
+        for (double& number : rotation) number /= std::sqrt(squares);
+    }
+
+    /// Every node has one parent at most, so that going up ends, but in a ring.
+    void checkDepths() const {
+        const std::size_t count = _document.nodes.size();
+        std::vector<std::size_t> depths(count, 0); // 0: not known yet
+        std::vector<std::size_t> way;
+        for (std::size_t n = 0; n < count; ++n) {
+            way.clear();
+            GltfIndex at = n;
+            while (at && depths[*at] == 0 && way.size() <= count) {
+                way.push_back(*at);
+                at = _document.nodes[*at].parent;
+            }
+            const std::string where = "nodes[" + std::to_string(n) + "]";
+            if (way.size() > count) _file.fail(where, "a tree, found a recursive reference");
+            std::size_t depth = at ? depths[*at] : 0;
+            while (!way.empty()) {
+                depths[way.back()] = ++depth;
+                way.pop_back();
+            }
+            if (depth > _file.limits.depth)
+                _file.fail(where, "a node nested at most " + std::to_string(_file.limits.depth) +
+                                      " deep (option maxDepth)");
+        }
+    }
+
+    void readScenes() {
+        std::vector<std::vector<std::size_t>> scenes;
+        std::vector<bool> shown(_document.nodes.size(), false);
+        _file.forEach("scenes", [&](const json& from, const std::string& where) {
+            std::vector<std::size_t>& scene = scenes.emplace_back();
+            std::fill(shown.begin(), shown.end(), false);
+            for (const json& root : from.value("nodes", json::array())) {
+                const std::size_t node = _file.indexOf(root, "nodes", where + ".nodes");
+                if (_document.nodes[node].parent || shown[node])
+                    _file.fail(where + ".nodes", "each a node without a parent, and once");
+                shown[node] = true;
+                scene.push_back(node);
+            }
+            _file.addEntries(scene.size());
+        });
+        if (_file.json.contains("scene")) {
+            _document.roots = scenes[_file.indexOf(_file.json.at("scene"), "scenes", "scene")];
+        } else if (!scenes.empty()) {
+            _document.roots = scenes.front();
+        } else { // a library of things or of clips
+            for (std::size_t n = 0; n < _document.nodes.size(); ++n)
+                if (!_document.nodes[n].parent) _document.roots.push_back(n);
+        }
+    }
+
+    // --- animations ---
+
+    void readAnimations() {
+        using Path = GltfAnimation::Path;
+        using Interpolation = GltfAnimation::Interpolation;
+        std::string otherPath; // the first that a channel has and none knows
+        std::size_t movedTwice = 0;
+        _file.forEach("animations", [&](const json& from, const std::string& where) {
+            GltfAnimation animation;
+            animation.name = nameOf(from);
+            animation.isNamed = from.contains("name") && from.at("name").is_string();
+            const std::string input = where + ".samplers.input";
+            const std::string output = where + ".samplers.output";
+            const std::string channels = where + ".channels", sampled = channels + ".sampler";
+            std::vector<std::size_t> keys;
+            for (const json& sampler : from.at("samplers")) {
+                GltfAnimation::Sampler known;
+                known.input = _accessors.indexOf(sampler.at("input"), input);
+                known.output = _accessors.indexOf(sampler.at("output"), output);
+                _accessors.requireType(known.input, {"SCALAR"}, input);
+                keys.push_back(_accessors[known.input].count + _accessors[known.output].count);
+                const auto way = sampler.find("interpolation");
+                if (way != sampler.end()) {
+                    const std::string& name = way->get_ref<const std::string&>();
+                    if (name == "STEP")
+                        known.interpolation = Interpolation::Step;
+                    else if (name == "CUBICSPLINE")
+                        known.interpolation = Interpolation::CubicSpline;
+                    else if (name != "LINEAR")
+                        _file.fail(where + ".samplers.interpolation",
+                                   "LINEAR, STEP or CUBICSPLINE, found " + inQuotes(name));
+                }
+                animation.samplers.push_back(known);
+            }
+            std::set<std::pair<std::size_t, Path>> moved;
+            for (const json& channel : from.at("channels")) {
+                GltfAnimation::Channel known;
+                known.sampler = _file.index(channel.at("sampler"), keys.size(), sampled);
+                const json& target = channel.at("target");
+                const std::string& path = target.at("path").get_ref<const std::string&>();
+                if (path == "translation")
+                    known.path = Path::Translation;
+                else if (path == "rotation")
+                    known.path = Path::Rotation;
+                else if (path == "scale")
+                    known.path = Path::Scale;
+                else if (path != "weights") {
+                    if (otherPath.empty()) otherPath = path.substr(0, 100);
+                    continue;
+                }
+                const auto node = target.find("node");
+                if (node != target.end()) {
+                    known.node = _file.indexOf(*node, "nodes", channels);
+                    if (!moved.emplace(*known.node, known.path).second) ++movedTwice;
+                }
+                // Samplers may be shared: each channel's keys take memory.
+                _file.take(keys[known.sampler], channels);
+                animation.channels.push_back(known);
+            }
+            _file.addEntries(animation.channels.size());
+            _document.animations.push_back(std::move(animation));
+        });
+        if (movedTwice > 0)
+            tellOf(_file.path, "of animation channels that move the same of a node in one "
+                               "animation the last counts; left out are " +
+                                   std::to_string(movedTwice));
+        if (!otherPath.empty())
+            tellOf(_file.path, "animation channels are left out whose path is none of "
+                               "translation, rotation, scale and weights, the first " +
+                                   inQuotes(otherPath));
+    }
+
+    GltfDocument& _document;
+    GltfFile& _file;
+    GltfAccessors& _accessors;
+    std::vector<Cost> _costs;     ///< of each mesh
+    std::size_t _unfinished = 0;  ///< primitives whose last triangle lacks corners
+    std::size_t _placedTwice = 0; ///< nodes of a matrix and more
+    /// Vertices that an accessor of indices names, of so many.
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> _named;
+};
+
+namespace {
+
+/// Refuses lists that are too long before they are gone through.
+GltfFile& withFewEntries(GltfFile& file) {
+    file.checkEntries();
+    return file;
+}
+
+} // namespace
+
+GltfDocument::GltfDocument(GltfFile& from) : file(withFewEntries(from)), accessors(from) {
+    DocumentReader(*this).run();
+}
+
+} // namespace osgSkin

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+// What surfaces of a glTF file look like: materials, textures, samplers and images.
+#include "gltf/GltfDocument.h"
+
+#include "text/FileText.h"
+
+#include <osgSkin/Error>
+
+#include <osgDB/FileNameUtils>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace osgSkin {
+namespace {
+
+using nlohmann::json;
+
+bool isWord(const std::string& text) {
+    return text.size() <= 40 && std::all_of(text.begin(), text.end(), [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '/' || c == '-' ||
+                      c == '+' || c == '.';
+           });
+}
+
+/// The extension of the kind of picture that bytes begin as, which exporters name wrongly or not at
+/// all; by the type that the file tells where they begin as none of these; empty where no reader
+/// has it.
+std::string formatOf(std::string_view bytes, const std::string& mime) {
+    static const std::pair<std::string_view, const char*> kinds[] = {{"\x89PNG", "png"},
+                                                                     {"\xff\xd8\xff", "jpg"},
+                                                                     {"GIF8", "gif"},
+                                                                     {"DDS ", "dds"},
+                                                                     {"BM", "bmp"}};
+    for (const auto& [mark, format] : kinds)
+        if (bytes.substr(0, mark.size()) == mark) return format;
+    const std::size_t slash = mime.find('/');
+    if (!isWord(mime) || slash == std::string::npos) return {};
+    const std::string format = mime.substr(slash + 1);
+    if (format == "jpeg") return "jpg";
+    return format.size() <= 3 ? format : "";
+}
+
+/// Where an image stands that a texture has by an extension, for those who read its format; null
+/// where there is none.
+const json* sourceOf(const json& texture) {
+    const auto own = texture.find("source");
+    if (own != texture.end()) return &*own;
+    const auto extensions = texture.find("extensions");
+    if (extensions == texture.end()) return nullptr;
+    for (const json& extension : *extensions)
+        if (extension.contains("source")) return &extension.at("source");
+    return nullptr;
+}
+
+/// A linear colour in sRGB.
+float toSrgb(double linear) {
+    const auto value = static_cast<float>(linear);
+    return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
+}
+
+osg::Texture::WrapMode wrapOf(std::size_t mode) {
+    constexpr std::size_t kClamp = 33071, kMirror = 33648;
+    if (mode == kClamp) return osg::Texture::CLAMP_TO_EDGE;
+    return mode == kMirror ? osg::Texture::MIRROR : osg::Texture::REPEAT;
+}
+
+class MaterialReader {
+public:
+    explicit MaterialReader(GltfDocument& document)
+        : _document(document), _file(document.file), _accessors(document.accessors) {}
+
+    void run() {
+        readImages();
+        readTextures();
+        std::size_t glowing = 0;
+        _file.forEach("materials", [&](const json& from, const std::string& where) {
+            glowing += readMaterial(from, where);
+        });
+        if (glowing > 0)
+            tellOf(_file.path, "textures of emission: " + std::to_string(glowing) +
+                                   ", left out, and that surfaces glow with them");
+    }
+
+private:
+    struct Texture {
+        GltfIndex image;
+        osg::Texture::WrapMode wrapS = osg::Texture::REPEAT, wrapT = osg::Texture::REPEAT;
+    };
+    /// What a material says of one of its textures.
+    struct TextureInfo {
+        std::size_t texture = 0, texCoord = 0;
+        std::optional<GltfTextureTransform> transform;
+    };
+
+    void readImages() {
+        std::map<std::tuple<std::size_t, std::size_t, std::size_t>, std::size_t> stored;
+        std::size_t bytes = 0;
+        _file.forEach("images", [&](const json& from, const std::string& where) {
+            GltfImage image;
+            const std::string mime = from.value("mimeType", "");
+            _imageOf.push_back(_document.images.size());
+            if (from.contains("bufferView")) {
+                const std::string wrong =
+                    _accessors.beyondView(from.at("bufferView"), 0, 0, 0, true);
+                if (!wrong.empty()) _file.fail(where, wrong);
+                const auto number = from.at("bufferView").get<std::size_t>();
+                const GltfAccessors::View& view = _accessors.view(number);
+                const auto [found, isNew] =
+                    stored.insert({{view.buffer, view.offset, view.length}, _imageOf.back()});
+                _imageOf.back() = found->second;
+                if (!isNew) return; // another of the same bytes
+                bytes += view.length;
+                if (bytes > _file.allBytes())
+                    _file.fail(where, "images of at most " + std::to_string(_file.allBytes()) +
+                                          " bytes together, as many as the file has");
+                image.view = _accessors.bytesOf(number);
+                image.format = formatOf(image.view, mime);
+            } else {
+                readUri(from.value("uri", ""), image);
+            }
+            _document.images.push_back(std::move(image));
+        });
+    }
+
+    /// "my%20file.png" is called "my file.png". A byte 0, which is in no file's name, stays
+    /// escaped. Data that is none is drawn without, as is any picture that is broken.
+    static void readUri(const std::string& uri, GltfImage& image) {
+        if (!isDataUri(uri)) {
+            image.uri = decodedUri(uri);
+            for (std::size_t zero = 0; (zero = image.uri.find('\0', zero)) != std::string::npos;)
+                image.uri.replace(zero, 1, "%00");
+            return;
+        }
+        try {
+            image.data = dataOfUri(uri);
+        } catch (const Error&) {
+            image.data.clear();
+        }
+        image.format = formatOf(image.data, uri.substr(5, uri.find_first_of(";,") - 5));
+    }
+
+    void readTextures() {
+        std::vector<Texture> samplers;
+        _file.forEach("samplers", [&](const json& from, const std::string& where) {
+            Texture& sampler = samplers.emplace_back();
+            for (const char* key : {"magFilter", "minFilter"})
+                if (from.contains(key)) _file.index(from.at(key), 1 << 16, where);
+            if (from.contains("wrapS"))
+                sampler.wrapS = wrapOf(_file.index(from.at("wrapS"), 1 << 16, where));
+            if (from.contains("wrapT"))
+                sampler.wrapT = wrapOf(_file.index(from.at("wrapT"), 1 << 16, where));
+        });
+        _file.forEach("textures", [&](const json& from, const std::string& where) {
+            Texture texture;
+            GltfIndex image;
+            if (const json* source = sourceOf(from))
+                image = _imageOf[_file.indexOf(*source, "images", where)];
+            if (from.contains("sampler"))
+                texture = samplers[_file.indexOf(from.at("sampler"), "samplers", where)];
+            texture.image = image;
+            _textures.push_back(texture);
+        });
+    }
+
+    TextureInfo textureInfo(const json& from, const std::string& where) const {
+        TextureInfo info;
+        info.texture = _file.indexOf(from.at("index"), "textures", where);
+        if (from.contains("texCoord")) info.texCoord = _file.index(from.at("texCoord"), 8, where);
+        const auto extensions = from.find("extensions");
+        if (extensions == from.end()) return info;
+        const auto moved = extensions->find("KHR_texture_transform");
+        if (moved == extensions->end()) return info;
+        GltfTextureTransform& transform = info.transform.emplace();
+        const std::vector<double> offset = _file.numbers(*moved, "offset", 2, where);
+        const std::vector<double> scale = _file.numbers(*moved, "scale", 2, where);
+        std::copy(offset.begin(), offset.end(), transform.offset);
+        std::copy(scale.begin(), scale.end(), transform.scale);
+        transform.rotation = _file.number(*moved, "rotation", 0.0, where);
+        if (moved->contains("texCoord"))
+            info.texCoord = _file.index(moved->at("texCoord"), 8, where);
+        return info;
+    }
+
+    /// Adds a material; returns whether its texture of emission is left out.
+    bool readMaterial(const json& from, const std::string& where) {
+        std::vector<double> base{1.0, 1.0, 1.0, 1.0};
+        double roughness = 1.0;
+        std::optional<TextureInfo> texture;
+        const auto colour = [&](const json& part, const char* key) {
+            const std::vector<double> own = _file.numbers(part, key, 4, where);
+            if (!own.empty()) base = own;
+        };
+        const auto pbr = from.find("pbrMetallicRoughness");
+        if (pbr != from.end()) {
+            colour(*pbr, "baseColorFactor");
+            _file.number(*pbr, "metallicFactor", 1.0, where);
+            roughness = _file.number(*pbr, "roughnessFactor", 1.0, where);
+            if (pbr->contains("baseColorTexture"))
+                texture = textureInfo(pbr->at("baseColorTexture"), where);
+        }
+        const bool hadTexture = texture.has_value();
+        // A surface that is black but for its texture of emission is drawn with that.
+        const std::vector<double> emissive = _file.numbers(from, "emissiveFactor", 3, where);
+        const bool glows = from.contains("emissiveTexture");
+        std::optional<TextureInfo> glow;
+        if (glows) glow = textureInfo(from.at("emissiveTexture"), where);
+        const bool isBlack = base[0] == 0.0 && base[1] == 0.0 && base[2] == 0.0;
+        if (glows && pbr != from.end() && isBlack && !texture && !emissive.empty()) {
+            texture = glow;
+            std::copy(emissive.begin(), emissive.end(), base.begin());
+        }
+        // An older way to say what a surface is like, which goes before the other where both are.
+        if (const json* glossy = extensionOf(from, "KHR_materials_pbrSpecularGlossiness")) {
+            base = {1.0, 1.0, 1.0, 1.0};
+            texture.reset();
+            colour(*glossy, "diffuseFactor");
+            roughness = 1.0 - _file.number(*glossy, "glossinessFactor", 1.0, where);
+            if (glossy->contains("diffuseTexture"))
+                texture = textureInfo(glossy->at("diffuseTexture"), where);
+        }
+        GltfMaterial result;
+        Material& look = result.source.look;
+        result.source.isLinear = true;
+        look.diffuse = {toSrgb(base[0]), toSrgb(base[1]), toSrgb(base[2]),
+                        static_cast<float>(base[3])};
+        if (!glows && !emissive.empty())
+            look.emission = {toSrgb(emissive[0]), toSrgb(emissive[1]), toSrgb(emissive[2]), 1.0f};
+        setRoughness(static_cast<float>(roughness), look);
+        look.alpha = Material::Alpha::Opaque;
+        if (from.contains("alphaMode")) {
+            const std::string& mode = from.at("alphaMode").get_ref<const std::string&>();
+            if (mode == "BLEND") look.alpha = Material::Alpha::Blend;
+            if (mode == "MASK") look.alpha = Material::Alpha::Mask;
+        }
+        look.alphaCutOff = static_cast<float>(_file.number(from, "alphaCutoff", 0.5, where));
+        look.twoSided = from.contains("doubleSided") && from.at("doubleSided").get<bool>();
+        if (texture) setTexture(*texture, result);
+        const bool isColour = texture.has_value() && !hadTexture;
+        _document.materials.push_back(std::move(result));
+        return glows && !isColour;
+    }
+
+    static const json* extensionOf(const json& from, const char* name) {
+        const auto extensions = from.find("extensions");
+        if (extensions == from.end()) return nullptr;
+        const auto found = extensions->find(name);
+        return found == extensions->end() ? nullptr : &*found;
+    }
+
+    void setTexture(const TextureInfo& info, GltfMaterial& material) const {
+        const Texture& texture = _textures[info.texture];
+        material.texCoord = info.texCoord;
+        material.transform = info.transform;
+        if (!texture.image) return;
+        material.source.image = texture.image;
+        material.source.texture = _document.images[*texture.image].uri;
+        material.source.look.wrapS = texture.wrapS;
+        material.source.look.wrapT = texture.wrapT;
+    }
+
+    /// The exponent of a highlight as wide; a rough surface has none.
+    static void setRoughness(float roughness, Material& look) {
+        look.shininess = 2.0f / std::max(1e-6f, std::pow(roughness, 4.0f)) - 2.0f;
+        if (roughness >= 1.0f) look.specular = {0.0f, 0.0f, 0.0f, 1.0f};
+    }
+
+    GltfDocument& _document;
+    GltfFile& _file;
+    const GltfAccessors& _accessors;
+    std::vector<std::size_t> _imageOf; ///< of each image its index in GltfDocument::images
+    std::vector<Texture> _textures;
+};
+
+} // namespace
+
+void readMaterials(GltfDocument& document) {
+    MaterialReader(document).run();
+    // For meshes without, as the specification's default has it.
+    GltfMaterial& last = document.materials.emplace_back();
+    last.source.isLinear = true;
+    last.source.look.diffuse = {1.0f, 1.0f, 1.0f, 1.0f};
+    last.source.look.specular = {0.0f, 0.0f, 0.0f, 1.0f};
+    last.source.look.shininess = 0.0f;
+    last.source.look.alpha = Material::Alpha::Opaque;
+    last.source.look.twoSided = false;
+}
+
+} // namespace osgSkin

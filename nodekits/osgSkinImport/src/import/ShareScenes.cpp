@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinImport/ShareScenes>
+
+#include "assimp/AssimpScene.h"
+#include "gltf/ReadGltf.h"
+#include "import/ShareScenes.h"
+
+#include <osgSkinImport/ReadLimits>
+
+#include <osg/Object>
+#include <osg/UserDataContainer>
+#include <osgDB/FileNameUtils>
+
+#include <filesystem>
+#include <map>
+#include <system_error>
+
+namespace osgSkin {
+namespace {
+
+using Scene = std::shared_ptr<const SourceScene>;
+
+/// The scenes that options carry.
+class SharedScenes : public osg::Object {
+public:
+    SharedScenes() = default;
+    SharedScenes(const SharedScenes& other, const osg::CopyOp& copy)
+        : osg::Object(other, copy), files(other.files) {}
+    META_Object(osgSkin, SharedScenes)
+
+    /// Those of options; null where these are null or carry none.
+    static SharedScenes* of(const osgDB::Options* options) {
+        const osg::UserDataContainer* all =
+            options != nullptr ? options->getUserDataContainer() : nullptr;
+        if (all == nullptr) return nullptr;
+        for (unsigned i = 0; i < all->getNumUserObjects(); ++i)
+            if (const auto* found = dynamic_cast<const SharedScenes*>(all->getUserObject(i)))
+                return const_cast<SharedScenes*>(found); // which options are shared for
+        return nullptr;
+    }
+
+    std::map<std::string, Scene> files; ///< by their canonical paths
+
+protected:
+    ~SharedScenes() override = default;
+};
+
+Scene readFile(const std::string& path, const ReadLimits& limits) {
+    SourceScene scene = isGltfName(path) ? readGltf(path, limits) : readAssimpScene(path, limits);
+    separateNames(scene, path);
+    addMissingBones(scene, path);
+    return std::make_shared<const SourceScene>(std::move(scene));
+}
+
+} // namespace
+
+bool hasSceneReader(const std::string& path) {
+    return isGltfName(path) || assimpReads(path);
+}
+
+bool holdsMeshesOnly(const std::string& path) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    return extension == "obj" || extension == "ply" || extension == "off" || extension == "stl";
+}
+
+Scene readSourceScene(const std::string& path, const osgDB::Options* options) {
+    const ReadLimits limits = ReadLimits::of(options);
+    SharedScenes* const shared = SharedScenes::of(options);
+    if (shared == nullptr) return readFile(path, limits);
+    std::error_code failure;
+    const std::string file = std::filesystem::weakly_canonical(path, failure).string();
+    Scene& known = shared->files[failure ? path : file];
+    if (known == nullptr) known = readFile(path, limits);
+    return known;
+}
+
+osg::ref_ptr<osgDB::Options> shareScenes(const osgDB::Options* options) {
+    const osg::ref_ptr<osgDB::Options> result =
+        options != nullptr ? options->cloneOptions() : new osgDB::Options;
+    if (SharedScenes::of(result) != nullptr) return result;
+    // The copy has the container of the original.
+    if (const osg::UserDataContainer* all = result->getUserDataContainer())
+        result->setUserDataContainer(osg::clone(all, osg::CopyOp::SHALLOW_COPY));
+    result->getOrCreateUserDataContainer()->addUserObject(new SharedScenes);
+    return result;
+}
+
+} // namespace osgSkin

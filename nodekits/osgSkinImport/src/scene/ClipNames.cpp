@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "scene/ClipNames.h"
+
+#include "text/FileText.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <set>
+
+namespace osgSkin {
+
+std::vector<std::string> clipNames(const SourceScene& scene) {
+    std::vector<std::string> result;
+    std::set<std::string> taken;
+    std::map<std::string, int> copies; // of each name that several have
+    for (std::size_t a = 0; a < scene.animations.size(); ++a) {
+        const std::string& given = scene.animations[a]->name;
+        std::string name = given.empty() ? "clip" + std::to_string(a) : given;
+        while (!taken.insert(name).second) name = given + " " + std::to_string(1 + ++copies[given]);
+        result.push_back(name);
+    }
+    return result;
+}
+
+std::size_t findClip(const std::vector<std::string>& names, const std::string& wanted,
+                     const std::string& path) {
+    const auto exact = std::find(names.begin(), names.end(), wanted);
+    if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
+    std::vector<std::size_t> found;
+    for (std::size_t n = 0; n < names.size(); ++n) {
+        const std::size_t bar = names[n].rfind('|');
+        if (bar != std::string::npos && names[n].compare(bar + 1, std::string::npos, wanted) == 0)
+            found.push_back(n);
+    }
+    if (found.size() == 1) return found.front();
+    std::size_t number = 0;
+    const char* const end = wanted.data() + wanted.size();
+    const auto [stop, status] = std::from_chars(wanted.data(), end, number);
+    if (found.empty() && !wanted.empty() && stop == end && status == std::errc() &&
+        number < names.size())
+        return number;
+    std::string known;
+    for (std::size_t n = 0; n < names.size(); ++n)
+        known += (n > 0 ? ", " : "") + std::to_string(n) + " \"" + names[n] + '"';
+    failFile(path, (found.empty() ? "no clip " : "several clips ") + inQuotes(wanted) +
+                       ", expected one of " + known);
+}
+
+} // namespace osgSkin

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include "scene/SceneBind.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace osgSkin {
+
+namespace {
+
+constexpr double kSize = 0.1;      ///< of the mesh by one bone against that by another
+constexpr double kDistance = 0.25; ///< between two bones: poses may move them
+constexpr double kTurn = 0.05;     ///< of the axes' length
+
+/// A bone with its node, and what they say of the mesh.
+struct Seat {
+    const SourceBone* bone;
+    const SourceNode* node;
+    glm::dmat4 offset;
+    glm::dmat4 toScene; ///< where the mesh stands if the bone stands as its node
+
+    double size() const { return std::cbrt(std::abs(glm::determinant(glm::dmat3(toScene)))); }
+};
+
+bool isWeighted(const SourceBone& bone) {
+    return std::any_of(bone.weights.begin(), bone.weights.end(),
+                       [](const SourceBone::Weight& entry) { return entry.weight > 0.0f; });
+}
+
+std::vector<Seat> seatsOf(const SourceMesh& mesh, const SceneBind& bind) {
+    std::vector<Seat> result;
+    for (const SourceBone& bone : mesh.bones) {
+        const SourceNode* node = bind.find(bone.name);
+        const glm::dmat4 offset = bone.offset;
+        const double volume = glm::determinant(glm::dmat3(offset));
+        if (node != nullptr && std::isfinite(volume) && volume != 0.0)
+            result.push_back({&bone, node, offset, bind.posed(*node) * offset});
+    }
+    return result;
+}
+
+/// The weighted bones, found from any node.
+class Neighbours {
+public:
+    Neighbours(const std::vector<Seat>& weighted, const SceneBind& bind)
+        : _weighted(weighted), _bind(bind) {
+        for (const Seat& seat : weighted) {
+            _at.emplace(seat.node, &seat);
+            // Above a node that is reached all are.
+            for (const SourceNode* node = seat.node;
+                 node != nullptr && _firstBelow.emplace(node, &seat).second;)
+                node = bind.parent(*node);
+        }
+    }
+
+    /// Of the weighted bones the next one above, else the first one below, else the first one.
+    const Seat& of(const Seat& bone) {
+        if (const Seat* above = nextAbove(_bind.parent(*bone.node))) return *above;
+        const auto below = _firstBelow.find(bone.node);
+        return below != _firstBelow.end() ? *below->second : _weighted.front();
+    }
+
+private:
+    /// A weighted bone at `node`, or the next one above; what is found is kept for all on the way.
+    const Seat* nextAbove(const SourceNode* node) {
+        std::vector<const SourceNode*> way;
+        const Seat* result = nullptr;
+        for (; node != nullptr; node = _bind.parent(*node)) {
+            const auto known = _above.find(node);
+            if (known != _above.end()) {
+                result = known->second;
+                break;
+            }
+            way.push_back(node);
+            const auto here = _at.find(node);
+            if (here == _at.end()) continue;
+            result = here->second;
+            break;
+        }
+        for (const SourceNode* passed : way) _above[passed] = result;
+        return result;
+    }
+
+    const std::vector<Seat>& _weighted;
+    const SceneBind& _bind;
+    std::unordered_map<const SourceNode*, const Seat*> _at, _firstBelow, _above;
+};
+
+bool agrees(const Seat& bone, const Seat& other, double size, const SceneBind& bind) {
+    if (std::abs(bone.size() - size) > kSize * size) return false;
+    const glm::dvec3 bound = glm::inverse(bone.offset)[3] - glm::inverse(other.offset)[3];
+    const glm::dvec3 posed = bind.posed(*bone.node)[3] - bind.posed(*other.node)[3];
+    const double inMesh = size * glm::length(bound), inScene = glm::length(posed);
+    if (std::abs(inMesh - inScene) > kDistance * std::max(inMesh, inScene)) return false;
+    if (bone.offset != glm::dmat4(1.0)) return true;
+    for (int axis = 0; axis < 3; ++axis)
+        if (glm::distance(bone.toScene[axis], other.toScene[axis]) > kTurn * size) return false;
+    return true;
+}
+
+/// The bones of a mesh whose offset matrices tell where they were bound: those that carry weights,
+/// and of the others those that agree with them. Exporters list helper joints, which nobody
+/// weights, with the identity or whatever else was at hand; such a bone may be the topmost.
+///
+/// An unweighted bone agrees where the mesh comes to the same size by it, and where it is as far
+/// from a weighted bone near it as their nodes are; with the identity for its offset, the mesh must
+/// come to stand the same way round, too.
+///
+/// \param mesh any
+/// \param bind whose nodes and their poses are known already
+/// \return bones with a node and an offset matrix that can be inverted; where none is weighted, all
+std::vector<const SourceBone*> reliableInverseBinds(const SourceMesh& mesh, const SceneBind& bind) {
+    const std::vector<Seat> seats = seatsOf(mesh, bind);
+    std::vector<Seat> weighted;
+    std::vector<double> sizes;
+    for (const Seat& seat : seats)
+        if (isWeighted(*seat.bone)) {
+            weighted.push_back(seat);
+            sizes.push_back(seat.size());
+        }
+    double size = 0.0;
+    if (!weighted.empty()) {
+        const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
+        std::nth_element(sizes.begin(), middle, sizes.end());
+        size = *middle;
+    }
+    Neighbours neighbours(weighted, bind);
+    std::vector<const SourceBone*> result;
+    for (const Seat& seat : seats)
+        if (weighted.empty() || isWeighted(*seat.bone) ||
+            agrees(seat, neighbours.of(seat), size, bind))
+            result.push_back(seat.bone);
+    return result;
+}
+
+constexpr double kOneScale = 0.01;               ///< relative
+constexpr double kOnePlace = 0.01;               ///< of the bones' extent
+constexpr double kMinPosed = glm::radians(1.0);  ///< that a pose turns a bone by
+constexpr double kMaxPosed = glm::radians(45.0); ///< more is another axis up, if nothing else tells
+constexpr double kStraight = 1e-3;
+constexpr double kFarthestPosed = 0.5; ///< of the extent, that a pose moves a bone
+
+double scaleOf(const glm::dmat4& m) {
+    return std::cbrt(std::abs(glm::determinant(glm::dmat3(m))));
+}
+
+double angleOf(const glm::dmat3& turn) {
+    return std::acos(std::clamp((turn[0][0] + turn[1][1] + turn[2][2] - 1.0) / 2.0, -1.0, 1.0));
+}
+
+/// Whether a space's axes are the scene's, or swapped: somebody chose them.
+bool isAlongAxes(const glm::dmat4& m) {
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) {
+            const double part = std::abs(m[column][row]) / scaleOf(m);
+            if (!(part < kStraight || std::abs(part - 1.0) < kStraight)) return false;
+        }
+    return true;
+}
+
+/// Whether bones stand in the bind pose where the mesh does, and the topmost node is posed: as
+/// exporters that store a clip's first frame leave it. What else tells the spaces apart is no pose:
+/// another unit or axis up, a figure that stands turned, a mesh's node that means nothing.
+///
+/// \param above from what the topmost bone's node stands in to the scene
+/// \param byBone from the mesh to the scene, if the topmost bone's node is not posed
+/// \param byMesh the same, if the mesh's node is where the mesh was bound
+bool isPosed(const std::vector<const SourceBone*>& bones, const SourceBone& topmost,
+             const glm::dmat4& above, const glm::dmat4& byBone, const glm::dmat4& byMesh) {
+    if (!isAlongAxes(above) || !isAlongAxes(byMesh)) return false;
+    const double scale = scaleOf(byMesh);
+    if (!(scale > 0.0) || !(std::abs(scaleOf(byBone) / scale - 1.0) < kOneScale)) return false;
+    const glm::dmat4 bound = glm::inverse(topmost.offset);
+    double extent = 0.0;
+    for (const SourceBone* bone : bones) {
+        const glm::dmat4 other = glm::inverse(bone->offset);
+        extent =
+            std::max(extent, scale * glm::distance(glm::dvec3(bound[3]), glm::dvec3(other[3])));
+    }
+    const glm::dvec3 place(byMesh * bound[3]);
+    const double moved = glm::distance(place, glm::dvec3(byBone * bound[3]));
+    const glm::dmat3 turn =
+        glm::dmat3(byBone) / scaleOf(byBone) * glm::inverse(glm::dmat3(byMesh) / scale);
+    const double turned = angleOf(turn);
+    if (!(turned > kMinPosed)) return false; // not a number, too
+    if (turned < kMaxPosed) return moved < kFarthestPosed * extent;
+    // Turned about the mesh's origin, as a whole, it would stand elsewhere.
+    const glm::dvec3 arm = place - glm::dvec3(byMesh[3]);
+    return moved < kOnePlace * extent && glm::distance(turn * arm, arm) > 10.0 * kOnePlace * extent;
+}
+
+} // namespace
+
+SceneBind::SceneBind(const SourceScene& scene) : _scene(scene) {
+    std::vector<const SourceNode*> open{&scene.nodes.front()};
+    while (!open.empty()) {
+        const SourceNode* node = open.back();
+        open.pop_back();
+        const SourceNode* above = parent(*node);
+        _nodes.push_back(node);
+        _byName.emplace(node->name, node);
+        _depth[node] = above != nullptr ? _depth.at(above) + 1 : 0;
+        _isBone[node] = false;
+        const glm::dmat4 local = node->matrix;
+        _posed[node] = above != nullptr ? _posed.at(above) * local : local;
+        for (auto c = node->children.rbegin(); c != node->children.rend(); ++c)
+            open.push_back(&child(*c));
+    }
+
+    // Skins that reach further up come first: the others follow the bones that they share.
+    std::vector<std::vector<const SourceBone*>> bones;
+    std::vector<std::pair<int, std::size_t>> skins;
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const SourceMesh& mesh = *scene.meshes[m];
+        for (const SourceBone& bone : mesh.bones)
+            if (const SourceNode* node = find(bone.name)) _isBone[node] = true;
+        bones.push_back(reliableInverseBinds(mesh, *this));
+        if (const SourceBone* top = topmost(bones.back()))
+            skins.emplace_back(_depth.at(find(top->name)), m);
+    }
+    std::sort(skins.begin(), skins.end());
+    std::vector<glm::dmat4> shown(scene.meshes.size(), glm::dmat4(0.0)); // by its first node
+    for (auto node = _nodes.rbegin(); node != _nodes.rend(); ++node)
+        for (const std::size_t mesh : (*node)->meshes) shown[mesh] = _posed.at(*node);
+    for (const auto& [depth, m] : skins) bindSkin(bones[m], shown[m], _skins[m]);
+
+    for (const SourceNode* node : _nodes)
+        if (_bind.count(node) == 0) _bind[node] = bindFromAbove(*node);
+}
+
+const SourceNode* SceneBind::find(const std::string& name) const {
+    const auto found = _byName.find(name);
+    return found == _byName.end() ? nullptr : found->second;
+}
+
+glm::dmat4 SceneBind::mesh(const SourceNode& node, std::size_t meshIndex) const {
+    const auto skin = _skins.find(meshIndex);
+    return skin == _skins.end() ? _bind.at(&node) : skin->second;
+}
+
+const SourceBone* SceneBind::topmost(const std::vector<const SourceBone*>& bones) const {
+    const SourceBone* result = nullptr;
+    int least = 0;
+    for (const SourceBone* bone : bones) {
+        const int depth = _depth.at(find(bone->name));
+        if (result != nullptr && depth >= least) continue;
+        result = bone;
+        least = depth;
+    }
+    return result;
+}
+
+glm::dmat4 SceneBind::bindFromAbove(const SourceNode& node) const {
+    glm::dmat4 result(1.0);
+    const SourceNode* above = &node;
+    while (above != nullptr && _bind.count(above) == 0) {
+        result = above->matrix * result;
+        above = parent(*above);
+    }
+    return above == nullptr ? result : _bind.at(above) * result;
+}
+
+void SceneBind::bindSkin(const std::vector<const SourceBone*>& bones, const glm::dmat4& meshToScene,
+                         glm::dmat4& toScene) {
+    const SourceBone* reference = topmost(bones);
+    for (const SourceBone* bone : bones)
+        if (_bind.count(find(bone->name)) != 0) {
+            reference = bone;
+            break;
+        }
+    const SourceNode* standing = find(reference->name);
+    toScene = bindFromAbove(*standing) * reference->offset;
+    const SourceNode* above = parent(*standing);
+    if (_bind.count(standing) == 0 &&
+        isPosed(bones, *reference, above != nullptr ? posed(*above) : glm::dmat4(1.0), toScene,
+                meshToScene))
+        toScene = meshToScene;
+    for (const SourceBone* bone : bones)
+        _bind.emplace(find(bone->name), toScene * glm::inverse(bone->offset));
+}
+
+} // namespace osgSkin

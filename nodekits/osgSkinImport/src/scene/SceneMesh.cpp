@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+#include "scene/SceneMesh.h"
+
+#include "scene/SceneBind.h"
+#include "scene/SceneSkeleton.h"
+#include "text/FileText.h"
+
+#include <osgSkin/GlmOsg>
+
+#include <osgDB/Registry>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <osg/BoundingBox>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+namespace {
+
+// --- looks ---
+
+/// A linear colour in sRGB; alpha is kept.
+glm::vec4 toSrgb(const glm::vec4& linear) {
+    glm::vec4 result = linear;
+    for (int k = 0; k < 3; ++k) {
+        const float value = linear[k];
+        result[k] =
+            value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
+    }
+    return result;
+}
+
+/// A picture of the file itself; null where it cannot be decoded.
+osg::ref_ptr<osg::Image> decodeImage(const SourceImage& source, const std::string& path,
+                                     PictureCheck& pictures) {
+    if (source.image) return source.image;
+    osgDB::ReaderWriter* reader =
+        osgDB::Registry::instance()->getReaderWriterForExtension(source.format);
+    if (reader == nullptr) return nullptr;
+    pictures.take(path, source.format, source.bytes);
+    std::istringstream stream(source.bytes);
+    return reader->readImage(stream).getImage();
+}
+
+/// The materials' state sets, and the colours of vertices.
+class Looks {
+public:
+    Looks(const SourceScene& scene, const std::string& path, const osgDB::Options* options)
+        : _scene(scene) {
+        for (const auto& mesh : scene.meshes) _hasColours = _hasColours || !mesh->colours.empty();
+        TextureReads reads(path, options);
+        for (const SourceMaterial& source : scene.materials) {
+            Material material = source.look;
+            if (!source.texture.empty())
+                material.image =
+                    source.image
+                        ? reads.once(source.texture,
+                                     [&] {
+                                         return reads.pictures().shared().once(
+                                             path, source.texture, [&] {
+                                                 return decodeImage(*scene.images[*source.image],
+                                                                    path, reads.pictures());
+                                             });
+                                     })
+                        : readTexture(source.texture, path, options, reads);
+            material.vertexColours = _hasColours;
+            stateSets.push_back(makeStateSet(material));
+        }
+    }
+
+    /// Whether some mesh has vertex colours; then all have, some of them their material's.
+    bool hasColours() const { return _hasColours; }
+
+    /// A vertex's colour in sRGB; its material's where it has none of its own.
+    glm::vec4 colour(const SourceMesh& mesh, std::size_t vertex) const {
+        const SourceMaterial& material = _scene.materials[mesh.material];
+        const osg::Vec4& diffuse = material.look.diffuse;
+        const glm::vec4 plain(diffuse.r(), diffuse.g(), diffuse.b(), diffuse.a());
+        if (mesh.colours.empty()) return plain;
+        const glm::vec4& own = mesh.colours[vertex];
+        if (material.isLinear) return toSrgb(own) * plain;
+        return own * glm::vec4(1.0f, 1.0f, 1.0f, plain.a);
+    }
+
+    std::vector<osg::ref_ptr<osg::StateSet>> stateSets; ///< [material]
+
+private:
+    const SourceScene& _scene;
+    bool _hasColours = false;
+};
+
+// --- places ---
+
+glm::dvec3 placed(const glm::dmat4& matrix, const glm::vec3& vertex) {
+    return glm::dvec3(matrix * glm::dvec4(vertex, 1.0));
+}
+
+struct Box {
+    glm::dvec3 low{0.0}, high{0.0};
+    bool valid = false;
+
+    void add(const glm::dvec3& p) {
+        low = valid ? glm::min(low, p) : p;
+        high = valid ? glm::max(high, p) : p;
+        valid = true;
+    }
+    double size() const {
+        const glm::dvec3 extent = high - low;
+        return std::max({extent.x, extent.y, extent.z});
+    }
+};
+
+/// Tells what stands beside a figure in its file (a floor, a sky, a stand) from what belongs to it
+/// and was not skinned (eyes, hair): it is apart from all skins, or half as large again.
+class Scenery {
+public:
+    Scenery(const SourceScene& scene, const SceneBind& bind) : _scene(scene), _bind(bind) {
+        for (const SourceNode* node : bind.nodes())
+            for (const std::size_t mesh : node->meshes) {
+                if (scene.meshes[mesh]->bones.empty()) continue;
+                const Box box = boxOf(*node, mesh);
+                if (!box.valid) continue;
+                _skins.add(box.low);
+                _skins.add(box.high);
+            }
+    }
+
+    /// Whether one of a node's meshes is scenery. Never where the scene has no skin.
+    /// \param mesh without bones, that hangs on no joint
+    bool has(const SourceNode& node, std::size_t mesh) const {
+        constexpr double kLarger = 1.5; // than all skins together
+        if (!_skins.valid) return false;
+        const Box box = boxOf(node, mesh);
+        if (!box.valid) return false;
+        if (box.size() > kLarger * _skins.size()) return true;
+        for (int axis = 0; axis < 3; ++axis)
+            if (box.low[axis] > _skins.high[axis] || box.high[axis] < _skins.low[axis]) return true;
+        return false;
+    }
+
+private:
+    Box boxOf(const SourceNode& node, std::size_t mesh) const {
+        const glm::dmat4 toScene = _bind.mesh(node, mesh);
+        Box box;
+        for (const glm::vec3& vertex : _scene.meshes[mesh]->positions)
+            box.add(placed(toScene, vertex));
+        return box;
+    }
+
+    const SourceScene& _scene;
+    const SceneBind& _bind;
+    Box _skins;
+};
+
+bool isOther(const glm::vec3& a, const glm::vec3& b) {
+    return glm::length(a - b) > 1e-3f * std::max(glm::length(a), glm::length(b));
+}
+
+/// A rotation and its negative are the same.
+bool isOther(const glm::quat& a, const glm::quat& b) {
+    const glm::quat p = glm::normalize(a), q = glm::normalize(b);
+    const float sign = glm::dot(p, q) < 0.0f ? -1.0f : 1.0f;
+    return std::max({std::abs(p.w - sign * q.w), std::abs(p.x - sign * q.x),
+                     std::abs(p.y - sign * q.y), std::abs(p.z - sign * q.z)}) > 1e-3f;
+}
+
+template <typename Value>
+bool anyOther(const std::vector<SourceKey<Value>>& keys, const Value& rest) {
+    return std::any_of(keys.begin(), keys.end(),
+                       [&rest](const SourceKey<Value>& key) { return isOther(key.value, rest); });
+}
+
+/// Whether a track moves a node from where it stands.
+bool moves(const SourceTrack& track, const SourceNode& node) {
+    NodeTransform rest = decompose(node.matrix);
+    if (rest.scale.x < 0.0) { // mirrored: along all axes, which turns it differently
+        glm::dmat4 unmirrored = -node.matrix;
+        rest.rotation = rotationOf(unmirrored);
+        rest.scale = {rest.scale.x, -rest.scale.y, -rest.scale.z};
+    }
+    return anyOther(track.positions, glm::vec3(rest.translation)) ||
+           anyOther(track.rotations, glm::quat(rest.rotation)) ||
+           anyOther(track.scales, glm::vec3(rest.scale));
+}
+
+/// The nodes that some clip moves from where they stand. Exporters give others tracks, too, which
+/// hold them where they are.
+std::set<const SourceNode*> movedNodes(const SourceScene& scene, const SceneBind& bind) {
+    std::set<const SourceNode*> result;
+    for (const auto& animation : scene.animations)
+        for (const SourceTrack& track : animation->tracks) {
+            const SourceNode* const node = bind.find(track.node);
+            if (node != nullptr && result.count(node) == 0 && moves(track, *node))
+                result.insert(node);
+        }
+    return result;
+}
+
+/// The joints that meshes may hang on; none where nothing is skinned.
+std::set<const SourceNode*> jointsOfSkins(const SourceScene& scene, const SceneBind& bind) {
+    for (const SourceNode* node : bind.nodes())
+        if (bind.isBone(*node)) return jointNodes(scene, bind);
+    return {};
+}
+
+// --- meshes that were bound in another pose ---
+
+bool counts(const SourceMesh& mesh, const SourceBone::Weight& entry) {
+    return entry.vertex < mesh.positions.size() && std::isfinite(entry.weight) &&
+           entry.weight > 0.0f;
+}
+
+/// Where a bone takes the mesh: nowhere else where its matrix is none that could be.
+glm::dmat4 placeBy(const SourceBone& bone, const glm::dmat4& toScene, const SceneBind& bind) {
+    const double volume = glm::determinant(glm::dmat3(bone.offset));
+    const SourceNode* const node = bind.find(bone.name);
+    if (node == nullptr || !std::isfinite(volume) || volume == 0.0) return toScene;
+    return bind.node(*node) * bone.offset;
+}
+
+/// Calls `use` with each weight that counts, and where its bone takes the mesh.
+template <typename Use>
+void forEachWeight(const SourceMesh& mesh, const glm::dmat4& toScene, const SceneBind& bind,
+                   const Use& use) {
+    for (const SourceBone& bone : mesh.bones) {
+        const glm::dmat4 own = placeBy(bone, toScene, bind);
+        for (const SourceBone::Weight& entry : bone.weights)
+            if (counts(mesh, entry)) use(entry, own);
+    }
+}
+
+/// For a mesh that was bound in another pose than the meshes that share its bones: where each
+/// vertex goes in the pose that all are bound in, as its bones take it there, each by its weight.
+///
+/// \param toScene the mesh's place, as bind.mesh() has it
+/// \return a matrix for each vertex, from the mesh's space into the scene's; none where `toScene`
+///         is right for all, but for a thousandth of the mesh's size
+std::vector<glm::dmat4> perVertexBindPose(const SourceMesh& mesh, const glm::dmat4& toScene,
+                                          const SceneBind& bind) {
+    constexpr double kOff = 1e-3; // what files round their numbers by
+    if (mesh.bones.empty()) return {};
+    osg::BoundingBoxd box;
+    for (const glm::vec3& vertex : mesh.positions) box.expandBy(toOsg(placed(toScene, vertex)));
+    const double most = box.valid() ? kOff * 2.0 * box.radius() : 0.0;
+    bool isApart = false;
+    forEachWeight(mesh, toScene, bind, [&](const SourceBone::Weight& entry, const glm::dmat4& own) {
+        const glm::vec3& vertex = mesh.positions[entry.vertex];
+        isApart = isApart || glm::distance(placed(own, vertex), placed(toScene, vertex)) > most;
+    });
+    if (!isApart) return {};
+    std::vector<glm::dmat4> result(mesh.positions.size(), glm::dmat4(0.0));
+    std::vector<double> sums(mesh.positions.size(), 0.0);
+    forEachWeight(mesh, toScene, bind, [&](const SourceBone::Weight& entry, const glm::dmat4& own) {
+        result[entry.vertex] += double(entry.weight) * own;
+        sums[entry.vertex] += double(entry.weight);
+    });
+    for (std::size_t v = 0; v < result.size(); ++v)
+        result[v] = sums[v] > 0.0 ? result[v] / sums[v] : toScene;
+    return result;
+}
+
+// --- the mesh ---
+
+constexpr std::uint32_t kUnused = ~0u;
+
+/// The index of each vertex of a mesh in the result if the first one is `first`; kUnused for those
+/// that no face names. Meshes that share their vertices, as those of one body's materials do, each
+/// come with all of them.
+std::vector<std::uint32_t> indicesOf(const SourceMesh& source, std::size_t first,
+                                     const std::string& where) {
+    std::vector<std::uint32_t> result(source.positions.size(), kUnused);
+    std::size_t corner = 0;
+    for (std::size_t f = 0; f < source.faceSizes.size(); ++f) {
+        const std::size_t end = corner + source.faceSizes[f];
+        const bool isFace = source.faceSizes[f] >= 3; // no point or line
+        for (; corner < end; ++corner) {
+            if (!isFace) continue;
+            const std::uint32_t v = source.corners[corner];
+            if (v >= result.size())
+                failFile(where, "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
+                                    ", expected less than " + std::to_string(result.size()));
+            result[v] = 0;
+        }
+    }
+    for (std::uint32_t& index : result) {
+        if (index == kUnused) continue;
+        if (first >= kUnused) failFile(where, "more vertices than 32-bit indices reach");
+        index = static_cast<std::uint32_t>(first++);
+    }
+    return result;
+}
+
+glm::dmat3 normalMatrixOf(const glm::dmat4& toScene) {
+    return glm::transpose(glm::inverse(glm::dmat3(toScene)));
+}
+
+/// Adds one mesh of the scene, in the scene's space: all of it by `toScene`, or where there are
+/// some, each vertex by its own of `apart`.
+void addMesh(const SourceMesh& source, const glm::dmat4& toScene,
+             const std::vector<glm::dmat4>& apart, const std::vector<std::uint32_t>& indices,
+             const Looks& looks, CornerMesh& result) {
+    for (std::size_t v = 0; v < indices.size(); ++v)
+        if (indices[v] != kUnused)
+            result.mesh.positions.push_back(
+                placed(apart.empty() ? toScene : apart[v], source.positions[v]));
+
+    const glm::dmat3 normalMatrix = normalMatrixOf(toScene);
+    const bool mirrored = glm::determinant(glm::dmat3(toScene)) < 0.0;
+    std::size_t first = 0;
+    for (const std::uint32_t size : source.faceSizes) {
+        const std::uint32_t* const corners = source.corners.data() + first;
+        first += size;
+        if (size < 3) continue; // points and lines
+        result.addFace(static_cast<std::uint32_t>(source.material));
+        for (std::uint32_t k = 0; k < size; ++k) {
+            // A mirrored face keeps its outside when its corners run the other way round.
+            const std::uint32_t v = corners[mirrored ? size - 1 - k : k];
+            glm::dvec3 normal(0.0);
+            if (!source.normals.empty())
+                normal = (apart.empty() ? normalMatrix : normalMatrixOf(apart[v])) *
+                         glm::dvec3(source.normals[v]);
+            const glm::vec2 texCoord =
+                source.texCoords.empty() ? glm::vec2(0.0f) : source.texCoords[v];
+            result.addCorner(indices[v], glm::vec3(normal), texCoord);
+            if (looks.hasColours()) result.colours.push_back(looks.colour(source, v));
+        }
+        result.hasTexCoords = result.hasTexCoords || !source.texCoords.empty();
+    }
+}
+
+/// Adds the weights of a mesh whose vertices have `indices`: its own, or where it has none, those
+/// of a thing that hangs on the joint `above`.
+void addWeights(const SourceMesh& source, const SourceNode* above,
+                const std::vector<std::uint32_t>& indices, const std::string& where,
+                CornerMesh& result) {
+    for (const SourceBone& bone : source.bones) {
+        BoneWeights& weights = result.weightsOf(bone.name);
+        for (std::size_t w = 0; w < bone.weights.size(); ++w) {
+            const SourceBone::Weight& entry = bone.weights[w];
+            if (entry.vertex >= indices.size() || !std::isfinite(entry.weight) ||
+                entry.weight < 0.0f)
+                failFile(where, "bone " + inQuotes(bone.name) + ": weight " + std::to_string(w) +
+                                    ", expected a vertex below " + std::to_string(indices.size()) +
+                                    " and a finite number of 0 or more");
+            if (indices[entry.vertex] != kUnused)
+                weights.entries.push_back({indices[entry.vertex], double(entry.weight)});
+        }
+    }
+    if (!source.bones.empty() || above == nullptr) return;
+    BoneWeights& weights = result.weightsOf(above->name);
+    for (const std::uint32_t index : indices)
+        if (index != kUnused) weights.entries.push_back({index, 1.0});
+}
+
+void tellOfSome(const std::string& path, const std::set<std::string>& names,
+                const std::string& what) {
+    if (!names.empty())
+        tellOf(path,
+               std::to_string(names.size()) + what + ", \"" + *names.begin() + "\" among them");
+}
+
+} // namespace
+
+CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
+                         const osgDB::Options* options) {
+    CornerMesh result;
+    const Looks looks(scene, path, options);
+    result.stateSets = looks.stateSets;
+
+    const SceneBind bind(scene);
+    const std::set<const SourceNode*> joints = jointsOfSkins(scene, bind);
+    const Scenery scenery(scene, bind);
+    const std::set<const SourceNode*> moved = movedNodes(scene, bind);
+    std::set<std::string> leftOut, unmoved;
+    for (const SourceNode* node : bind.nodes())
+        for (const std::size_t index : node->meshes) {
+            const SourceMesh& mesh = *scene.meshes[index];
+            const SourceNode* above = node;
+            while (above != nullptr && joints.count(above) == 0) above = bind.parent(*above);
+            const bool isFree = mesh.bones.empty() && above == nullptr;
+            if (isFree && scenery.has(*node, index)) {
+                leftOut.insert(node->name);
+                continue;
+            }
+            const SourceNode* mover = isFree ? node : nullptr;
+            while (mover != nullptr && moved.count(mover) == 0) mover = bind.parent(*mover);
+            if (mover != nullptr && !joints.empty()) unmoved.insert(node->name);
+            const std::string where = path + ": mesh \"" + mesh.name + "\"";
+            const auto indices = indicesOf(mesh, result.mesh.positions.size(), where);
+            const glm::dmat4 toScene = bind.mesh(*node, index);
+            addMesh(mesh, toScene, perVertexBindPose(mesh, toScene, bind), indices, looks, result);
+            addWeights(mesh, above, indices, where, result);
+        }
+    tellOfSome(path, leftOut, " things beside the figure are left out");
+    tellOfSome(path, unmoved, " things that clips move beside the skeleton stand still");
+    return result;
+}
+
+} // namespace osgSkin

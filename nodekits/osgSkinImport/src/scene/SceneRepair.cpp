@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Makes a scene whole for those who know its nodes by their names.
+#include "scene/SourceScene.h"
+
+#include "text/FileText.h"
+#include "text/UniqueName.h"
+
+#include <osgDB/FileNameUtils>
+
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace osgSkin {
+namespace {
+
+using NodesOfName = std::map<std::string, std::vector<int>>;
+
+SourceNode& nodeAt(SourceScene& scene, int index) {
+    return scene.nodes[static_cast<std::size_t>(index)];
+}
+
+/// A scene's nodes by their names, from the root down, in file order.
+NodesOfName nodesByName(const SourceScene& scene) {
+    NodesOfName result;
+    std::vector<int> open{0};
+    while (!open.empty()) {
+        const int index = open.back();
+        const SourceNode& node = scene.nodes[static_cast<std::size_t>(index)];
+        open.pop_back();
+        result[node.name].push_back(index);
+        open.insert(open.end(), node.children.rbegin(), node.children.rend());
+    }
+    return result;
+}
+
+/// Where a bone's name is that of a mesh's node and the name with Assimp's counter that of a node
+/// without a mesh, the bone was called so first.
+void exchangeWithTwin(SourceScene& scene, const std::string& bone, NodesOfName& nodes) {
+    const auto found = nodes.find(bone), twin = nodes.find(bone + "001");
+    if (found == nodes.end() || twin == nodes.end() || found->second.size() != 1 ||
+        twin->second.size() != 1)
+        return;
+    SourceNode& held = nodeAt(scene, found->second.front());
+    SourceNode& free = nodeAt(scene, twin->second.front());
+    if (held.meshes.empty() || !free.meshes.empty()) return;
+    std::swap(held.name, free.name);
+    std::swap(found->second, twin->second);
+}
+
+/// A mesh's bones without a node, and how much each shares with bones that have one.
+class MissingBones {
+public:
+    MissingBones(const std::map<std::string, int>& nodes, const SourceMesh& mesh) {
+        for (const SourceBone& bone : mesh.bones) {
+            const double volume = glm::determinant(bone.offset);
+            if (!std::isfinite(volume) || volume == 0.0) continue;
+            const auto found = nodes.find(bone.name);
+            _bones.push_back({&bone, found == nodes.end() ? kNone : found->second, nullptr, 0.0});
+        }
+        const auto hasNode = [](const Bone& bone) { return bone.node != kNone; };
+        if (std::all_of(_bones.begin(), _bones.end(), hasNode)) _bones.clear(); // the usual case
+        if (_bones.empty()) return;
+        _weightsOf.resize(mesh.positions.size());
+        for (std::size_t b = 0; b < _bones.size(); ++b)
+            for (const SourceBone::Weight& entry : _bones[b].bone->weights)
+                if (entry.vertex < _weightsOf.size())
+                    _weightsOf[entry.vertex].push_back({b, double(entry.weight)});
+        for (std::size_t b = 0; b < _bones.size(); ++b)
+            if (hasNode(_bones[b])) offer(b);
+    }
+
+    static constexpr int kNone = -1;
+
+    struct Bone {
+        const SourceBone* bone;
+        int node;          ///< index in the scene; kNone where there is none
+        const Bone* above; ///< of those with a node, the one that shares most
+        double shared;     ///< with it: the sum of their weights' products
+    };
+
+    /// The bone without a node that shares most with one that has a node; null where there is none.
+    Bone* next() {
+        Bone* best = nullptr;
+        for (Bone& bone : _bones)
+            if (bone.node == kNone && bone.shared > 0.0 &&
+                (best == nullptr || bone.shared > best->shared))
+                best = &bone;
+        return best;
+    }
+
+    /// Gives next()'s bone its node.
+    void setNode(Bone& bone, int node) {
+        bone.node = node;
+        offer(static_cast<std::size_t>(&bone - _bones.data()));
+    }
+
+private:
+    /// Offers a bone that has a node to those that have none.
+    void offer(std::size_t parent) {
+        std::vector<double> shared(_bones.size(), 0.0);
+        for (const SourceBone::Weight& entry : _bones[parent].bone->weights)
+            if (entry.vertex < _weightsOf.size())
+                for (const auto& [other, share] : _weightsOf[entry.vertex])
+                    shared[other] += double(entry.weight) * share;
+        for (std::size_t b = 0; b < _bones.size(); ++b)
+            if (_bones[b].node == kNone && shared[b] > _bones[b].shared) {
+                _bones[b].above = &_bones[parent];
+                _bones[b].shared = shared[b];
+            }
+    }
+
+    std::vector<Bone> _bones;
+    std::vector<std::vector<std::pair<std::size_t, double>>> _weightsOf; ///< [vertex]
+};
+
+} // namespace
+
+void separateNames(SourceScene& scene, const std::string& path) {
+    NodesOfName nodes = nodesByName(scene);
+    if (osgDB::getLowerCaseFileExtension(path) == "fbx")
+        for (const std::string& bone : boneNames(scene)) exchangeWithTwin(scene, bone, nodes);
+    UniqueNames taken;
+    for (const auto& [name, same] : nodes) taken.take(name);
+    for (auto& [name, same] : nodes) {
+        const auto meant = std::find_if(same.begin(), same.end(), [&scene](int node) {
+            return nodeAt(scene, node).meshes.empty();
+        });
+        const int keeper = meant == same.end() ? same.front() : *meant;
+        for (const int node : same)
+            if (node != keeper) nodeAt(scene, node).name = taken.unique(name);
+    }
+}
+
+void addMissingBones(SourceScene& scene, const std::string& path) {
+    std::map<std::string, int> nodes;
+    for (const auto& [name, same] : nodesByName(scene)) nodes.emplace(name, same.front());
+    for (const auto& mesh : scene.meshes) {
+        if (mesh->bones.empty()) continue;
+        MissingBones missing(nodes, *mesh);
+        while (MissingBones::Bone* found = missing.next()) {
+            const SourceBone &bone = *found->bone, &above = *found->above->bone;
+            const int node = scene.addNode(bone.name, found->above->node,
+                                           above.offset * glm::inverse(bone.offset));
+            nodes.emplace(bone.name, node);
+            missing.setNode(*found, node);
+            tellOf(path, "bone \"" + bone.name +
+                             "\" has weights and no place in the skeleton; it follows \"" +
+                             above.name + '"');
+        }
+    }
+}
+
+} // namespace osgSkin
