@@ -326,7 +326,8 @@ private:
             node.rotation.clear();
             node.scale.clear();
             node.hasMatrix = true;
-            for (int k = 0; k < 16; ++k) node.matrix[k / 4][k % 4] = matrix[std::size_t(k)];
+            for (int k = 0; k < 16; ++k)
+                node.matrix[k / 4][k % 4] = double(float(matrix[std::size_t(k)]));
             return;
         }
         makeUnit(node.rotation);
@@ -334,12 +335,17 @@ private:
         constexpr double kLeast = 1e-5;
         for (double& scale : node.scale)
             if (std::abs(scale) < kLeast) scale = std::copysign(kLeast, scale);
+        // In single precision, as files hold them.
+        glm::mat3 axes(1.0f);
         if (!node.rotation.empty())
-            node.matrix = glm::mat4_cast(
-                glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]));
+            axes = glm::mat3_cast(glm::quat(float(node.rotation[3]), float(node.rotation[0]),
+                                            float(node.rotation[1]), float(node.rotation[2])));
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!node.scale.empty()) node.matrix[int(axis)] *= node.scale[axis];
-            if (!node.translation.empty()) node.matrix[3][int(axis)] = node.translation[axis];
+            const int column = static_cast<int>(axis);
+            if (!node.scale.empty()) axes[column] *= float(node.scale[axis]);
+            node.matrix[column] = glm::dvec4(glm::dvec3(axes[column]), 0.0);
+            if (!node.translation.empty())
+                node.matrix[3][column] = double(float(node.translation[axis]));
         }
     }
 
