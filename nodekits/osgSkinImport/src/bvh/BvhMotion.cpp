@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bvh/BvhMotion.h"
 
-#include "motion/RootMotion.h"
+#include "scene/RootMotion.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -3,9 +3,7 @@
 
 #include "import/ShareScenes.h"
 #include "mesh/FinishMesh.h"
-#include "mesh/ObjMesh.h"
-#include "mesh/OffMesh.h"
-#include "mesh/PlyMesh.h"
+#include "mesh/MeshFiles.h"
 #include "osg/OsgScene.h"
 #include "scene/SceneMesh.h"
 #include "text/FileText.h"

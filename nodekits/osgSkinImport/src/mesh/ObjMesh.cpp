@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/ObjMesh.h"
+#include "mesh/MeshFiles.h"
 
 #include "mesh/Material.h"
 #include "text/FileText.h"

@@ -2,9 +2,8 @@
 #include <osgSkinImport/ReadScene>
 
 #include "mesh/FinishMesh.h"
-#include "mesh/ObjMesh.h"
+#include "mesh/MeshFiles.h"
 #include "mesh/Pictures.h"
-#include "mesh/PlyMesh.h"
 #include "osg/CheckScene.h"
 #include "text/FileText.h"
 
