@@ -173,9 +173,9 @@ def check_users(house):
         if path.suffix != ".h" or path.stem.endswith("-inl"):
             continue
         name = "/".join(path.relative_to(house.root / "nodekits").parts[2:])
-        if len(users[path]) < 2 and f'"{name}"' not in tests:
-            only = house.name(next(iter(users[path]))) if users[path] else "nobody"
-            house.breach(path, f"only {only} uses it")
+        if len(users[path]) < 2 and f'"{name}"' not in tests and f"<{name}>" not in tests:
+            only = [f"only {house.name(user)}" for user in users[path]] or ["nobody"]
+            house.breach(path, f"{only[0]} uses it")
 
 
 def anchors(path):
@@ -234,13 +234,11 @@ def check_example(house):
 
 
 def main():
-    named = [word for word in sys.argv[1:] if not word.startswith("--")]
-    root = pathlib.Path(named[0] if named else pathlib.Path(__file__).parents[2])
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2])
     house = House(root.resolve())
     check_sizes(house)
     arrows = check_includes(house)
-    if "--users" in sys.argv:
-        check_users(house)
+    check_users(house)
     check_pages(house)
     check_example(house)
     for line in house.breaches:
