@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""lint.py BUILD [FILE...]: runs clang-tidy over the kits, plug-ins and examples, or over FILEs.
+
+clang-tidy spends its time in the headers, so the sources of a folder are read as one, except
+Highway's, which include themselves. A folder whose sources do not compile together is read source
+by source.
+"""
+import collections
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).parents[1].resolve()
+FOLDERS = ("nodekits", "osgPlugin", "examples")
+# GCC's own warning options mean nothing to clang; OSG's macros leave parameters unused.
+FLAGS = ["-Wno-unknown-warning-option", "-Wno-unused-parameter", "-Wdocumentation", "-Wreserved-identifier"]
+
+
+def compiler_flags(command):
+    """A compile command without its compiler, source, output and optimisation."""
+    words = iter(shlex.split(command)[1:])
+    flags = []
+    for word in words:
+        if word in ("-o", "-c"):
+            next(words)
+        elif not word.startswith("-O") and not word.endswith("ccache") and "/c++" not in word:
+            flags.append(word)
+    return flags
+
+
+def tidy(folder, flags, sources):
+    """Returns clang-tidy's complaints about sources, read together."""
+    folder.mkdir(parents=True, exist_ok=True)
+    unit = folder / "unit.cpp"
+    unit.write_text("".join(f'#include "{source}"\n' for source in sources))
+    command = {"directory": str(folder), "file": str(unit), "arguments": ["c++", *flags, *FLAGS, "-c", str(unit)]}
+    (folder / "compile_commands.json").write_text(json.dumps([command]))
+    done = subprocess.run(["clang-tidy", "-p", str(folder), "--quiet", "--checks=-bugprone-suspicious-include",
+                           str(unit)], capture_output=True, text=True)
+    if done.returncode and len(sources) > 1 and re.search(r"\[clang-diagnostic-(error|shadow)\]", done.stdout):
+        print("by themselves: " + " ".join(pathlib.Path(source).name for source in sources), flush=True)
+        return "".join(tidy(folder / pathlib.Path(source).stem, flags, [source]) for source in sources)
+    return (done.stdout or done.stderr) if done.returncode else ""
+
+
+def main():
+    build = pathlib.Path(sys.argv[1]).resolve()
+    named = [str(pathlib.Path(name).resolve()) for name in sys.argv[2:]]
+    units = collections.defaultdict(list)  # (folder, flags) -> sources
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        source = pathlib.Path(entry["file"])
+        if not source.is_relative_to(ROOT) or source.relative_to(ROOT).parts[0] not in FOLDERS:
+            continue
+        if named and str(source) not in named:
+            continue
+        alone = source.name if "HWY_TARGET_INCLUDE" in source.read_text() else ""
+        unit = units[source.parent, alone, tuple(compiler_flags(entry["command"]))]
+        if str(source) not in unit:
+            unit.append(str(source))
+    work = sorted(units.items(), key=lambda unit: -sum(len(pathlib.Path(s).read_text()) for s in unit[1]))
+    print(f"clang-tidy: {sum(len(sources) for _, sources in work)} sources in {len(work)} units", flush=True)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = list(pool.map(lambda job: tidy(build / "lint" / str(job[0]), list(job[1][0][2]), job[1][1]),
+                              enumerate(work)))
+    seen = set()
+    for block in re.split(r"(?m)^(?=\S+:\d+:\d+: (?:warning|error))", "".join(found)):
+        if block.strip() and block not in seen:
+            seen.add(block)
+            sys.stderr.write(block)
+    return 1 if seen else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
