@@ -64,7 +64,7 @@ public:
     static bool decodes(const std::string& extension);
 
     /// A picture within another file, in a format that stb_image reads or that
-    /// ReadLimits::pictures names.
+    /// ReadLimits::images names.
     /// \param name of that file, for errors
     /// \param extension of the picture's format
     /// \return null where no reader gives a reason

@@ -7,8 +7,6 @@
 
 #include <osgSkin/GlmOsg>
 
-#include <osgDB/Registry>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -17,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -37,16 +34,10 @@ glm::vec4 toSrgb(const glm::vec4& linear) {
     return result;
 }
 
-/// A picture of the file itself; null where it cannot be decoded.
+/// An image embedded in the file; null if it cannot be decoded.
 osg::ref_ptr<osg::Image> decodeImage(const SourceImage& source, const std::string& path,
-                                     PictureCheck& pictures) {
-    if (source.image) return source.image;
-    osgDB::ReaderWriter* reader =
-        osgDB::Registry::instance()->getReaderWriterForExtension(source.format);
-    if (reader == nullptr) return nullptr;
-    pictures.take(path, source.format, source.bytes);
-    std::istringstream stream(source.bytes);
-    return reader->readImage(stream).getImage();
+                                     PictureReader& pictures) {
+    return source.image ? source.image : pictures.read(path, source.format, source.bytes);
 }
 
 /// The materials' state sets, and the colours of vertices.
