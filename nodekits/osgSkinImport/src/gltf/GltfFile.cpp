@@ -322,8 +322,10 @@ void GltfFile::forEach(
     const std::size_t count = size(list);
     if (count == 0) return;
     const nlohmann::json& entries = json.at(list);
+    std::string where = std::string(list) + "[";
+    const std::size_t start = where.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const std::string where = std::string(list) + "[" + std::to_string(i) + "]";
+        where.replace(start, std::string::npos, std::to_string(i) + "]");
         if (!entries[i].is_object()) fail(where, "an object");
         try {
             visit(entries[i], where);

@@ -25,9 +25,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -88,7 +89,7 @@ osg::ref_ptr<osgAnimation::Skeleton> makeBones(const SceneSkeleton& joints,
     return skeleton;
 }
 
-using Tracks = std::map<std::string, const SourceTrack*>;
+using Tracks = std::unordered_map<std::string_view, const SourceTrack*>;
 
 Tracks tracksOf(const SourceAnimation& animation) {
     Tracks result;
@@ -226,8 +227,8 @@ std::vector<bool> movedJoints(const SourceScene& scene, const SceneSkeleton& joi
 /// The scene's clips for the bones of makeBones(); clips that move no joint are left out.
 /// \throw osgSkin::Error where a key is not finite
 osgAnimation::AnimationList makeClips(const SourceScene& scene, const SceneSkeleton& joints,
-                                      std::size_t mostSamples, const std::string& path) {
-    const std::vector<bool> moves = movedJoints(scene, joints);
+                                      const std::vector<bool>& moves, std::size_t mostSamples,
+                                      const std::string& path) {
     const auto moved = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), true));
     // Every clip has channels for all joints that any clip moves.
     if (moved * scene.animations.size() > mostSamples / 8)
@@ -271,8 +272,9 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     result.body = finishMesh(std::move(body), path);
     const SceneSkeleton joints = readSceneSkeleton(scene, path, limits);
     result.rest = joints.rest;
-    result.skeleton = makeBones(joints, movedJoints(scene, joints));
-    result.animations = makeClips(scene, joints, limits.samplesOf(scene.bytes), path);
+    const std::vector<bool> moves = movedJoints(scene, joints);
+    result.skeleton = makeBones(joints, moves);
+    result.animations = makeClips(scene, joints, moves, limits.samplesOf(scene.bytes), path);
     result.toWorld = scene.toWorld;
     result.metresPerUnit = scene.metresPerUnit;
     return result;
