@@ -245,8 +245,8 @@ void readOptions(const JsonReader& root, const ReadLimits& limits, SkinFile& ski
     skin.options.method = LoadOptions::Method::Smooth;
     for (const Option& option : optionTable()) {
         if (!option.isMember) continue;
-        auto member = root.find(option.word);
-        if (!member && !option.formerWord.empty()) member = root.find(option.formerWord);
+        const bool isFormer = !root.find(option.word) && !option.formerWord.empty();
+        const auto member = root.find(isFormer ? option.formerWord : option.word);
         if (!member) continue;
         if (option.word == "muscles" && member->isList())
             readMuscles(*member, skin);
