@@ -43,8 +43,7 @@ constexpr std::size_t kMaxFromOne = MESHOPTIMIZER_VERSION < 230 ? 64 : 1024;
 
 /// Decompressed bytes allowed per sample of the file's limit: 16 MB, and 16 times the file's size.
 constexpr std::size_t kFairShare = 32;
-constexpr std::size_t kMaxCounted =
-    4; ///< decompressed bytes that count as the file's own, in file sizes
+constexpr std::size_t kMaxCounted = 4; ///< times a file's size that count as its own when decoded
 
 /// The extension's parameters for a view. They are checked before decoding, because the decoders
 /// only assert.

@@ -70,8 +70,7 @@ bool fits(const std::vector<double>& keys, double rate) {
 }
 
 double rateOf(const std::vector<double>& keys) {
-    const double own =
-        static_cast<double>(keys.size() - 1) / keys.back(); // if keys are evenly spaced
+    const double own = static_cast<double>(keys.size() - 1) / keys.back(); // if keys are even
     const double multiple = own * std::max(1.0, std::ceil(kMinRate / own));
     if (fits(keys, multiple)) return multiple;
     for (int rate = 30; rate <= kMaxRate; ++rate)
@@ -353,8 +352,7 @@ void validate(const Motion& motion, const std::string& path) {
 }
 
 Motion readBvhMotion(const std::string& path, const std::string& clip, const ReadLimits& limits) {
-    if (!clip.empty())
-        findClip({osgDB::getStrippedName(path)}, clip, path); // a single clip, named after the file
+    if (!clip.empty()) findClip({osgDB::getStrippedName(path)}, clip, path); // the only clip
     const BvhFile file = readBvh(path, limits);
     if (file.frames == 0) failFile(path, "no frame, expected at least one");
     return makeMotion(file, path);
