@@ -74,7 +74,7 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// The word in quotes, or "the end of the file" where it is empty.
+/// The word in quotes, or "the end of the file" if it is empty.
 std::string described(std::string_view word) {
     return word.empty() ? "the end of the file" : inQuotes(word);
 }
@@ -360,7 +360,7 @@ std::vector<Row> readRows(BvhTokens& words, BvhFile& file) {
     return result;
 }
 
-/// Throws unless the rows are the frames that the file declares.
+/// Throws unless the rows are the declared frames.
 void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::string& path,
                const BvhFile& file) {
     // A frame may be wrapped over several lines; then only the total must match.

@@ -87,7 +87,7 @@ private:
     void readPrimitive(const json& from, const std::string& where, GltfMesh& mesh) {
         const json& attributes = from.at("attributes");
         if (!attributes.is_object()) _file.fail(where + ".attributes", "an object");
-        if (!attributes.contains("POSITION")) return; // nothing to be drawn
+        if (!attributes.contains("POSITION")) return; // nothing to draw
         GltfPrimitive primitive;
         const std::size_t vertices =
             _accessors[_accessors.indexOf(attributes.at("POSITION"), where + ".POSITION")].count;
@@ -114,7 +114,7 @@ private:
         for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
             const GltfIndex joints = attribute(numbered("JOINTS_", set), {"VEC4"});
             const GltfIndex weights = attribute(numbered("WEIGHTS_", set), {"VEC4"});
-            if (!joints || !weights) continue; // one without the other means nothing
+            if (!joints || !weights) continue; // ignored unless both exist
             primitive.joints[set] = joints;
             primitive.weights[set] = weights;
         }
@@ -147,7 +147,7 @@ private:
         _file.take(read, where);
         Cost& cost = _costs.back();
         cost.elements += read;
-        if (primitive.mode == 0) return; // no points
+        if (primitive.mode == 0) return; // points are not drawn
         const std::size_t named =
             primitive.indices ? countNamed(*primitive.indices, vertices) : vertices;
         cost.drawn += kDrawn * named + corners / kDrawnCorners;

@@ -212,7 +212,7 @@ void addMeshes(const GltfDocument& document, const std::vector<std::size_t>& ord
 /// \param document with animations
 /// \param indexOf as for addMeshes()
 /// \param scene to add to
-/// \throw osgSkin::Error if a track has not one value per key, or times decrease
+/// \throw osgSkin::Error if a track does not have one value per key, or times decrease
 void addAnimations(const GltfDocument& document, const std::vector<int>& indexOf,
                    SourceScene& scene);
 

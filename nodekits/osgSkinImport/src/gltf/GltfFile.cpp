@@ -65,7 +65,7 @@ public:
         const auto line = std::size_t(std::count(_text.begin(), end, '\n'));
         const std::size_t before = at > 0 ? _text.rfind('\n', at - 1) : std::string::npos;
         const std::size_t column = before == std::string::npos ? at : at - before - 1;
-        // 406: a number beyond any double.
+        // 406: a number too large for a double.
         failFile(_path, "malformed glTF: line " + std::to_string(line + 1) + ", column " +
                             std::to_string(column + 1) +
                             (error.id == 406 ? ": expected a finite number" : ": expected JSON"));
@@ -450,7 +450,7 @@ std::size_t base64Value(char letter) {
     return values[static_cast<unsigned char>(letter)];
 }
 
-/// \throw osgSkin::Error with the reason alone
+/// \throw osgSkin::Error with the reason only
 std::string fromBase64(std::string_view text) {
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3);

@@ -130,6 +130,7 @@ class PartBuilder {
 public:
     explicit PartBuilder(const CornerMesh& source) : _source(source) {}
 
+    /// \param face index of the face in the mesh
     /// \param corners three indices in the mesh's `faceVertices`
     void addTriangle(std::uint32_t face, const std::uint32_t* corners) {
         for (int k = 0; k < 3; ++k) _triangles->push_back(vertex(corners[k]));

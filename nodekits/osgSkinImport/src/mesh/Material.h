@@ -58,8 +58,7 @@ struct Material {
     float shininess = 16.0f;        ///< 0..128
     osg::ref_ptr<osg::Image> image; ///< of the diffuse texture, if any
     osg::Texture::WrapMode wrapS = osg::Texture::REPEAT, wrapT = osg::Texture::REPEAT;
-    std::optional<bool>
-        twoSided; ///< unset where the format does not say: both sides are drawn and lit
+    std::optional<bool> twoSided; ///< if unset, both sides are drawn and lit
     Alpha alpha = Alpha::ByOpacity;
     float alphaCutOff = 0.5f;   ///< with Alpha::Mask
     bool vertexColours = false; ///< vertex colours replace `diffuse`

@@ -307,8 +307,8 @@ bool isBroken(std::string_view word, double value) {
            std::abs(value) >= 1e300;
 }
 
-/// Whether a word is a misspelt keyword of a vertex or face: in upper case, or with invisible
-/// characters, such as a byte order mark where files were concatenated.
+/// Whether a word resembles a keyword of a vertex or face: in upper case, or with invisible
+/// characters, such as a byte order mark in concatenated files.
 bool looksLikeKeyword(std::string_view word) {
     std::string seen;
     for (const char c : word) {
