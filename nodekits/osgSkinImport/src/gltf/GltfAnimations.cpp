@@ -31,9 +31,9 @@ struct Keys {
     }
 };
 
-/// Returns `time` moved back by `floats` representable values. Steps change kHolds to kChanges
-/// values before a key's time: a sample meant to be at the key may be off by a float or two, and
-/// would otherwise be a blend with the old value.
+/// Returns `time` moved back by a number of floats. Steps change kHolds to kChanges floats before a
+/// key's time: a sample meant to be at the key may be off by a float or two, and would otherwise be
+/// a blend with the old value.
 constexpr int kHolds = 4, kChanges = 3;
 float earlier(float time, int floats) {
     for (; floats > 0; --floats) time = std::nextafter(time, -HUGE_VALF);
