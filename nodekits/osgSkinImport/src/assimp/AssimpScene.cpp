@@ -29,7 +29,7 @@ osg::Vec4 colour(const aiMaterial& material, const char* key, unsigned type, uns
     return {value.r, value.g, value.b, otherwise.a()};
 }
 
-/// A texture that stands in the scene texel by texel, from the upper left, as in .mdl.
+/// An embedded texture of raw texels from the upper left, as in .mdl.
 osg::ref_ptr<osg::Image> rawImage(const aiTexture& texture) {
     constexpr unsigned most = 1u << 14;
     if (texture.mWidth == 0 || texture.mWidth > most || texture.mHeight > most) return nullptr;
@@ -63,7 +63,8 @@ osg::Texture::WrapMode wrapOf(const aiMaterial& material, const char* key) {
     return mode == aiTextureMapMode_Mirror ? osg::Texture::MIRROR : osg::Texture::REPEAT;
 }
 
-/// Of a texture of emission the colour alone would make all of the surface glow.
+/// Whether a material has an emission texture. Without the texture, the emission colour would make
+/// the whole surface glow.
 bool glowsByTexture(const aiMaterial& source) {
     return source.GetTextureCount(aiTextureType_EMISSIVE) > 0 ||
            source.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
@@ -95,7 +96,7 @@ void readMaterials(const aiScene& scene, const std::string& path, SourceScene& r
         glowing += glowsByTexture(*scene.mMaterials[m]);
         result.materials.push_back(readMaterial(scene, *scene.mMaterials[m]));
     }
-    result.materials.emplace_back(); // for meshes without
+    result.materials.emplace_back(); // for meshes without a material
     if (glowing > 0)
         tellOf(path, "textures of emission: " + std::to_string(glowing) +
                          ", left out, and that surfaces glow with them");
@@ -126,7 +127,7 @@ std::string toString(const aiString& text) {
     return {text.C_Str(), text.length};
 }
 
-/// The set of texture coordinates that a mesh's texture takes.
+/// The set of texture coordinates that the material's texture uses.
 unsigned texCoordsOf(const aiMesh& mesh, const aiMaterial* material) {
     int set = 0;
     if (material != nullptr) material->Get(AI_MATKEY_UVWSRC_DIFFUSE(0), set);
@@ -191,8 +192,7 @@ SourceAnimation readAnimation(const aiAnimation& source) {
     return result;
 }
 
-/// Reads the nodes below the root, and the root. Some readers of Assimp's leave null among a node's
-/// children.
+/// Reads all nodes. Some of Assimp's readers leave null children in a node.
 void readNodes(const aiScene& scene, const std::string& path, const ReadLimits& limits,
                SourceScene& result) {
     struct Open {
@@ -226,12 +226,12 @@ void readNodes(const aiScene& scene, const std::string& path, const ReadLimits& 
 
 // --- the file ---
 
-/// Refuses what Assimp would hang on, and what it would look into for itself: of a file whose name
-/// says nothing to it, or that another reader here has, it asks each of its readers whether they
-/// know the first bytes, and some read beyond those.
+/// Refuses files that Assimp would hang on or would probe. For a file with no extension, an unknown
+/// one or one that is read here by another reader, it asks each of its readers whether they
+/// recognise the first bytes, and some read beyond those.
 void checkBefore(const std::string& path) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    // Read by readBvh(): Assimp believes any number of frames.
+    // BVH files are read by readBvh(): Assimp trusts the declared number of frames.
     if (extension == "bvh")
         failFile(path, "no face in a BVH file: it holds a skeleton and no mesh with bones");
     if (!assimpReads(path))
@@ -242,8 +242,8 @@ void checkBefore(const std::string& path) {
                                  "that Assimp reads");
 }
 
-/// OSG's world has Z up and a figure faces -Y. Assimp turns most formats to Y up; FBX files say
-/// what they have and are left as they are, and so is SMD, which has Z up.
+/// In OSG's world, Z is up and a figure faces -Y. Assimp converts most formats to Y up, but leaves
+/// FBX files in the axes that they declare, and SMD files in Z up.
 osg::Matrixd toWorld(const aiScene& scene, const std::string& path) {
     if (osgDB::getLowerCaseFileExtension(path) == "smd") return {};
     int up = 1;
@@ -264,7 +264,7 @@ double metresPerUnit(const aiScene& scene) {
 
 SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     Assimp::Importer importer;
-    // Assimp would add a mesh of its own to a file that holds a skeleton only.
+    // Otherwise Assimp would add a mesh of its own to a file with only a skeleton.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     SourceScene result;

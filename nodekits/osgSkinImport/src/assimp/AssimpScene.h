@@ -10,12 +10,13 @@
 
 namespace osgSkin {
 
-/// Whether Assimp has a reader for files with this name's extension.
+/// Whether Assimp has a reader for this file extension.
 bool assimpReads(const std::string& path);
 
-/// Reads a file by Assimp as it is: nothing triangulated, joined or reordered.
+/// Reads a file by Assimp without post-processing: nothing is triangulated, joined or reordered.
 ///
-/// \param path of a file that assimpReads()
+/// \param path of a file for which assimpReads() is true
+/// \param limits on its size and depth
 /// \throw osgSkin::Error with the file and Assimp's reason
 SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits);
 

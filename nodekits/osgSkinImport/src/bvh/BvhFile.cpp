@@ -16,8 +16,8 @@ namespace osgSkin {
 
 namespace {
 
-/// Splits the text of a BVH file into words, with their lines. Blanks, tabs, line ends of any
-/// system and braces separate words. A byte order mark is skipped.
+/// Splits the text of a BVH file into words, and counts lines. Words are separated by blanks, tabs,
+/// line ends of any system, and braces. A byte order mark is skipped.
 class BvhTokens {
 public:
     /// \param path of the file, for errors; must outlive this object
@@ -27,29 +27,29 @@ public:
     /// The next word; empty at the end of the file.
     std::string_view next();
 
-    /// Reads the next word and throws unless it is `word`, whatever its case. A word of letters
-    /// ends at the first other character ("Frames:2").
+    /// Reads the next word and throws unless it is `word`, in any case. A word of letters ends at
+    /// the first other character ("Frames:2").
     void expect(std::string_view word);
 
-    /// The name of a joint: all up to a brace or the end of the line, inner blanks included.
+    /// Reads a joint's name, up to a brace or the end of the line, with inner blanks.
     std::string_view jointName();
 
-    /// Skips an optional name, which ends as a joint's does.
+    /// Skips an optional name, which ends like a joint's.
     void skipName();
 
-    /// Whether nothing follows on the line of the word read last.
+    /// Whether the last word is the last on its line.
     bool isAtLineEnd();
 
     /// Reads a finite number; `what` names it in the error.
     double number(const std::string& what);
 
-    /// Reads a whole number from 0 to `largest`.
+    /// Reads an integer from 0 to `largest`; `what` names it in the error.
     std::size_t count(const std::string& what, std::size_t largest);
 
-    /// Throws "PATH: line N: MESSAGE" for the word read last.
+    /// Throws "PATH: line N: MESSAGE" for the last word read.
     [[noreturn]] void fail(const std::string& message) const;
 
-    /// Line of the word read last, counted from 1.
+    /// Line of the last word read, counted from 1.
     std::size_t line() const { return _line; }
 
 private:
@@ -74,20 +74,21 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// The word in quotes, or "the end of the file" where it is empty.
+/// The word in quotes, or "the end of the file" if it is empty.
 std::string described(std::string_view word) {
     return word.empty() ? "the end of the file" : inQuotes(word);
 }
 
-/// Whether two words are the same but for capitals.
+/// Whether two words are equal, ignoring case.
 bool isSameWord(std::string_view a, std::string_view b) {
     return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(),
                                               [](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// Reads `word` as a number that single precision holds, which is what osgAnimation keeps.
-/// \param[out] value the number, where it is one
-/// \return what was expected; null where the word is such a number
+/// Parses a number in the range of single precision, which osgAnimation uses.
+/// \param word to parse
+/// \param[out] value the number
+/// \return what was expected; null if the word is such a number
 const char* parseFinite(std::string_view word, double& value) {
     if (!parseNumber(word, value) || !std::isfinite(value)) return "a finite number";
     return std::abs(value) <= kLargestCoordinate ? nullptr : "a number from -1e18 to 1e18";
@@ -97,7 +98,7 @@ BvhTokens::BvhTokens(const std::string& path, std::string_view text) : _path(pat
     const std::string_view byteOrderMark = "\xef\xbb\xbf";
     if (_rest.substr(0, byteOrderMark.size()) == byteOrderMark)
         _rest.remove_prefix(byteOrderMark.size());
-    // Old systems end a text with these.
+    // Old systems end a text with these characters.
     while (!_rest.empty() && (_rest.back() == '\0' || _rest.back() == '\x1a'))
         _rest.remove_suffix(1);
 }
@@ -236,7 +237,7 @@ private:
         joint.parent = _open.empty() ? -1 : _open.back().joint;
         if (!_names.insert(joint.name).second)
             _words.fail("second joint called " + inQuotes(joint.name) + ", expected unique names");
-        if (_open.size() >= _limits.depth) // scene graphs are traversed by recursion
+        if (_open.size() >= _limits.depth) // scene graphs are traversed recursively
             _words.fail("joint " + inQuotes(joint.name) + " is nested more than " +
                         std::to_string(_limits.depth) + " deep (option maxDepth)");
         if (_file.joints.size() >= _limits.joints)
@@ -256,7 +257,7 @@ private:
 
     void readEndSite() {
         _words.expect("Site");
-        _words.skipName(); // some give it one
+        _words.skipName(); // some programs give it one
         _words.expect("{");
         _words.expect("OFFSET");
         const glm::dvec3 end = offset("the End Site of " + owner());
@@ -302,7 +303,7 @@ private:
     std::set<std::string> _names;
 };
 
-/// Reads the HIERARCHY, up to the brace that closes the ROOT, into `file`: joints and channels.
+/// Reads the HIERARCHY into `file`, up to the closing brace of the ROOT: joints and channels.
 /// \throw osgSkin::Error with the line
 void readBvhHierarchy(BvhTokens& words, const ReadLimits& limits, BvhFile& file) {
     Reader(words, limits, file).run();
@@ -311,15 +312,17 @@ void readBvhHierarchy(BvhTokens& words, const ReadLimits& limits, BvhFile& file)
 constexpr std::size_t mostFrames = 16'777'216; // more than a day at 120 a second
 constexpr double shortestFrame = 1e-6;         // seconds: a million frames a second
 constexpr double kOtherwise = 1.0 / 30.0;      // seconds
-constexpr double kSlowFrame = 1.0;             // seconds; longer ones may be in milliseconds
+constexpr double kSlowFrame = 1.0;             // seconds; a longer time may be in milliseconds
 
-/// A line with values.
+/// A line of values.
 struct Row {
     std::size_t line;
     std::size_t values;
 };
 
-/// \param frames in the file; the time may be 0 where there is one or none
+/// Reads the frame time, which may be 0 if there is at most one frame.
+/// \param words to read from
+/// \param frames number of frames in the file
 double readFrameTime(BvhTokens& words, std::size_t frames) {
     const std::string expected = ", expected a positive number of seconds";
     if (words.isAtLineEnd()) words.fail("the frame time is missing" + expected);
@@ -330,7 +333,7 @@ double readFrameTime(BvhTokens& words, std::size_t frames) {
     return result;
 }
 
-/// The joint that a frame's value number `channel` belongs to.
+/// The joint to which value `channel` of a frame belongs.
 const BvhJoint& ownerOf(const BvhFile& file, std::size_t channel) {
     const BvhJoint* result = nullptr;
     for (const BvhJoint& joint : file.joints)
@@ -357,10 +360,10 @@ std::vector<Row> readRows(BvhTokens& words, BvhFile& file) {
     return result;
 }
 
-/// Throws unless the rows are the frames that the file declares.
+/// Throws unless the rows are the declared frames.
 void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::string& path,
                const BvhFile& file) {
-    // A frame may be wrapped over several lines, so only the sum must fit then.
+    // A frame may be wrapped over several lines; then only the total must match.
     if (file.values.size() == file.frames * file.channels && rows.size() != file.frames) return;
     for (const Row& row : rows)
         if (row.values != file.channels)
@@ -370,7 +373,7 @@ void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::
     if (rows.size() < file.frames)
         words.fail("the motion ends after " + std::to_string(rows.size()) +
                    " frame(s), expected the declared " + std::to_string(file.frames));
-    // Some recorders count from 0 here; the declared frames can be read.
+    // Some recorders count frames from 0; the declared frames can be read.
     if (rows.size() > file.frames)
         tellOf(path, "line " + std::to_string(rows[file.frames].line) + ": " +
                          std::to_string(rows.size() - file.frames) +
@@ -378,7 +381,7 @@ void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::
                          ", passed over");
 }
 
-/// Reads the MOTION, up to the end of the file, into `file`, whose joints are known: frame time,
+/// Reads the MOTION into `file`, whose joints are known, up to the end of the file: frame time,
 /// number of frames and their values. Allocates for the values in the file, not for the declared
 /// number.
 /// \throw osgSkin::Error with the line
@@ -411,7 +414,7 @@ BvhFile readBvh(const std::string& path, const ReadLimits& limits) {
     BvhFile file;
     readBvhHierarchy(words, limits, file);
     readBvhFrames(words, path, file);
-    // A joint without channels takes memory in every frame, but no bytes of the file.
+    // A joint without channels takes memory in every frame, but no bytes in the file.
     const std::size_t most = limits.samplesOf(text.size());
     if (file.frames > most / file.joints.size())
         failFile(path, std::to_string(file.frames) + " frames of " +

@@ -13,26 +13,26 @@
 
 namespace osgSkin {
 
-/// One number that a BVH file gives for a joint in each frame.
+/// A value that a BVH file has for a joint in each frame.
 struct BvhChannel {
-    bool isRotation = false; ///< degrees about the axis; else the position along it
+    bool isRotation = false; ///< degrees about the axis; otherwise the position along it
     int axis = 0;            ///< 0 to 2: x, y, z
 };
 
-/// A joint as the HIERARCHY declares it.
+/// A joint of the HIERARCHY.
 struct BvhJoint {
     std::string name;
     int parent = -1;                   ///< -1 for the root
     glm::dvec3 offset{0.0};            ///< from the parent joint, in the zero pose
     std::optional<glm::dvec3> endSite; ///< the first End Site's offset from this joint
-    std::vector<BvhChannel> channels;  ///< in the file's order: rotations multiply so
-    std::size_t firstChannel = 0;      ///< of the joint's, among a frame's values
+    std::vector<BvhChannel> channels;  ///< in file order, in which rotations multiply
+    std::size_t firstChannel = 0;      ///< index of the joint's first value in a frame
 
-    /// Whether the file gives the joint's position, which then takes the place of its offset.
+    /// Whether the joint has position channels, which replace its offset.
     bool hasPosition() const;
 };
 
-/// A BVH file's content, word for word: the file's own unit, degrees.
+/// The content of a BVH file, unconverted: in the file's own unit, and degrees.
 struct BvhFile {
     std::vector<BvhJoint> joints; ///< in file order: parents before their children
     std::size_t channels = 0;     ///< of all joints together
@@ -46,10 +46,12 @@ struct BvhFile {
 
 /// Reads a BVH file.
 ///
-/// Keywords may have any case, names may have blanks in them, and a frame may be wrapped over
-/// several lines. A joint has up to three rotations, or three positions with three rotations or
-/// none, in any order. Frames beyond the declared number are ignored, with a notice.
+/// Keywords may have any case, names may contain blanks, and a frame may be wrapped over several
+/// lines. A joint has up to three rotations, or three positions with three rotations or none, in
+/// any order. Frames beyond the declared number are ignored, with a notice.
 ///
+/// \param path of the file
+/// \param limits on its size
 /// \throw osgSkin::Error "PATH: line N: what was found, what was expected".
 BvhFile readBvh(const std::string& path, const ReadLimits& limits);
 

@@ -40,7 +40,7 @@ glm::dvec3 localPosition(const BvhJoint& joint, const double* frame) {
     return result;
 }
 
-/// The scale that makes a figure smaller than one unit one unit large; 1 for others.
+/// The scale that enlarges a figure smaller than one unit to one unit; otherwise 1.
 double unitScale(const BvhFile& file) {
     glm::dvec3 low(0.0), high(0.0);
     std::vector<glm::dvec3> centres;
@@ -124,7 +124,7 @@ Motion makeMotion(const BvhFile& file, const std::string& path) {
     motion.rootPositions.reserve(file.frames);
     std::vector<bool> isAbove(file.joints.size());
     for (const std::size_t j : carried.above) isAbove[j] = true;
-    // World rotations, of the joints above the root and of the root.
+    // World rotations of the root and the joints above it.
     std::vector<glm::dquat> world(file.joints.size());
     for (std::size_t f = 0; f < file.frames; ++f) {
         const double* frame = file.frame(f);

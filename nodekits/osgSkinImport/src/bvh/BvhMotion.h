@@ -10,13 +10,14 @@
 
 namespace osgSkin {
 
-/// The joints in the zero pose, the root at its offset. A joint without children has its first End
-/// Site for a tip.
+/// The joints in the zero pose, with the root at its offset. The tip of a joint without children is
+/// its first End Site.
 RestSkeleton makeRestSkeleton(const BvhFile& file);
 
-/// The motion of a file: a joint's rotations multiplied in the order of its channels, exact to
-/// double precision. Of positions, those of the root are used, or of the joint that
-/// rootMotionJoint() finds; moves of others are left out, with a notice.
+/// The motion of a file, with a joint's rotations multiplied in the order of its channels, in
+/// double precision. Uses the positions of the root only, or of the joint that rootMotionJoint()
+/// finds; those of other joints are dropped, with a notice.
+/// \param file as read
 /// \param path of the file, for the notice
 Motion makeMotion(const BvhFile& file, const std::string& path);
 

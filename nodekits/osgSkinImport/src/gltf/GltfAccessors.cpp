@@ -13,7 +13,7 @@ using nlohmann::json;
 
 enum ComponentType { kByte = 5120, kUByte, kShort, kUShort, kInt, kUInt, kFloat };
 
-/// 0 for what is no component type.
+/// The size in bytes; 0 for an unknown component type.
 std::size_t componentSize(int component) {
     if (component == kByte || component == kUByte) return 1;
     if (component == kShort || component == kUShort) return 2;
@@ -29,7 +29,7 @@ std::size_t typeWidth(const std::string& type) {
     return type == "MAT4" ? 16 : 0;
 }
 
-/// A size or an offset; 0 where there is none.
+/// Reads a size or an offset; 0 if there is none.
 std::size_t sizeOf(const json& object, const char* key) {
     const auto found = object.find(key);
     if (found == object.end()) return 0;
@@ -37,7 +37,7 @@ std::size_t sizeOf(const json& object, const char* key) {
     return std::min<std::size_t>(value, std::size_t(1) << 40); // far beyond any buffer
 }
 
-/// Converts numbers that stand in the file; `bytes` from one element to the next.
+/// Converts the file's numbers; `bytes` is the stride between elements.
 template <typename Number, typename Result>
 void convert(const char* from, std::size_t bytes, std::size_t width, std::size_t count,
              Result* to) {
@@ -49,7 +49,7 @@ void convert(const char* from, std::size_t bytes, std::size_t width, std::size_t
         }
 }
 
-/// What the largest number of a type stands for is 1.
+/// Maps a type's largest number to 1.
 float normalised(float value, int component) {
     const auto exact = static_cast<double>(value);
     switch (component) {

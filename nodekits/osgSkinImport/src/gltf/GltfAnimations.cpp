@@ -16,11 +16,11 @@ namespace {
 using Path = GltfAnimation::Path;
 using Interpolation = GltfAnimation::Interpolation;
 
-constexpr double kLatest = 1e35;        ///< seconds; times are kept in milliseconds, in floats
-constexpr double kStep = 1.0 / 30.0;    ///< seconds between samples of a spline, at most
-constexpr double kTicksPerSecond = 1e3; ///< as other readers of glTF count
+constexpr double kLatest = 1e35;        ///< seconds; times are stored as float milliseconds
+constexpr double kStep = 1.0 / 30.0;    ///< maximum seconds between samples of a spline
+constexpr double kTicksPerSecond = 1e3; ///< like Assimp's glTF reader
 
-/// Keys of one track: `width` numbers a key.
+/// Keys of one track: `width` numbers per key.
 struct Keys {
     std::size_t width = 0;
     std::vector<float> times, values;
@@ -31,15 +31,16 @@ struct Keys {
     }
 };
 
-/// A time as many floats earlier. Values change kChanges to kHolds before a key's own time, since
-/// samples that are meant to stand there are off by a float or two, and would be half old.
+/// Returns `time` moved back by a number of floats. Steps change kHolds to kChanges floats before a
+/// key's time: a sample meant to be at the key may be off by a float or two, and would otherwise be
+/// a blend with the old value.
 constexpr int kHolds = 4, kChanges = 3;
 float earlier(float time, int floats) {
     for (; floats > 0; --floats) time = std::nextafter(time, -HUGE_VALF);
     return time;
 }
 
-/// A value holds until the next key.
+/// Converts steps: a value holds until the next key.
 Keys fromSteps(const Keys& track) {
     Keys result{track.width, {}, {}};
     for (std::size_t k = 0; k < track.times.size(); ++k) {
@@ -55,7 +56,8 @@ Keys fromSteps(const Keys& track) {
     return result;
 }
 
-/// Of keys that share a time, the first one is what comes before it, and the last one what follows.
+/// Separates keys that share a time: the first is the value before it, and the last the value
+/// after.
 Keys apart(const Keys& track) {
     Keys result{track.width, {}, {}};
     const std::vector<float>& times = track.times;
@@ -72,13 +74,13 @@ Keys apart(const Keys& track) {
     return result;
 }
 
-/// Into how many pieces a spline is taken apart between two times, in whatever order.
+/// The number of pieces a spline is split into between two times, in any order.
 double piecesOf(double from, double to) {
-    return std::max(1.0, std::ceil((to - from) / kStep)); // 1 where there is no number
+    return std::max(1.0, std::ceil((to - from) / kStep)); // 1 for NaN
 }
 
-/// Cubic Hermite splines, as the specification's appendix C has them: of each key the tangent in,
-/// the value, and the tangent out.
+/// Samples cubic Hermite splines (appendix C of the specification). Each key has an in-tangent, a
+/// value, and an out-tangent.
 Keys fromSplines(const Keys& track, bool isRotation) {
     Keys result{track.width, {}, {}};
     const std::size_t width = track.width, last = track.times.size() - 1;
@@ -111,7 +113,7 @@ Keys fromSplines(const Keys& track, bool isRotation) {
     return result;
 }
 
-/// Whether keys share a time, as exporters of steps write them.
+/// Whether keys share a time, which exporters use for steps.
 bool hasTwins(const std::vector<float>& times) {
     return std::adjacent_find(times.begin(), times.end()) != times.end();
 }
@@ -124,7 +126,7 @@ void checkTimes(const std::vector<float>& times, std::size_t accessor, const std
                                 " seconds, expected times in order");
 }
 
-/// Tangents of splines are no less finite than the keys.
+/// Throws unless all values are finite, tangents of splines included, and rotations are not zero.
 void checkKeys(const Keys& track, std::size_t accessor, const std::string& where, bool isRotation,
                bool isSpline) {
     const std::vector<float>& values = track.values;
@@ -159,12 +161,13 @@ public:
             _scene.animations.push_back(build(_document.animations[a], a));
             moves = moves || !_scene.animations.back()->tracks.empty();
         }
-        // Others stay, without a track: clips are asked for by their numbers in the file, too.
+        // Keep clips without tracks if another has some: clips can be selected by their number in
+        // the file.
         if (!moves) _scene.animations.clear();
     }
 
 private:
-    /// Channels of one node; the last of each kind.
+    /// Channels of one node: the last one of each kind.
     struct NodeChannels {
         const GltfAnimation::Channel *translation = nullptr, *rotation = nullptr, *scale = nullptr;
     };
@@ -201,7 +204,7 @@ private:
         std::map<std::size_t, NodeChannels> nodes;
         for (const GltfAnimation::Channel& channel : from.channels) {
             if (!channel.node || channel.path == Path::Weights) continue;
-            keysOf(from, channel); // checked even where another one counts
+            keysOf(from, channel); // checked even if a later channel overrides it
             NodeChannels& node = nodes[*channel.node];
             (channel.path == Path::Translation ? node.translation
              : channel.path == Path::Rotation  ? node.rotation
@@ -228,10 +231,11 @@ private:
         return result;
     }
 
-    /// The times of Assimp's reader, which are rounded so.
+    /// In single precision, like Assimp's reader.
     static double ticks(float seconds) { return double(seconds * float(kTicksPerSecond)); }
 
-    /// Where a node stands that no channel moves. Of one that is not in the scene, what it says.
+    /// The transform of a node that no channel moves. For a node outside the scene, only the parts
+    /// that the file gives.
     Rest restOf(std::size_t n) const {
         const GltfNode& node = _document.nodes[n];
         Rest result;
@@ -249,7 +253,7 @@ private:
         return result;
     }
 
-    /// The keys of a channel; without one, where the node stands.
+    /// Adds a channel's keys; without a channel, the node's own transform.
     void addVectors(const GltfAnimation& from, const GltfAnimation::Channel* channel,
                     const std::optional<glm::vec3>& rest,
                     std::vector<SourceKey<glm::vec3>>& result) {
@@ -265,7 +269,7 @@ private:
         }
     }
 
-    /// A sampler's keys, linear; channels may share it.
+    /// A sampler's keys, converted to linear. Channels may share a sampler.
     const Keys& keysOf(const GltfAnimation& from, const GltfAnimation::Channel& channel) {
         const bool isRotation = channel.path == Path::Rotation;
         const auto [known, isNew] = _known.emplace(channel.sampler, Keys());
@@ -298,7 +302,7 @@ private:
         return hasTwins(track.times) ? apart(track) : track;
     }
 
-    /// Takes a spline's pieces from those that all clips together may have.
+    /// Counts a spline's pieces against the limit for all clips together.
     void takePieces(const std::vector<float>& times, const std::string& where) {
         double pieces = 1.0;
         for (std::size_t k = 1; k < times.size(); ++k)
@@ -314,8 +318,8 @@ private:
     const GltfAccessors& _accessors;
     const std::vector<int>& _indexOf;
     SourceScene& _scene;
-    double _pieces;                     ///< that splines may still be taken apart into
-    std::map<std::size_t, Keys> _known; ///< of the animation's samplers
+    double _pieces;                     ///< how many more pieces splines may have
+    std::map<std::size_t, Keys> _known; ///< by sampler of the current animation
     std::string _where;
 };
 

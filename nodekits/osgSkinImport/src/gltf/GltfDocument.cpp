@@ -17,13 +17,13 @@ using nlohmann::json;
 
 namespace {
 
-// What a mesh takes, in elements of 64 bytes.
-constexpr std::size_t kRead = 1;        // elements of a vertex that is read
-constexpr std::size_t kDrawn = 12;      // of one that is bound and deformed
-constexpr std::size_t kReadCorners = 4; // that are one element
+// The cost of a mesh, in elements of 64 bytes.
+constexpr std::size_t kRead = 1;        // elements per vertex read
+constexpr std::size_t kDrawn = 12;      // elements per vertex bound and deformed
+constexpr std::size_t kReadCorners = 4; // corners per element
 constexpr std::size_t kDrawnCorners = 2;
 
-/// A set of attributes that are called alike but for their numbers: "TEXCOORD_1".
+/// The name of a numbered attribute: "TEXCOORD_1".
 std::string numbered(const char* start, std::size_t set) {
     return start + std::to_string(set);
 }
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    /// What a mesh costs where it is read, and where a node shows it.
+    /// The cost of a mesh when it is read, and per node that shows it.
     struct Cost {
         std::size_t elements = 0, drawn = 0, targets = 0, allTargets = 0;
     };
@@ -87,7 +87,7 @@ private:
     void readPrimitive(const json& from, const std::string& where, GltfMesh& mesh) {
         const json& attributes = from.at("attributes");
         if (!attributes.is_object()) _file.fail(where + ".attributes", "an object");
-        if (!attributes.contains("POSITION")) return; // nothing to be drawn
+        if (!attributes.contains("POSITION")) return; // nothing to draw
         GltfPrimitive primitive;
         const std::size_t vertices =
             _accessors[_accessors.indexOf(attributes.at("POSITION"), where + ".POSITION")].count;
@@ -114,7 +114,7 @@ private:
         for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
             const GltfIndex joints = attribute(numbered("JOINTS_", set), {"VEC4"});
             const GltfIndex weights = attribute(numbered("WEIGHTS_", set), {"VEC4"});
-            if (!joints || !weights) continue; // one without the other means nothing
+            if (!joints || !weights) continue; // ignored unless both exist
             primitive.joints[set] = joints;
             primitive.weights[set] = weights;
         }
@@ -147,14 +147,14 @@ private:
         _file.take(read, where);
         Cost& cost = _costs.back();
         cost.elements += read;
-        if (primitive.mode == 0) return; // no points
+        if (primitive.mode == 0) return; // points are not drawn
         const std::size_t named =
             primitive.indices ? countNamed(*primitive.indices, vertices) : vertices;
         cost.drawn += kDrawn * named + corners / kDrawnCorners;
     }
 
-    /// How many of so many vertices corners name. A primitive of one material often names a few of
-    /// the vertices that all of a body's share.
+    /// How many of `vertices` the indices use. A primitive of one material often uses a few of the
+    /// vertices that all primitives of a body share.
     std::size_t countNamed(std::size_t accessor, std::size_t vertices) {
         const GltfAccessor& source = _accessors[accessor];
         if (!source.stored || source.sparse) return std::min(source.count, vertices);
@@ -170,7 +170,7 @@ private:
     }
 
     void readDraco(const json& from, const std::string& where, GltfPrimitive& primitive) const {
-        constexpr std::size_t kFarthest = 1 << 30; // ids beyond are none
+        constexpr std::size_t kFarthest = 1 << 30; // larger ids are invalid
         const auto extensions = from.find("extensions");
         if (extensions == from.end()) return;
         const auto found = extensions->find("KHR_draco_mesh_compression");
@@ -185,8 +185,7 @@ private:
         primitive.draco = std::move(draco);
     }
 
-    /// Points, lines and what has too few corners for a triangle becomes points, which are not
-    /// drawn.
+    /// Points, lines and surfaces with too few corners become points, which are not drawn.
     void checkMode(std::size_t corners, GltfPrimitive& primitive) {
         constexpr std::size_t kTriangles = 4;
         const bool isSurface = primitive.mode >= kTriangles;
@@ -197,8 +196,8 @@ private:
         primitive.indices.reset();
     }
 
-    /// What names vertices and joints is there, where Draco does not hold it, and the rest is not
-    /// zeros without end.
+    /// Without Draco, indices and joints must have values in the file. Other accessors without
+    /// values, all zeros, count against the limit.
     void checkStored(const GltfPrimitive& primitive, const std::string& where) {
         const auto takeZeros = [&](const GltfIndex& accessor, const std::string& place) {
             if (accessor && !_accessors[*accessor].stored)
@@ -294,7 +293,7 @@ private:
             }
             if (from.contains("skin"))
                 node.skin = _file.indexOf(from.at("skin"), "skins", where + ".skin");
-            if (node.mesh && node.skin) // each mesh has bones of its own
+            if (node.mesh && node.skin) // each mesh has its own bones
                 _file.addEntries(_document.meshes[*node.mesh].primitives.size() *
                                  _document.skins[*node.skin].joints.size());
             if (from.contains("children")) {
@@ -331,11 +330,11 @@ private:
             return;
         }
         makeUnit(node.rotation);
-        // What is hidden by a scale of 0 is almost a point: a joint's matrix has an inverse then.
+        // Clamp scales of 0, which hide a part, so that the joint's matrix stays invertible.
         constexpr double kLeast = 1e-5;
         for (double& scale : node.scale)
             if (std::abs(scale) < kLeast) scale = std::copysign(kLeast, scale);
-        // In single precision, as files hold them.
+        // In single precision, like the file's numbers.
         glm::mat3 axes(1.0f);
         if (!node.rotation.empty())
             axes = glm::mat3_cast(glm::quat(float(node.rotation[3]), float(node.rotation[0]),
@@ -349,7 +348,7 @@ private:
         }
     }
 
-    /// Rotations that are rounded or no unit quaternions otherwise would scale unevenly.
+    /// Normalises rotations: a quaternion that is not of unit length would scale unevenly.
     static void makeUnit(std::vector<double>& rotation) {
         double squares = 0.0;
         for (const double number : rotation) squares += number * number;
@@ -357,7 +356,7 @@ private:
         for (double& number : rotation) number /= std::sqrt(squares);
     }
 
-    /// Every node has one parent at most, so that going up ends, but in a ring.
+    /// Every node has at most one parent, so following parents ends unless there is a cycle.
     void checkDepths() const {
         const std::size_t count = _document.nodes.size();
         std::vector<std::size_t> depths(count, 0); // 0: not known yet
@@ -401,7 +400,7 @@ private:
             _document.roots = scenes[_file.indexOf(_file.json.at("scene"), "scenes", "scene")];
         } else if (!scenes.empty()) {
             _document.roots = scenes.front();
-        } else { // a library of things or of clips
+        } else { // a file of assets or clips without a scene
             for (std::size_t n = 0; n < _document.nodes.size(); ++n)
                 if (!_document.nodes[n].parent) _document.roots.push_back(n);
         }
@@ -412,7 +411,7 @@ private:
     void readAnimations() {
         using Path = GltfAnimation::Path;
         using Interpolation = GltfAnimation::Interpolation;
-        std::string otherPath; // the first that a channel has and none knows
+        std::string otherPath; // the first unknown path of a channel
         std::size_t movedTwice = 0;
         _file.forEach("animations", [&](const json& from, const std::string& where) {
             GltfAnimation animation;
@@ -462,7 +461,7 @@ private:
                     known.node = _file.indexOf(*node, "nodes", channels);
                     if (!moved.emplace(*known.node, known.path).second) ++movedTwice;
                 }
-                // Samplers may be shared: each channel's keys take memory.
+                // Channels may share a sampler; each has its own copy of the keys.
                 _file.take(keys[known.sampler], channels);
                 animation.channels.push_back(known);
             }
@@ -483,15 +482,15 @@ private:
     GltfFile& _file;
     GltfAccessors& _accessors;
     std::vector<Cost> _costs;     ///< of each mesh
-    std::size_t _unfinished = 0;  ///< primitives whose last triangle lacks corners
-    std::size_t _placedTwice = 0; ///< nodes of a matrix and more
-    /// Vertices that an accessor of indices names, of so many.
+    std::size_t _unfinished = 0;  ///< primitives with an incomplete last triangle
+    std::size_t _placedTwice = 0; ///< nodes with both a matrix and other transforms
+    /// Number of vertices that an accessor of indices uses, by accessor and number of vertices.
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> _named;
 };
 
 namespace {
 
-/// Refuses lists that are too long before they are gone through.
+/// Refuses lists that are too long before they are read.
 GltfFile& withFewEntries(GltfFile& file) {
     file.checkEntries();
     return file;

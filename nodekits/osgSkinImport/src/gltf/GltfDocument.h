@@ -20,58 +20,57 @@
 
 namespace osgSkin {
 
-/// What an accessor's elements are, and where they stand.
+/// The type of an accessor's elements, and where the file stores them.
 struct GltfAccessor {
     std::size_t count = 0;
-    std::string type;      ///< as "VEC3"
-    std::size_t width = 0; ///< numbers in an element
-    int component = 0;     ///< type of a number, 5120 to 5126
+    std::string type;      ///< such as "VEC3"
+    std::size_t width = 0; ///< numbers per element
+    int component = 0;     ///< component type, 5120 to 5126
     bool normalised = false;
-    bool stored = false; ///< in a buffer view; otherwise zeros
-    bool sparse = false; ///< with some elements replaced
+    bool stored = false; ///< in a buffer view; otherwise all zeros
+    bool sparse = false; ///< some elements are replaced
     std::size_t view = 0, offset = 0;
-    std::size_t changes = 0; ///< of a sparse one
+    std::size_t changes = 0; ///< number of replaced elements, if sparse
     int indexComponent = 0;
     std::size_t indexView = 0, indexOffset = 0, changeView = 0, changeOffset = 0;
-    std::string wrong; ///< why it cannot be read; empty: it can
+    std::string wrong; ///< why it cannot be read; empty if it can
 
-    /// Whether the file holds its values, not only in a compressed form of some extension.
+    /// Whether the file contains its values, not only in compressed form by an extension.
     bool hasValues() const { return stored || sparse; }
 };
 
-/// The numbers of a glTF file, read as its specification says: normalised integers, sparse
-/// accessors, strides. What no part of the file names may be wrong.
+/// Reads the numbers of a glTF file as the specification defines: normalised integers, sparse
+/// accessors, strides. Errors in unused accessors are ignored.
 class GltfAccessors {
 public:
-    /// Checks that accessors lie in their buffer views, and these in their buffers.
+    /// Checks that accessors lie in their buffer views, and buffer views in their buffers.
     /// \param file with its buffers; must outlive this
     explicit GltfAccessors(const GltfFile& file);
 
     const GltfAccessor& operator[](std::size_t accessor) const { return _accessors[accessor]; }
 
-    /// The index of an accessor that can be read.
+    /// The index of a valid accessor.
     /// \throw osgSkin::Error with the accessor, `where` and what is wrong with it
     std::size_t indexOf(const nlohmann::json& value, const std::string& where) const;
 
     void requireType(std::size_t accessor, std::initializer_list<const char*> types,
                      const std::string& where) const;
-    /// Refuses others than whole numbers of one or two bytes, or where `wide` four.
+    /// Throws unless components are unsigned integers of one or two bytes, or, if `wide`, four.
     void requireIndices(std::size_t accessor, bool wide, const std::string& where) const;
-    /// Refuses an accessor that stands nowhere in the file, which is zeros.
+    /// Throws for an accessor without values in the file, which would be all zeros.
     void requireValues(std::size_t accessor, const std::string& where) const;
 
     /// All numbers, element by element.
     std::vector<float> floats(std::size_t accessor) const;
 
-    /// The same of joints or indices, which are whole numbers even where the file calls them
-    /// normalised.
+    /// All numbers of joints or indices, as integers even if the file declares them normalised.
     std::vector<std::uint32_t> integers(std::size_t accessor) const;
 
-    /// What stands in a buffer view of which beyondView() says nothing.
+    /// The bytes of a buffer view that beyondView() accepts.
     std::string_view bytesOf(std::size_t view) const;
 
-    /// Why so many elements of so many bytes are not within a buffer view, `packed` or as far from
-    /// each other as the view says; empty where they are.
+    /// Why `elements` of `bytes` each do not fit in a buffer view, `packed` or with the view's
+    /// stride; empty if they fit.
     std::string beyondView(const nlohmann::json& view, std::size_t offset, std::size_t elements,
                            std::size_t bytes, bool packed) const;
 
@@ -93,24 +92,24 @@ private:
     std::vector<GltfAccessor> _accessors;
 };
 
-using GltfIndex = std::optional<std::size_t>; ///< of an entry of some list; none where not given
+using GltfIndex = std::optional<std::size_t>; ///< index in some list; none if not given
 
-/// How a material's texture moves texture coordinates (KHR_texture_transform).
+/// A material's transform of texture coordinates (KHR_texture_transform).
 struct GltfTextureTransform {
     double offset[2] = {0.0, 0.0}, scale[2] = {1.0, 1.0}, rotation = 0.0;
 };
 
 struct GltfMaterial {
-    SourceMaterial source; ///< its `image` is an index in GltfDocument::images
+    SourceMaterial source; ///< `image` is an index in GltfDocument::images
     std::size_t texCoord = 0;
     std::optional<GltfTextureTransform> transform;
 };
 
-/// A picture of the file, or the name of another file with one.
+/// An embedded image, or the name of an image file.
 struct GltfImage {
-    std::string uri; ///< decoded; empty: it stands in this file
+    std::string uri; ///< decoded; empty if embedded
     std::string format;
-    std::string_view view; ///< encoded; where empty, `data` is
+    std::string_view view; ///< encoded; if empty, see `data`
     std::string data;
 };
 
@@ -120,9 +119,9 @@ struct GltfPrimitive {
     };
     struct Draco {
         std::size_t view = 0;
-        std::map<std::string, std::size_t> ids; ///< of compressed attributes, by their names
+        std::map<std::string, std::size_t> ids; ///< of compressed attributes, by name
     };
-    std::size_t positions = 0; ///< indices of accessors, as those that follow
+    std::size_t positions = 0; ///< accessor, like those below
     GltfIndex normals, colours, indices;
     std::array<GltfIndex, 8> texCoords;
     std::array<GltfIndex, 4> joints, weights; ///< both or none
@@ -148,9 +147,9 @@ struct GltfNode {
     std::string name; ///< unique after nameNodes()
     glm::dmat4 matrix{1.0};
     bool hasMatrix = false;
-    std::vector<double> translation, rotation, scale; ///< none where they are not given
+    std::vector<double> translation, rotation, scale; ///< empty if not given
     GltfIndex mesh, skin;
-    std::vector<double> weights; ///< instead of the mesh's
+    std::vector<double> weights; ///< override the mesh's
     bool hasWeights = false;
     std::vector<std::size_t> children;
     GltfIndex parent;
@@ -174,14 +173,14 @@ struct GltfAnimation {
     std::vector<Channel> channels;
 };
 
-/// The lists of a glTF file, with every index, number and size checked: nodes are trees of no more
-/// than the allowed depth, each index names something, accessors lie in their buffer views and
-/// these in their buffers, attributes of a primitive have one count, and what is asked for is in
-/// proportion to the file's size. Extras, cameras, lights and unknown extensions are not in it.
+/// The contents of a glTF file, with every index, number and size checked: nodes are trees within
+/// the depth limit, indices are in range, accessors lie in their buffer views and these in their
+/// buffers, attributes of a primitive have the same count, and the amount of data is in proportion
+/// to the file's size. Extras, cameras, lights and unknown extensions are not included.
 class GltfDocument {
 public:
-    /// \param file whose meshopt compression is unpacked; must outlive this
-    /// \throw osgSkin::Error with the file, the place in it and what was expected
+    /// \param file whose meshopt compression has been decoded; must outlive this
+    /// \throw osgSkin::Error with the file, the position in it and what was expected
     explicit GltfDocument(GltfFile& file);
 
     GltfFile& file;
@@ -191,28 +190,33 @@ public:
     std::vector<GltfMesh> meshes;
     std::vector<GltfSkin> skins;
     std::vector<GltfNode> nodes;
-    std::vector<std::size_t> roots; ///< of the scene that is shown
+    std::vector<std::size_t> roots; ///< of the default scene
     std::vector<GltfAnimation> animations;
 };
 
-/// Fills in images and materials.
+/// Reads images and materials.
 void readMaterials(GltfDocument& document);
 
-/// Adds a mesh for each primitive that the scene shows, once for each way to show it.
+/// Adds a mesh for each primitive in the scene, once for each distinct set of morph weights and for
+/// each node with a skin.
 ///
-/// \param order nodes of the scene with meshes, in which these are added
-/// \param indexOf of each node in `scene`; -1 for those that it does not have
+/// \param document with meshes
+/// \param order scene nodes with meshes, in the order in which to add them
+/// \param indexOf index in `scene` of each node; -1 if it is not in the scene
+/// \param scene to add to
 void addMeshes(const GltfDocument& document, const std::vector<std::size_t>& order,
                const std::vector<int>& indexOf, SourceScene& scene);
 
-/// Adds the animations: all interpolations become linear ones, steps by pairs of keys, and cubic
-/// splines by samples at each key and 30 times a second between them.
-/// \param indexOf as of addMeshes()
-/// \throw osgSkin::Error where a track has not a value a key, or times go back
+/// Adds the animations. All interpolations become linear: steps become pairs of keys, and cubic
+/// splines are sampled at each key and 30 times a second between keys.
+/// \param document with animations
+/// \param indexOf as for addMeshes()
+/// \param scene to add to
+/// \throw osgSkin::Error if a track does not have one value per key, or times decrease
 void addAnimations(const GltfDocument& document, const std::vector<int>& indexOf,
                    SourceScene& scene);
 
-/// What Draco's compression of a primitive holds.
+/// The decoded content of a Draco-compressed primitive.
 struct DracoMesh {
     std::vector<std::uint32_t> corners; ///< of triangles
     std::size_t vertices = 0;
@@ -220,8 +224,8 @@ struct DracoMesh {
     std::map<std::string, std::vector<std::uint32_t>> joints;
 };
 
-/// Unpacks a primitive's Draco compression.
-/// \throw osgSkin::Error with `where` where it cannot be, and by its name in a build without Draco
+/// Decodes a Draco-compressed primitive.
+/// \throw osgSkin::Error with `where` if decoding fails, or if this build is without Draco
 DracoMesh unpackDraco(const GltfDocument& document, const GltfPrimitive& primitive,
                       const std::string& where);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// KHR_draco_mesh_compression, by Google's library, which believes what it reads: for trusted files.
+// KHR_draco_mesh_compression by Google's library, which does not validate its input: for trusted
+// files.
 #include "gltf/GltfDocument.h"
 
 #include "text/FileText.h"

@@ -26,8 +26,8 @@ using nlohmann::json;
 
 // --- the text ---
 
-/// Builds the value of a text, and refuses members that an object has twice, of which a parser
-/// would keep one without a word.
+/// Builds the JSON value, and refuses duplicate members of an object, which a parser would drop
+/// silently.
 class TextReader : public nlohmann::json_sax<json> {
 public:
     TextReader(const std::string& path, const std::string& text) : _path(path), _text(text) {}
@@ -65,17 +65,17 @@ public:
         const auto line = std::size_t(std::count(_text.begin(), end, '\n'));
         const std::size_t before = at > 0 ? _text.rfind('\n', at - 1) : std::string::npos;
         const std::size_t column = before == std::string::npos ? at : at - before - 1;
-        // 406: a number beyond any double.
+        // 406: a number too large for a double.
         failFile(_path, "malformed glTF: line " + std::to_string(line + 1) + ", column " +
                             std::to_string(column + 1) +
                             (error.id == 406 ? ": expected a finite number" : ": expected JSON"));
     }
 
 private:
-    /// An object or list that is being read.
+    /// An object or list being read.
     struct Level {
         json* value;
-        const std::string* key; ///< of the member that is being read
+        const std::string* key; ///< of the member being read
         json* member;
     };
 
@@ -96,7 +96,7 @@ private:
     }
     bool open(json value) {
         constexpr std::size_t kDeepest =
-            64; // as of checkJsonDepth(), which goes through texts again
+            64; // as in checkJsonDepth(), which would scan the text again
         if (_open.size() >= kDeepest)
             failFile(_path, "lists and objects stand in each other more than " +
                                 std::to_string(kDeepest) + " deep");
@@ -108,7 +108,7 @@ private:
         return true;
     }
 
-    /// As "meshes[0].name".
+    /// The path of the current value, such as "meshes[0].name".
     std::string place() const {
         std::string result;
         for (const Level& level : _open) {
@@ -126,10 +126,10 @@ private:
     std::vector<Level> _open;
 };
 
-/// Zeros may pad the end of the text, as exporters of binary files write them.
+/// Exporters of binary files may pad the text with zeros.
 json parseText(const std::string& path, std::string text) {
     while (!text.empty() && text.back() == '\0') text.pop_back();
-    // The parser takes a byte 0 for the text's end, and passes over what follows.
+    // The parser ends the text at a byte 0 and ignores the rest.
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
         failFile(path, "malformed glTF: byte " + std::to_string(zero) +
                            " of its text is 0, expected JSON");
@@ -141,7 +141,7 @@ json parseText(const std::string& path, std::string text) {
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 constexpr std::string_view kJson("JSON", 4), kBinary("BIN\0", 4);
 
-/// Little-endian, as all numbers of a binary file.
+/// Little-endian, like all numbers of a binary file.
 std::uint32_t numberAt(std::string_view bytes, std::size_t offset) {
     std::uint32_t result = 0;
     for (std::size_t k = 4; k-- > 0;)
@@ -157,11 +157,12 @@ bool isCoordinate(const json& value) {
 
 // --- buffers ---
 
-/// Gives a file's buffers what they hold: the binary chunk, which is the first one's where that
-/// names nothing else, data in the file's text, and other files, each read once.
+/// Loads the buffers of a file: the binary chunk for the first buffer if that has no URI, data
+/// URIs, and other files, each read once.
 class BufferLoader {
 public:
-    /// \param binary the chunk; null where there is none
+    /// \param file whose buffers are loaded
+    /// \param binary the binary chunk; null if there is none
     BufferLoader(GltfFile& file, std::string* binary) : _file(file), _binary(binary) {}
 
     void run() {
@@ -217,7 +218,7 @@ private:
             }
             _file._besideBytes += content->size();
         }
-        // Each counts, as often as it is named.
+        // A file counts each time it is named.
         _named += content->size();
         if ((_file.ownBytes + _named) >> 20 >= _file.limits.fileMegabytes)
             _file.fail("buffers", "less than " + std::to_string(_file.limits.fileMegabytes) +
@@ -227,14 +228,14 @@ private:
 
     GltfFile& _file;
     std::string* _binary;
-    std::map<std::string, Content> _known; ///< other files, however they are spelled
+    std::map<std::string, Content> _known; ///< other files, by canonical path
     std::size_t _named = 0;                ///< bytes of other files
 };
 
 // --- the file ---
 
-/// Takes the chunks apart; returns the text. What follows the length that the header tells may be
-/// anything.
+/// Splits the file into chunks; returns the JSON text. Anything may follow the length in the
+/// header.
 std::string GltfFile::readChunks(std::string_view all, std::string& binary, bool& hasBinary) {
     if (all.size() < kHeader)
         failFile(path, "malformed glTF: " + std::to_string(all.size()) +
@@ -266,7 +267,7 @@ std::string GltfFile::readChunks(std::string_view all, std::string& binary, bool
     return text;
 }
 
-/// Refuses a file that says to be for readers of another version.
+/// Throws if the file is for readers of another version.
 void GltfFile::requireSecond() const {
     const auto none = json.end();
     const auto asset = json.is_object() ? json.find("asset") : none;
@@ -383,7 +384,7 @@ void GltfFile::take(std::size_t elements, const std::string& where) {
 }
 
 void GltfFile::checkEntries() const {
-    constexpr std::size_t kSamples = 20; // that an entry counts for
+    constexpr std::size_t kSamples = 20; // samples per entry
     const std::size_t most = limits.samplesOf(allBytes()) / kSamples;
     std::size_t all = _entries;
     for (const char* list : {"nodes", "scenes", "materials", "textures", "images", "samplers"})
@@ -439,7 +440,7 @@ namespace {
 constexpr std::string_view kBase64 =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// What each byte stands for; no letter's value where it is none.
+/// The value of a base64 letter; an invalid value for other bytes.
 std::size_t base64Value(char letter) {
     static const std::array<unsigned char, 256> values = [] {
         std::array<unsigned char, 256> result;
@@ -451,13 +452,13 @@ std::size_t base64Value(char letter) {
     return values[static_cast<unsigned char>(letter)];
 }
 
-/// \throw osgSkin::Error with the reason alone
+/// \throw osgSkin::Error with the reason only
 std::string fromBase64(std::string_view text) {
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3);
     std::uint32_t bits = 0;
     int count = 0;
-    // Padding is all that may follow it.
+    // Only padding may follow.
     const std::size_t end = text.find_last_not_of("= \t\r\n");
     for (std::size_t i = 0; end != std::string_view::npos && i <= end; ++i) {
         const std::size_t value = base64Value(text[i]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What surfaces of a glTF file look like: materials, textures, samplers and images.
+// The appearance of surfaces in a glTF file: materials, textures, samplers and images.
 #include "gltf/GltfDocument.h"
 
 #include "text/FileText.h"
@@ -25,9 +25,8 @@ bool isWord(const std::string& text) {
            });
 }
 
-/// The extension of the kind of picture that bytes begin as, which exporters name wrongly or not at
-/// all; by the type that the file tells where they begin as none of these; empty where no reader
-/// has it.
+/// The file extension for an image's format, from its first bytes, because exporters often write a
+/// wrong MIME type or none. For unknown bytes, from the MIME type; empty if there is no reader.
 std::string formatOf(std::string_view bytes, const std::string& mime) {
     static const std::pair<std::string_view, const char*> kinds[] = {{"\x89PNG", "png"},
                                                                      {"\xff\xd8\xff", "jpg"},
@@ -43,8 +42,8 @@ std::string formatOf(std::string_view bytes, const std::string& mime) {
     return format.size() <= 3 ? format : "";
 }
 
-/// Where an image stands that a texture has by an extension, for those who read its format; null
-/// where there is none.
+/// The index of a texture's image, which may be in an extension for other image formats; null if
+/// there is none.
 const json* sourceOf(const json& texture) {
     const auto own = texture.find("source");
     if (own != texture.end()) return &*own;
@@ -55,7 +54,7 @@ const json* sourceOf(const json& texture) {
     return nullptr;
 }
 
-/// A linear colour in sRGB.
+/// Converts a linear colour to sRGB.
 float toSrgb(double linear) {
     const auto value = static_cast<float>(linear);
     return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
@@ -89,7 +88,7 @@ private:
         GltfIndex image;
         osg::Texture::WrapMode wrapS = osg::Texture::REPEAT, wrapT = osg::Texture::REPEAT;
     };
-    /// What a material says of one of its textures.
+    /// A material's reference to one of its textures.
     struct TextureInfo {
         std::size_t texture = 0, texCoord = 0;
         std::optional<GltfTextureTransform> transform;
@@ -111,7 +110,7 @@ private:
                 const auto [found, isNew] =
                     stored.insert({{view.buffer, view.offset, view.length}, _imageOf.back()});
                 _imageOf.back() = found->second;
-                if (!isNew) return; // another of the same bytes
+                if (!isNew) return; // same bytes as an earlier image
                 bytes += view.length;
                 if (bytes > _file.allBytes())
                     _file.fail(where, "images of at most " + std::to_string(_file.allBytes()) +
@@ -125,8 +124,8 @@ private:
         });
     }
 
-    /// "my%20file.png" is called "my file.png". A byte 0, which is in no file's name, stays
-    /// escaped. Data that is none is drawn without, as is any picture that is broken.
+    /// Decodes "my%20file.png" to "my file.png". A byte 0, which no file name contains, stays
+    /// escaped. Invalid data is dropped, so that the material is drawn without the image.
     static void readUri(const std::string& uri, GltfImage& image) {
         if (!isDataUri(uri)) {
             image.uri = decodedUri(uri);
@@ -184,7 +183,7 @@ private:
         return info;
     }
 
-    /// Adds a material; returns whether its texture of emission is left out.
+    /// Adds a material; returns whether its emission texture is ignored.
     bool readMaterial(const json& from, const std::string& where) {
         std::vector<double> base{1.0, 1.0, 1.0, 1.0};
         double roughness = 1.0;
@@ -202,7 +201,7 @@ private:
                 texture = textureInfo(pbr->at("baseColorTexture"), where);
         }
         const bool hadTexture = texture.has_value();
-        // A surface that is black but for its texture of emission is drawn with that.
+        // Draw a surface that is black except for its emission texture with that texture.
         const std::vector<double> emissive = _file.numbers(from, "emissiveFactor", 3, where);
         const bool glows = from.contains("emissiveTexture");
         std::optional<TextureInfo> glow;
@@ -212,7 +211,7 @@ private:
             texture = glow;
             std::copy(emissive.begin(), emissive.end(), base.begin());
         }
-        // An older way to say what a surface is like, which goes before the other where both are.
+        // This older extension has priority if a material has both models.
         if (const json* glossy = extensionOf(from, "KHR_materials_pbrSpecularGlossiness")) {
             base = {1.0, 1.0, 1.0, 1.0};
             texture.reset();
@@ -261,7 +260,7 @@ private:
         material.source.look.wrapT = texture.wrapT;
     }
 
-    /// The exponent of a highlight as wide; a rough surface has none.
+    /// Sets the specular exponent for a highlight of the same width; a rough surface has none.
     static void setRoughness(float roughness, Material& look) {
         look.shininess = 2.0f / std::max(1e-6f, std::pow(roughness, 4.0f)) - 2.0f;
         if (roughness >= 1.0f) look.specular = {0.0f, 0.0f, 0.0f, 1.0f};
@@ -270,7 +269,7 @@ private:
     GltfDocument& _document;
     GltfFile& _file;
     const GltfAccessors& _accessors;
-    std::vector<std::size_t> _imageOf; ///< of each image its index in GltfDocument::images
+    std::vector<std::size_t> _imageOf; ///< index in GltfDocument::images of each image
     std::vector<Texture> _textures;
 };
 
@@ -278,7 +277,7 @@ private:
 
 void readMaterials(GltfDocument& document) {
     MaterialReader(document).run();
-    // For meshes without, as the specification's default has it.
+    // The specification's default, for meshes without a material.
     GltfMaterial& last = document.materials.emplace_back();
     last.source.isLinear = true;
     last.source.look.diffuse = {1.0f, 1.0f, 1.0f, 1.0f};

@@ -17,7 +17,7 @@
 namespace osgSkin {
 namespace {
 
-constexpr float kRounding = -1e-3f; ///< the least weight that exporters make of 0
+constexpr float kRounding = -1e-3f; ///< the least weight that exporters round from 0
 
 std::string number(std::size_t value) {
     return std::to_string(value);
@@ -30,8 +30,8 @@ std::vector<Vector> asVectors(const std::vector<float>& numbers) {
     return result;
 }
 
-/// Scaled, turned and moved, in the file's texture space: v goes down, and the turn is
-/// counter-clockwise where it is looked at.
+/// Scales, rotates and translates texture coordinates in the file's texture space: v points down,
+/// and rotations look counter-clockwise.
 void moveEach(const GltfTextureTransform& transform, std::vector<float>& texCoords) {
     const double cosine = std::cos(transform.rotation), sine = std::sin(transform.rotation);
     for (std::size_t i = 0; i + 1 < texCoords.size(); i += 2) {
@@ -60,7 +60,7 @@ public:
                 _scene.nodes[static_cast<std::size_t>(_indexOf[n])].meshes;
             const auto [first, isNew] =
                 known.emplace(std::make_pair(*node.mesh, weights), std::vector<std::size_t>());
-            // Bones are a mesh's own.
+            // Meshes with bones are not shared.
             if (!isNew && !node.skin && !first->second.empty()) {
                 shown = first->second;
                 continue;
@@ -71,7 +71,7 @@ public:
             }
             if (!node.skin) first->second = shown;
         }
-        // The default is behind all others.
+        // The default material is last.
         const std::size_t last = materialOf(_document.materials.size() - 1);
         for (const auto& mesh : _plain) mesh->material = last;
     }
@@ -90,7 +90,7 @@ private:
         else
             _plain.push_back(mesh);
         _packed = {};
-        // What stands in the file uncompressed, too, is more exact.
+        // Prefer uncompressed values if the file has them: they are more exact.
         _isPacked = primitive.draco.has_value() && !hasAllValues(primitive);
         if (_isPacked) _packed = unpackDraco(_document, primitive, _where);
         readAttributes(primitive, weights, *mesh);
@@ -99,7 +99,7 @@ private:
         _scene.meshes.push_back(mesh);
     }
 
-    /// Whether all that a compressed primitive names is in the file plain, too.
+    /// Whether the file also contains all of a compressed primitive's attributes uncompressed.
     bool hasAllValues(const GltfPrimitive& primitive) const {
         const auto has = [&](const GltfIndex& accessor) {
             return !accessor || _accessors[*accessor].hasValues();
@@ -163,8 +163,8 @@ private:
         for (glm::vec2& texCoord : mesh.texCoords) texCoord.y = 1.0f - texCoord.y;
     }
 
-    /// Adds morph targets with the weights that the file gives them at rest (section 3.7.2.2).
-    /// Takes what is moved from what all may have, so that a small file does not take minutes.
+    /// Adds morph targets with the file's default weights (section 3.7.2.2). Counts the numbers it
+    /// adds against a limit for the whole file, so that a small file cannot take minutes.
     void morph(const GltfPrimitive& from, const std::vector<double>& weights,
                GltfIndex GltfPrimitive::Target::*attribute, std::vector<float>& values) {
         const std::size_t targets = std::min(weights.size(), from.targets.size());
@@ -211,7 +211,7 @@ private:
         mesh.faceSizes.assign(mesh.corners.size() / 3, 3);
     }
 
-    /// Triangles of a strip or a fan, all of them the same way round.
+    /// Triangles of a strip or a fan, all with the same winding.
     static std::vector<std::uint32_t> trianglesOf(const std::vector<std::uint32_t>& from,
                                                   bool isStrip) {
         std::vector<std::uint32_t> result;
@@ -267,7 +267,7 @@ private:
                                  "." + member + ": vertex " + number(at / 4) + message);
     }
 
-    /// Inverse bind matrices; without, all of them are the identity (section 3.7.3.1).
+    /// Inverse bind matrices; by default all are the identity (section 3.7.3.1).
     const std::vector<glm::dmat4>& offsetsOf(const GltfSkin& skin, std::size_t index) {
         const auto [entry, isNew] = _offsets.emplace(index, std::vector<glm::dmat4>());
         std::vector<glm::dmat4>& result = entry->second;
@@ -301,7 +301,7 @@ private:
 
     // --- materials ---
 
-    /// The index in the scene of a material, which is added when it is used first.
+    /// The index in the scene of a material, which is added when it is first used.
     std::size_t materialOf(std::size_t index) {
         GltfIndex& known = _materialOf[index];
         if (known) return *known;
@@ -312,7 +312,7 @@ private:
         return *known;
     }
 
-    /// Names of pictures in the file count them.
+    /// Sets an embedded image, named after its index.
     void addImage(const GltfImage& from, SourceMaterial& material) {
         if (!from.uri.empty()) {
             material.image.reset();
@@ -337,10 +337,10 @@ private:
     SourceScene& _scene;
     std::vector<GltfIndex> _materialOf, _imageOf;            ///< in the scene
     std::vector<std::shared_ptr<SourceMesh>> _plain;         ///< without a material
-    std::map<std::size_t, std::vector<glm::dmat4>> _offsets; ///< of each skin
-    double _morphs;     ///< numbers that targets may still move
-    std::string _where; ///< the primitive
-    DracoMesh _packed;  ///< what the primitive is compressed with
+    std::map<std::size_t, std::vector<glm::dmat4>> _offsets; ///< by skin
+    double _morphs;     ///< how many more numbers targets may move
+    std::string _where; ///< path of the current primitive
+    DracoMesh _packed;  ///< decoded content of the primitive
     bool _isPacked = false;
 };
 

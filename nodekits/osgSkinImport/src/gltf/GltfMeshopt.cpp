@@ -16,11 +16,11 @@ namespace {
 
 using nlohmann::json;
 
-/// All names of the one compression, old and new.
+/// All names of this compression, old and new.
 constexpr const char* kNames[] = {"EXT_meshopt_compression", "KHR_meshopt_compression",
                                   "MESHOPT_compression"};
 
-/// The extension that a view is compressed by; null where it is not.
+/// The extension that compresses a view; null if there is none.
 const char* packedBy(const json& view) {
     if (!view.is_object() || !view.contains("extensions")) return nullptr;
     for (const char* name : kNames)
@@ -28,7 +28,8 @@ const char* packedBy(const json& view) {
     return nullptr;
 }
 
-/// A packed view may name a buffer with the same bytes unpacked, which need not be there.
+/// A compressed view may name a fallback buffer with the same bytes uncompressed, which may be
+/// absent.
 bool hasContent(const GltfFile& file, const json& view) {
     const auto buffer = view.at("buffer").get<std::size_t>();
     return buffer < file.buffers.size() && file.buffers[buffer] != nullptr;
@@ -36,15 +37,16 @@ bool hasContent(const GltfFile& file, const json& view) {
 
 #ifdef OSGSKIN_HAS_MESHOPTIMIZER
 
-/// How many bytes one can stand for at most. Version 0 of the vertices' codec spends two bits a
-/// group of 16; version 1, which younger libraries read, a quarter byte a block of 256.
+/// The maximum compression ratio. Version 0 of the vertex codec uses two bits per group of 16
+/// bytes; version 1, which newer library versions read, uses a quarter byte per block of 256.
 constexpr std::size_t kMaxFromOne = MESHOPTIMIZER_VERSION < 230 ? 64 : 1024;
 
-/// Bytes that may be unpacked for each sample that a file may have: 16 MB, and 16 times the file.
+/// Decompressed bytes allowed per sample of the file's limit: 16 MB, and 16 times the file's size.
 constexpr std::size_t kFairShare = 32;
-constexpr std::size_t kMaxCounted = 4; ///< times a file's size that count as its own when unpacked
+constexpr std::size_t kMaxCounted = 4; ///< times a file's size that count as its own when decoded
 
-/// What the extension says of a view; checked before the decoders see it, which only assert.
+/// The extension's parameters for a view. They are checked before decoding, because the decoders
+/// only assert.
 struct Packed {
     std::size_t buffer, offset, length, stride, count;
     std::string mode, filter;
@@ -92,13 +94,14 @@ public:
           _fair(kFairShare * file.limits.samplesOf(file.allBytes())),
           _counted(kMaxCounted * file.allBytes()) {}
 
+    /// \param view to decode in place
     /// \param name of the extension
     /// \param number of the view
     void unpackAt(json& view, const std::string& name, std::size_t number) {
         _where = "bufferViews[" + std::to_string(number) + "]." + name;
         try {
             unpack(view, name);
-        } catch (const json::exception& error) { // of a member that is not there, or another kind
+        } catch (const json::exception& error) { // missing member, or wrong type
             failFile(_file.path, "malformed glTF: " + _where + ": " + reasonOf(error));
         }
     }
@@ -134,7 +137,8 @@ private:
         const std::size_t length = bytes.size();
         _room -= length;
         _fair -= length;
-        // What else the file may ask for goes by what it says unpacked, as far as that is usual.
+        // The file's other limits are relative to its uncompressed size, up to the usual
+        // compression ratio.
         const std::size_t counted = std::min(length, _counted);
         _counted -= counted;
         _file.ownBytes += counted;
@@ -147,9 +151,9 @@ private:
     }
 
     GltfFile& _file;
-    std::size_t _room;    ///< bytes that may still be unpacked
-    std::size_t _fair;    ///< bytes that the file's own size allows to be unpacked still
-    std::size_t _counted; ///< bytes that may still be counted as the file's
+    std::size_t _room;    ///< bytes that may still be decompressed
+    std::size_t _fair;    ///< the same, relative to the file's size
+    std::size_t _counted; ///< bytes that may still count as the file's own
     std::string _where;
 };
 

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 // --- extensions ---
 
-/// Of required extensions, those that are read or have to do with looks only.
+/// Required extensions that are supported or affect appearance only.
 constexpr const char* kHarmless[] = {"KHR_draco_mesh_compression",
                                      "EXT_meshopt_compression",
                                      "KHR_meshopt_compression",
@@ -38,7 +38,7 @@ constexpr const char* kHarmless[] = {"KHR_draco_mesh_compression",
                                      "KHR_techniques",
                                      "AGI_"};
 
-/// Of extensions that need not be required, those that say where things stand or how they move.
+/// Extensions that affect positions or motion even if the file does not require them.
 constexpr const char* kMissed[] = {"KHR_animation_pointer", "EXT_mesh_gpu_instancing",
                                    "KHR_node_visibility"};
 
@@ -47,7 +47,7 @@ bool isHarmless(const std::string& extension) {
                        [&](const char* start) { return extension.rfind(start, 0) == 0; });
 }
 
-/// Says in a notice what the file requires that is not known to leave shapes and motions alone.
+/// Reports unknown extensions that may affect shapes or motions.
 void noteExtensions(const GltfFile& file) {
     const json none = json::array();
     const json required = file.json.value("extensionsRequired", none);
@@ -70,7 +70,7 @@ void noteExtensions(const GltfFile& file) {
                                   "\", which is not known; read without it");
 }
 
-/// Whether the front of the file's figure is -Z: VRM 0 turned it so, where glTF has +Z.
+/// Whether the figure faces -Z, as in VRM 0, and not +Z, as in glTF.
 bool facesBackwards(const GltfFile& file) {
     const auto extensions = file.json.find("extensions");
     return extensions != file.json.end() && extensions->contains("VRM");
@@ -78,7 +78,7 @@ bool facesBackwards(const GltfFile& file) {
 
 // --- names ---
 
-/// Whose name goes before: joints, then what moves, then nodes without a mesh.
+/// The priority of each node's name: joints, then animated nodes, then nodes without a mesh.
 std::vector<int> ranksOf(const GltfDocument& document) {
     std::vector<int> ranks(document.nodes.size(), 2);
     for (std::size_t n = 0; n < ranks.size(); ++n)
@@ -91,10 +91,9 @@ std::vector<int> ranksOf(const GltfDocument& document) {
     return ranks;
 }
 
-/// Gives each node a name of its own: glTF knows nodes by their numbers, and two may be called
-/// alike. Joints keep theirs before nodes that are none; what must change gets a counter, as
-/// "Torso.001".
-/// \return a name that no node has, for a root of several roots
+/// Makes node names unique: glTF refers to nodes by index, so several may share a name. Joints keep
+/// their names before other nodes; duplicates get a counter, such as "Torso.001".
+/// \return a name that no node has, for a common root of several roots
 std::string nameNodes(GltfDocument& document) {
     std::vector<GltfNode>& nodes = document.nodes;
     const std::vector<int> ranks = ranksOf(document);
@@ -121,7 +120,7 @@ std::string nameNodes(GltfDocument& document) {
 
 // --- the scene ---
 
-/// Nodes with a mesh that the scene shows, those below a node before it.
+/// The scene's nodes with a mesh, children before parents.
 std::vector<std::size_t> shownMeshes(const GltfDocument& document) {
     std::vector<std::size_t> result;
     std::vector<std::pair<std::size_t, std::size_t>> open; // nodes, and their next child
@@ -142,8 +141,8 @@ std::vector<std::size_t> shownMeshes(const GltfDocument& document) {
     return result;
 }
 
-/// Adds the scene's nodes from the root down; returns each node's index, -1 for those that it does
-/// not have.
+/// Adds the scene's nodes, parents before children; returns each node's index, or -1 if it is not
+/// in the scene.
 std::vector<int> addNodes(const GltfDocument& document, const std::string& rootName,
                           SourceScene& scene) {
     std::vector<int> indexOf(document.nodes.size(), -1);

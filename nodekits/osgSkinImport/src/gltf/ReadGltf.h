@@ -10,12 +10,12 @@
 
 namespace osgSkin {
 
-/// Whether files of this name are glTF: .gltf, .glb or .vrm.
+/// Whether a file name has a glTF extension: .gltf, .glb or .vrm.
 bool isGltfName(const std::string& path);
 
-/// Reads a file that isGltfName().
-/// \throw osgSkin::Error with the file and the place in it where it is no glTF 2, breaks the
-///        specification, or is compressed in a way that is not read
+/// Reads a glTF file; see isGltfName().
+/// \throw osgSkin::Error with the file and the position in it, if it is not glTF 2, violates the
+///        specification, or uses unsupported compression
 SourceScene readGltf(const std::string& path, const ReadLimits& limits);
 
 } // namespace osgSkin

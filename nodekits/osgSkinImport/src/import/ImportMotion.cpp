@@ -36,17 +36,17 @@ namespace osgSkin {
 
 namespace {
 
-/// How axes stand that negative scales above them may have mirrored: along x, and turned then, as
-/// rotationOf() tells it of a matrix.
+/// The orientation of axes that negative scales may have mirrored: mirrored along x, then rotated,
+/// as rotationOf() decomposes a matrix.
 struct ReflectedRotation {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     bool isMirrored = false;
 
-    /// Those of a node below that is turned, and mirrored along its own axes where its scale is
-    /// negative.
+    /// The orientation of a child node with the given rotation and scale, whose negative signs
+    /// mirror it along its own axes.
     ReflectedRotation below(const glm::dquat& turn, const glm::dvec3& scale) const {
-        // With F, mirroring along x: F R F is a rotation, too, and so is what is left of the
-        // scale's signs, half a turn about an axis or none.
+        // If F mirrors along x, then F R F is a rotation. So is the rest of the scale's signs: half
+        // a turn about an axis, or none.
         const glm::dquat own = isMirrored ? glm::dquat(turn.w, turn.x, -turn.y, -turn.z) : turn;
         const bool x = scale.x < 0.0, y = scale.y < 0.0, z = scale.z < 0.0;
         glm::dquat rest(1.0, 0.0, 0.0, 0.0);
@@ -59,10 +59,10 @@ struct ReflectedRotation {
 
 constexpr double kMinRate = 29.9; ///< 30, and NTSC's 29.97
 constexpr int kMaxRate = 240, kFreeRate = 120;
-constexpr double kMaxSteps = 1e15; ///< far more than anybody allows
-constexpr double kOff = 0.05;      ///< of a step: times are rounded to milliseconds in some formats
+constexpr double kMaxSteps = 1e15; ///< far above any limit
+constexpr double kOff = 0.05;      ///< fraction of a step: some formats round times to milliseconds
 
-/// Whether all keys stand on samples, seconds after the first.
+/// Whether all keys, in seconds after the first, are at samples.
 bool fits(const std::vector<double>& keys, double rate) {
     return std::all_of(keys.begin(), keys.end(), [rate](double key) {
         return std::abs(key * rate - std::round(key * rate)) <= kOff;
@@ -70,7 +70,7 @@ bool fits(const std::vector<double>& keys, double rate) {
 }
 
 double rateOf(const std::vector<double>& keys) {
-    const double own = static_cast<double>(keys.size() - 1) / keys.back(); // where keys are even
+    const double own = static_cast<double>(keys.size() - 1) / keys.back(); // if keys are even
     const double multiple = own * std::max(1.0, std::ceil(kMinRate / own));
     if (fits(keys, multiple)) return multiple;
     for (int rate = 30; rate <= kMaxRate; ++rate)
@@ -78,9 +78,9 @@ double rateOf(const std::vector<double>& keys) {
     return kFreeRate;
 }
 
-/// Even samples of tracks whose keys may stand anywhere: 30 a second or more, and where keys keep
-/// to some rate up to 240, at every key. Where they keep to none, 120 a second; then each key is
-/// within half a step of a sample, which is to take it (see step()).
+/// Evenly spaced samples for tracks with keys at any times: 30 a second or more, with a sample at
+/// every key if the keys fit some rate up to 240. If they fit none, 120 a second; each key is then
+/// within half a step of a sample, which should take the key's value (see step()).
 class SampleGrid {
 public:
     /// \param times of all keys, in seconds; finite, at least one
@@ -101,7 +101,7 @@ SampleGrid::SampleGrid(std::vector<double> times) {
     const double span = times.back() - _first;
     if (!(span > 0.0)) return;
     for (double& time : times) time -= _first;
-    // Tracks share their keys' times, but for rounding.
+    // Tracks share key times, except for rounding.
     const double same = 1e-6 * span;
     times.erase(std::unique(times.begin(), times.end(),
                             [same](double a, double b) { return b - a <= same; }),
@@ -112,9 +112,10 @@ SampleGrid::SampleGrid(std::vector<double> times) {
     _step = span / steps;
 }
 
-/// Gives nodes at their parents' origin the one position that their track holds. Some exporters
-/// write the bones' lengths there only.
+/// Moves nodes that are at their parents' origin to the constant position in their track. Some
+/// exporters write bone lengths only there.
 ///
+/// \param animation whose tracks are read
 /// \param scene whose nodes may be changed
 void takeTrackOffsets(const SourceAnimation& animation, SourceScene& scene) {
     std::unordered_map<std::string, SourceNode*> nodes;
@@ -134,8 +135,8 @@ void takeTrackOffsets(const SourceAnimation& animation, SourceScene& scene) {
     }
 }
 
-/// The times of a track's keys, in seconds. A single key holds its value at all times, and readers
-/// add some at 0.
+/// Adds the times of a track's keys, in seconds. A single key is constant, and readers add such
+/// keys at 0.
 template <typename Keys>
 void addTimes(const Keys& keys, double rate, std::vector<double>& times) {
     if (keys.size() < 2) return;
@@ -150,12 +151,12 @@ glm::dvec3 blend(const glm::dvec3& a, const glm::dvec3& b, double t) {
     return glm::mix(a, b, t);
 }
 
-/// A sample's time, in ticks, and how far around it a key counts as standing there.
+/// A sample's time, in ticks, and the distance within which a key counts as being at the sample.
 struct Moment {
     double time, reach;
 };
 
-/// The track's value: a key's own where one stands there.
+/// The track's value: a key's exact value if it is at the sample, or else interpolated.
 template <typename Result, typename Key>
 Result valueAt(const std::vector<Key>& keys, const Moment& moment) {
     const double time = moment.time;
@@ -182,15 +183,15 @@ std::vector<const SourceTrack*> tracksOf(const SourceAnimation& animation,
     return result;
 }
 
-/// What makes a figure two units high or long, of a skeleton.
+/// The scale that makes a skeleton's figure two units high or long.
 double unitScale(const RestSkeleton& rest) {
     osg::BoundingBoxd box;
     for (const RestJoint& joint : rest.joints) box.expandBy(toOsg(joint.centre));
     return box.radius() > 0.0 ? 1.0 / box.radius() : 1.0;
 }
 
-/// For each joint, whether its track moves it from the position that its node has: in the size that
-/// a figure has, since nodes may count in other units than the scene.
+/// For each joint, whether its track moves it from its node's position. The comparison is relative
+/// to the figure's size, because nodes may have other units than the scene.
 std::vector<bool> findMovedJoints(const std::vector<const SourceTrack*>& tracks,
                                   const SceneSkeleton& skeleton) {
     std::vector<bool> result(tracks.size(), false);
@@ -210,7 +211,7 @@ std::vector<bool> findMovedJoints(const std::vector<const SourceTrack*>& tracks,
     return result;
 }
 
-/// Tells of a joint whose track scales it: motions have no scale.
+/// Reports the first joint whose track scales it: motions have no scale.
 void noticeScales(const std::vector<const SourceTrack*>& tracks, const SceneSkeleton& skeleton,
                   const std::string& path) {
     constexpr double kSame = 0.01;
@@ -239,7 +240,7 @@ glm::dvec3 localPosition(const SourceTrack* track, const SourceNode& node, const
     return valueAt<glm::dvec3>(track->positions, moment);
 }
 
-/// The scale that a node has beside localRotation(), with its signs.
+/// A node's scale to combine with localRotation(), with its signs.
 glm::dvec3 localScale(const SourceTrack* track, const SourceNode& node) {
     glm::dvec3 result = decompose(node.matrix).scale;
     if (track == nullptr || track->rotations.empty() || track->scales.empty()) return result;
@@ -248,7 +249,7 @@ glm::dvec3 localScale(const SourceTrack* track, const SourceNode& node) {
     return result;
 }
 
-/// A node's matrix as its track has it, with the scale that the node has.
+/// A node's matrix from its track, with the node's own scale.
 glm::dmat4 localMatrix(const SourceTrack* track, const SourceNode& node, const Moment& moment) {
     const glm::dvec3 scale = localScale(track, node);
     glm::dmat4 result = glm::mat4_cast(localRotation(track, node, moment));
@@ -258,12 +259,12 @@ glm::dmat4 localMatrix(const SourceTrack* track, const SourceNode& node, const M
 }
 
 /// Samples an animation at equal steps, 30 a second or more, and at every key (see SampleGrid).
-/// Rotations are brought into frames that are aligned with the world at rest, as a Motion has them.
+/// Converts rotations to frames that are aligned with the world at rest, as Motion stores them.
 ///
-/// Of positions, those of the root are used, or of the joint that rootMotionJoint() finds; moves of
-/// others are left out, with a notice.
-/// \throw osgSkin::Error with `path` where no track has a key, the keys' times make no sense, or
-///        joints times frames are more than `mostSamples`.
+/// Uses the positions of the root only, or of the joint that rootMotionJoint() finds; those of
+/// other joints are dropped, with a notice.
+/// \throw osgSkin::Error with `path` if no track has a key, the key times are invalid, or joints
+///        times frames are more than `mostSamples`.
 Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skeleton,
                     std::size_t mostSamples, const std::string& path) {
     const std::vector<const SourceTrack*> tracks = tracksOf(animation, skeleton);
@@ -302,7 +303,7 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
     const std::size_t joints = tracks.size();
     const ReflectedRotation aboveRoot{rotationOf(skeleton.aboveRoot),
                                       glm::determinant(glm::dmat3(skeleton.aboveRoot)) < 0.0};
-    std::vector<ReflectedRotation> world(joints); // the nodes' own frames
+    std::vector<ReflectedRotation> world(joints); // in the nodes' own frames
     std::vector<glm::dquat> aligned(joints);      // the same, as rotations from rest
     for (std::size_t f = 0; f < motion.frames; ++f) {
         const Moment moment{grid.time(f) * rate, 0.5001 * grid.step() * rate};
@@ -336,7 +337,7 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
     return motion;
 }
 
-/// Refuses what Assimp lets pass: numbers that overflow, and broken binary files.
+/// Throws for errors that Assimp does not detect: numbers that overflow, and broken binary files.
 void validate(const Motion& motion, const std::string& path) {
     const std::size_t joints = motion.skeleton.joints.size();
     for (std::size_t f = 0; f < motion.frames; ++f) {
@@ -351,13 +352,13 @@ void validate(const Motion& motion, const std::string& path) {
 }
 
 Motion readBvhMotion(const std::string& path, const std::string& clip, const ReadLimits& limits) {
-    if (!clip.empty()) findClip({osgDB::getStrippedName(path)}, clip, path); // one, called so
+    if (!clip.empty()) findClip({osgDB::getStrippedName(path)}, clip, path); // the only clip
     const BvhFile file = readBvh(path, limits);
     if (file.frames == 0) failFile(path, "no frame, expected at least one");
     return makeMotion(file, path);
 }
 
-/// The first animation that moves joints, and tells of the others that do.
+/// The first animation that moves joints. Reports that others do, too.
 std::size_t firstClip(const SourceScene& scene, const std::vector<std::string>& names,
                       const std::string& path) {
     std::size_t first = 0, count = 0;
@@ -375,7 +376,8 @@ Motion readSceneMotion(const std::string& path, const std::string& clip, const R
                        const osgDB::Options* options) {
     if (holdsMeshesOnly(path)) {
         requireReadable(path, limits);
-        failFile(path, "no animation in files of its kind, expected one of another");
+        failFile(path,
+                 "files of this format have no animation; name a motion file of another format");
     }
     SourceScene scene = *readSourceScene(path, options); // a copy, whose nodes may change
     if (scene.animations.empty()) failFile(path, "no animation, expected at least one");

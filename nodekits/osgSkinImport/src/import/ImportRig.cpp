@@ -57,9 +57,10 @@ osg::ref_ptr<osgAnimation::Bone> makeBone(const std::string& name, const glm::dm
     return bone;
 }
 
-/// Builds the bones of a scene's joints in their nodes' pose. What clips move gets the elements
-/// "translate", "quaternion" and "scale"; other bones hold their matrix.
-/// \param moves whether some clip moves the joint, one a joint
+/// Builds the bones of a scene's joints, in the pose of their nodes. Bones that clips move get the
+/// elements "translate", "quaternion" and "scale"; other bones get a matrix element.
+/// \param joints of the scene
+/// \param moves whether some clip moves the joint, [joint]
 osg::ref_ptr<osgAnimation::Skeleton> makeBones(const SceneSkeleton& joints,
                                                const std::vector<bool>& moves) {
     osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
@@ -114,15 +115,15 @@ osg::Quat stored(const glm::dquat& q) {
     return toOsg(glm::normalize(q));
 }
 
-/// The clip's time, from ticks.
+/// Converts a clip's ticks to seconds.
 struct Clock {
     double first = std::numeric_limits<double>::infinity();
     double ticksPerSecond = 25.0;
-    bool any = false; ///< key
+    bool any = false; ///< whether there is any key
 
     double seconds(double ticks) const { return (ticks - first) / ticksPerSecond; }
 
-    /// A single key holds its value at all times, and readers add some at 0.
+    /// Ignores the time of a single key, which is constant: readers add such keys at 0.
     template <typename Keys>
     void include(const Keys& keys) {
         any = any || !keys.empty();
@@ -132,7 +133,7 @@ struct Clock {
     }
 };
 
-/// One element's channel: the track's keys, or a single one where the track has none.
+/// Adds the channel of one stacked element: the track's keys, or a single key if it has none.
 template <typename Channel, typename Keyframe, typename Keys, typename Value>
 void addChannel(osgAnimation::Animation& animation, const std::string& joint, const char* element,
                 const Keys& keys, const Value& otherwise, const Clock& clock,
@@ -155,10 +156,10 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
         last = time;
     }
     if (container->empty()) container->push_back(Keyframe(0.0, stored(otherwise)));
-    animation.getChannels().push_back(channel); // addChannel() would look at all others again
+    animation.getChannels().push_back(channel); // addChannel() would scan all other channels
 }
 
-/// What is hidden by a scale of 0 shrinks almost to a point: a joint's matrix has an inverse then.
+/// Clamps scales of 0, which hide a part, so that the joint's matrix stays invertible.
 osg::Vec3 clampedTinyScale(osg::Vec3 scale) {
     constexpr float kLeast = 1e-5f;
     for (int axis = 0; axis < 3; ++axis)
@@ -224,8 +225,8 @@ std::vector<bool> movedJoints(const SourceScene& scene, const SceneSkeleton& joi
     return moves;
 }
 
-/// The scene's clips for the bones of makeBones(); clips that move no joint are left out.
-/// \throw osgSkin::Error where a key is not finite
+/// The scene's clips for the bones of makeBones(), without clips that move no joint.
+/// \throw osgSkin::Error if a key is not finite
 osgAnimation::AnimationList makeClips(const SourceScene& scene, const SceneSkeleton& joints,
                                       const std::vector<bool>& moves, std::size_t mostSamples,
                                       const std::string& path) {

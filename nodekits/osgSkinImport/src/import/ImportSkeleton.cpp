@@ -22,7 +22,7 @@ RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* optio
     if (!hasSceneReader(path)) return readOsgSkeleton(*readScene(path, options), path);
     if (holdsMeshesOnly(path)) {
         requireReadable(path, limits);
-        failFile(path, "no skeleton in files of its kind, expected one of another");
+        failFile(path, "files of this format have no skeleton; expected one of another format");
     }
     const std::shared_ptr<const SourceScene> scene = readSourceScene(path, options);
     return readSceneSkeleton(*scene, path, limits).rest;

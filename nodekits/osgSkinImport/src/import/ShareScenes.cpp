@@ -20,7 +20,7 @@ namespace {
 
 using Scene = std::shared_ptr<const SourceScene>;
 
-/// The scenes that options carry.
+/// The scenes that osgDB options share.
 class SharedScenes : public osg::Object {
 public:
     SharedScenes() = default;
@@ -28,18 +28,18 @@ public:
         : osg::Object(other, copy), files(other.files) {}
     META_Object(osgSkin, SharedScenes)
 
-    /// Those of options; null where these are null or carry none.
+    /// The scenes of some options; null if `options` is null or has none.
     static SharedScenes* of(const osgDB::Options* options) {
         const osg::UserDataContainer* all =
             options != nullptr ? options->getUserDataContainer() : nullptr;
         if (all == nullptr) return nullptr;
         for (unsigned i = 0; i < all->getNumUserObjects(); ++i)
             if (const auto* found = dynamic_cast<const SharedScenes*>(all->getUserObject(i)))
-                return const_cast<SharedScenes*>(found); // which options are shared for
+                return const_cast<SharedScenes*>(found); // options are const, but exist to share it
         return nullptr;
     }
 
-    std::map<std::string, Scene> files; ///< by their canonical paths
+    std::map<std::string, Scene> files; ///< by canonical path
 
 protected:
     ~SharedScenes() override = default;
@@ -78,7 +78,7 @@ osg::ref_ptr<osgDB::Options> shareScenes(const osgDB::Options* options) {
     const osg::ref_ptr<osgDB::Options> result =
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     if (SharedScenes::of(result) != nullptr) return result;
-    // The copy has the container of the original.
+    // cloneOptions() shares the container with the original.
     if (const osg::UserDataContainer* all = result->getUserDataContainer())
         result->setUserDataContainer(osg::clone(all, osg::CopyOp::SHALLOW_COPY));
     result->getOrCreateUserDataContainer()->addUserObject(new SharedScenes);

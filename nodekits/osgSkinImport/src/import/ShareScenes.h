@@ -11,14 +11,16 @@
 
 namespace osgSkin {
 
-/// Whether there is a reader for scenes in files with this name's extension.
+/// Whether there is a scene reader for this file extension.
 bool hasSceneReader(const std::string& path);
 
-/// Whether files with this name's extension hold meshes and nothing that would move them. Assimp is
-/// not asked for a rig in them: it reads PLY files out of bounds, and loses memory of OBJ files.
+/// Whether files with this extension contain meshes only, with no skeleton or animation. These
+/// files are never given to Assimp to look for a rig: its PLY reader reads out of bounds, and its
+/// OBJ reader leaks memory.
 bool holdsMeshesOnly(const std::string& path);
 
-/// Reads a file by the reader of its format, or takes what `options` carry of it (shareScenes()).
+/// Reads a file with the reader for its format, or returns the scene that `options` share
+/// (shareScenes()).
 ///
 /// \throw osgSkin::Error with the file and the reason
 std::shared_ptr<const SourceScene> readSourceScene(const std::string& path,

@@ -17,19 +17,19 @@
 
 namespace osgSkin {
 
-/// A mesh as readers of all formats return it, before it is split into drawable parts: attributes
-/// are per corner of the faces, in the order of mesh.faceVertices.
+/// A mesh as returned by the readers of all formats, before it is split into drawable parts.
+/// Attributes are per face corner, in the order of mesh.faceVertices.
 struct CornerMesh {
     SkinMesh mesh;
-    std::vector<glm::vec3> normals;       ///< one a corner
-    std::vector<glm::vec2> texCoords;     ///< one a corner
-    std::vector<glm::vec4> colours;       ///< one a corner, or none; sRGB
-    std::vector<std::uint32_t> materials; ///< one a face: index in stateSets
+    std::vector<glm::vec3> normals;       ///< per corner
+    std::vector<glm::vec2> texCoords;     ///< per corner
+    std::vector<glm::vec4> colours;       ///< per corner, or empty; sRGB
+    std::vector<std::uint32_t> materials; ///< per face: index in stateSets
     std::vector<osg::ref_ptr<osg::StateSet>> stateSets;
-    std::vector<BoneWeights> weights; ///< one a bone
-    bool hasTexCoords = false;        ///< false where no corner has any
+    std::vector<BoneWeights> weights; ///< per bone
+    bool hasTexCoords = false;        ///< whether any corner has some
 
-    /// The weights of the bone called `name`, to be added to.
+    /// The weights of the bone called `name`, added if new.
     BoneWeights& weightsOf(const std::string& name) {
         for (BoneWeights& known : weights)
             if (known.bone == name) return known;
@@ -37,13 +37,13 @@ struct CornerMesh {
         return weights.back();
     }
 
-    /// Begins a face of the given material; addCorner() follows for each of its corners.
+    /// Begins a face with the given material; call addCorner() for each of its corners.
     void addFace(std::uint32_t material) {
         mesh.faceSizes.push_back(0);
         materials.push_back(material);
     }
 
-    /// Adds a corner to the last face. A zero normal means that the file has none there.
+    /// Adds a corner to the last face. A zero normal means that the file has none.
     void addCorner(std::uint32_t vertex, const glm::vec3& normal, const glm::vec2& texCoord) {
         ++mesh.faceSizes.back();
         mesh.faceVertices.push_back(vertex);

@@ -41,16 +41,16 @@ std::vector<std::size_t> weld(const std::vector<glm::dvec3>& positions) {
     return result;
 }
 
-/// Normals at the corners, smooth over the skin and weighted by area. Vertices at one position
-/// count as one, so that seams of texture coordinates do not show.
+/// Corner normals, smooth over the skin and weighted by area. Vertices at the same position share a
+/// normal, so that texture seams do not show.
 std::vector<glm::vec3> smoothNormals(const SkinMesh& mesh) {
     const std::vector<std::size_t> welded = weld(mesh.positions);
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
-    // Bodies come in any unit: scaled to size 1, squared lengths neither overflow nor vanish.
+    // Bodies may have any unit: scaled to size 1, squared lengths neither overflow nor vanish.
     const double extent = mesh.size();
     const double scale = extent > 0.0 ? 1.0 / extent : 1.0;
-    // A polygon's normal is the sum of its triangles' (Newell), the same for all of its corners, so
-    // that the shading does not show how it is triangulated.
+    // A polygon's normal is the sum of its triangles' (Newell). All its corners get the same one,
+    // so that its triangulation does not show in the shading.
     const std::uint32_t* corners = mesh.faceVertices.data();
     for (const std::uint32_t size : mesh.faceSizes) {
         const glm::dvec3& origin = mesh.positions[corners[0]];
@@ -65,17 +65,17 @@ std::vector<glm::vec3> smoothNormals(const SkinMesh& mesh) {
     result.reserve(mesh.faceVertices.size());
     for (const std::uint32_t v : mesh.faceVertices) {
         const double length = glm::length(sums[welded[v]]);
-        // Any unit vector where all faces around the vertex are degenerate.
+        // Any unit vector if all faces around the vertex are degenerate.
         result.emplace_back(length > 0.0 ? sums[welded[v]] / length : glm::dvec3(0.0, 1.0, 0.0));
     }
     return result;
 }
 
-/// A material's area, and the part of it with normals on the faces' back.
+/// A material's area, and the part of it whose normals point to the back of the faces.
 struct Areas {
     double all = 0.0, contradicting = 0.0;
 
-    /// More than half, since sheets with faces on both sides may share one set of normals.
+    /// The threshold exceeds half because two-sided sheets may share one set of normals.
     bool areMostlyWrong() const { return contradicting > 0.6 * all; }
 };
 
@@ -102,9 +102,10 @@ std::vector<Areas> areasOf(const CornerMesh& mesh) {
     return result;
 }
 
-/// Recomputes the normals of a material, smooth over the skin, where most of its area has normals
-/// on the faces' back: exporters mirror one without the other. Reports this in a notice.
+/// Recomputes a material's normals, smooth over the skin, if over most of its area they point to
+/// the back of the faces: exporters mirror one without the other. Reports this in a notice.
 /// \param mesh with unit normals
+/// \param path of the file
 void mendNormals(CornerMesh& mesh, const std::string& path) {
     const std::vector<Areas> areas = areasOf(mesh);
     std::vector<glm::vec3> computed;
@@ -129,6 +130,7 @@ class PartBuilder {
 public:
     explicit PartBuilder(const CornerMesh& source) : _source(source) {}
 
+    /// \param face index of the face in the mesh
     /// \param corners three indices in the mesh's `faceVertices`
     void addTriangle(std::uint32_t face, const std::uint32_t* corners) {
         for (int k = 0; k < 3; ++k) _triangles->push_back(vertex(corners[k]));
@@ -183,7 +185,7 @@ private:
     osg::ref_ptr<osg::DrawElementsUInt> _triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
 };
 
-/// Builds a drawable part for each material in use. A vertex is copied where its corners differ in
+/// Builds a drawable part for each material in use. A vertex is duplicated if its corners differ in
 /// normal, texture coordinates or colour.
 std::vector<MeshPart> makeMeshParts(const CornerMesh& source) {
     std::vector<PartBuilder> builders;
@@ -201,9 +203,9 @@ std::vector<MeshPart> makeMeshParts(const CornerMesh& source) {
 }
 
 constexpr std::size_t kElementsOfVertex = 14;   ///< of 64 bytes each, half a sample
-constexpr std::size_t kSamplesOfMaterial = 500; ///< what is drawn by itself takes 50 kilobytes
+constexpr std::size_t kSamplesOfMaterial = 500; ///< a drawable takes 50 kilobytes
 
-/// Makes all normals unit vectors; false where some are missing.
+/// Normalises all normals; false if some are missing.
 bool normalise(std::vector<glm::vec3>& normals) {
     for (glm::vec3& n : normals) {
         const double length = glm::length(glm::dvec3(n));
@@ -213,17 +215,17 @@ bool normalise(std::vector<glm::vec3>& normals) {
     return true;
 }
 
-/// Colours are not brighter: larger numbers count to 255.
+/// No colour is brighter than this: larger values range to 255.
 constexpr float kTooBright = 16.0f;
 
-/// Whether colours, or alphas, count to 255 and not to 1, as some programs write them, usually in
-/// whole numbers.
+/// Whether colours, or alphas, range from 0 to 255 and not to 1, as some programs write them,
+/// usually as integers.
 bool countsTo255(const std::vector<glm::vec4>& colours, int first, int end) {
     float most = 0.0f;
     bool areWhole = true;
     for (const glm::vec4& colour : colours)
         for (int k = first; k < end; ++k) {
-            areWhole = areWhole && colour[k] == std::floor(colour[k]); // or not a number
+            areWhole = areWhole && colour[k] == std::floor(colour[k]); // also false for NaN
             most = std::max(most, colour[k]);
         }
     return most > (areWhole ? 1.0f : kTooBright) && most <= 255.0f;

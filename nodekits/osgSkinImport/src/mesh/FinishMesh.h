@@ -11,17 +11,19 @@
 
 namespace osgSkin {
 
-/// Limits the number of vertices: each is bound and deformed, whether a face names it or not.
-/// \param path of a file that holds the mesh alone
-/// \throw osgSkin::Error where there are more than a file of this size may have
+/// Limits the number of vertices: each is bound and deformed, whether a face uses it or not.
+/// \param mesh as read
+/// \param path of a file that contains only the mesh
+/// \param limits on its size
+/// \throw osgSkin::Error if there are more than a file of this size may have
 void checkVertices(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits);
 
-/// Limits the number of materials: each that faces use becomes a drawable of its own.
-/// \throw osgSkin::Error where there are more than a file of this size may have
+/// Limits the number of materials: each one that faces use becomes a separate drawable.
+/// \throw osgSkin::Error if there are more than a file of this size may have
 void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits);
 
-/// Checks a mesh as a whole, completes its normals and makes its parts.
-/// \throw osgSkin::Error with the file and the place in it
+/// Checks the whole mesh, computes missing normals and makes its parts.
+/// \throw osgSkin::Error with the file and the position in it
 ImportedMesh finishMesh(CornerMesh read, const std::string& path);
 
 } // namespace osgSkin

@@ -73,8 +73,8 @@ void setAlpha(osg::StateSet& state, const Material& material) {
     state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
 }
 
-/// Relative to the mesh's folder, or as other files are found; or a file in that folder with the
-/// name's last part: names often hold folders of the machine that they were written on.
+/// Searches for an image relative to the mesh's folder, then as OSG does, then by its base name in
+/// the mesh's folder, because names often contain folders of another machine.
 std::string findPicture(const std::string& name, const std::string& folder,
                         const osgDB::Options* options) {
     std::string beside = osgDB::concatPaths(folder, name);
@@ -91,14 +91,15 @@ osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::strin
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
     const std::string fileName = osgDB::convertFileNameToNativeStyle(name);
-    // Fetch nothing from a network, run nothing, and open regular files only: others may never end.
+    // Fetch nothing from a network, run nothing, and open regular files only: others may block
+    // forever.
     if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName)) return nullptr;
     const std::string found = findPicture(fileName, osgDB::getFilePath(meshPath), local);
     if (!isRegularFile(found)) return nullptr;
     return pictures.shared().once(found, {}, [&] {
         const osg::ref_ptr<osg::Image> image =
             pictures.readFile(found, [&]() -> osg::ref_ptr<osg::Image> {
-                // osgDB::readImageFile() would warn of each by itself.
+                // osgDB::readImageFile() would print a warning for each.
                 return osgDB::Registry::instance()->readImage(found, local).getImage();
             });
         if (image) image->setFileName(fileName); // for writers

@@ -12,19 +12,22 @@ namespace osgSkin {
 
 /// Reads an OBJ file and its material libraries: vertices and faces in file order, coordinates in
 /// double precision. Lines end with LF, CR or both.
+/// \param path of the file
 /// \param options may be null
-/// \throw osgSkin::Error with the file and the line where it is malformed; the caller checks the
-///        mesh as a whole, as with the other readers
+/// \throw osgSkin::Error with the file and the line if it is malformed. As with the other readers,
+///        the caller checks the mesh as a whole
 CornerMesh readObjMesh(const std::string& path, const osgDB::Options* options);
 
-/// Reads a PLY file, text or binary: polygons or triangle strips, normals, colours, texture
-/// coordinates, of vertices or of faces' corners, and the textures that comments name.
+/// Reads a PLY file, text or binary: polygons or triangle strips; normals, colours and texture
+/// coordinates of vertices or face corners; and textures named in comments.
+/// \param path of the file
 /// \param options may be null
-/// \throw osgSkin::Error with the file and the place in it
+/// \throw osgSkin::Error with the file and the position in it
 CornerMesh readPlyMesh(const std::string& path, const osgDB::Options* options);
 
-/// Reads an OFF file of text: vertices and their normals, colours and texture coordinates, in
-/// single precision, and faces of any number of corners; faces' colours are ignored.
+/// Reads a text OFF file: vertices with their normals, colours and texture coordinates in single
+/// precision, and faces with any number of corners. Face colours are ignored.
+/// \param path of the file
 /// \param options may be null
 /// \throw osgSkin::Error "PATH: what was expected".
 CornerMesh readOffMesh(const std::string& path, const osgDB::Options* options);

@@ -28,12 +28,12 @@ namespace {
 
 constexpr std::size_t kLongestName = 4000; ///< of a material or a file; the rest is cut off
 constexpr std::size_t kMaxLibraries = 1000;
-constexpr std::size_t kMaxCorners = 255;       ///< of a face
-constexpr std::size_t kSamplesOfMaterial = 20; ///< two or three kilobytes each
+constexpr std::size_t kMaxCorners = 255;       ///< per face
+constexpr std::size_t kSamplesOfMaterial = 20; ///< each takes two or three kilobytes
 
-// Lines and words, of OBJ and MTL files alike.
+// Lines and words of OBJ and MTL files.
 
-/// A byte 0 ends a line: it ends a text in C.
+/// A byte 0 ends a line, as it ends a string in C.
 constexpr bool endsLine(char c) {
     return c == '\n' || c == '\r' || c == '\0';
 }
@@ -42,14 +42,14 @@ constexpr bool isBlank(char c) {
     return c == ' ' || c == '\t';
 }
 
-/// The length of the text before the first character that `ends` it. This runs on every line:
-/// std::string_view::find_first_of() takes twice as long.
+/// The length of the text before the first character for which `ends` is true. This runs on every
+/// line; std::string_view::find_first_of() takes twice as long.
 template <typename Ends>
 std::size_t lengthUpTo(std::string_view text, const Ends& ends) {
     return static_cast<std::size_t>(std::find_if(text.begin(), text.end(), ends) - text.begin());
 }
 
-/// Takes the next line off `text`; it ends with LF, CR, both, or a byte 0.
+/// Removes the next line from `text`; it ends with LF, CR, both, or a byte 0.
 std::string_view takeLine(std::string_view& text) {
     const std::string_view line = text.substr(0, lengthUpTo(text, endsLine));
     text.remove_prefix(line.size());
@@ -57,7 +57,7 @@ std::string_view takeLine(std::string_view& text) {
     return line;
 }
 
-/// Takes the next word off `line`; empty at its end.
+/// Removes the next word from `line`; empty at the end.
 std::string_view takeWord(std::string_view& line) {
     line.remove_prefix(lengthUpTo(line, [](char c) { return !isBlank(c); }));
     const std::string_view word = line.substr(0, lengthUpTo(line, isBlank));
@@ -65,15 +65,15 @@ std::string_view takeWord(std::string_view& line) {
     return word;
 }
 
-/// The name that is the rest of a line; it may contain blanks.
+/// The name in the rest of a line; it may contain blanks.
 std::string_view nameIn(std::string_view rest) {
     const std::size_t first = std::min(rest.size(), rest.find_first_not_of(" \t"));
     return rest.substr(first, rest.find_last_not_of(" \t") + 1 - first).substr(0, kLongestName);
 }
 
-/// As parseNumber(), but the digits of usual decimals are added up one by one, which may round the
-/// last place otherwise. Where a region of the skin ends can hang on that place: characters keep
-/// the binding, elastic shapes and pictures that they have.
+/// Like parseNumber(), but sums the digits of ordinary decimals one by one, which may round the
+/// last bit differently. The border of a skin region can depend on that bit; this keeps the
+/// binding, elastic shapes and images of existing characters.
 bool readDecimal(std::string_view word, double& value) {
     constexpr std::size_t mostDigits = 32;
     if (!parseNumber(word, value)) return false;
@@ -103,18 +103,18 @@ bool readDecimal(std::string_view word, double& value) {
     return true;
 }
 
-/// What a line of an OBJ file adds to, in the order of a corner's v/vt/vn; -1: none of them.
+/// The array that a line of an OBJ file adds to, in the order of v/vt/vn; -1: none of these.
 constexpr int kindOf(std::string_view keyword) {
     return keyword == "v" ? 0 : keyword == "vt" ? 1 : keyword == "vn" ? 2 : -1;
 }
 
-/// Whether a backslash at the end of a line with this keyword continues it on the next.
+/// Whether a backslash at the end of a line with this keyword continues the line.
 constexpr bool isContinued(std::string_view keyword) {
     return keyword == "f" || kindOf(keyword) >= 0;
 }
 
-/// Calls `use(keyword, rest of the line, line number)` for each line that is not empty, continued
-/// lines joined.
+/// Calls `use(keyword, rest of the line, line number)` for each line that is not empty, with
+/// continued lines joined.
 template <typename Use>
 void forEachLine(std::string_view text, const Use& use) {
     text.remove_prefix(byteOrderMark(text));
@@ -146,9 +146,9 @@ void forEachLine(std::string_view text, const Use& use) {
 
 using Colour = std::array<double, 3>;
 
-/// A material as a library describes it.
+/// A material of a library.
 struct MtlMaterial {
-    Colour diffuse{0.8, 0.74, 0.68}; ///< where the library gives none
+    Colour diffuse{0.8, 0.74, 0.68}; ///< the default
     Colour specular{0.0, 0.0, 0.0}, emission{0.0, 0.0, 0.0};
     double dissolve = 1.0, shininess = 1.0;
     std::string texture;
@@ -160,20 +160,20 @@ float upToOne(double number) {
 }
 
 osg::Vec4 toOsg(const Colour& rgb, double alpha = 1.0) {
-    constexpr double brightest = 16.0; // no surface is brighter: such numbers count to 255
+    constexpr double brightest = 16.0; // larger values range to 255
     const double one = *std::max_element(rgb.begin(), rgb.end()) > brightest ? 255.0 : 1.0;
     return {upToOne(rgb[0] / one), upToOne(rgb[1] / one), upToOne(rgb[2] / one),
             alpha < 0.0 ? 1.0f : upToOne(alpha)};
 }
 
-/// Reads the materials that an OBJ file uses from its libraries. Nothing is refused: lines without
-/// the numbers that they need ("Kd spectral x.rfl", "d -halo 0.5") are left out.
+/// Reads the materials that an OBJ file uses from its libraries. Never fails: lines without the
+/// numbers that they need ("Kd spectral x.rfl", "d -halo 0.5") are ignored.
 class MtlReader {
 public:
     /// \param wanted names of materials
     explicit MtlReader(std::set<std::string, std::less<>> wanted) : _wanted(std::move(wanted)) {}
 
-    /// The first library that describes a material wins.
+    /// Reads a library. The first library with a material wins.
     void read(const std::string& path, std::string_view text) {
         _current = nullptr;
         _placed = _opacities = _glows = 0;
@@ -191,7 +191,7 @@ public:
                              ", left out, and that surfaces glow with them (Ke)");
     }
 
-    /// Null where no library so far has the material.
+    /// Null if no library so far has the material.
     const MtlMaterial* find(std::string_view name) const {
         const auto found = _materials.find(name);
         return found != _materials.end() ? &found->second : nullptr;
@@ -199,7 +199,7 @@ public:
 
 private:
     void readLine(std::string_view keyword, std::string_view rest) {
-        const auto is = [&](std::string_view other) { // some write keywords in small letters
+        const auto is = [&](std::string_view other) { // some files have lower-case keywords
             return keyword.size() == other.size() &&
                    osgDB::equalCaseInsensitive(std::string(keyword), std::string(other));
         };
@@ -242,7 +242,7 @@ private:
         return readDecimal(takeWord(rest), number) && std::isfinite(number);
     }
 
-    /// Three numbers, or one for a grey.
+    /// Reads three numbers, or one for a grey.
     static bool readColour(std::string_view rest, Colour& colour) {
         Colour result{};
         std::string_view first;
@@ -256,7 +256,7 @@ private:
         return true;
     }
 
-    /// Options, then a file's name up to the end of the line.
+    /// Reads options, then a file name up to the end of the line.
     void readDiffuseTexture(std::string_view rest, MtlMaterial& material) {
         bool isPlaced = false;
         for (std::string_view behind = rest;; rest = behind) {
@@ -289,9 +289,9 @@ private:
         if (!material.hasDiffuse) material.diffuse = {underTexture, underTexture, underTexture};
     }
 
-    std::set<std::string, std::less<>> _wanted; ///< that no library had so far
+    std::set<std::string, std::less<>> _wanted; ///< not found in any library so far
     std::map<std::string, MtlMaterial, std::less<>> _materials;
-    MtlMaterial* _current = nullptr; ///< that lines describe; null: none that is wanted
+    MtlMaterial* _current = nullptr; ///< described by the current lines; null if not wanted
     std::size_t _placed = 0, _opacities = 0, _glows = 0;
 };
 
@@ -299,7 +299,7 @@ private:
 
 constexpr std::array<const char*, 3> kKinds{"vertex", "texture coordinate", "normal"};
 
-/// Whether a word is what some C libraries print for infinity or not-a-number.
+/// Whether a word is infinity or NaN, as some C libraries print them.
 bool isBroken(std::string_view word, double value) {
     return word.find("#IND") != std::string_view::npos ||
            word.find("#QNAN") != std::string_view::npos ||
@@ -307,8 +307,8 @@ bool isBroken(std::string_view word, double value) {
            std::abs(value) >= 1e300;
 }
 
-/// Whether a word only looks like a vertex's or a face's keyword: in capitals, or with invisible
-/// characters, such as a byte order mark where files were joined.
+/// Whether a word resembles a keyword of a vertex or face: in upper case, or with invisible
+/// characters, such as a byte order mark in concatenated files.
 bool looksLikeKeyword(std::string_view word) {
     std::string seen;
     for (const char c : word) {
@@ -337,12 +337,12 @@ public:
     }
 
 private:
-    /// Indices of a corner, from 0; -1: none.
+    /// Zero-based indices of a corner; -1: none.
     struct Corner {
         std::int32_t texCoord = -1, normal = -1;
     };
 
-    /// Counts vertices, which faces may name before they come, and returns the materials in use.
+    /// Counts vertices, because faces may use later ones, and returns the names of used materials.
     std::set<std::string, std::less<>> lookAhead(std::string_view text) {
         std::set<std::string, std::less<>> materials;
         forEachLine(text, [&](std::string_view keyword, std::string_view rest, std::size_t) {
@@ -365,7 +365,7 @@ private:
         const int kind = kindOf(keyword);
         if (kind >= 0)
             addNumbers(keyword, rest);
-        else if (keyword == "f" || keyword == "fo") // its name in the format's first version
+        else if (keyword == "f" || keyword == "fo") // the name in version 1 of the format
             addFace(rest);
         else if (keyword == "usemtl")
             useMaterial(nameIn(rest));
@@ -386,7 +386,7 @@ private:
             double& value = numbers[count];
             const bool isNumber = readDecimal(word, value);
             if (isBroken(word, value)) {
-                // A body is drawn well enough without a broken normal: all are computed then.
+                // A broken normal is no reason to refuse a body: all normals are computed then.
                 value = 0.0;
                 if (keyword != "v") continue;
             } else if (isNumber) {
@@ -407,7 +407,7 @@ private:
             const bool hasWeight = count == 4 || count == 7;
             if (hasWeight && numbers[3] != 1.0) ++_weighted;
             if (count < 6) return;
-            // Not in the standard, and written by many: a colour behind a vertex's position.
+            // A colour after the position is not in the standard, but common.
             const double* const rgb = &numbers[hasWeight ? 4 : 3];
             if (_colours.size() + 1 == _mesh.mesh.positions.size())
                 _colours.emplace_back(rgb[0], rgb[1], rgb[2], 1.0);
@@ -420,7 +420,7 @@ private:
         std::uint32_t& corners = _mesh.mesh.faceSizes.back();
         for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
             if (word.front() == '#') break; // a comment
-            // Some write "1//" for a corner without a normal.
+            // Some programs write "1//" for a corner without a normal.
             const std::string_view whole = word.substr(0, word.find_last_not_of('/') + 1);
             const bool isShort = word.size() - whole.size() <= 2 && !whole.empty();
             addCorner(isShort ? whole : word);
@@ -474,7 +474,7 @@ private:
         _material = found;
     }
 
-    /// Materials are numbered in the order in which faces use them.
+    /// The index of the current material, in the order in which faces use them.
     std::uint32_t materialNumber() {
         const auto [entry, isNew] =
             _materials.emplace(_material, static_cast<std::uint32_t>(_materialOrder.size()));
@@ -482,8 +482,8 @@ private:
         return entry->second;
     }
 
-    /// The libraries that a line may name: one, where there is a file with the whole name, which
-    /// may have blanks or another system's separators; or else one a word.
+    /// The libraries that a line may name: one file whose name is the whole line, with blanks or
+    /// another system's separators, if it exists; otherwise one per word.
     std::vector<std::string> libraryPaths(std::string_view line) const {
         const std::string folder = osgDB::getFilePath(_path);
         const auto inFolder = [&](const std::string& name) {
@@ -499,8 +499,8 @@ private:
         return result;
     }
 
-    /// Reads the first library that a line names and that can be read, each file once. A missing
-    /// one is no failure: the body is drawn in the default colour.
+    /// Reads the first readable library of a line, each file once. A missing library is not an
+    /// error: the body is drawn in the default colour.
     void readLibrary(std::string_view line) {
         if (_libraries.size() > kMaxLibraries)
             failLine(_path, _line,
@@ -530,7 +530,8 @@ private:
         const bool hasColours = _coloured > 0 && _coloured == _mesh.mesh.positions.size();
         if (!hasColours && _coloured > 0)
             tellOf(_path, std::to_string(_coloured) + vertices + "colours, which are left out");
-        // To some the position is to be divided by it; to others it is a grey, or a scan's quality.
+        // Some programs divide the position by it; to others it is a grey level, or a scan's
+        // quality.
         if (_weighted > 0)
             tellOf(_path, std::to_string(_weighted) + vertices +
                               "a fourth number that is not 1; it is left out");
@@ -555,7 +556,7 @@ private:
         if (source == nullptr) return material;
         material.diffuse = toOsg(source->diffuse, source->dissolve);
         material.specular = toOsg(source->specular);
-        // Of a texture of emission the colour alone would make all of the surface glow.
+        // Without the emission texture, the colour would make the whole surface glow.
         material.emission = toOsg(source->hasGlowTexture ? Colour{} : source->emission);
         material.shininess = static_cast<float>(source->shininess);
         material.image = readTexture(source->texture, _path, _options, reads);
@@ -568,13 +569,13 @@ private:
     std::array<std::size_t, 3> _total{}; ///< vertices, texture coordinates, normals in the file
     std::vector<glm::vec2> _texCoords;
     std::vector<glm::vec3> _normals;
-    std::vector<glm::vec4> _colours; ///< of the vertices before the first that has none
+    std::vector<glm::vec4> _colours; ///< of the vertices before the first without one
     std::vector<Corner> _corners;
     std::size_t _line = 0, _coloured = 0, _weighted = 0;
 
     MtlReader* _library = nullptr;
-    const MtlMaterial* _material = nullptr; ///< of the faces that follow; null: the default one
-    std::set<std::string_view> _libraries;  ///< lines that name some
+    const MtlMaterial* _material = nullptr; ///< of the next faces; null: the default
+    std::set<std::string_view> _libraries;  ///< lines that name libraries
     std::set<std::string> _read;            ///< libraries, by canonical path
     std::map<const MtlMaterial*, std::uint32_t> _materials;
     std::vector<const MtlMaterial*> _materialOrder;

@@ -17,16 +17,16 @@ namespace osgSkin {
 
 namespace {
 
-/// The vertex attributes that the first word of an OFF file, [ST][C][N][4][n]OFF, declares.
+/// The vertex attributes declared by the first word of an OFF file, [ST][C][N][4][n]OFF.
 struct OffKind {
     bool texCoords = false, colours = false, normals = false, divided = false, dimensions = false;
 
-    /// False where a word is not such a keyword.
+    /// Parses the word; false if it is not such a keyword.
     bool read(std::string_view word);
 };
 
-/// An OFF file's words and lines. Comments run from "#" to the line's end; a line ends with LF, CR
-/// or both.
+/// Splits an OFF file into words and lines. Comments run from "#" to the end of the line. A line
+/// ends with LF, CR or both.
 class OffText {
 public:
     explicit OffText(std::string_view text);
@@ -34,7 +34,7 @@ public:
     /// The next word, on any line; empty at the end.
     std::string_view word();
 
-    /// The words of the next line that has any, or the rest of the line that word() read from.
+    /// The words of the next line that is not empty, or the rest of the line that word() read from.
     const std::vector<std::string_view>& line();
 
 private:
@@ -50,7 +50,7 @@ constexpr std::string_view kBlanksAndLineEnds = " \t\v\n\r";
 constexpr std::string_view kWordEnds = " \t\v\n\r#";
 
 bool OffKind::read(std::string_view word) {
-    // Programs write these parts in several orders; a vertex's numbers always have the same one.
+    // Programs write these parts in different orders; the order of a vertex's numbers is fixed.
     const auto take = [&](std::string_view part, bool& has) {
         if (has || word.substr(0, part.size()) != part) return false;
         word.remove_prefix(part.size());
@@ -130,7 +130,7 @@ private:
         double number = 0.0;
         if (!isDigits(word) || !parseNumber(word, number))
             failFile(_path, inQuotes(word) + ", expected a number of " + what);
-        // Each vertex and each face takes a few characters.
+        // Each vertex and each face takes several characters.
         if (number > static_cast<double>(_size))
             failFile(_path,
                      inQuotes(word) + " " + what + ", expected no more than the file has room for");
@@ -198,7 +198,7 @@ private:
     const std::size_t _size;
     OffText _text;
     OffKind _kind;
-    std::size_t _normal = 3; ///< where normals begin, and what follows them
+    std::size_t _normal = 3; ///< index of a vertex's normal, or of what follows
     std::vector<float> _numbers;
     std::vector<glm::vec3> _normals;
     std::vector<glm::vec2> _texCoords;
@@ -212,7 +212,7 @@ private:
 CornerMesh readOffMesh(const std::string& path, const osgDB::Options* options) {
     const std::string text = readText(path, ReadLimits::of(options));
     if (text.find('\0') != std::string::npos) failFile(path, "a zero byte, expected text");
-    // Programs disagree on whether it ends a line.
+    // Programs disagree on whether a form feed ends a line.
     if (text.find('\f') != std::string::npos) failFile(path, "a form feed, expected lines of text");
     CornerMesh result = OffReader(path, text).run();
     Material material;

@@ -19,7 +19,7 @@
 #include <sstream>
 #include <system_error>
 
-// Zeroed memory: stb_image 2.27 reads Huffman tables that a file does not define.
+// Zeroed memory, because stb_image 2.27 reads Huffman tables that a file does not define.
 #define STBI_MALLOC(size) std::calloc(1, size)
 #define STBI_REALLOC(memory, size) std::realloc(memory, size)
 #define STBI_FREE(memory) std::free(memory)
@@ -52,7 +52,7 @@ bool hasShortTables(std::string_view bytes) {
     for (std::size_t at = 2; at + 4 <= bytes.size();) {
         const unsigned marker = byte(at + 1);
         if (byte(at) != 0xff || marker <= 1 || marker == 0xff ||
-            (marker >= firstRestart && marker <= imageEnd)) { // no segment begins here
+            (marker >= firstRestart && marker <= imageEnd)) { // not the start of a segment
             ++at;
             continue;
         }
@@ -100,7 +100,7 @@ osg::ref_ptr<osgDB::Options> shareImages(const osgDB::Options* options) {
     const osg::ref_ptr<osgDB::Options> result =
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     if (SharedPictures::of(result) != nullptr) return result;
-    // The copy has the container of the original.
+    // cloneOptions() shares the container with the original.
     if (const osg::UserDataContainer* all = result->getUserDataContainer())
         result->setUserDataContainer(osg::clone(all, osg::CopyOp::SHALLOW_COPY));
     result->getOrCreateUserDataContainer()->addUserObject(new SharedPictures);
@@ -153,7 +153,7 @@ osg::ref_ptr<osg::Image> PictureReader::decode(const std::string& name, std::str
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(width, height, 1, format, GL_UNSIGNED_BYTE);
     const auto rowBytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
-    for (int y = 0; y < height; ++y) // OpenSceneGraph's rows go upwards
+    for (int y = 0; y < height; ++y) // OpenSceneGraph's rows start at the bottom
         std::copy_n(decoded.get() + rowBytes * static_cast<std::size_t>(height - 1 - y), rowBytes,
                     image->data(0, static_cast<unsigned>(y)));
     return image;
@@ -164,7 +164,7 @@ osg::ref_ptr<osg::Image> PictureReader::read(const std::string& name, const std:
     if (decodes(extension)) return decode(name, bytes);
     if (!contains(_limits.images, osgDB::convertToLowerCase(extension)))
         failFile(name, "a picture within it in the format " + inQuotes(extension) +
-                           ", expected PNG, JPEG, BMP or TGA (option pictures)");
+                           ", expected PNG, JPEG, BMP or TGA (option images)");
     osgDB::ReaderWriter* reader =
         osgDB::Registry::instance()->getReaderWriterForExtension(extension);
     if (reader == nullptr) return nullptr;

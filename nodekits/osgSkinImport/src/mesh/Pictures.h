@@ -18,7 +18,7 @@
 
 namespace osgSkin {
 
-/// Pictures whose sizes count together, and which are read once each; see shareImages().
+/// Images whose sizes count together, each read once; see shareImages().
 class SharedPictures : public osg::Object {
 public:
     SharedPictures() = default;
@@ -27,17 +27,17 @@ public:
     }
     META_Object(osgSkin, SharedPictures)
 
-    /// Those that options carry; null where these are null or carry none.
+    /// The images that some options share; null if `options` is null or shares none.
     static SharedPictures* of(const osgDB::Options* options);
 
-    /// The picture of a file; null where it cannot be read.
-    /// \param path of the file, however it is spelled
-    /// \param part of the file that the picture is; empty: the whole
-    /// \param read is called the first time; what osgSkin::Error it throws is thrown each time
+    /// The image of a file; null if it cannot be read.
+    /// \param path of the file, in any spelling
+    /// \param part name of an image within the file; empty for the whole file
+    /// \param read is called once; an osgSkin::Error that it throws is thrown again by later calls
     osg::ref_ptr<osg::Image> once(const std::string& path, const std::string& part,
                                   const std::function<osg::ref_ptr<osg::Image>()>& read);
 
-    double pixels = 0.0;   ///< of four bytes, of those that were read
+    double pixels = 0.0;   ///< of four bytes, in all images read
     std::size_t bytes = 0; ///< of their files
 
 protected:
@@ -46,36 +46,46 @@ protected:
 private:
     struct Read {
         osg::ref_ptr<osg::Image> image;
-        std::string reason; ///< why there is none; empty: no reader gave one
+        std::string reason; ///< why there is none; empty if unknown
     };
     std::map<std::string, Read> _files;
 };
 
-/// Reads the pictures of one model.
+/// Reads the images of one model.
 ///
-/// stb_image reads PNG, JPEG, BMP and TGA, after their sizes are checked (ReadLimits::pixelsOf()),
-/// with eight bits a channel. OpenSceneGraph reads other formats, from trusted files.
+/// Decodes PNG, JPEG, BMP and TGA by stb_image, with eight bits per channel, after checking their
+/// sizes (ReadLimits::pixelsOf()). OpenSceneGraph reads other formats, from trusted files.
 class PictureReader {
 public:
-    /// \param options with limits, and pictures to count together with; may be null
+    /// \param options with limits and possibly shared images; may be null
     explicit PictureReader(const osgDB::Options* options);
 
-    /// Whether stb_image reads files with this extension, whatever its case.
+    /// Whether stb_image reads files with this extension, in any case.
     static bool decodes(const std::string& extension);
 
+<<<<<<< HEAD
     /// A picture within another file, in a format that stb_image reads or that
     /// ReadLimits::images names.
     /// \param name of that file, for errors
     /// \param extension of the picture's format
     /// \return null where no reader gives a reason
     /// \throw osgSkin::Error
+=======
+    /// Reads an embedded image, in a format of stb_image or of ReadLimits::images.
+    /// \param name of the containing file, for errors
+    /// \param extension of the image's format
+    /// \param bytes encoded image
+    /// \return null if it cannot be read for an unknown reason
+    /// \throw osgSkin::Error with the reason
+>>>>>>> h-enA
     osg::ref_ptr<osg::Image> read(const std::string& name, const std::string& extension,
                                   std::string_view bytes);
 
-    /// The picture of a file.
-    /// \param otherwise reads it where stb_image does not
-    /// \return null where no reader gives a reason
-    /// \throw osgSkin::Error also where ReadLimits::formats allows only other formats
+    /// Reads an image file.
+    /// \param path of the file
+    /// \param otherwise reads the formats that stb_image does not
+    /// \return null if it cannot be read for an unknown reason
+    /// \throw osgSkin::Error with the reason, also if ReadLimits::formats does not allow its format
     osg::ref_ptr<osg::Image> readFile(const std::string& path,
                                       const std::function<osg::ref_ptr<osg::Image>()>& otherwise);
 

@@ -32,7 +32,7 @@ struct PlyHeader {
     };
     struct Property {
         std::string name;
-        Type type;                 ///< of the value, or of a list's entries
+        Type type;                 ///< of the value, or of list entries
         std::optional<Type> count; ///< of a list's length
     };
     struct Element {
@@ -40,14 +40,14 @@ struct PlyHeader {
         std::size_t count = 0;
         std::vector<Property> properties;
 
-        /// The index of the first of some properties; none where the element has none of them.
+        /// The index of the first of `names` that is a property; none if there is none.
         std::optional<std::size_t> find(const std::vector<const char*>& names) const;
     };
     enum class Format { Text, LittleEndian, BigEndian };
     Format format = Format::Text;
-    std::vector<Element> elements; ///< each name once, of no more entries than the file has bytes
-    std::vector<std::string> textures; ///< each "comment TextureFile" names one
-    std::size_t end = 0;               ///< where the content begins
+    std::vector<Element> elements;     ///< unique names; no more entries than the file has bytes
+    std::vector<std::string> textures; ///< from each "comment TextureFile"
+    std::size_t end = 0;               ///< offset of the body
 };
 
 struct NamedType {
@@ -67,11 +67,11 @@ constexpr NamedType kTypes[] = {
     {"float64", {kFloating, 8}},
 };
 
-// Usual files have ten properties, those with splats sixty; each is compared with all others.
+// Files usually have ten properties, or sixty with splats; each is compared with all others.
 constexpr std::size_t kMaxElements = 100;
-constexpr std::size_t kMaxProperties = 1000; ///< of an element
+constexpr std::size_t kMaxProperties = 1000; ///< per element
 
-/// Reads line by line; a line ends with LF, CR or both.
+/// Parses the header line by line. A line ends with LF, CR or both.
 class PlyHeaderReader {
 public:
     PlyHeaderReader(const std::string& path, const std::string& text) : _path(path), _text(text) {}
@@ -101,7 +101,7 @@ public:
         }
         if (!_hasFormat) failFile(_path, "the header has no line \"format\"");
         _header.end = _at;
-        // Each entry takes a byte at least.
+        // Each entry takes at least a byte.
         for (std::size_t e = 0; e < _header.elements.size(); ++e)
             if (_header.elements[e].count > _text.size() - _at + 1)
                 failLine(_path, _elementLines[e],
@@ -115,7 +115,7 @@ private:
         ++_line;
         const std::size_t end = std::min(_text.find_first_of("\r\n", _at), _text.size());
         std::string line = _text.substr(_at, end - _at);
-        // Where lines end with CR alone, the LF behind the last one is the body's first byte.
+        // If lines end with CR alone, an LF after the last one is the first byte of the body.
         if (_line == 1) _endsWithCr = _text.compare(end, 1, "\r") == 0 && _text[end + 1] != '\n';
         const bool two = !_endsWithCr && _text.compare(end, 2, "\r\n") == 0;
         _at = end + (two ? 2 : end < _text.size() ? 1 : 0);
@@ -198,8 +198,8 @@ private:
         element.properties.push_back(property);
     }
 
-    /// Other lines are remarks (Blender 2.4 writes them without a keyword). Misspelt keywords are
-    /// refused: the rows of the body would be longer than the header says.
+    /// Other lines are ignored as remarks (Blender 2.4 writes them without a keyword), but a
+    /// misspelt keyword is refused: the rows of the body would be longer than declared.
     void checkRemark(std::string keyword) {
         const std::string word = keyword;
         for (char& c : keyword) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -239,19 +239,19 @@ PlyHeader readPlyHeader(const std::string& path, const std::string& text) {
     return PlyHeaderReader(path, text).run();
 }
 
-/// An entry of an element: for each property its value, or a list's values.
+/// An entry of an element: for each property its value, or its list of values.
 using PlyValues = std::vector<std::vector<double>>;
 
-/// Receives an entry: its element, its index in it, and its values.
+/// Receives an entry: its element, its index, and its values.
 using TakePlyEntry =
     std::function<void(const PlyHeader::Element&, std::size_t index, const PlyValues&)>;
 
-/// A body of bytes.
+/// A binary body.
 class PlyBytes {
 public:
     PlyBytes(std::string_view body, bool bigEndian) : _rest(body), _bigEndian(bigEndian) {}
 
-    /// Returns null, or what is wrong.
+    /// Reads a number; returns null, or an error message.
     const char* read(const PlyHeader::Type& type, double& number) {
         if (_rest.size() < type.bytes) return "the file ends here";
         std::uint64_t bits = 0;
@@ -291,7 +291,7 @@ private:
     bool _bigEndian;
 };
 
-/// A body of words; an entry takes two characters at least.
+/// A text body; an entry takes at least two characters.
 class PlyWords {
 public:
     explicit PlyWords(std::string_view body) : _rest(body) {}
@@ -318,14 +318,14 @@ private:
     std::string_view _rest;
 };
 
-/// A list's length for a message: a whole number where it is one.
+/// A list's length for a message, without decimals if it is an integer.
 std::string lengthText(double length) {
     return std::abs(length) < 1e15 && length == std::floor(length)
                ? std::to_string(static_cast<std::int64_t>(length))
                : std::to_string(length);
 }
 
-/// Reads all entries; returns whether nothing is left of the body.
+/// Reads all entries; returns whether this consumed the whole body.
 template <typename Body>
 bool walk(const std::string& path, const PlyHeader& header, Body body, const TakePlyEntry& take) {
     PlyValues values;
@@ -356,11 +356,13 @@ bool walk(const std::string& path, const PlyHeader& header, Body body, const Tak
     return body.isAtEnd();
 }
 
-/// Reads all that comes after a PLY file's header. No more memory is taken than for one entry,
-/// whatever the file says.
-/// \param body all that comes after the header
-/// \throw osgSkin::Error naming element and entry where a number is none, a list longer than the
-///        file, or the file at its end too soon
+/// Reads a PLY file's body, in the memory of one entry at a time, whatever the header declares.
+/// \param path of the file
+/// \param header of the file
+/// \param body everything after the header
+/// \param take receives each entry
+/// \throw osgSkin::Error with element and entry, if a number is invalid, a list is longer than the
+///        file, or the file ends too soon
 void readPlyBody(const std::string& path, const PlyHeader& header, std::string_view body,
                  const TakePlyEntry& take) {
     const bool isText = header.format == PlyHeader::Format::Text;
@@ -369,7 +371,7 @@ void readPlyBody(const std::string& path, const PlyHeader& header, std::string_v
                : walk(path, header, PlyBytes(body, header.format == PlyHeader::Format::BigEndian),
                       take);
     if (isWhole) return;
-    // Rows that are longer than the header says were read as several.
+    // Rows longer than the header declares would have been read as several.
     if (isText)
         failFile(path, "words behind the last element, expected as many as the header says");
     tellOf(path, "bytes behind the last element, passed over");
@@ -377,12 +379,12 @@ void readPlyBody(const std::string& path, const PlyHeader& header, std::string_v
 
 using Place = std::optional<std::size_t>;
 
-constexpr double kNoTexture = -1.0; ///< whatever number stands for a texture that is not there
+constexpr double kNoTexture = -1.0; ///< for an invalid texture number
 
-/// Finds the number that means full colour. The property's type does not tell: many programs write
-/// 0 to 255 in any integer type.
+/// Finds the value of full colour. The property's type does not determine it: many programs write 0
+/// to 255 in any integer type.
 struct FullColour {
-    bool isWhole = false; ///< whether of a type without fractions; others are left as they are
+    bool isWhole = false; ///< an integer type; other types are left unchanged
     double most = 0.0;    ///< the largest number
 
     void take(double number) { most = std::max(most, number); }
@@ -393,7 +395,7 @@ struct FullColour {
     }
 };
 
-/// Collects vertices and faces from the entries of a file, in any order of the elements.
+/// Collects vertices and faces from the entries of a file, with elements in any order.
 class PlyCollector {
 public:
     PlyCollector(const std::string& path, const PlyHeader& header)
@@ -427,7 +429,8 @@ public:
 
     bool hasColours() const { return !_colours.empty(); }
 
-    /// \param addMaterial makes one with a texture, by its number, and returns its own number
+    /// \param addMaterial adds a material with a texture, given by number; returns the material's
+    ///        index
     CornerMesh finish(const std::function<std::uint32_t(double)>& addMaterial) {
         CornerMesh result;
         for (glm::vec4& colour : _colours)
@@ -484,7 +487,7 @@ private:
         }
     }
 
-    /// A vertex's number; a list gives its first.
+    /// A property's value; the first value of a list.
     static double at(const PlyValues& values, const Place& place) {
         return values[*place].empty() ? 0.0 : values[*place].front();
     }
@@ -495,7 +498,7 @@ private:
             _normals.emplace_back(at(values, _n[0]), at(values, _n[1]), at(values, _n[2]));
         if (_t[0] && _t[1]) _texCoords.emplace_back(at(values, _t[0]), at(values, _t[1]));
         if (!_c[0] || !_c[1] || !_c[2]) return;
-        glm::vec4 colour(-1.0f); // none: opaque
+        glm::vec4 colour(-1.0f); // alpha -1: none, opaque
         for (std::size_t k = 0; k < 4; ++k) {
             if (!_c[k]) continue;
             const double number = at(values, _c[k]);
@@ -528,7 +531,7 @@ private:
                                          : glm::vec2(0.0f));
     }
 
-    /// Strips one after the other, a negative number between them.
+    /// Adds triangle strips, separated by negative numbers.
     void addStrips(const std::vector<double>& strip) {
         std::size_t begin = 0;
         for (std::size_t k = 0; k < strip.size(); ++k) {
@@ -539,7 +542,7 @@ private:
             if (_texture) _textures.push_back(0.0);
             for (const std::size_t c : {odd ? k - 1 : k - 2, odd ? k - 2 : k - 1, k})
                 _corners.push_back(indexOf(strip[c], "a strip"));
-            // Faces beside strips may have them.
+            // Other faces may have them.
             if (_cornerTexCoords) _faceTexCoords.resize(_corners.size(), glm::vec2(0.0f));
         }
     }
@@ -556,7 +559,7 @@ private:
     std::vector<glm::vec2> _texCoords, _faceTexCoords;
     std::vector<glm::vec4> _colours;
     std::vector<std::uint32_t> _faceSizes, _corners;
-    std::vector<double> _textures; ///< of each face its texture's number; of the header's list
+    std::vector<double> _textures; ///< per face: index in the header's textures
 };
 
 } // namespace

@@ -41,7 +41,7 @@ bool isFine(double value) {
     return std::abs(value) <= kLargestCoordinate; // false for NaN too
 }
 
-/// OSG blends rotations as they are: one of another length would scale what it rotates.
+/// OSG does not normalise rotations: one of another length would scale.
 bool isFine(const osg::Quat& rotation) {
     return std::abs(rotation.length() - 1.0) < 0.1; // false for NaN too
 }
@@ -84,8 +84,8 @@ Keys lookAt(const osgAnimation::KeyframeContainer& container) {
     return found;
 }
 
-/// Why OSG cannot play an animation; empty: it can. It looks a time up between the keys of each
-/// channel without checking that there are some, in order.
+/// Why OSG cannot play an animation; empty if it can. OSG looks up times in a channel's keys
+/// without checking that there are any, or that they are in order.
 std::string whyNotPlayed(const osgAnimation::Animation& animation) {
     using namespace osgAnimation;
     for (const osg::ref_ptr<Channel>& channel : animation.getChannels()) {
@@ -112,10 +112,10 @@ std::string whyNotPlayed(const osgAnimation::Animation& animation) {
 
 // Rigs and morphs.
 
-constexpr float kRounding = -1e-3f; ///< the least weight that exporters make of 0
+constexpr float kRounding = -1e-3f; ///< the least weight that exporters round from 0
 constexpr auto kMaxWeight = static_cast<float>(kLargestCoordinate);
 
-/// Why an array does not hold `count` positions or directions in floats; empty where it does.
+/// Why an array does not contain `count` vectors of three floats; empty if it does.
 std::string wrongWith(const osg::Array* array, std::size_t count, const std::string& what) {
     if (dynamic_cast<const osg::Vec3Array*>(array) == nullptr)
         return what + " that are not of three floats each";
@@ -146,7 +146,7 @@ std::string whyNotMorphed(const osgAnimation::MorphGeometry& morph) {
     const std::size_t vertices = places != nullptr ? places->getNumElements() : 0;
     std::string wrong = wrongWith(places, vertices, "vertices");
     const osg::Array* const normals = morph.getNormalArray();
-    if (wrong.empty() && normals != nullptr) // one for all is not morphed
+    if (wrong.empty() && normals != nullptr) // a single overall normal is not morphed
         wrong = wrongWith(normals, normals->getNumElements(), "normals");
     const osg::Array *const atRest = morph.getVertexSource(), *const turned =
                                                                   morph.getNormalSource();
@@ -166,8 +166,8 @@ std::string whyNotMorphed(const osgAnimation::MorphGeometry& morph) {
     return wrong;
 }
 
-/// Why osgAnimation would read or write out of range as it moves a rig's or a morph's vertices;
-/// empty where it would not, and for other geometries.
+/// Why osgAnimation would access memory out of range when it deforms a rig or morph; empty if it
+/// would not, and for other geometries.
 std::string whyNotDeformed(const osg::Geometry& geometry) {
     if (const auto* rig = dynamic_cast<const osgAnimation::RigGeometry*>(&geometry))
         return whyNotRigged(*rig);
@@ -176,7 +176,8 @@ std::string whyNotDeformed(const osg::Geometry& geometry) {
     return {};
 }
 
-/// Whether a drawable asks for the box of a rig and is none, which osgAnimation throws at.
+/// Whether a drawable has a rig's bounding box callback but is not a rig, for which osgAnimation
+/// throws.
 bool hasBoxOfARig(const osg::Drawable& drawable) {
     const auto* box = dynamic_cast<const osgAnimation::RigComputeBoundingBoxCallback*>(
         drawable.getComputeBoundingBoxCallback());
@@ -189,7 +190,7 @@ bool isPerVertex(const osg::Array* array) {
     return array != nullptr && array->getBinding() == osg::Array::BIND_PER_VERTEX;
 }
 
-/// The number of vertices that primitives may name; unlimited where a geometry has no array.
+/// The number of vertices that primitives may use; unlimited if the geometry has no array.
 std::size_t vertexCountOf(const osg::Geometry& geometry) {
     if (geometry.getVertexArray() != nullptr) return geometry.getVertexArray()->getNumElements();
     std::size_t count = std::numeric_limits<std::size_t>::max();
@@ -269,7 +270,7 @@ bool isFinePlace(const osg::Matrixd& matrix) {
                        [](double number) { return isFinePlace(number); });
 }
 
-/// Whether the matrix of a transform, or of an animated part of one, is in range.
+/// Whether the matrix of a transform, or of an element of an animated one, is in range.
 bool hasPlace(const osg::Object& object) {
     osg::Matrixd matrix;
     if (const auto* transform = dynamic_cast<const osg::Transform*>(&object))
@@ -284,7 +285,7 @@ bool hasPlace(const osg::Object& object) {
 
 // The whole scene.
 
-/// Collects the objects of a scene that are checked, each once.
+/// Collects the objects of a scene to check, each once.
 class SceneObjects : public osg::NodeVisitor {
 public:
     SceneObjects() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
@@ -303,7 +304,7 @@ public:
 
     std::vector<const osg::Drawable*> drawables;
     std::vector<const osg::Geometry*> geometries;
-    std::vector<const osg::Object*> placed; ///< transforms and parts of those that move
+    std::vector<const osg::Object*> placed; ///< transforms, and elements of animated ones
     std::vector<osgAnimation::Animation*> animations;
     std::map<std::string, std::vector<osgAnimation::AnimationUpdateCallbackBase*>> moved;
     bool hasNullAnimation = false;
@@ -344,9 +345,9 @@ private:
     std::set<const osg::Referenced*> _known;
 };
 
-/// Links a copy of each channel as osgAnimation does. Where a channel is of another kind than what
-/// it names, as a rotation that names a translation, it gets no target, and osgAnimation would
-/// write to it all the same.
+/// Links a copy of each channel like osgAnimation does. A channel of another type than its target,
+/// such as a rotation that names a translation, gets no target, and osgAnimation would still write
+/// to it.
 void checkLinks(const osgAnimation::Animation& animation, const SceneObjects& scene,
                 const std::string& path) {
     std::size_t idle = 0;

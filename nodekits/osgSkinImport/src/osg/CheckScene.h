@@ -8,11 +8,12 @@
 
 namespace osgSkin {
 
-/// Checks a scene that OpenSceneGraph has read, before anything draws or updates it: vertices and
-/// matrices are finite and within +-1e18, primitives name vertices that exist, arrays are as long
-/// as these, rigs and morphs fit their geometries, and animations have keys in order that fit what
-/// they move. Reports channels that move nothing. Animations of one pose are set to repeat, since
+/// Checks a scene read by OpenSceneGraph, before it is drawn or updated: vertices and matrices are
+/// finite and within +-1e18, primitives index existing vertices, arrays have one element per
+/// vertex, rigs and morphs match their geometries, and animations have ordered keys of the right
+/// type. Reports channels without a target. Sets animations of a single pose to repeat, because
 /// osgAnimation divides by their length otherwise.
+/// \param scene whose animations may be changed
 /// \param path of the file, for errors
 /// \throw osgSkin::Error with the file, the object and the reason
 void checkScene(osg::Node& scene, const std::string& path);

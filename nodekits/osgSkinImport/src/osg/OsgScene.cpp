@@ -53,7 +53,7 @@ const Array* perVertex(const osg::Array* array, std::size_t vertices) {
     return fits ? typed : nullptr;
 }
 
-/// The colours of a geometry's vertices; none where they are not per vertex.
+/// A geometry's vertex colours; empty if they are not per vertex.
 std::vector<glm::vec4> coloursOf(const osg::Geometry& geometry, std::size_t vertices) {
     std::vector<glm::vec4> result;
     if (const auto* floats = perVertex<osg::Vec4Array>(geometry.getColorArray(), vertices))
@@ -64,7 +64,7 @@ std::vector<glm::vec4> coloursOf(const osg::Geometry& geometry, std::size_t vert
     return result;
 }
 
-/// Collects the triangles of all geometries, in the space of the scene.
+/// Collects the triangles of all geometries, in the scene's space.
 class GeometryCollector : public osg::NodeVisitor {
 public:
     GeometryCollector(const std::string& path, CornerMesh& result)
@@ -72,7 +72,7 @@ public:
 
     void apply(osg::Geometry& drawable) override {
         auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable);
-        // A rig deforms into its own arrays; its source stays at rest.
+        // A rig deforms into its own arrays; its source geometry stays at rest.
         const bool hasSource = rig != nullptr && rig->getSourceGeometry() != nullptr;
         osg::Geometry& geometry = hasSource ? *rig->getSourceGeometry() : drawable;
         std::vector<glm::dvec3> positions;
@@ -94,7 +94,8 @@ public:
     }
 
 private:
-    /// OSG reads all corners of an incomplete triangle, and does not check ranges.
+    /// Checks index ranges, which OSG does not; it also reads all corners of an incomplete
+    /// triangle.
     void checkPrimitives(osg::Geometry& geometry, std::size_t vertices) const {
         const std::string where = "geometry \"" + geometry.getName() + "\": ";
         for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList()) {
@@ -104,7 +105,7 @@ private:
                 count % 3 != 0)
                 failFile(_path, where + std::to_string(count) +
                                     " corners of triangles, expected a multiple of 3");
-            for (unsigned i = 0; i < count; ++i) // stops at the first
+            for (unsigned i = 0; i < count; ++i) // fails at the first
                 if (set->index(i) >= vertices)
                     failFile(_path, where + "a primitive names vertex " +
                                         std::to_string(set->index(i)) + ", expected less than " +
@@ -159,7 +160,7 @@ private:
             _result.colours.resize(_result.normals.size(), glm::vec4(1.0f));
     }
 
-    /// The merged state of all nodes down to this one, shared where these are the same.
+    /// The merged state of all nodes down to the current one, shared between equal paths.
     std::uint32_t materialHere(bool coloured) {
         std::vector<const osg::StateSet*> states;
         for (const osg::Node* node : getNodePath())
@@ -180,7 +181,7 @@ private:
 
     const std::string& _path;
     CornerMesh& _result;
-    /// By the states down to a geometry, and whether it has colours.
+    /// By the state sets down to a geometry, and whether it has colours.
     std::map<std::pair<std::vector<const osg::StateSet*>, bool>, std::uint32_t> _materials;
 };
 

@@ -13,12 +13,14 @@
 
 namespace osgSkin {
 
-/// Reads the geometries of a file that osgDB reads.
-/// \throw osgSkin::Error as readObjMesh()
+/// Reads the geometries of a file by osgDB.
+/// \throw osgSkin::Error like readObjMesh()
 CornerMesh readOsgMesh(const std::string& path, const osgDB::Options* options);
 
-/// The bind pose of the scene's first osgAnimation::Skeleton that has a bone, in the scene's space.
-/// \throw osgSkin::Error with `path` where there is none, or its bones make no sense
+/// The bind pose of the scene's first osgAnimation::Skeleton with a bone, in the scene's space.
+/// \param scene to search
+/// \param path of the file, for errors
+/// \throw osgSkin::Error with `path` if there is none, or its bones are invalid
 RestSkeleton readOsgSkeleton(osg::Node& scene, const std::string& path);
 
 } // namespace osgSkin

@@ -37,16 +37,16 @@ bool isTurned(const osgDB::Options* options) {
                         [](const auto& word) { return word.first == "noRotation"; });
 }
 
-/// Whether a file, by its extension, has a reader of ours: OSG's readers of these formats trust
-/// their input, and are never asked.
+/// Whether this library has a reader for the file's extension. OSG's readers of these formats trust
+/// their input, and are never used.
 bool isOurFormat(const std::string& path) {
     static const char* const ours[] = {"bvh", "glb", "gltf", "obj", "off", "ply", "vrm"};
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     return std::find(std::begin(ours), std::end(ours), extension) != std::end(ours);
 }
 
-/// Reads an OBJ or PLY mesh as OSG's readers would: OBJ with Y up unless the options contain
-/// `noRotation`. Refuses our other formats, which do not hold a mesh alone.
+/// Reads an OBJ or PLY mesh like OSG's readers: OBJ with Y up unless the options contain
+/// `noRotation`. Refuses the library's other formats, which are not scenes.
 osg::ref_ptr<osg::Node> readMeshScene(const std::string& path, const osgDB::Options* options) {
     const bool isObj = osgDB::equalCaseInsensitive(osgDB::getFileExtension(path), "obj");
     if (!isObj && !osgDB::equalCaseInsensitive(osgDB::getFileExtension(path), "ply"))
@@ -62,8 +62,8 @@ osg::ref_ptr<osg::Node> readMeshScene(const std::string& path, const osgDB::Opti
     return scene;
 }
 
-/// Reads of any kind within each other: pseudo-loaders' names hold others, and each takes a part of
-/// the stack.
+/// The maximum number of nested reads: names of pseudo-loaders contain other names, and each takes
+/// stack space.
 constexpr std::size_t kDeepestRead = 16;
 
 class Deeper {
@@ -77,10 +77,10 @@ private:
     std::size_t& _depth;
 };
 
-/// Stands before OSG's readers for one file and all that it names, scenes and images alike. It
-/// opens regular files only, checks scenes once they are read, and never asks OSG for formats that
-/// have a reader of ours, whatever surrounds their names. Other files go to the callback that the
-/// application has set, or else to OSG, by the path of the file that was checked.
+/// Guards OSG's readers for one file and all files that it names, scenes and images alike. Opens
+/// regular files only, checks scenes after reading them, and never lets OSG read formats that this
+/// library has a reader for, even inside a pseudo-loader's name. Passes other files, by the path of
+/// the checked file, to the application's callback, or else to OSG.
 class GuardedReads : public osgDB::ReadFileCallback {
 public:
     using Result = osgDB::ReaderWriter::ReadResult;
@@ -94,7 +94,8 @@ public:
         if (!_next) _next = new osgDB::ReadFileCallback;
     }
 
-    /// Why the first file was refused, since a reader between may not pass it on; empty: none was.
+    /// Why the first refused file was refused, because a reader in between may drop the reason;
+    /// empty if none was.
     const std::string& reason() const { return _reason; }
 
     Result openArchive(const std::string& name, osgDB::ReaderWriter::ArchiveStatus, unsigned,
@@ -170,7 +171,7 @@ private:
             _limits.checkFormat(name);
             const std::string found = findNamedFile(name, options);
             if (found.empty()) {
-                // OSG might take a file in another folder, which would be the wrong one.
+                // OSG might find a different file in another folder.
                 const bool isKnown = !_isOsgNext || isPseudoLoader(name);
                 if (!isKnown || !osgDB::findDataFile(name, options).empty())
                     requireReadable(name, _limits);
@@ -198,9 +199,9 @@ private:
     const ReadLimits _limits;
     PictureReader _pictures;
     osg::ref_ptr<osgDB::ReadFileCallback> _next;
-    bool _isOsgNext = false; ///< no callback of the application's, which may know more than files
+    bool _isOsgNext = false; ///< no application callback, which may accept other names
     std::string _reason;
-    std::size_t _depth = 0; ///< reads of any kind within each other
+    std::size_t _depth = 0; ///< number of nested reads
 };
 
 } // namespace
@@ -216,7 +217,7 @@ osg::ref_ptr<osg::Node> readScene(const std::string& path, const osgDB::Options*
     if (node) return node;
     if (!guard->reason().empty()) throw Error(guard->reason());
     const std::string& reason = read.message();
-    // A pseudo-loader's name is no file, and has a reason of its own.
+    // A pseudo-loader's name is not a file, and has its own reason.
     if (reason.empty() || read.notFound()) requireReadable(path, ReadLimits::of(options));
     failFile(path,
              reason.empty() ? "no reader of Assimp or OpenSceneGraph knows this file" : reason);

@@ -13,7 +13,7 @@ namespace osgSkin {
 std::vector<std::string> clipNames(const SourceScene& scene) {
     std::vector<std::string> result;
     std::set<std::string> taken;
-    std::map<std::string, int> copies; // of each name that several have
+    std::map<std::string, int> copies; // of each duplicate name
     for (std::size_t a = 0; a < scene.animations.size(); ++a) {
         const std::string& given = scene.animations[a]->name;
         std::string name = given.empty() ? "clip" + std::to_string(a) : given;

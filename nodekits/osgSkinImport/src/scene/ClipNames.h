@@ -10,14 +10,16 @@
 
 namespace osgSkin {
 
-/// Names for a scene's clips, each of its own: "clip2" for one without, "walk 2" for another
+/// Unique names for a scene's clips: "clip2" for a clip without a name, "walk 2" for a second
 /// "walk".
 std::vector<std::string> clipNames(const SourceScene& scene);
 
-/// Finds a clip by its name, by what stands behind the last '|' of it (as in "Armature|walk") where
-/// only one clip has that, or by its number, from 0.
+/// Finds a clip by its name, by the part of its name after the last '|' ("Armature|walk") if only
+/// one clip has that, or by its number, from 0.
 /// \param names of the file's clips
-/// \throw osgSkin::Error with `path` and the clips that there are
+/// \param wanted name or number
+/// \param path of the file, for errors
+/// \throw osgSkin::Error with `path` and the available clips
 std::size_t findClip(const std::vector<std::string>& names, const std::string& wanted,
                      const std::string& path);
 

@@ -12,7 +12,7 @@
 namespace osgSkin {
 namespace {
 
-/// Of each joint, whether both upper legs are below it.
+/// For each joint, whether both upper legs are below it.
 std::vector<bool> leadsToBothLegs(const RestSkeleton& skeleton) {
     const JointRoles roles = recogniseJoints(skeleton);
     std::vector<int> legs(skeleton.joints.size(), 0);
@@ -59,7 +59,7 @@ ReducedSkeleton::ReducedSkeleton(const RestSkeleton& skeleton, std::size_t root)
     constexpr int kOpen = -1;
     std::vector<int> place(skeleton.joints.size(), kOpen);
     place[root] = 0;
-    for (const std::size_t a : above) place[a] = 0; // the root's
+    for (const std::size_t a : above) place[a] = 0; // maps to the root
     joints.push_back(root);
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
         if (place[j] != kOpen) continue;

@@ -15,16 +15,16 @@ namespace osgSkin {
 
 namespace {
 
-constexpr double kSize = 0.1;      ///< of the mesh by one bone against that by another
-constexpr double kDistance = 0.25; ///< between two bones: poses may move them
-constexpr double kTurn = 0.05;     ///< of the axes' length
+constexpr double kSize = 0.1;      ///< relative difference of the mesh's size by two bones
+constexpr double kDistance = 0.25; ///< relative; poses may change the distance of two bones
+constexpr double kTurn = 0.05;     ///< relative to the axes' length
 
-/// A bone with its node, and what they say of the mesh.
+/// A bone with its node, and the transform that they give the mesh.
 struct Seat {
     const SourceBone* bone;
     const SourceNode* node;
     glm::dmat4 offset;
-    glm::dmat4 toScene; ///< where the mesh stands if the bone stands as its node
+    glm::dmat4 toScene; ///< the mesh's transform if the bone is bound where its node is
 
     double size() const { return std::cbrt(std::abs(glm::determinant(glm::dmat3(toScene)))); }
 };
@@ -46,21 +46,21 @@ std::vector<Seat> seatsOf(const SourceMesh& mesh, const SceneBind& bind) {
     return result;
 }
 
-/// The weighted bones, found from any node.
+/// Finds weighted bones near any node.
 class Neighbours {
 public:
     Neighbours(const std::vector<Seat>& weighted, const SceneBind& bind)
         : _weighted(weighted), _bind(bind) {
         for (const Seat& seat : weighted) {
             _at.emplace(seat.node, &seat);
-            // Above a node that is reached all are.
+            // Ancestors of a visited node have been visited.
             for (const SourceNode* node = seat.node;
                  node != nullptr && _firstBelow.emplace(node, &seat).second;)
                 node = bind.parent(*node);
         }
     }
 
-    /// Of the weighted bones the next one above, else the first one below, else the first one.
+    /// The nearest weighted bone above, or else the first below, or else the first of all.
     const Seat& of(const Seat& bone) {
         if (const Seat* above = nextAbove(_bind.parent(*bone.node))) return *above;
         const auto below = _firstBelow.find(bone.node);
@@ -68,7 +68,8 @@ public:
     }
 
 private:
-    /// A weighted bone at `node`, or the next one above; what is found is kept for all on the way.
+    /// The weighted bone at `node`, or the nearest above it. Caches the result for all nodes on the
+    /// path.
     const Seat* nextAbove(const SourceNode* node) {
         std::vector<const SourceNode*> way;
         const Seat* result = nullptr;
@@ -105,17 +106,17 @@ bool agrees(const Seat& bone, const Seat& other, double size, const SceneBind& b
     return true;
 }
 
-/// The bones of a mesh whose offset matrices tell where they were bound: those that carry weights,
-/// and of the others those that agree with them. Exporters list helper joints, which nobody
-/// weights, with the identity or whatever else was at hand; such a bone may be the topmost.
+/// The bones of a mesh whose offset matrices are reliable: the weighted bones, and the unweighted
+/// bones that agree with them. Exporters list unweighted helper joints with the identity or with
+/// arbitrary matrices; such a bone may be the topmost.
 ///
-/// An unweighted bone agrees where the mesh comes to the same size by it, and where it is as far
-/// from a weighted bone near it as their nodes are; with the identity for its offset, the mesh must
-/// come to stand the same way round, too.
+/// An unweighted bone agrees if it gives the mesh the same size, and if its distance from a nearby
+/// weighted bone matches that of their nodes. If its offset is the identity, the mesh's orientation
+/// must match as well.
 ///
 /// \param mesh any
 /// \param bind whose nodes and their poses are known already
-/// \return bones with a node and an offset matrix that can be inverted; where none is weighted, all
+/// \return bones with a node and an invertible offset matrix; all of them if none is weighted
 std::vector<const SourceBone*> reliableInverseBinds(const SourceMesh& mesh, const SceneBind& bind) {
     const std::vector<Seat> seats = seatsOf(mesh, bind);
     std::vector<Seat> weighted;
@@ -141,11 +142,11 @@ std::vector<const SourceBone*> reliableInverseBinds(const SourceMesh& mesh, cons
 }
 
 constexpr double kOneScale = 0.01;               ///< relative
-constexpr double kOnePlace = 0.01;               ///< of the bones' extent
-constexpr double kMinPosed = glm::radians(1.0);  ///< that a pose turns a bone by
-constexpr double kMaxPosed = glm::radians(45.0); ///< more is another axis up, if nothing else tells
+constexpr double kOnePlace = 0.01;               ///< relative to the bones' extent
+constexpr double kMinPosed = glm::radians(1.0);  ///< minimum rotation of a posed bone
+constexpr double kMaxPosed = glm::radians(45.0); ///< above this, probably another up axis
 constexpr double kStraight = 1e-3;
-constexpr double kFarthestPosed = 0.5; ///< of the extent, that a pose moves a bone
+constexpr double kFarthestPosed = 0.5; ///< maximum displacement of a posed bone, in extents
 
 double scaleOf(const glm::dmat4& m) {
     return std::cbrt(std::abs(glm::determinant(glm::dmat3(m))));
@@ -155,7 +156,7 @@ double angleOf(const glm::dmat3& turn) {
     return std::acos(std::clamp((turn[0][0] + turn[1][1] + turn[2][2] - 1.0) / 2.0, -1.0, 1.0));
 }
 
-/// Whether a space's axes are the scene's, or swapped: somebody chose them.
+/// Whether a space's axes are the scene's, possibly swapped: a deliberate choice.
 bool isAlongAxes(const glm::dmat4& m) {
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row) {
@@ -165,13 +166,15 @@ bool isAlongAxes(const glm::dmat4& m) {
     return true;
 }
 
-/// Whether bones stand in the bind pose where the mesh does, and the topmost node is posed: as
-/// exporters that store a clip's first frame leave it. What else tells the spaces apart is no pose:
-/// another unit or axis up, a figure that stands turned, a mesh's node that means nothing.
+/// Whether the topmost node is posed, and the bones are bound where the mesh's node is, which
+/// happens if an exporter stores a clip's first frame. Other differences between the spaces are not
+/// poses: another unit or up axis, a rotated figure, a meaningless mesh node.
 ///
-/// \param above from what the topmost bone's node stands in to the scene
+/// \param bones with reliable offsets
+/// \param topmost of them
+/// \param above from the space of the topmost bone's node to the scene
 /// \param byBone from the mesh to the scene, if the topmost bone's node is not posed
-/// \param byMesh the same, if the mesh's node is where the mesh was bound
+/// \param byMesh the same, if the mesh is bound at its node
 bool isPosed(const std::vector<const SourceBone*>& bones, const SourceBone& topmost,
              const glm::dmat4& above, const glm::dmat4& byBone, const glm::dmat4& byMesh) {
     if (!isAlongAxes(above) || !isAlongAxes(byMesh)) return false;
@@ -189,9 +192,9 @@ bool isPosed(const std::vector<const SourceBone*>& bones, const SourceBone& topm
     const glm::dmat3 turn =
         glm::dmat3(byBone) / scaleOf(byBone) * glm::inverse(glm::dmat3(byMesh) / scale);
     const double turned = angleOf(turn);
-    if (!(turned > kMinPosed)) return false; // not a number, too
+    if (!(turned > kMinPosed)) return false; // also for NaN
     if (turned < kMaxPosed) return moved < kFarthestPosed * extent;
-    // Turned about the mesh's origin, as a whole, it would stand elsewhere.
+    // A rotation of the whole figure about the mesh's origin would move the bone.
     const glm::dvec3 arm = place - glm::dvec3(byMesh[3]);
     return moved < kOnePlace * extent && glm::distance(turn * arm, arm) > 10.0 * kOnePlace * extent;
 }
@@ -214,7 +217,7 @@ SceneBind::SceneBind(const SourceScene& scene) : _scene(scene) {
             open.push_back(&child(*c));
     }
 
-    // Skins that reach further up come first: the others follow the bones that they share.
+    // Skins with higher topmost bones come first: the others follow the bones that they share.
     std::vector<std::vector<const SourceBone*>> bones;
     std::vector<std::pair<int, std::size_t>> skins;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
@@ -226,7 +229,7 @@ SceneBind::SceneBind(const SourceScene& scene) : _scene(scene) {
             skins.emplace_back(_depth.at(find(top->name)), m);
     }
     std::sort(skins.begin(), skins.end());
-    std::vector<glm::dmat4> shown(scene.meshes.size(), glm::dmat4(0.0)); // by its first node
+    std::vector<glm::dmat4> shown(scene.meshes.size(), glm::dmat4(0.0)); // at its first node
     for (auto node = _nodes.rbegin(); node != _nodes.rend(); ++node)
         for (const std::size_t mesh : (*node)->meshes) shown[mesh] = _posed.at(*node);
     for (const auto& [depth, m] : skins) bindSkin(bones[m], shown[m], _skins[m]);

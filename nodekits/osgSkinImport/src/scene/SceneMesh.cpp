@@ -21,9 +21,9 @@
 namespace osgSkin {
 namespace {
 
-// --- looks ---
+// --- materials ---
 
-/// A linear colour in sRGB; alpha is kept.
+/// Converts a linear colour to sRGB; alpha is unchanged.
 glm::vec4 toSrgb(const glm::vec4& linear) {
     glm::vec4 result = linear;
     for (int k = 0; k < 3; ++k) {
@@ -34,13 +34,17 @@ glm::vec4 toSrgb(const glm::vec4& linear) {
     return result;
 }
 
+<<<<<<< HEAD
 /// An image embedded in the file; null if it cannot be decoded.
+=======
+/// Decodes an embedded image; null if it cannot be decoded.
+>>>>>>> h-enA
 osg::ref_ptr<osg::Image> decodeImage(const SourceImage& source, const std::string& path,
                                      PictureReader& pictures) {
     return source.image ? source.image : pictures.read(path, source.format, source.bytes);
 }
 
-/// The materials' state sets, and the colours of vertices.
+/// State sets of the materials, and vertex colours.
 class Looks {
 public:
     Looks(const SourceScene& scene, const std::string& path, const osgDB::Options* options)
@@ -66,10 +70,10 @@ public:
         }
     }
 
-    /// Whether some mesh has vertex colours; then all have, some of them their material's.
+    /// Whether some mesh has vertex colours; then all get them, some from their material.
     bool hasColours() const { return _hasColours; }
 
-    /// A vertex's colour in sRGB; its material's where it has none of its own.
+    /// A vertex's colour in sRGB; its material's if it has none.
     glm::vec4 colour(const SourceMesh& mesh, std::size_t vertex) const {
         const SourceMaterial& material = _scene.materials[mesh.material];
         const osg::Vec4& diffuse = material.look.diffuse;
@@ -87,7 +91,7 @@ private:
     bool _hasColours = false;
 };
 
-// --- places ---
+// --- placement ---
 
 glm::dvec3 placed(const glm::dmat4& matrix, const glm::vec3& vertex) {
     return glm::dvec3(matrix * glm::dvec4(vertex, 1.0));
@@ -108,8 +112,9 @@ struct Box {
     }
 };
 
-/// Tells what stands beside a figure in its file (a floor, a sky, a stand) from what belongs to it
-/// and was not skinned (eyes, hair): it is apart from all skins, or half as large again.
+/// Distinguishes scenery (a floor, a sky, a stand) from unskinned parts of the figure (eyes, hair).
+/// A mesh is scenery if it does not overlap the bounds of the skins, or is more than half as large
+/// again as these.
 class Scenery {
 public:
     Scenery(const SourceScene& scene, const SceneBind& bind) : _scene(scene), _bind(bind) {
@@ -123,10 +128,11 @@ public:
             }
     }
 
-    /// Whether one of a node's meshes is scenery. Never where the scene has no skin.
-    /// \param mesh without bones, that hangs on no joint
+    /// Whether one of a node's meshes is scenery. Always false in a scene without a skin.
+    /// \param node of the mesh
+    /// \param mesh without bones, and not parented to a joint
     bool has(const SourceNode& node, std::size_t mesh) const {
-        constexpr double kLarger = 1.5; // than all skins together
+        constexpr double kLarger = 1.5; // relative to all skins together
         if (!_skins.valid) return false;
         const Box box = boxOf(node, mesh);
         if (!box.valid) return false;
@@ -154,7 +160,7 @@ bool isOther(const glm::vec3& a, const glm::vec3& b) {
     return glm::length(a - b) > 1e-3f * std::max(glm::length(a), glm::length(b));
 }
 
-/// A rotation and its negative are the same.
+/// A quaternion and its negative are the same rotation.
 bool isOther(const glm::quat& a, const glm::quat& b) {
     const glm::quat p = glm::normalize(a), q = glm::normalize(b);
     const float sign = glm::dot(p, q) < 0.0f ? -1.0f : 1.0f;
@@ -168,10 +174,10 @@ bool anyOther(const std::vector<SourceKey<Value>>& keys, const Value& rest) {
                        [&rest](const SourceKey<Value>& key) { return isOther(key.value, rest); });
 }
 
-/// Whether a track moves a node from where it stands.
+/// Whether a track moves a node from its own transform.
 bool moves(const SourceTrack& track, const SourceNode& node) {
     NodeTransform rest = decompose(node.matrix);
-    if (rest.scale.x < 0.0) { // mirrored: along all axes, which turns it differently
+    if (rest.scale.x < 0.0) { // mirrored: flip all axes, which changes the rotation
         glm::dmat4 unmirrored = -node.matrix;
         rest.rotation = rotationOf(unmirrored);
         rest.scale = {rest.scale.x, -rest.scale.y, -rest.scale.z};
@@ -181,8 +187,7 @@ bool moves(const SourceTrack& track, const SourceNode& node) {
            anyOther(track.scales, glm::vec3(rest.scale));
 }
 
-/// The nodes that some clip moves from where they stand. Exporters give others tracks, too, which
-/// hold them where they are.
+/// The nodes that some clip moves from their own transform. Exporters also write constant tracks.
 std::set<const SourceNode*> movedNodes(const SourceScene& scene, const SceneBind& bind) {
     std::set<const SourceNode*> result;
     for (const auto& animation : scene.animations)
@@ -194,7 +199,7 @@ std::set<const SourceNode*> movedNodes(const SourceScene& scene, const SceneBind
     return result;
 }
 
-/// The joints that meshes may hang on; none where nothing is skinned.
+/// The joints that meshes may be parented to; none if nothing is skinned.
 std::set<const SourceNode*> jointsOfSkins(const SourceScene& scene, const SceneBind& bind) {
     for (const SourceNode* node : bind.nodes())
         if (bind.isBone(*node)) return jointNodes(scene, bind);
@@ -208,7 +213,7 @@ bool counts(const SourceMesh& mesh, const SourceBone::Weight& entry) {
            entry.weight > 0.0f;
 }
 
-/// Where a bone takes the mesh: nowhere else where its matrix is none that could be.
+/// A mesh's transform by one of its bones; `toScene` if the bone's offset matrix is singular.
 glm::dmat4 placeBy(const SourceBone& bone, const glm::dmat4& toScene, const SceneBind& bind) {
     const double volume = glm::determinant(glm::dmat3(bone.offset));
     const SourceNode* const node = bind.find(bone.name);
@@ -216,7 +221,7 @@ glm::dmat4 placeBy(const SourceBone& bone, const glm::dmat4& toScene, const Scen
     return bind.node(*node) * bone.offset;
 }
 
-/// Calls `use` with each weight that counts, and where its bone takes the mesh.
+/// Calls `use` with each valid weight, and the mesh's transform by its bone.
 template <typename Use>
 void forEachWeight(const SourceMesh& mesh, const glm::dmat4& toScene, const SceneBind& bind,
                    const Use& use) {
@@ -227,15 +232,17 @@ void forEachWeight(const SourceMesh& mesh, const glm::dmat4& toScene, const Scen
     }
 }
 
-/// For a mesh that was bound in another pose than the meshes that share its bones: where each
-/// vertex goes in the pose that all are bound in, as its bones take it there, each by its weight.
+/// For a mesh that was bound in another pose than the meshes that share its bones: the transform of
+/// each vertex into the common bind pose, blended from its bones by weight.
 ///
-/// \param toScene the mesh's place, as bind.mesh() has it
-/// \return a matrix for each vertex, from the mesh's space into the scene's; none where `toScene`
-///         is right for all, but for a thousandth of the mesh's size
+/// \param mesh any
+/// \param toScene the mesh's transform, as returned by bind.mesh()
+/// \param bind of the scene
+/// \return a matrix for each vertex, from the mesh's space to the scene's; empty if `toScene` fits
+///        all vertices within a thousandth of the mesh's size
 std::vector<glm::dmat4> perVertexBindPose(const SourceMesh& mesh, const glm::dmat4& toScene,
                                           const SceneBind& bind) {
-    constexpr double kOff = 1e-3; // what files round their numbers by
+    constexpr double kOff = 1e-3; // relative rounding error in files
     if (mesh.bones.empty()) return {};
     osg::BoundingBoxd box;
     for (const glm::vec3& vertex : mesh.positions) box.expandBy(toOsg(placed(toScene, vertex)));
@@ -261,16 +268,16 @@ std::vector<glm::dmat4> perVertexBindPose(const SourceMesh& mesh, const glm::dma
 
 constexpr std::uint32_t kUnused = ~0u;
 
-/// The index of each vertex of a mesh in the result if the first one is `first`; kUnused for those
-/// that no face names. Meshes that share their vertices, as those of one body's materials do, each
-/// come with all of them.
+/// The index of each vertex of a mesh in the result if the first is `first`; kUnused for vertices
+/// that no face uses. Meshes that share vertices, such as one body's materials, each contain all of
+/// them.
 std::vector<std::uint32_t> indicesOf(const SourceMesh& source, std::size_t first,
                                      const std::string& where) {
     std::vector<std::uint32_t> result(source.positions.size(), kUnused);
     std::size_t corner = 0;
     for (std::size_t f = 0; f < source.faceSizes.size(); ++f) {
         const std::size_t end = corner + source.faceSizes[f];
-        const bool isFace = source.faceSizes[f] >= 3; // no point or line
+        const bool isFace = source.faceSizes[f] >= 3; // not a point or a line
         for (; corner < end; ++corner) {
             if (!isFace) continue;
             const std::uint32_t v = source.corners[corner];
@@ -292,8 +299,8 @@ glm::dmat3 normalMatrixOf(const glm::dmat4& toScene) {
     return glm::transpose(glm::inverse(glm::dmat3(toScene)));
 }
 
-/// Adds one mesh of the scene, in the scene's space: all of it by `toScene`, or where there are
-/// some, each vertex by its own of `apart`.
+/// Adds one mesh of the scene in the scene's space: transformed by `toScene`, or each vertex by its
+/// own matrix if `apart` is not empty.
 void addMesh(const SourceMesh& source, const glm::dmat4& toScene,
              const std::vector<glm::dmat4>& apart, const std::vector<std::uint32_t>& indices,
              const Looks& looks, CornerMesh& result) {
@@ -311,7 +318,7 @@ void addMesh(const SourceMesh& source, const glm::dmat4& toScene,
         if (size < 3) continue; // points and lines
         result.addFace(static_cast<std::uint32_t>(source.material));
         for (std::uint32_t k = 0; k < size; ++k) {
-            // A mirrored face keeps its outside when its corners run the other way round.
+            // Reverse the corners of a mirrored face to keep its front side.
             const std::uint32_t v = corners[mirrored ? size - 1 - k : k];
             glm::dvec3 normal(0.0);
             if (!source.normals.empty())
@@ -326,8 +333,8 @@ void addMesh(const SourceMesh& source, const glm::dmat4& toScene,
     }
 }
 
-/// Adds the weights of a mesh whose vertices have `indices`: its own, or where it has none, those
-/// of a thing that hangs on the joint `above`.
+/// Adds the weights of a mesh whose vertices have `indices`: its own, or, if it has none, full
+/// weight for the joint `above` that it is parented to.
 void addWeights(const SourceMesh& source, const SourceNode* above,
                 const std::vector<std::uint32_t>& indices, const std::string& where,
                 CornerMesh& result) {

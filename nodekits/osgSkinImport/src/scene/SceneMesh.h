@@ -11,10 +11,12 @@
 
 namespace osgSkin {
 
-/// Makes one mesh of all that a scene shows, in the bind pose, with the skins' weights.
+/// Merges all meshes of a scene into one, in the bind pose, with the skins' weights.
 ///
-/// \param path of the file that the scene was read from; textures are looked for beside it
-/// \throw osgSkin::Error as readObjMesh()
+/// \param scene to read
+/// \param path of the scene's file; textures are searched for in its folder
+/// \param options may be null
+/// \throw osgSkin::Error like readObjMesh()
 CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
                          const osgDB::Options* options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes a scene whole for those who know its nodes by their names.
+// Repairs a scene in which bones and tracks refer to nodes by name.
 #include "scene/SourceScene.h"
 
 #include "text/FileText.h"
@@ -25,7 +25,7 @@ SourceNode& nodeAt(SourceScene& scene, int index) {
     return scene.nodes[static_cast<std::size_t>(index)];
 }
 
-/// A scene's nodes by their names, from the root down, in file order.
+/// A scene's nodes by name, each list in depth-first order.
 NodesOfName nodesByName(const SourceScene& scene) {
     NodesOfName result;
     std::vector<int> open{0};
@@ -39,8 +39,8 @@ NodesOfName nodesByName(const SourceScene& scene) {
     return result;
 }
 
-/// Where a bone's name is that of a mesh's node and the name with Assimp's counter that of a node
-/// without a mesh, the bone was called so first.
+/// Swaps names if a bone's name belongs to a mesh node, and the name with Assimp's counter to a
+/// node without a mesh: the bone originally had that name.
 void exchangeWithTwin(SourceScene& scene, const std::string& bone, NodesOfName& nodes) {
     const auto found = nodes.find(bone), twin = nodes.find(bone + "001");
     if (found == nodes.end() || twin == nodes.end() || found->second.size() != 1 ||
@@ -53,7 +53,7 @@ void exchangeWithTwin(SourceScene& scene, const std::string& bone, NodesOfName& 
     std::swap(found->second, twin->second);
 }
 
-/// A mesh's bones without a node, and how much each shares with bones that have one.
+/// A mesh's bones without a node, and how much weight each shares with bones that have one.
 class MissingBones {
 public:
     MissingBones(const std::map<std::string, int>& nodes, const SourceMesh& mesh) {
@@ -79,12 +79,12 @@ public:
 
     struct Bone {
         const SourceBone* bone;
-        int node;          ///< index in the scene; kNone where there is none
-        const Bone* above; ///< of those with a node, the one that shares most
-        double shared;     ///< with it: the sum of their weights' products
+        int node;          ///< index in the scene; kNone if missing
+        const Bone* above; ///< the bone with a node that shares most
+        double shared;     ///< sum of products of the two bones' weights
     };
 
-    /// The bone without a node that shares most with one that has a node; null where there is none.
+    /// The bone without a node that shares most with one that has a node; null if there is none.
     Bone* next() {
         Bone* best = nullptr;
         for (Bone& bone : _bones)
@@ -94,14 +94,14 @@ public:
         return best;
     }
 
-    /// Gives next()'s bone its node.
+    /// Sets the node of the bone that next() returned.
     void setNode(Bone& bone, int node) {
         bone.node = node;
         offer(static_cast<std::size_t>(&bone - _bones.data()));
     }
 
 private:
-    /// Offers a bone that has a node to those that have none.
+    /// Updates the best parent of each bone without a node, given a bone that has one.
     void offer(std::size_t parent) {
         std::vector<double> shared(_bones.size(), 0.0);
         for (const SourceBone::Weight& entry : _bones[parent].bone->weights)

@@ -30,7 +30,7 @@ bool isBelow(const SourceNode* node, const std::set<const SourceNode*>& nodes,
     return node != nullptr;
 }
 
-/// Whether a node that nothing moves marks the end of its parent's bone.
+/// Whether a leaf node, by its name, marks the end of its parent's bone.
 bool isEndNode(const SourceNode& node) {
     const std::string& name = node.name;
     const bool suffixed = name.size() > 4 && name.compare(name.size() - 4, 4, "_end") == 0;
@@ -65,7 +65,7 @@ public:
 private:
     bool isJoint(const SourceNode& node) const { return _joints.count(&node) != 0; }
 
-    /// The lowest node that has all joints in its subtree.
+    /// The lowest node whose subtree contains all joints.
     const SourceNode* rootJoint() const {
         const SourceNode* node = _bind.nodes().front();
         while (!isJoint(*node)) {
@@ -97,7 +97,7 @@ private:
 
     SceneBind _bind;
     std::set<const SourceNode*> _joints;
-    std::unordered_set<const SourceNode*> _needed; ///< joints and the nodes above them
+    std::unordered_set<const SourceNode*> _needed; ///< joints and their ancestors
     SceneSkeleton _result;
 };
 

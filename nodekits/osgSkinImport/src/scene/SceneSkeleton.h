@@ -18,8 +18,7 @@ namespace osgSkin {
 
 class SceneBind;
 
-/// The joints of a scene: what its first animation or its meshes' bones move, and the nodes
-/// that connect them.
+/// The joints of a scene: jointNodes(), and the nodes that connect them.
 struct SceneSkeleton {
     RestSkeleton rest;
     std::vector<const SourceNode*> nodes; ///< [joint]
@@ -28,13 +27,14 @@ struct SceneSkeleton {
     glm::dmat4 aboveRoot{1.0};              ///< from the root joint's parent node to the scene
 };
 
-/// The nodes that are joints: bones and what moves above or below them. Other things that move
-/// beside a skin (a camera, a door) are not; without a skin, all that moves is a joint.
+/// The joint nodes: bones, and animated nodes above or below them. Other animated nodes of a scene
+/// with a skin (a camera, a door) are not joints; in a scene without a skin, all animated nodes
+/// are.
 std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind& bind);
 
-/// Reads the joints, in the bind pose.
-/// \throw osgSkin::Error with `path` where the scene has no joint, more than are allowed, or
-///        joints of one name.
+/// Reads the joints in the bind pose.
+/// \throw osgSkin::Error with `path` if the scene has no joint, too many joints, or joints with the
+///        same name.
 SceneSkeleton readSceneSkeleton(const SourceScene& scene, const std::string& path,
                                 const ReadLimits& limits);
 

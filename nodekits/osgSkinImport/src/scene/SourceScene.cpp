@@ -27,7 +27,7 @@ std::set<std::string> boneNames(const SourceScene& scene) {
 glm::dquat rotationOf(const glm::dmat4& matrix) {
     glm::dmat3 axes(matrix);
     const double volume = glm::determinant(axes);
-    if (!(std::abs(volume) > 0.0)) return {1.0, 0.0, 0.0, 0.0}; // flat: no rotation describes it
+    if (!(std::abs(volume) > 0.0)) return {1.0, 0.0, 0.0, 0.0}; // singular: has no rotation
     axes[0] = glm::normalize(volume < 0.0 ? -axes[0] : axes[0]);
     axes[1] = glm::normalize(axes[1] - axes[0] * glm::dot(axes[0], axes[1]));
     axes[2] = glm::cross(axes[0], axes[1]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A file of a rigged format as it stands in memory, whatever the format: each reader (glTF, Assimp)
-// fills it once, and meshes, skeletons, rigs and motions are made of it.
+// A scene in memory, independent of its file format. Each reader (glTF, Assimp) fills it once;
+// meshes, skeletons, rigs and motions are made from it.
 #ifndef OSGSKINIMPORT_SCENE_SOURCESCENE_H
 #define OSGSKINIMPORT_SCENE_SOURCESCENE_H
 
@@ -32,7 +32,7 @@ struct SourceNode {
     glm::dmat4 matrix{1.0}; ///< from its own frame to its parent's
     int parent = -1;        ///< index in SourceScene::nodes; -1 for the root
     std::vector<int> children;
-    std::vector<std::size_t> meshes; ///< that it shows
+    std::vector<std::size_t> meshes; ///< shown by this node
 };
 
 /// A bone of a mesh's skin.
@@ -41,35 +41,35 @@ struct SourceBone {
         std::uint32_t vertex = 0;
         float weight = 0.0f;
     };
-    std::string name;       ///< of a node, which need not be there
+    std::string name;       ///< of a node, which may be missing
     glm::dmat4 offset{1.0}; ///< inverse bind matrix: from the mesh to the node's own frame
     std::vector<Weight> weights;
 };
 
-/// Faces of one material. Attributes stand at the vertices: one each, or none at all.
+/// Faces of one material. Each attribute has one value per vertex, or is empty.
 struct SourceMesh {
     std::string name;
     std::size_t material = 0; ///< index in SourceScene::materials
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> texCoords;     ///< of the material's texture, v up
-    std::vector<glm::vec4> colours;       ///< linear or sRGB, as the material's
-    std::vector<std::uint32_t> faceSizes; ///< corners of each face; below 3: points and lines
-    std::vector<std::uint32_t> corners;   ///< vertices, face by face
+    std::vector<glm::vec4> colours;       ///< linear or sRGB, like the material
+    std::vector<std::uint32_t> faceSizes; ///< corners per face; below 3: points and lines
+    std::vector<std::uint32_t> corners;   ///< vertex indices, face by face
     std::vector<SourceBone> bones;
 };
 
-/// A picture that stands in the file itself.
+/// An image embedded in the file.
 struct SourceImage {
     std::string format;             ///< extension of the reader that decodes `bytes`
     std::string bytes;              ///< encoded
-    osg::ref_ptr<osg::Image> image; ///< where the file holds plain pixels instead
+    osg::ref_ptr<osg::Image> image; ///< if the file contains raw pixels instead
 };
 
 struct SourceMaterial {
-    Material look;                    ///< but its picture
-    bool isLinear = false;            ///< the vertices' colours are linear and multiplied with it
-    std::string texture;              ///< file of its diffuse texture, or a name for `image`
+    Material look;         ///< without its image
+    bool isLinear = false; ///< vertex colours are linear, and multiplied with the material's
+    std::string texture;   ///< file of the diffuse texture, or a name for `image`
     std::optional<std::size_t> image; ///< index in SourceScene::images
 };
 
@@ -79,7 +79,7 @@ struct SourceKey {
     Value value{};
 };
 
-/// What one animation does to one node: linear between keys, whose times rise.
+/// One animation of one node: linear between keys, in increasing time.
 struct SourceTrack {
     std::string node;
     std::vector<SourceKey<glm::vec3>> positions;
@@ -102,40 +102,43 @@ struct SourceScene {
     std::vector<std::shared_ptr<const SourceAnimation>> animations;
 
     osg::Matrixd toWorld;       ///< rotates up to Z and the front to -Y
-    double metresPerUnit = 0.0; ///< 0 where the format does not say
-    std::size_t bytes = 0;      ///< of the file and those it names
+    double metresPerUnit = 0.0; ///< 0 if the format does not state it
+    std::size_t bytes = 0;      ///< size of the file and of those it names
 
-    /// Adds a node below another, or the root; returns its index.
+    /// Adds a node below `parent`, or the root; returns its index.
     int addNode(std::string name, int parent, const glm::dmat4& matrix);
 };
 
 /// The names of all meshes' bones.
 std::set<std::string> boneNames(const SourceScene& scene);
 
-/// Makes the names of a scene's nodes unique, since bones and tracks know their nodes by name: of
-/// several nodes, they mean one that holds no mesh. The others get a counter behind the name.
+/// Makes node names unique, because bones and tracks refer to nodes by name. Of several nodes with
+/// one name, they mean one without a mesh, which keeps the name; the others get a counter.
 ///
-/// FBX files name a mesh and its bone alike; Assimp then calls the second of them "Torso001" and
-/// lets the bone mean the first. Where that is the mesh, the two exchange names.
+/// FBX files may give a mesh and its bone the same name; Assimp then renames the second one to
+/// "Torso001", but leaves the bone's reference to the first. If the first is the mesh, the two swap
+/// names.
 ///
-/// \param path of the file, whose extension tells FBX
+/// \param scene to change
+/// \param path of the file, whose extension identifies FBX
 void separateNames(SourceScene& scene, const std::string& path);
 
-/// Gives a node to each bone that the file has painted weights for and no node, so that what hangs
-/// on it can move: it follows, as its child, the bone of the same mesh that it shares most
-/// weight with, and stands to it as in the bind pose. Says so in a notice.
+/// Adds a node for each weighted bone without one, so that its vertices can move. Its parent is the
+/// bone of the same mesh with which it shares the most weight; it keeps its bind transform relative
+/// to that parent. Reports each in a notice.
 void addMissingBones(SourceScene& scene, const std::string& path);
 
-/// A matrix without shear, in its parts: matrix = translation * rotation * scale.
+/// A matrix without shear, decomposed: matrix = translation * rotation * scale.
 struct NodeTransform {
     glm::dvec3 translation;
     glm::dquat rotation;
-    glm::dvec3 scale; ///< the first is negative where the matrix mirrors
+    glm::dvec3 scale; ///< x is negative if the matrix mirrors
 };
 
 NodeTransform decompose(const glm::dmat4& matrix);
 
-/// The rotation of a matrix, without its scale; none where it mirrors or is flat.
+/// The rotation of a matrix, without its scale, or its mirroring along x; the identity if the
+/// matrix is singular.
 glm::dquat rotationOf(const glm::dmat4& matrix);
 
 } // namespace osgSkin

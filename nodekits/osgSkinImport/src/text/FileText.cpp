@@ -35,7 +35,7 @@ bool isArchive(const std::string& name) {
     return has(archives, osgDB::getLowerCaseFileExtension(name));
 }
 
-/// Whether OSG would open an archive on the way to a file. Folders may have any name.
+/// Whether OSG would open an archive in the path to a file. Folders may have any name.
 bool leadsThroughArchive(const std::string& path) {
     std::size_t first = 0;
     for (std::size_t end = 0; (end = path.find_first_of("/\\", first)) != std::string::npos;
@@ -47,7 +47,7 @@ bool leadsThroughArchive(const std::string& path) {
     return false;
 }
 
-/// Of scenes that only OSG reads.
+/// Whether the extension is that of a scene that only OSG reads.
 bool isOsgScene(const std::string& extension) {
     static const char* const scenes[] = {"ive", "osg", "osg2", "osgb", "osgt", "osgx"};
     return has(scenes, extension);
@@ -55,7 +55,7 @@ bool isOsgScene(const std::string& extension) {
 
 constexpr std::size_t kMegabyte = 1 << 20;
 
-/// The beginning of a name that is too long for a file.
+/// A path for messages, truncated if it is too long for a file name.
 std::string shortened(const std::string& path) {
     constexpr std::size_t longest = 200;
     return path.size() > kLongestPath ? path.substr(0, longest) + "..." : path;
@@ -73,7 +73,7 @@ void requireName(const std::string& path) {
 
 bool isOnlyRead(const std::string& path) {
     static const char* const scripts[] = {"js", "lua", "py", "pyc", "python", "v8"};
-    // They name more files to read or run, or ask past our guard for what stands before them.
+    // These name more files to read or run, or load the file named before them without our checks.
     static const char* const lists[] = {"ffmpeg",    "logo",  "normals",  "p3d",
                                         "present3d", "pview", "revisions"};
     static const char* const networks[] = {"curl", "gdal", "net", "ogr", "osc", "vnc"};
@@ -177,7 +177,7 @@ bool parseNumber(std::string_view token, double& value) {
     const auto [stop, status] = std::from_chars(token.data(), end, value);
     if (token.empty() || stop != end) return false;
     if (status == std::errc::result_out_of_range) {
-        // Too small for a double is zero; too large has no finite value.
+        // A number too small for a double is 0, a number too large infinity.
         const std::size_t exponent = token.find_first_of("eE");
         const bool tiny = exponent == std::string_view::npos
                               ? token.find_first_of("123456789") > token.find('.')
@@ -190,7 +190,7 @@ bool parseNumber(std::string_view token, double& value) {
 
 std::string inQuotes(std::string_view token) {
     std::size_t longest = 40;
-    // Do not cut a letter of several bytes.
+    // Do not split a multi-byte character.
     while (longest > 36 && longest < token.size() && (token[longest] & 0xc0) == 0x80) --longest;
     std::string text(token.substr(0, longest));
     if (token.size() > longest) text += "...";

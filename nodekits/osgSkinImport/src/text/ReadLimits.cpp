@@ -20,7 +20,7 @@ std::size_t countOf(const std::string& key, const std::string& value) {
     std::size_t count = 0;
     const char* const end = value.data() + value.size();
     const auto [stop, status] = std::from_chars(value.data(), end, count);
-    // Sums of limits up to this do not overflow.
+    // Limits up to this can be added without overflow.
     if (value.empty() || status != std::errc() || stop != end || count == 0 || count >> 40 != 0)
         throw Error("option " + key + "=" + value + ": expected a whole number from 1 to 2^40");
     return count;
@@ -35,7 +35,7 @@ std::vector<std::string> listOf(const std::string& key, const std::string& value
     return result;
 }
 
-/// How deep lists and objects of a JSON text may be nested; a `.skin` file has 4 levels, VRM 10.
+/// The maximum nesting of lists and objects in a JSON text; a `.skin` file has 4 levels, VRM 10.
 constexpr std::size_t kDeepestJson = 64;
 
 bool isIn(const std::vector<std::string>& formats, const std::string& extension) {

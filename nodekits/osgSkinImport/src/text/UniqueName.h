@@ -8,19 +8,19 @@
 
 namespace osgSkin {
 
-/// Names of which no two are alike.
+/// A set of unique names.
 class UniqueNames {
 public:
-    /// Takes `name`; false where it is taken.
+    /// Takes `name`; false if it is already taken.
     bool take(const std::string& name) { return _taken.insert(name).second; }
 
-    /// `wanted`, or with a counter behind it ("Torso.001") where that is taken; is taken from now
-    /// on. However many want the same name, each is found at once.
+    /// Takes and returns `wanted`, or `wanted` with a counter ("Torso.001") if it is already taken.
+    /// Stays fast however many names collide.
     std::string unique(const std::string& wanted);
 
 private:
     std::set<std::string> _taken;
-    std::map<std::string, int> _copies; ///< of each name, the last counter that was tried
+    std::map<std::string, int> _copies; ///< last counter tried for each name
 };
 
 } // namespace osgSkin
