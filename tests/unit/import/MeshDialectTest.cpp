@@ -245,7 +245,7 @@ TEST(PlyDialects, WordsBehindTheLastElementAreRefused) {
              "property uchar y\nproperty uchar z\nelement face 1\n"
              "property list uchar uchar vertex_indices\nend_header\n" +
                  "\0\0\0\1\0\0\0\1\0\3\0\1\2\n\n"s);
-    EXPECT_TRUE(notices.say("bytes behind the last element, passed over")) << notices.text();
+    EXPECT_TRUE(notices.say("bytes behind the last element, skipped")) << notices.text();
 }
 
 TEST(PlyDialects, ALineFeedMayBeTheBodysFirstByte) {

@@ -378,7 +378,7 @@ void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::
         tellOf(path, "line " + std::to_string(rows[file.frames].line) + ": " +
                          std::to_string(rows.size() - file.frames) +
                          " frame(s) beyond the declared " + std::to_string(file.frames) +
-                         ", passed over");
+                         ", skipped");
 }
 
 /// Reads the MOTION into `file`, whose joints are known, up to the end of the file: frame time,

@@ -116,7 +116,7 @@ public:
         count("edges");
         for (std::size_t v = 0; v < vertices; ++v) addVertex(v);
         for (std::size_t f = 0; f < faces; ++f) addFace(f);
-        if (!_text.word().empty()) tellOf(_path, "lines behind the last face, passed over");
+        if (!_text.word().empty()) tellOf(_path, "lines behind the last face, skipped");
         if (_colouredFaces > 0)
             tellOf(_path, std::to_string(_colouredFaces) + " of " + std::to_string(faces) +
                               " faces have colours, which are left out");

@@ -63,21 +63,12 @@ public:
     /// Whether stb_image reads files with this extension, in any case.
     static bool decodes(const std::string& extension);
 
-<<<<<<< HEAD
-    /// A picture within another file, in a format that stb_image reads or that
-    /// ReadLimits::images names.
-    /// \param name of that file, for errors
-    /// \param extension of the picture's format
-    /// \return null where no reader gives a reason
-    /// \throw osgSkin::Error
-=======
     /// Reads an embedded image, in a format of stb_image or of ReadLimits::images.
     /// \param name of the containing file, for errors
     /// \param extension of the image's format
     /// \param bytes encoded image
     /// \return null if it cannot be read for an unknown reason
     /// \throw osgSkin::Error with the reason
->>>>>>> h-enA
     osg::ref_ptr<osg::Image> read(const std::string& name, const std::string& extension,
                                   std::string_view bytes);
 

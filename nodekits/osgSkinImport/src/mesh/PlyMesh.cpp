@@ -374,7 +374,7 @@ void readPlyBody(const std::string& path, const PlyHeader& header, std::string_v
     // Rows longer than the header declares would have been read as several.
     if (isText)
         failFile(path, "words behind the last element, expected as many as the header says");
-    tellOf(path, "bytes behind the last element, passed over");
+    tellOf(path, "bytes behind the last element, skipped");
 }
 
 using Place = std::optional<std::size_t>;

@@ -34,11 +34,7 @@ glm::vec4 toSrgb(const glm::vec4& linear) {
     return result;
 }
 
-<<<<<<< HEAD
 /// An image embedded in the file; null if it cannot be decoded.
-=======
-/// Decodes an embedded image; null if it cannot be decoded.
->>>>>>> h-enA
 osg::ref_ptr<osg::Image> decodeImage(const SourceImage& source, const std::string& path,
                                      PictureReader& pictures) {
     return source.image ? source.image : pictures.read(path, source.format, source.bytes);
