@@ -29,7 +29,7 @@ TREE = HOME / "tree"
 BUILD = TREE / "build" / "release"
 BROKEN = HOME / "broken"
 EXPLAINED = Path(__file__).with_name("explained.txt")
-# Kit -> the test programs that are to notice, those that notice most and soonest first.
+# Kit -> its test programs, the most effective and fastest first.
 KITS = {
     "osgSkin": ["runtime_test", "serializers_test", "scene_test", "allocation_test", "bindTests"],
     "osgSkinRig": ["runtime_test", "importTests", "bindTests", "system_test"],
@@ -46,7 +46,7 @@ RULES = [
     (r"\b0\.5\b", "0.6"), (r"\bstd::lock_guard<std::mutex> lock\(\w+\);", ";"),
     (r"\bcontinue;", "break;"), (r"\+\+(\w+)\)", r"\1 += 2)"), (r"\bif \(!", "if ("),
 ]
-# Messages and declarations, where these marks mean something else.
+# Messages and declarations, in which these operators have another meaning.
 SKIPPED = re.compile(r'^\s*(//|\*|#|using|template|namespace|static_assert)|"|fail|Error|OSG_|operator')
 
 
@@ -56,16 +56,16 @@ def shell(command, where, timeout=None, **environment):
     try:
         return running.wait(timeout)
     except subprocess.TimeoutExpired:
-        os.killpg(running.pid, signal.SIGKILL)  # the shell's program, too
+        os.killpg(running.pid, signal.SIGKILL)  # kills the shell's child, too
         running.wait()
-        return 124  # a mutant that hangs is noticed
+        return 124  # a mutant that hangs counts as detected
 
 
 def prepare(kits, tests):
     """The copy's libraries, and its test programs where those of no other build are used."""
     BROKEN.mkdir(parents=True, exist_ok=True)
     if not TREE.exists():
-        # By force: a copy that was deleted by hand is still on git's list.
+        # --force: a copy that was deleted by hand is still in git's list.
         shell(f"git worktree add --force --detach '{TREE}'", ROOT)
     shell(f"git checkout --force --detach $(git -C '{ROOT}' rev-parse HEAD)", TREE)
     programs = sorted({test for kit in kits for test in KITS[kit]})
@@ -95,7 +95,7 @@ def places(kit, commands):
     """(file, line number, rule) in each of a kit's sources where a rule applies, a file a turn."""
     files = []
     for file in sorted((TREE / "nodekits" / kit / "src").rglob("*.cpp")):
-        # What a test program compiles or links by itself would be broken in the library alone.
+        # Sources that a test program compiles or links itself would be broken in the library only.
         entries = commands.get(str(file), [])
         if len(entries) != 1 or f"/{kit}.dir/" not in entries[0]["command"]:
             continue
@@ -119,7 +119,7 @@ def compile_broken(kit, entry):
     library = sorted((BUILD / "lib").glob(f"lib{kit}.so.*"), key=lambda path: len(path.name))
     link = subprocess.run(["ninja", "-t", "commands", f"lib/{library[-1].name}"], cwd=BUILD, check=True,
                           capture_output=True, text=True).stdout.splitlines()[-1]
-    broken = BROKEN / library[0].name  # as programs name it
+    broken = BROKEN / library[0].name  # under the name that programs link to
     link = re.sub(rf"(?<= ){re.escape(made)}(?= )", str(BROKEN / "broken.o"), link)
     return shell(re.sub(r" -o \S+", f" -o {broken}", link), BUILD) == 0
 

@@ -29,7 +29,7 @@ class House:
         self.breaches = []
         self.licence = {}  # kit -> SPDX name
         self.needs = {}  # kit -> kits
-        self.rooms = collections.defaultdict(list)  # kit -> rooms from the ground up
+        self.rooms = collections.defaultdict(list)  # kit -> rooms, bottom to top
         self.headers = {}  # (kit, public header without a source) -> room
         self.tables = {}  # path -> why it has no header
         self.read_rooms()
@@ -149,7 +149,7 @@ def check_includes(house):
                     continue
                 there = house.place(file)
             if not there:
-                continue  # told where that file itself is looked at
+                continue  # reported when that file itself is checked
             order = house.rooms[kit]
             if order.index(there[1]) > order.index(room):
                 house.breach(path, f"includes {include}: an arrow upward, {room} -> {there[1]}")
@@ -160,7 +160,7 @@ def check_includes(house):
 
 def check_users(house):
     """An internal header has two users, or a test."""
-    users = collections.defaultdict(set)  # header -> files that include it, its own source excepted
+    users = collections.defaultdict(set)  # header -> files that include it, except its own source
     tests = " ".join(p.read_text() for p in house.files("tests", "osgPlugin", "examples", "data") if is_code(p))
     paths = [p for p in house.files("nodekits") if is_code(p)]
     for path in paths:

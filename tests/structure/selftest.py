@@ -38,7 +38,7 @@ SOUND = {
     "tests/downstream/main.cpp": MIT + "#include <osgSkin/A>\n",
 }
 
-# What is changed, and how the complaint about it must begin.
+# The change, and the start of the expected complaint.
 BROKEN = [
     ({"nodekits/low/src/ground/Base.h": MIT + "#include <low/Up>\n"},
      "nodekits/low/src/ground/Base.h: includes <low/Up>: an arrow upward, ground -> first"),
