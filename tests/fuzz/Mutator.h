@@ -17,6 +17,7 @@ public:
     /// \param inputs initial inputs of a run; at least one, possibly empty
     /// \param words of the format, inserted unchanged
     /// \param longest size of a new input, bytes
+    /// \param seed of the random changes
     Mutator(std::vector<std::string> inputs, std::vector<std::string> words, std::size_t longest,
             std::uint64_t seed);
 

@@ -161,7 +161,7 @@ TEST_F(Crowd, TenThousandMembersTakeNoTimeOfTheProcessor) {
     CrowdSubject few(2);
     const auto character = few.character();
     const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, many.members);
-    // Half of the circle is behind the camera; this test does not check the picture.
+    // Half of the circle is behind the camera; drawing is not measured here.
     GpuStage stage(crowd);
     stage.lookAway();
     stage.frame(0.0);
@@ -282,7 +282,7 @@ TEST(CrowdCharacter, LevelsGrowCoarserOneByOne) {
     EXPECT_THROW(character->addLevel(0.5, 0.1), Error);
     EXPECT_THROW(character->addLevel(0.1, 0.5), Error);
     EXPECT_EQ(character->levelCount(), 2u);
-    // A skin without triangles is not added to the levels.
+    // With levels, a skin without triangles is refused.
     EXPECT_THROW(character->addSkin(*test::makeSkin(), osg::Matrixd()), Error);
     EXPECT_EQ(character->skins().size(), 1u);
 }

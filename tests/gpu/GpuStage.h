@@ -18,7 +18,7 @@ class GpuStage {
 public:
     static constexpr int kSize = 400;
 
-    /// \param scene framed as a whole
+    /// Views that frame the whole scene.
     GpuStage(osg::Node* scene, EglWindow::Profile profile = EglWindow::Profile::Compatibility,
              unsigned int contexts = 1,
              osgViewer::ViewerBase::ThreadingModel model = osgViewer::ViewerBase::SingleThreaded);

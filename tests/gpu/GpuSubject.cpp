@@ -66,7 +66,8 @@ osg::ref_ptr<osgSkin::DeformableSkin> movingTube(double unit) {
 /// A body in a recorded climb.
 ///
 /// \param name of the file to write
-/// \param body its mesh and skeleton members
+/// \param body its mesh and skeleton files
+/// \param reason set if a file is missing
 osg::ref_ptr<osg::Node> readClimber(const std::string& name,
                                     const std::pair<std::string, std::string>& body,
                                     std::string& reason) {

@@ -261,7 +261,7 @@ TEST_P(GpuSkin, PositionsNormalsAndTangentsAreTheProcessors) {
               << std::endl;
 }
 
-/// The squared length of a direction overflows single precision at the limits of bone scale.
+/// At the limits of bone scale the squared length of a direction is beyond single precision.
 TEST(GpuSkinScale, NormalsAreTheProcessorsWhateverTheScale) {
     const test::SlopedTube tube;
     for (const double scale : {0.99e9, 1.01e-9})

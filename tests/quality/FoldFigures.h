@@ -44,6 +44,7 @@ struct ShapeFigures {
 
 /// Binds with shapes a subject that bind() has bound, beside its own binding.
 /// \param subject bound without shapes
+/// \param poses of the clips
 /// \param shapes "fast" or "elastic"
 ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses,
                            const std::string& shapes);

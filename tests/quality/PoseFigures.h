@@ -57,8 +57,7 @@ struct CappingCost {
     std::string figure; ///< the figure it applies to
 };
 
-/// \param capped the subject's own figures
-/// \param wrist the subject's own, too
+/// `capped` and `wrist` are the subject's own figures.
 CappingCost measureCapping(const Subject& subject, const std::vector<NamedPose>& poses,
                            const PoseFigures& capped, const std::vector<WristTwist>& wrist);
 

@@ -113,10 +113,8 @@ void measureOwnership(const MeasuredSkin& skin, const std::vector<VertexShares>&
     figures.outside = percentOf(outside);
 }
 
-/// Area of a skin's cross-section of a bone, in the joint's own frame.
-/// \param region vertices that take part
-/// \param matrix G_j of the joint
-/// \param along share of the bone's length, from the joint
+/// Area of a skin's cross-section of a bone, in the joint's own frame. `matrix` is the joint's G_j,
+/// `region` the vertices that take part, `along` the share of the bone's length from the joint.
 double sectionArea(const Subject& subject, const compare::Points& posed, const glm::dmat4& matrix,
                    int joint, const std::vector<bool>& region, double along) {
     const glm::dvec3& centre = subject.rig.joints[static_cast<std::size_t>(joint)].centre;

@@ -79,13 +79,14 @@ class CrossSections {
 public:
     /// \param subject the skin
     /// \param joint the only joint that will rotate
+    /// \param loops the cross-sections at rest
     CrossSections(const Subject& subject, std::size_t joint,
                   const std::vector<std::vector<EdgePoint>>& loops);
 
     struct Least {
         double ofMethod = 1.0, ofMesh = 1.0; ///< smallest A'/A
     };
-    /// \param posed the whole skin, deformed by `method` under `skinning`
+    /// `posed` is the whole skin, deformed by `method` under `skinning`.
     Least leastAreas(Method method, const std::vector<glm::dmat4>& skinning,
                      const compare::Points& posed) const;
 

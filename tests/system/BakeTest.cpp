@@ -154,8 +154,8 @@ TEST(Bake, FramesAreTheFilesOwnSamples) {
     ASSERT_EQ(all.size(), 4u);
     ASSERT_EQ(later.size(), 2u);
     EXPECT_EQ(later[0]["frame"], 0);
-    // The arm rotates about z by 0, 30, 60 and 90 degrees, followed by a rotation about Y by 0, 0,
-    // 40 and 80.
+    // The arm's rotation is Rz * Ry, about z by 0, 30, 60 and 90 degrees and about y by 0, 0, 40
+    // and 80.
     for (std::size_t frame = 0; frame < 4; ++frame) {
         const nlohmann::json& r = all[frame]["joints"]["arm"]["rotation"];
         const double z[] = {0, 30, 60, 90}, y[] = {0, 0, 40, 80};

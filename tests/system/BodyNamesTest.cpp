@@ -128,7 +128,7 @@ protected:
         const Drawn expected = drawn(body, {}), found = drawn(test::renamed(body, names), extra);
         ASSERT_EQ(expected.rigids.size(), 1u); // the head: thumbs and toes move
         ASSERT_GT(expected.skin.size(), 1000u);
-        // The product finds both legs by their names; the order of the vertices may differ.
+        // The joints' names decide the order of the legs in the product, and so of the vertices.
         ASSERT_EQ(found.skin.size(), expected.skin.size());
         std::size_t exact = 0;
         for (const osg::Vec3& v : found.skin) {

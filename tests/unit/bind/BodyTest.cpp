@@ -512,8 +512,7 @@ TEST_F(BodyNames, EverySpellingHasTheSameRigidParts) {
 TEST_F(BodyNames, ASpelledBodyIsBoundAlike) {
     RestSkeleton other = body.truth;
     for (std::size_t j = 0; j < other.joints.size(); ++j) {
-        // Neo_LeftArm_04Bone; CMU's families know two more joints, fingers and hips, than a single
-        // name gives
+        // Such as Neo_LeftArm_04Bone. Without CMU's family, fingers and hips are not recognised.
         other.joints[j].name = "Neo_" + other.joints[j].name + "_" + std::to_string(j) + "Bone";
     }
     expectSame(bind(body.mesh, body.truth), bind(body.mesh, other));

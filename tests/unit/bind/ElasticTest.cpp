@@ -278,8 +278,8 @@ TEST(ElasticCylinder, ComesToTheSameFoldByAnyWay) {
         EXPECT_LT(glm::length(a.positions[v] - b.positions[v]), 0.05);
 }
 
-/// A bend that is too far stops at the largest possible one; fitting uses the angle that was
-/// reached.
+/// For a bend that is too far, samples on the way to it are solved, so that functions can be
+/// fitted.
 TEST(ElasticCylinder, GoesPartOfTheWayToABendThatIsTooFar) {
     const ElasticTube tube;
     const ElasticShapes shapes = solveElasticJoint(tube.skin(), tube.joint({90, 178}));

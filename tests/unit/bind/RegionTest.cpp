@@ -242,7 +242,7 @@ TEST(Regions, JointsBesideEachOtherInOnePointHaveThatOfTheirBones) {
               std::string::npos);
 }
 
-/// A root on the floor, as in games: its skin is rigid, and rotates with the hips.
+/// A root on the floor, as in games: all skin follows it fully, and rotates with the hips.
 TEST(Regions, ARootOutsideHasNoSkin) {
     RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.0, 6.0, 7.0}, 7.6);
     const char* const names[] = {"Hips", "Spine", "Neck", "Head"};

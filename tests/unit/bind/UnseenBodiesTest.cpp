@@ -303,7 +303,7 @@ TEST(UnseenBodies, PadsOnTheShoulderStayOnIt) {
         body.truth.joints.at(std::size_t(body.truth.find("LeftArm"))).centre;
     const std::vector<glm::dvec3> skin = body.mesh.positions;
     const double height = glm::distance(shoulder, body.truth.joints.front().centre) * 3.0;
-    // The source of each pad vertex; the pad is a hundredth of the height off the joint.
+    // The pad vertex of each skin vertex, moved away from the joint by a hundredth of the height.
     std::vector<std::uint32_t> padOf(skin.size(), 0), below;
     const std::vector<std::uint32_t> corners = body.mesh.triangles();
     for (std::size_t t = 0; t < corners.size(); t += 3) {

@@ -232,7 +232,7 @@ TEST(GltfLooks, ATextureThatMaterialsShareIsReadOnce) {
     EXPECT_EQ(images.count(nullptr), 0u);
 }
 
-/// For applications that read the extension's texture format there is no fallback.
+/// These textures exist only in an extension's format, without a fallback.
 TEST(GltfLooks, TexturesOfExtensionsAreReadOrMissed) {
     for (const char* extension : {"MSFT_texture_dds", "EXT_texture_webp"}) {
         GltfColumn column;

@@ -58,8 +58,10 @@ private:
 };
 
 /// Writes a motion as a glTF file with nodes and one animation, no mesh.
+/// \param motion to write
 /// \param axes from each joint's own axes to the motion's zero pose
 /// \param posed rotations of the nodes relative to the zero pose
+/// \param path of the file
 inline void writeGltf(const osgSkin::Motion& motion, const std::vector<glm::dquat>& axes,
                       const std::vector<glm::dquat>& posed, const std::string& path) {
     const auto& joints = motion.skeleton.joints;

@@ -212,7 +212,7 @@ std::string wrong(const RestSkeleton& body) {
     return result;
 }
 
-/// A single lower-case letter, not separated from other lower-case letters, cannot be recognised.
+/// A single lower-case letter directly beside other lower-case letters is no side mark.
 bool isLegible(const test::Dialect& dialect, const test::SideStyle& side, const std::string& prefix,
                const std::string& suffix) {
     if (!std::string(side.separator).empty()) return true;

@@ -93,8 +93,7 @@ TEST(MeshLooks, ColoursCountTo1OrTo255) {
     EXPECT_EQ(colourOf(floats, 1), osg::Vec4(0.0f, 51.0f / 255.0f, 0.0f, 51.0f / 255.0f));
 }
 
-/// Integer colours count up to the range of their type; colours that would be black otherwise count
-/// up to 255.
+/// Integer colours range up to the maximum of their type, but up to 255 if no number is larger.
 TEST(MeshLooks, PlyColoursCountAsTheirNumbersDo) {
     const auto second = [](const std::string& type, const char* first, const char* next) {
         std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"

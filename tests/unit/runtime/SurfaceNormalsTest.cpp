@@ -125,7 +125,7 @@ TEST_P(SurfaceNormals, AreThoseOfThePosedSurface) {
         }
 }
 
-/// The squared length of a direction overflows single precision at the limits of bone scale.
+/// At the limits of bone scale the squared length of a direction is beyond single precision.
 TEST_P(SurfaceNormals, AreUnitWhateverTheScale) {
     const test::SlopedTube tube;
     const auto model = tube.model();
