@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Breaks the product on purpose, place by place, and tells which breaks no test notices.
+"""Mutation testing: makes deliberate bugs, one at a time, and lists those that no test detects.
 
     tests/mutation/run.py [--count N] [--seed S] [--again LIST] [--tests BUILD] [KIT...]
 
 Works in a copy of the last commit, build/mutation/tree. Each mutant changes one operator, number or
-order in one line; a kit's mutants are spread over its sources. One source is compiled and one library
-linked a mutant, into build/mutation/broken, where the test programs find it first; the source's
-assertions hold, the standard library's among them, as in tests/sanitizers. A kit's programs run in the
-order of KITS until one notices. What survives is listed with its place, to be given a test or, where no
-test could notice, to be explained in explained.txt. --again tries what was printed before.
+order in one line; a kit's mutants are spread over its sources. Each mutant compiles one source and links
+one library, into build/mutation/broken, where the test programs find it first; assertions are on, also
+the standard library's, as in tests/sanitizers. A kit's programs run in the order of KITS until one fails.
+Surviving mutants are listed with their locations: add a test or, if no test could detect one, explain it
+in explained.txt. --again repeats the mutants of an earlier output.
 """
 import argparse
 import json
@@ -62,7 +62,7 @@ def shell(command, where, timeout=None, **environment):
 
 
 def prepare(kits, tests):
-    """The copy's libraries, and its test programs where those of no other build are used."""
+    """Builds the copy's libraries, and its test programs unless another build's are used."""
     BROKEN.mkdir(parents=True, exist_ok=True)
     if not TREE.exists():
         # --force: a copy that was deleted by hand is still in git's list.
@@ -82,7 +82,7 @@ def run(program, build, limit, libraries):
 
 
 def notices(program, build, limits):
-    """True where a test of this program fails with the broken library."""
+    """True if a test of this program fails with the broken library."""
     if program not in limits:
         start = time.monotonic()
         if run(program, build, None, build / "lib"):
@@ -92,7 +92,7 @@ def notices(program, build, limits):
 
 
 def places(kit, commands):
-    """(file, line number, rule) in each of a kit's sources where a rule applies, a file a turn."""
+    """(file, line number, rule) for each line of a kit's sources that a rule matches, alternating files."""
     files = []
     for file in sorted((TREE / "nodekits" / kit / "src").rglob("*.cpp")):
         # Sources that a test program compiles or links itself would be broken in the library only.
@@ -109,7 +109,7 @@ def places(kit, commands):
 
 
 def compile_broken(kit, entry):
-    """Compiles a source as it is now and links its library, in BROKEN; false where that fails."""
+    """Compiles a source as it is now and links its library into BROKEN; false if that fails."""
     words = shlex.split(entry["command"])
     made = words[words.index("-o") + 1]
     words[words.index("-o") + 1] = str(BROKEN / "broken.o")
@@ -130,7 +130,7 @@ def explained():
 
 
 def chosen(kit, arguments, commands):
-    """(file, line number, broken line), as many as there are."""
+    """(file, line number, broken line) for all mutants."""
     random.seed(f"{arguments.seed} {kit}")
     for file, number, (pattern, by) in places(kit, commands):
         lines = file.read_text().splitlines(keepends=True)
@@ -138,7 +138,7 @@ def chosen(kit, arguments, commands):
 
 
 def listed(kit, again):
-    """The same, of the lines of an earlier run's output."""
+    """The same for the lines of an earlier run's output."""
     for line in again.read_text().splitlines():
         found = re.search(rf"({kit}/\S+): (.*) -> (.*)", line)
         if not found:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Shows that check.py can fail: a tiny sound house, and for each rule one change that breaks it."""
+"""Shows that check.py can fail: a tiny valid source tree, and one change that breaks each rule."""
 import pathlib
 import subprocess
 import sys
