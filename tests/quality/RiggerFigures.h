@@ -48,7 +48,7 @@ struct RiggerFigures {
     std::size_t worstCount = 0;
 
     /// Least area of a cross-section of shin or forearm, at 15, 25 and 40 % of the bone, over that
-    /// at rest, with the joint bent by 60, 90, 120 and 140 degrees.
+    /// at rest, with the joint bent to 60, 90, 120 and 140 degrees.
     std::optional<double> shinArea, forearmArea;
 
     /// Most intersecting pairs of triangles near the joint, beyond those at rest, with the joint
