@@ -337,8 +337,7 @@ void paint(const std::string& path) {
     file << "]}}";
 }
 
-/// Warnings about the thrower after moving his body but not the skeleton, which is his own by
-/// default.
+/// Warnings about the thrower after moving his body but not the skeleton.
 /// \param move of the body
 /// \param skeleton file; empty: his own
 /// \param painted whether weights name each of his joints

@@ -5,7 +5,7 @@
 //
 // `model.glb.skin`: any rigged model, re-skinned, as a viewer reads it.
 //
-// Limits that a character's props share: their files' and their pictures'.
+// Props of a character share their files, and the limit on their pictures.
 #include "Command.h"
 #include "FindNodes.h"
 #include "KitCheck.h"

@@ -91,8 +91,8 @@ struct Dressed {
                 {{"LeftUpLeg", turn(-90, x)}, {"LeftLeg", turn(100, x)}, {"Spine", turn(30, x)}}};
     }
 
-    /// The largest distance of a garment vertex from the skin, and the 99.9th percentile of its
-    /// edges' l'/l beside the skin's, over the poses.
+    /// The largest increase of a garment vertex's distance from the skin, and the 99.9th percentile
+    /// of its edges' l'/l relative to the skin's; each the maximum over the poses.
     std::pair<double, double> leaves() const {
         const std::vector<std::size_t> skin = below();
         const std::size_t first = naked.positions.size();

@@ -138,7 +138,7 @@ TEST(ShapeFit, IsPackedForEveryCopyAndLeavesOutWhatHardlyMoves) {
 TEST(ShapeFit, IsPackedWithoutTheLastModesThatMakeNoDifference) {
     const JointShapes shapes = shapesOfHinge();
     FittedShapes fit = fitShapes(shapes, {6, kTolerance});
-    fit.tolerance = 0.1; // more than the error of bends to the side
+    fit.tolerance = 0.1; // larger than the effect of bends to the side
     std::vector<std::uint32_t> weldedOf;
     for (std::uint32_t v = 0; v < shapes.vertices.size(); ++v) weldedOf.push_back(v);
     const Correctives packed = packShapes({fit}, weldedOf);

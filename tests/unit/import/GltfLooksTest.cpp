@@ -88,7 +88,8 @@ TEST(GltfLooks, TexturesAreMovedAsTheirMaterialsSay) {
     EXPECT_EQ(columns.size(), 2u);
 }
 
-/// Eyes that glow by a texture are not drawn; without the texture the whole figure would glow.
+/// An emissive texture, of glowing eyes for example, is not drawn; emission without the texture
+/// would make the whole figure glow.
 TEST(GltfLooks, TexturesOfEmissionAreToldOf) {
     const auto read = [](const json& pbr, bool hasTexture) {
         GltfColumn column;

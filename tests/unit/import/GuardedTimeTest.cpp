@@ -318,7 +318,7 @@ TEST(TestModels, BonesWithoutANodeFollowTheirNeighbours) {
         height = joint.centre.y;
     }
     EXPECT_LT(height, 5.0);
-    // Every painted vertex has weights that sum to 1.
+    // The weights of every vertex sum to 1.
     std::vector<double> sums(rig.body.mesh.positions.size(), 0.0);
     for (const osgSkin::BoneWeights& weights : rig.body.weights)
         for (const auto& entry : weights.entries) sums[entry.vertex] += entry.weight;

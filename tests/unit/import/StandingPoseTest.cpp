@@ -295,7 +295,7 @@ TEST_F(StandingPose, AGltfWithAnimationOnlyMovesItsCharacter) {
     ASSERT_EQ(clip.rotations.size(), expected.rotations.size());
     for (std::size_t i = 0; i < clip.rotations.size(); ++i)
         ASSERT_LT(angleBetween(clip.rotations[i], expected.rotations[i]), 0.01);
-    // On another body, a sample in which the actor stands decides.
+    // On another body, a sample in which the actor stands gives the rest pose.
     RetargetReport other;
     const Clip onOther = retarget(only, rig, {}, &other);
     EXPECT_TRUE(saysOf(other, "counted from sample")) << other.text().substr(0, 300);

@@ -256,7 +256,7 @@ TEST(UpdateDeformableSkin, FollowsABoneThatTakesAnothersPlace) {
     EXPECT_NEAR(bendOf(*skin), 0.5, 1e-9);
 }
 
-/// It can show only one pose; copies would show two.
+/// A skin has a single pose; under several skeletons it would need several.
 TEST(UpdateDeformableSkin, SeveralSkeletonsOfOneSkinAreToldOf) {
     const osg::ref_ptr<osgAnimation::Skeleton> first = makeBones(), second = makeBones();
     const auto skin = makeSkin();

@@ -455,7 +455,7 @@ TEST(VertexOrder, SmallGroupsJoinOthersByRatiosOfNothingAndAll) {
     EXPECT_EQ(seen, tube.source.size());
 }
 
-/// As painted weights may be: few of 30,000 vertices follow the same three of 60 joints.
+/// As painted weights may be: hardly any two of 30,000 vertices follow the same three of 60 joints.
 TEST(VertexOrder, ManySignaturesAreGroupedInNoTime) {
     constexpr std::uint32_t kJoints = 60;
     Binding binding;
