@@ -32,7 +32,7 @@ namespace bench {
 
 namespace {
 
-/// Sorts out what is not positive and makes the sum 1.
+/// Drops weights that are not positive and normalises the rest.
 Weights::Vertex normalised(const std::map<std::uint32_t, double>& weights) {
     double sum = 0.0;
     for (const auto& [joint, weight] : weights) sum += std::max(0.0, weight);
@@ -78,7 +78,7 @@ Weights weightsFromRatios(const osgSkin::Binding& binding) {
             const osgSkin::Influence& influence = binding.influences[i];
             const auto share = static_cast<double>(influence.bend);
             weights[influence.joint] += share;
-            // Joints that the vertex does not follow pass their child's share on.
+            // Joints that the vertex does not follow pass on their child's share.
             int parent = binding.joints[influence.joint].parent;
             while (parent > 0 && !weights.count(static_cast<std::uint32_t>(parent)))
                 parent = binding.joints[static_cast<std::size_t>(parent)].parent;
@@ -109,7 +109,8 @@ Weights blend(const Weights& weights, const std::vector<Blend>& vertices) {
 
 namespace {
 
-/// The correctives of new vertices as means of the old ones'. None where there are none.
+/// The correctives of the new vertices, as means of the old ones. Empty if there are no
+/// correctives.
 osgSkin::Correctives blend(const osgSkin::Correctives& correctives,
                            const std::vector<Blend>& vertices) {
     osgSkin::Correctives result;
@@ -226,7 +227,7 @@ std::vector<glm::vec3> blend(const std::vector<glm::vec3>& vectors,
     return result;
 }
 
-/// Sorts the vertices as attachSkin() does, so that they are written straight.
+/// Sorts the vertices as attachSkin() does, so that their results are written in order.
 void bringIntoOrder(Body& body) {
     std::vector<std::uint32_t> source(body.positions.size());
     std::iota(source.begin(), source.end(), 0u);
@@ -272,7 +273,7 @@ Body load(Kind kind) {
     return body;
 }
 
-/// Finer than this, nothing is compared with osgAnimation: its weights would fill the memory.
+/// Finer bodies are not compared with osgAnimation: its weights would fill the memory.
 constexpr std::uint32_t kMaxWeighted = 10;
 
 Body refine(const Body& coarse, std::uint32_t parts) {

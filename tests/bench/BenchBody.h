@@ -22,26 +22,26 @@
 
 namespace bench {
 
-/// Linear blend weights, for the software rig that we are compared with.
+/// Linear blend weights, for osgAnimation's software rig.
 struct Weights {
     using Vertex = std::vector<std::pair<std::uint32_t, float>>; ///< (joint, weight), by joint
     std::string name;
     std::vector<Vertex> vertices;
 
-    /// Vertices with the same joints and weights share a group; a rig's cost is their number.
+    /// Number of sets of vertices with the same joints and weights; it determines a rig's cost.
     std::size_t groupCount() const;
 };
 
-/// The hand-painted weights of a MakeHuman file; empty where it is not there.
+/// The hand-painted weights of a MakeHuman file; empty if the file is missing.
 Weights readPaintedWeights(const std::string& file, const std::vector<osgSkin::BoundJoint>& joints,
                            std::size_t vertices);
 
-/// Weights that say the same as our own ratios: a joint's less those of its children.
+/// The weights that are equivalent to our ratios: a joint's ratio less those of its children.
 Weights weightsFromRatios(const osgSkin::Binding& binding);
 
 Weights blend(const Weights& weights, const std::vector<Blend>& vertices);
 
-/// A whole body (no rigid parts) in one motion, as finely meshed as asked for.
+/// A whole body (no rigid parts) in one motion, at the requested mesh resolution.
 struct Body {
     std::string name;
     osgSkin::RestSkeleton rig;
@@ -56,17 +56,17 @@ struct Body {
 
     osg::ref_ptr<const osgSkin::SkinModel> model() const;
 
-    /// Mean number of joints that a vertex follows in part: what the deformation's cost depends on.
+    /// Mean number of joints that a vertex follows in part; the deformation's cost depends on it.
     double partialPerVertex() const;
 };
 
-/// What a body is bound with: normals that turn with their vertices, those of the deformed surface,
-/// and with those the shapes "fast".
+/// Binding: normals that rotate with their vertices, normals of the deformed surface, or surface
+/// normals with the shapes "fast".
 enum class Kind { Turned, Surface, Shaped };
 
-/// body4k_neutral in a walk where the third-party data is there, else our own thrower.
-/// `parts` splits every edge (Subdivide.h); ratios, weights and normals are interpolated.
-/// Made once for each kind and kept.
+/// body4k_neutral in a walk, or our own thrower if the third-party data is missing. `parts` splits
+/// every edge (Subdivide.h); ratios, weights and normals are interpolated. Each kind is made once
+/// and cached.
 const Body& body(std::uint32_t parts, Kind kind = Kind::Turned);
 
 /// The body under osgAnimation's own software rig.
@@ -74,15 +74,14 @@ class OsgRig {
 public:
     explicit OsgRig(const Body& body);
 
-    /// Puts the bones into a sample of the clip; not part of what is measured.
+    /// Poses the bones at a sample of the clip; not part of the measurement.
     void pose(std::size_t frame);
-    /// The rig stands below it.
+    /// The rig's parent.
     osgAnimation::Skeleton* skeleton() const { return _skeleton.get(); }
     /// Skins the vertices and normals.
     void update() { _rig->update(); }
 
-    /// Largest distance of a skinned vertex from linear blending worked out here: 0 where the rig
-    /// does what it is measured for.
+    /// Largest distance of a skinned vertex from linear blending computed here; 0 if the rig works.
     double error(std::size_t frame) const;
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What binding costs, once a character: seconds by the number of vertices.
+// Measures binding, which happens once per character: seconds by the number of vertices.
 #include "Subdivide.h"
 
 #include <osgSkinBind/Bind>
@@ -28,7 +28,7 @@ const std::string kMakeHuman = std::string(OSGSKIN_SHARED_DATA) + "/makehuman/";
 osgSkin::SkinMesh meshOf(const Size& size) {
     osgSkin::SkinMesh body =
         osgSkin::importMesh(kMakeHuman + "body/" + size.body + "_neutral.obj").mesh;
-    if (size.parts == 1) return body; // as it is, quads and all
+    if (size.parts == 1) return body; // unchanged, with its quads
     const bench::Subdivided fine =
         bench::subdivide(body.triangles(), body.positions.size(), size.parts);
     osgSkin::SkinMesh mesh;

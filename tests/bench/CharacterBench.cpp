@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::size_t kCharacters = 1000;
 
-/// Poses and outputs of the whole crowd; two output buffers each, as a DeformableSkin has.
+/// Poses and outputs of the whole crowd; two output buffers per character, like a DeformableSkin.
 struct Crowd {
     explicit Crowd(const Body& body) : model(body.model()), poses(kCharacters) {
         for (osgSkin::Pose& pose : poses) pose = osgSkin::Pose(model->joints());
@@ -65,7 +65,7 @@ void crowd(benchmark::State& state, unsigned int threads) {
     std::size_t frame = 0;
     for ([[maybe_unused]] auto iteration : state) {
         crowd.swap(frame);
-        // Phases 7 samples apart: neighbours share neither a pose nor what it leaves in a cache.
+        // Phases 7 samples apart, so that neighbours share neither a pose nor cached data.
         pool->forEach(kCharacters, [&](std::size_t i) {
             const auto& skinning = body.skinning[(7 * i + frame) % body.skinning.size()];
             crowd.poses[i].set(skinning.data(), skinning.size());
@@ -99,7 +99,7 @@ makeSkin(const Body& body, const osg::ref_ptr<const osgSkin::SkinModel>& model) 
     return skin;
 }
 
-/// Below a manager that plays the body's clip.
+/// Adds the node to a manager that plays the body's clip.
 osg::ref_ptr<osg::Group> animated(const Body& body, osg::Node* skeleton, double phase) {
     osg::ref_ptr<osg::Group> group = new osg::Group;
     group->addChild(skeleton);
@@ -154,7 +154,7 @@ public:
         }
         _update->setFrameStamp(_stamp);
         _cull->setFrameStamp(_stamp);
-        for (int i = 0; i < 3; ++i) frame(); // which still make things
+        for (int i = 0; i < 3; ++i) frame(); // these frames still allocate
     }
 
     void frame() {
@@ -207,11 +207,11 @@ void characters(benchmark::State& state, Player player, Kind kind) {
 void deformationAlone(benchmark::State& state, Kind kind) {
     const Body& body = bench::body(1, kind);
     const auto model = body.model();
-    // Each frame of the clip, since no character stands still.
+    // Every frame of the clip, since no character stands still.
     std::vector<osgSkin::Pose> poses(body.skinning.size(), osgSkin::Pose(model->joints()));
     for (std::size_t i = 0; i < poses.size(); ++i)
         poses[i].set(body.skinning[i].data(), body.skinning[i].size());
-    // Two buffers each, in turn, as a DeformableSkin has.
+    // Two alternating buffers per character, like a DeformableSkin.
     std::vector<std::vector<glm::vec3>> outputs(std::size_t{2} * kInScene);
     for (auto& output : outputs) output.resize(2 * model->vertexCount());
     std::size_t frame = 0;
@@ -233,7 +233,7 @@ void deformationAlone(benchmark::State& state, Kind kind) {
 
 namespace {
 
-/// A body's skin with every vertex `times` times, in memory of its own.
+/// A body's skin with every vertex repeated `times` times, in its own memory.
 class UpdatedSkin {
 public:
     UpdatedSkin(const Body& body, std::size_t times) : _body(body) {
@@ -251,7 +251,7 @@ public:
 
     double vertexCount() const { return static_cast<double>(_model->vertexCount()); }
 
-    /// Seconds that an update takes, of several: the caches get used to it.
+    /// Duration of an update in seconds, the last of several so that the caches are warm.
     double update(std::size_t frame, osgSkin::Pose& pose) {
         constexpr std::size_t kUpdates = 20;
         osgSkin::DeformJob job;
@@ -284,8 +284,8 @@ double median(std::vector<double> numbers) {
 
 } // namespace
 
-// How fast a skin is depends on where its memory happens to be, so there are several; what is told
-// is the median of them, and how far they are apart.
+// A skin's speed depends on where its memory happens to be, so several are measured; the result is
+// their median and spread.
 void setUpShare(benchmark::State& state, Kind kind, Larger larger) {
     constexpr std::size_t kSkins = 9, kRounds = 25;
     const bool finer = larger == Larger::FinerMesh;

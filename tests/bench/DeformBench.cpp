@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What one frame of a skin costs: ours, osgAnimation's software rig, and a plain copy, in one run.
+// The cost of one frame of a skin: ours, osgAnimation's software rig, and a plain copy, in one run.
 #include "BenchBody.h"
 #include "CharacterBench.h"
 
@@ -23,8 +23,8 @@ namespace bench {
 
 namespace {
 
-/// Prints what Google Benchmark prints, then a table of medians: microseconds of processor time an
-/// update, nanoseconds a vertex, and ratios to memcpy and to osgAnimation's rig in the same run.
+/// Prints Google Benchmark's output, then a table of medians: microseconds of processor time per
+/// update, nanoseconds per vertex, and ratios to memcpy and to osgAnimation's rig in the same run.
 ///
 /// Benchmarks are named WHAT/SIZE and report their number of vertices as the counter "vertices".
 class RatioTable : public benchmark::ConsoleReporter {
@@ -39,7 +39,7 @@ private:
         std::string what, size;
         double vertices = 0.0;
         std::vector<double> seconds; ///< of each repetition
-        double reportedMedian = 0.0; ///< where only aggregates are reported
+        double reportedMedian = 0.0; ///< if only aggregates are reported
         double median() const;
     };
     const Row* find(const std::string& what, const std::string& size) const;
@@ -47,7 +47,7 @@ private:
     std::vector<Row> _rows;
 };
 
-/// The deformation that a frame is compared with: the same skins'.
+/// The deformation of the same skins, with which a frame is compared.
 std::string aloneOf(const std::string& frame) {
     return frame.find("shapes") == std::string::npos ? "frame, alone" : "frame, fast shapes, alone";
 }
@@ -80,8 +80,8 @@ void RatioTable::ReportRuns(const std::vector<Run>& runs) {
         if (row == _rows.end()) row = _rows.insert(row, Row{what, size, 0.0, {}, 0.0});
         const auto vertices = run.counters.find("vertices");
         if (vertices != run.counters.end()) row->vertices = vertices->second;
-        // Processor time, which other programs on the machine disturb less; a benchmark that keeps
-        // its own time measures the same.
+        // Processor time, which other programs on the machine disturb less; for a benchmark with
+        // manual timing it is the same.
         const bool manual = !run.run_name.time_type.empty();
         const double seconds = (manual ? run.real_accumulated_time : run.cpu_accumulated_time) /
                                static_cast<double>(run.iterations);
@@ -143,7 +143,8 @@ void copy(benchmark::State& state, std::uint32_t parts) {
     count(state, positions.size());
 }
 
-/// Ours. `target` is one of Highway's instruction sets, 0 for the best, -1 for the plain reference.
+/// Ours. `target` is one of Highway's instruction sets, 0 for the best, -1 for the scalar
+/// reference.
 void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target,
           const osgSkin::DeformPool* pool) {
     const bench::Body& body = bench::body(parts);
@@ -171,8 +172,7 @@ void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target,
     count(state, positions.size());
 }
 
-/// Ours with shapes beside ours without, and positions alone beside positions and normals of both
-/// kinds.
+/// Ours with and without shapes, and positions alone beside positions with both kinds of normals.
 void shapes(benchmark::State& state, std::uint32_t parts, bench::Kind kind, bool withNormals) {
     const bench::Body& body = bench::body(parts, kind);
     const auto model = body.model();
@@ -224,8 +224,8 @@ double volumeOf(const glm::vec3& low, const glm::vec3& high) {
     return size.x * size.y * size.z;
 }
 
-/// Volume of the poses' bounds against that of the tight boxes, in the mean; 0 where a vertex is
-/// not within its bounds.
+/// Mean volume of the poses' bounds over that of the tight boxes; 0 if a vertex is outside its
+/// bounds.
 double looseness(const osgSkin::SkinModel& model, const std::vector<osgSkin::Pose>& poses) {
     std::vector<glm::vec3> positions(model.vertexCount());
     osgSkin::DeformJob job;
@@ -290,13 +290,13 @@ int main(int argc, char** argv) {
                 kind, than)
                 ->Unit(benchmark::kMicrosecond)
                 ->UseManualTime()
-                ->Iterations(1); // which are many updates
+                ->Iterations(1); // with many updates in it
     benchmark::RegisterBenchmark("pose bounds/4k", poseBounds, bench::Kind::Turned);
     benchmark::RegisterBenchmark("pose bounds, fast shapes/4k", poseBounds, bench::Kind::Shaped);
     std::vector<std::int64_t> targets;
     for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
         targets.push_back(rest & -rest);
-    // A pool takes its second thread only where that pays: at 4k it does not.
+    // A pool uses a second thread only if that pays off: not at 4k.
     const osg::ref_ptr<osgSkin::DeformPool> one = new osgSkin::DeformPool(1);
     const osg::ref_ptr<osgSkin::DeformPool> two = new osgSkin::DeformPool(2);
     for (const Size& size : kSizes) {
@@ -332,7 +332,7 @@ int main(int argc, char** argv) {
                                      bench::crowd, threads)
             ->Unit(benchmark::kMillisecond)
             ->UseRealTime();
-    // The paper's model, and what characters have by default.
+    // The paper's model, and the characters' default.
     for (const auto& [frame, kind] : {std::pair("frame, ", bench::Kind::Turned),
                                       std::pair("frame, fast shapes, ", bench::Kind::Shaped)}) {
         const auto add = [name = std::string(frame)](const char* what, auto run, auto... more) {

@@ -7,12 +7,12 @@
 namespace bench {
 namespace {
 
-/// Finds or makes the vertices of one triangle's finer grid.
+/// Finds or makes the vertices of one triangle's grid.
 class Grid {
 public:
     Grid(Subdivided& result, std::uint32_t parts) : _result(result), _parts(parts) {}
 
-    /// The vertex at i parts from corner 0 to 1 and j parts from corner 0 to 2.
+    /// The vertex i parts of the way from corner 0 to 1 and j parts from corner 0 to 2.
     std::uint32_t at(const std::uint32_t* corner, std::uint32_t i, std::uint32_t j) {
         const std::array<std::uint32_t, 3> part = {_parts - i - j, i, j};
         for (std::size_t k = 0; k < 3; ++k)
@@ -61,7 +61,7 @@ Subdivided subdivide(const std::vector<std::uint32_t>& triangles, std::size_t ve
     Grid grid(result, parts);
     for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
         const std::uint32_t* corner = &triangles[t];
-        // One row of the grid's vertices is kept, so that inner ones are made once.
+        // Keeps one row of the grid's vertices, so that inner ones are made once.
         std::vector<std::uint32_t> row, next;
         for (std::uint32_t i = 0; i <= parts; ++i) row.push_back(grid.at(corner, i, 0));
         for (std::uint32_t j = 1; j <= parts; ++j, row.swap(next)) {

@@ -8,8 +8,8 @@
 
 namespace bench {
 
-/// A vertex as a mean of up to three old ones (a corner of an old triangle, a point of an edge or
-/// of its inside). Unused corners have share 0.
+/// A vertex as a mean of up to three old ones (a corner of an old triangle, a point on an edge or
+/// inside it). Unused corners have share 0.
 struct Blend {
     std::array<std::uint32_t, 3> corner{};
     std::array<double, 3> share{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The README's example as a program, and a character in one call, against an installed osgSkin: the
-// skin must follow the motion.
+// The README's example as a program, and a character from a single call, against an installed
+// osgSkin: the skin must follow the motion.
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/DeformableSkin>
 #include <osgSkinBind/AttachSkin>

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# run.sh BUILD SOURCE FOLDER: installs BUILD, moves the installed tree, and uses it from there: by
-# CMake, by pkg-config, by osgskinbake and as OSG's plug-ins.
+# run.sh BUILD SOURCE FOLDER: installs BUILD, moves the installed tree, and uses it from its new
+# location through CMake, pkg-config, osgskinbake and OSG's plug-in search.
 set -euo pipefail
 build=$1 source=$2 folder=$3
 fail() {
@@ -48,7 +48,7 @@ int main() { return osg::ref_ptr<osgSkin::DeformableSkin>(new osgSkin::Deformabl
 CODE
 export PKG_CONFIG_PATH="$lib/pkgconfig"
 for kit in osgSkin osgSkinRig osgSkinGpu osgSkinBind osgSkinImport osgSkinCharacter; do pkg-config --print-errors --exists "$kit"; done
-# shellcheck disable=SC2046 # options, one a word
+# shellcheck disable=SC2046 # options, one per word
 c++ -std=c++17 "$folder/runtime.cpp" -o "$folder/runtime" \
   $(pkg-config --cflags --libs osgSkin openscenegraph) -Wl,-rpath,"$lib"
 "$folder/runtime"

@@ -5,7 +5,7 @@
 
 namespace fuzz {
 
-/// Calls what may refuse its input; anything else that is thrown ends the run.
+/// Makes a call that may refuse its input; any other exception ends the run.
 template <typename Call>
 void attempt(const Call& call) {
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any small mesh of any number of shells and any small skeleton, bound in each way. Coordinates are
-// few, so that points coincide and lie in lines and planes.
+// Any small mesh of any number of shells and any small skeleton, bound by each method. There are
+// few different coordinates, so that points coincide and are collinear or coplanar.
 #include <osgSkin/Error>
 #include <osgSkinBind/Bind>
 
@@ -18,7 +18,7 @@ public:
     Bytes(const std::uint8_t* data, std::size_t size) : _next(data), _end(data + size) {}
     bool isEmpty() const { return _next == _end; }
     std::uint32_t number(std::uint32_t most) { return _next == _end ? 0 : *_next++ % (most + 1); }
-    /// Whole numbers mostly, near ones beside them.
+    /// Mostly whole numbers, and some close to them.
     glm::dvec3 point() {
         glm::dvec3 p;
         for (int i = 0; i < 3; ++i) {

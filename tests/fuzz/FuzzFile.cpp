@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as a file of one format (FuzzFormat.cpp), by every reader of it. Errors are
-// osgSkin::Error; anything else that is thrown ends the run.
+// Any bytes as a file of one format (FuzzFormat.cpp), for every reader of that format. Errors are
+// osgSkin::Error; any other exception ends the run.
 #include "Attempt.h"
 #include "FuzzFormat.h"
 #include "GlbParts.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The extension of what a target of FuzzFile.cpp reads.
+/// The extension of the files that a target of FuzzFile.cpp reads.
 const char* fuzzExtension();

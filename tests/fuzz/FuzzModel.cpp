@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any words as a saved model (SkinModel::create() behind them), and any numbers as a rotation to be
-// split.
+// Any words as a saved model (through SkinModel::create()), and any numbers as a rotation to split.
 #include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/BendTwist>

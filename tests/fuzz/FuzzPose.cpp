@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as skinning matrices, then as joints' own maps: a pose is refused, or all that comes of
-// it is finite.
+// Any bytes as skinning matrices, then as the joints' own maps: a pose is refused, or all results
+// are finite.
 #include "Tube.h"
 
 #include <osgSkin/DeformJob>

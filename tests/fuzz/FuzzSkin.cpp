@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes as a `.skin` file beside a small body, skeleton, motion and weights: the whole way to a
+// Any bytes as a `.skin` file beside a small body, skeleton, motion and weights, up to the
 // character.
 #include "InputFile.h"
 
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }();
     (void)isReady;
     osgSkin::LoadOptions options;
-    // Minutes of solving are no hang: elastic shapes have tests of their own.
+    // Elastic shapes take minutes to solve, which is no hang; they have tests of their own.
     options.shapes = osgSkin::BindOptions::Shapes::Fast;
     try {
         osgSkin::loadCharacter(fuzz::save("input.skin", data, size), options);

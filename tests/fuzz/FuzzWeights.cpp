@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes as a file of painted weights of a body with two joints.
+// Any bytes as a file of painted weights for a body with two joints.
 #include "InputFile.h"
 
 #include <osgSkin/Error>

@@ -8,8 +8,9 @@
 
 namespace fuzz {
 
-/// A GLB file of its parts: JSON, a byte 0, and the binary chunk. Changes at random break a real
-/// file's lengths, behind which nothing is read. What does not begin as JSON is taken as it stands.
+/// A GLB file from its parts: JSON, a byte 0, and the binary chunk. Random changes would break a
+/// real file's lengths, and readers would stop there. Input that does not begin like JSON is used
+/// unchanged.
 class GlbParts {
 public:
     static std::string file(const std::uint8_t* data, std::size_t size) {

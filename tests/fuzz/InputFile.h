@@ -12,7 +12,7 @@
 
 namespace fuzz {
 
-/// A folder of this process alone, in memory where there is some; removed at exit.
+/// A folder of this process alone, in memory if possible; removed at exit.
 inline const std::string& folder() {
     static const std::string path = [] {
         const char* base = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
@@ -25,7 +25,7 @@ inline const std::string& folder() {
     return path;
 }
 
-/// Writes an input to a file of this name.
+/// Writes an input to a file of this name; returns its path.
 inline std::string save(const std::string& name, const std::uint8_t* data, std::size_t size) {
     std::string path = folder() + "/" + name;
     std::ofstream(path, std::ios::binary)

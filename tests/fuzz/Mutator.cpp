@@ -28,7 +28,7 @@ Mutator::Mutator(std::vector<std::string> inputs, std::vector<std::string> words
 std::string Mutator::next() {
     if (_given < _inputs.size()) return _inputs[_given++];
     std::string made = any(_inputs);
-    // Mostly a few changes: what differs everywhere is refused at its first byte.
+    // Mostly a few changes: an input that differs everywhere is refused at its first byte.
     for (std::size_t changes = 1 + below(1 + below(8)); changes > 0; --changes) change(made);
     if (made.size() > _longest) made.resize(_longest);
     return made;
@@ -43,7 +43,7 @@ void Mutator::change(std::string& input) {
     case 2:
         return void(input.erase(below(input.size()), 1 + below(1 + below(64))));
     case 3:
-        return putIn(input, piece(input)); // a part of it twice
+        return putIn(input, piece(input)); // duplicates a part
     case 4:
         return putIn(input, piece(any(_inputs)));
     case 5:

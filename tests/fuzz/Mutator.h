@@ -9,18 +9,19 @@
 
 namespace fuzz {
 
-/// Makes inputs of others: bytes changed, taken out, doubled and put in, numbers made extreme,
-/// words of a dictionary, pieces of other inputs. One seed gives one sequence of inputs. Not thread
-/// safe.
+/// Makes new inputs from old ones: changes, removes, repeats and inserts bytes, makes numbers
+/// extreme, inserts dictionary words and pieces of other inputs. A seed determines the sequence of
+/// inputs. Not thread safe.
 class Mutator {
 public:
-    /// \param inputs what a run starts from; at least one, and an empty one will do
-    /// \param words of the format, put in as they are
-    /// \param longest of the inputs made, in bytes
+    /// \param inputs initial inputs of a run; at least one, possibly empty
+    /// \param words of the format, inserted unchanged
+    /// \param longest size of a new input, bytes
+    /// \param seed of the random changes
     Mutator(std::vector<std::string> inputs, std::vector<std::string> words, std::size_t longest,
             std::uint64_t seed);
 
-    /// The inputs themselves first, then changed ones without end.
+    /// Returns the initial inputs first, then changed ones without end.
     std::string next();
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// fuzz_TARGET SECONDS FOUND [--words DICTIONARY] SEED_FILE...: where there is no libFuzzer, runs a
-// target on files changed at random, the same ones each time. An input that ends the program, or
-// keeps it for ten seconds, is written to FOUND.
+// fuzz_TARGET SECONDS FOUND [--words DICTIONARY] SEED_FILE...: a substitute for libFuzzer that runs
+// a target on randomly changed files, the same ones each time. An input that ends the program, or
+// takes ten seconds, is written to FOUND.
 #include "Mutator.h"
 
 #include <chrono>
@@ -24,7 +24,7 @@ constexpr unsigned kHang = 10; ///< seconds
 const char* found;
 const std::string* running;
 
-/// Only what a signal's handler may call.
+/// Calls only async-signal-safe functions.
 void keep(int signal) {
     const int file = ::open(found, O_CREAT | O_TRUNC | O_WRONLY, 0644);
     const bool isKept = file >= 0 && ::write(file, running->data(), running->size()) >= 0;
@@ -39,7 +39,7 @@ std::string contents(const char* path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The words of a dictionary in libFuzzer's form: one in quotes a line, with \\, \" and \xAB.
+/// The words of a dictionary in libFuzzer's format: one quoted word per line, with \\, \" and \xAB.
 std::vector<std::string> wordsOf(const char* path) {
     std::vector<std::string> words;
     std::ifstream file(path);

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# Sourced by the scripts beside it: the targets, and what each starts from.
+# Sourced by the scripts in this folder: the targets and their initial inputs.
 osgskin_fuzz_targets="obj ply off bvh gltf glb skin weights options model pose bind"
 
-# osgskin_fuzz_seeds TARGET: its seed files, a line each.
+# osgskin_fuzz_seeds TARGET: prints its seed files, one per line.
 osgskin_fuzz_seeds() {
   local seeds=() seed
   case $1 in

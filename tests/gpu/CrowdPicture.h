@@ -11,7 +11,8 @@
 
 namespace test {
 
-/// Pictures of crowds, each in a context of its own; the scene that is drawn is released again.
+/// Pictures of crowds, each in a context of its own; the drawn scene's GL objects are released
+/// again.
 class CrowdTest : public testing::Test {
 protected:
     static osg::ref_ptr<osgSkin::GpuCrowd>
@@ -28,7 +29,7 @@ protected:
               osg::CullSettings::ComputeNearFarMode mode =
                   osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES) {
         GpuStage stage(scene);
-        // The ways to draw it know its bounds by different means.
+        // The crowd and the separate skins compute their bounds differently.
         stage.setSphere({{7.5, 7.5, 2.0}, 13.0});
         stage.look({0.4, -1.0, 0.6}, distance);
         stage.viewer.getView(0)->getCamera()->setComputeNearFarMode(mode);
@@ -39,7 +40,7 @@ protected:
         return picture;
     }
 
-    /// What was drawn with each of the two ways to cull.
+    /// Both culling methods; each picture is drawn with both.
     static constexpr osgSkin::GpuCrowd::Culling kCullings[] = {
         osgSkin::GpuCrowd::Culling::Automatic, osgSkin::GpuCrowd::Culling::Processor};
 

@@ -10,29 +10,30 @@
 
 namespace test {
 
-/// Bending tubes with correctives and a rigid knob at their ends, in rows: as a crowd, and as skins
-/// of their own.
+/// Rows of bending tubes with correctives and a rigid knob at their ends, both as a crowd and as
+/// separate skins.
 struct CrowdSubject {
     static constexpr std::size_t kSamples = 8;
     static constexpr double kSamplesPerSecond = 10.0;
 
     explicit CrowdSubject(std::size_t count);
 
-    /// A character with two clips, and a third with a sample for each member, as it is at `time`.
+    /// A character with two clips, and a third clip with one sample per member: its pose at `time`.
     ///
-    /// \param knobs what its rigid part is drawn with; may be null
+    /// \param time of the members' poses in the third clip, seconds
+    /// \param knobs drawable of the rigid part; may be null
     osg::ref_ptr<osgSkin::CrowdCharacter> character(double time = 0.0,
                                                     osg::StateSet* knobs = nullptr) const;
     osg::Geometry& knob() const { return *_knob; }
     /// The members, each in its own phase of one of the clips, all on samples at whole times.
     std::vector<osgSkin::CrowdInstance> members;
-    /// The same, each in its own sample of the third clip.
+    /// The same members, each at its own sample of the third clip.
     std::vector<osgSkin::CrowdInstance> posedMembers() const;
 
-    /// The members at a time as skins that the processor deforms.
+    /// The members at a time, as skins deformed on the CPU.
     osg::ref_ptr<osg::Group> skins(double time) const;
 
-    /// One program for crowds and everything else; the colour is that of the normal.
+    /// One program for crowds and everything else; the colour shows the normal.
     static osg::ref_ptr<osg::Program> program();
 
 private:

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Crowds beside skins that the processor deforms, and the ways to draw a crowd beside each other.
+// Crowds compared with skins deformed on the CPU, and the culling methods compared with each other.
 //
-// What a crowd's character and its members refuse; it leaves them as they were.
+// Invalid input, which leaves a crowd's character and members unchanged.
 //
-// Crowds that are larger than a driver reads, or than one dispatch looks at.
+// Crowds larger than a driver's buffers or than one dispatch covers.
 //
-// Crowds in scenes that show them more than once, for long, or with states of their own.
+// Crowds in scenes that show them more than once, for a long time, or with their own states.
 #include "CrowdPicture.h"
 #include "CrowdSubject.h"
 #include "Pixels.h"
@@ -51,7 +51,7 @@ osg::ref_ptr<osg::Group> inProgram(osg::Node* node) {
     return root;
 }
 
-/// What draw threads are given to draw.
+/// Number of leaves that draw threads draw.
 std::size_t leavesOf(const osgUtil::RenderBin& bin) {
     std::size_t leaves = bin.getRenderLeafList().size();
     for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
@@ -61,8 +61,8 @@ std::size_t leavesOf(const osgUtil::RenderBin& bin) {
     return leaves;
 }
 
-/// What a frame makes the processor do for so many members, told without a clock: what it gives to
-/// the draw, and how often it writes what is uploaded.
+/// CPU work of a frame for a number of members, counted rather than timed: leaves to draw, and how
+/// often uploaded data is written.
 std::pair<std::size_t, unsigned int> workOfAFrame(CrowdCharacter* character, std::size_t count) {
     const osg::ref_ptr<GpuCrowd> crowd = new GpuCrowd(character);
     crowd->setInstances(CrowdSubject(count).members);
@@ -133,7 +133,7 @@ TEST_F(Crowd, BlendsTwoClips) {
     const auto half = withBlend(0.5f);
     EXPECT_GT(test::unlikePixels(*half, *one), 500u);
     EXPECT_GT(test::unlikePixels(*half, *other), 500u);
-    // A clip mixed with itself is that clip, though joints are then multiplied out by the shader.
+    // A clip mixed with itself is that clip, but the shader then multiplies joint transforms.
     for (CrowdInstance& member : blended) member.otherClip = member.clip;
     EXPECT_LE(test::unlikePixels(*withBlend(0.5f), *one), 20u);
 }
@@ -161,7 +161,7 @@ TEST_F(Crowd, TenThousandMembersTakeNoTimeOfTheProcessor) {
     CrowdSubject few(2);
     const auto character = few.character();
     const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, many.members);
-    // Half of the circle is behind the camera: what is drawn does not count here.
+    // Half of the circle is behind the camera; drawing is not measured here.
     GpuStage stage(crowd);
     stage.lookAway();
     stage.frame(0.0);
@@ -282,7 +282,7 @@ TEST(CrowdCharacter, LevelsGrowCoarserOneByOne) {
     EXPECT_THROW(character->addLevel(0.5, 0.1), Error);
     EXPECT_THROW(character->addLevel(0.1, 0.5), Error);
     EXPECT_EQ(character->levelCount(), 2u);
-    // Not a skin without triangles in the levels.
+    // With levels, a skin without triangles is refused.
     EXPECT_THROW(character->addSkin(*test::makeSkin(), osg::Matrixd()), Error);
     EXPECT_EQ(character->skins().size(), 1u);
 }
@@ -353,7 +353,7 @@ using osgSkin::TexelCheck;
 using test::GpuStage;
 using CrowdLimits = test::CrowdTest;
 
-/// What draws a drawable, and counts how often.
+/// Draws a drawable and counts how often.
 struct CountedDraw : osg::Drawable::DrawCallback {
     void drawImplementation(osg::RenderInfo& renderInfo,
                             const osg::Drawable* drawable) const override {
@@ -422,7 +422,7 @@ osg::ref_ptr<osg::Group> moved(osg::Node* node, const osg::Vec3d& way) {
     return result;
 }
 
-/// A crowd culled by the processor, on a stage that has drawn once and looks away.
+/// A CPU-culled crowd, on a stage that has drawn once and then turned the camera away.
 class CulledCrowd : public test::CrowdTest {
 protected:
     const osg::ref_ptr<CrowdCharacter> character = subject.character();
@@ -444,7 +444,7 @@ TEST_F(CulledCrowd, DrawnOverAndOverTakesNoMoreMemory) {
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     for (unsigned int i = 0; i < 300; ++i) {
         const osg::ref_ptr<osgUtil::CullVisitor> cv = stage.cullVisitor();
-        // First without a frame stamp, then with numbers that begin again.
+        // First without a frame stamp, then with frame numbers that restart.
         if (i >= 100) cv->setFrameStamp(stamp);
         stamp->setFrameNumber(i < 200 ? 1000 + i : i - 200);
         crowd->traverse(*cv);
@@ -509,7 +509,7 @@ TEST_F(CrowdScene, FollowsSamplesThatLeaveItsBounds) {
         member.scale = 1.0f;
     }
     const glm::dvec3 aside(20.0, 0.0, 0.0);
-    // All figures go aside, and the crowd back.
+    // All figures move out of view; then the crowd moves back.
     const auto standing = subject.character(), gone = subject.character();
     const osg::ref_ptr<GpuCrowd> crowd = crowdOf(gone, members);
     EXPECT_FALSE(crowd->getBound().contains(members.back().position + osgSkin::toOsg(aside)));
@@ -555,7 +555,7 @@ TEST_F(CrowdScene, IsComputedBeforeItsDrawsInOthersBins) {
     stage.look({0.4, -1.0, 0.6}, 2.2);
     stage.draw();
     EXPECT_EQ(test::unlikePixels(stage.picture(), *expected), 0u);
-    // Not what was seen a frame before, when most were out of view.
+    // The visible set of the previous frame, when most members were out of view, is not reused.
     stage.look({1.0, 0.0, 0.1}, 0.3);
     stage.frame(0.0);
     EXPECT_GT(test::unlikePixels(stage.picture(), *expected), 1000u);

@@ -20,7 +20,7 @@ Function function(const char* name) {
     return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
-/// One that has been initialised; EGL_NO_DISPLAY where there is none.
+/// An initialised display, or EGL_NO_DISPLAY.
 EGLDisplay openDisplay() {
     const auto platformDisplay =
         function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
@@ -81,7 +81,7 @@ EglWindow::EglWindow(int width, int height, Profile profile) : _egl(std::make_un
 
 EglWindow::~EglWindow() {
     close(true);
-    // Others of this process may use the display.
+    // Other code in this process may use the display.
     if (_egl->context != EGL_NO_CONTEXT) eglDestroyContext(_egl->display, _egl->context);
     if (_egl->surface != EGL_NO_SURFACE) eglDestroySurface(_egl->display, _egl->surface);
 }
@@ -100,7 +100,7 @@ void EglWindow::closeImplementation() {
 }
 
 bool EglWindow::makeCurrentImplementation() {
-    eglBindAPI(EGL_OPENGL_API); // of each thread
+    eglBindAPI(EGL_OPENGL_API); // applies per thread
     return eglMakeCurrent(_egl->display, _egl->surface, _egl->surface, _egl->context) == EGL_TRUE;
 }
 

@@ -7,13 +7,13 @@
 
 namespace test {
 
-/// A context of EGL's with a picture of its own: OSG's viewers draw in it without a display.
+/// An EGL context with an off-screen surface: OSG's viewers draw in it without a display.
 class EglWindow : public osgViewer::GraphicsWindow {
 public:
     enum class Profile { Compatibility, Core };
 
-    /// On Mesa's surfaceless platform, or else on the first EGL device; valid() tells whether that
-    /// was possible.
+    /// Uses Mesa's surfaceless platform, or else the first EGL device; valid() is false if neither
+    /// works.
     EglWindow(int width, int height, Profile profile = Profile::Compatibility);
 
     bool valid() const override;
@@ -38,7 +38,7 @@ protected:
     ~EglWindow() override;
 
 private:
-    struct Egl; // its headers define macros that OSG's and GoogleTest's do not expect
+    struct Egl; // its headers define macros that conflict with OSG and GoogleTest
     std::unique_ptr<Egl> _egl;
     bool _isRealized = false;
 };

@@ -13,38 +13,38 @@
 
 namespace test {
 
-/// Views of one scene, each in a context of its own, without a display.
+/// Views of one scene, each in its own context, without a display.
 class GpuStage {
 public:
     static constexpr int kSize = 400;
 
-    /// \param scene seen whole
+    /// Views that frame the whole scene.
     GpuStage(osg::Node* scene, EglWindow::Profile profile = EglWindow::Profile::Compatibility,
              unsigned int contexts = 1,
              osgViewer::ViewerBase::ThreadingModel model = osgViewer::ViewerBase::SingleThreaded);
     ~GpuStage();
 
-    /// Two frames of one time: before its first draw a context does not know what it can do.
+    /// Draws two frames at one time: a context knows its capabilities only after its first draw.
     void draw(double time = 0.0);
     void frame(double time) { viewer.frame(time); }
 
-    /// The first view's picture, as the last frame has left it.
+    /// The first view's picture after the last frame.
     const osg::Image& picture() const { return *_image; }
 
-    /// What is looked at; the scene's bounds at first.
+    /// Sets the sphere that the camera frames; initially the scene's bounds.
     void setSphere(const osg::BoundingSphere& sphere) { _sphere = sphere; }
     void look(const osg::Vec3d& direction, double distance = 3.0);
 
     void lookAway();
 
-    /// What the first context's shaders made of a skin.
+    /// A skin's vertices as the first context's shaders computed them.
     struct Posed {
         std::vector<osg::Vec3> positions, normals;
         std::vector<osg::Vec4> tangents;
     };
     Posed computed(const osgSkin::DeformableSkin& skin);
 
-    /// A cull traversal's of the first context, that sees everything and draws nothing.
+    /// A visitor for cull traversals in the first context, which sees everything and draws nothing.
     osg::ref_ptr<osgUtil::CullVisitor> cullVisitor();
 
     osgViewer::CompositeViewer viewer;

@@ -20,7 +20,7 @@
 namespace test {
 namespace {
 
-/// Each time has a pose of its own, far from rest.
+/// Each time has its own pose, far from rest.
 class TurnTube : public osg::DrawableUpdateCallback {
 public:
     explicit TurnTube(double unit) : _unit(unit) {}
@@ -63,10 +63,11 @@ osg::ref_ptr<osgSkin::DeformableSkin> movingTube(double unit) {
     return skin;
 }
 
-/// A body that climbs, as people were recorded.
+/// A body in a recorded climb.
 ///
-/// \param name of the file that is written
-/// \param body its mesh and, behind that, its skeleton
+/// \param name of the file to write
+/// \param body its mesh and skeleton files
+/// \param reason set if a file is missing
 osg::ref_ptr<osg::Node> readClimber(const std::string& name,
                                     const std::pair<std::string, std::string>& body,
                                     std::string& reason) {
@@ -140,7 +141,7 @@ void Difference::take(const Difference& other) {
     deformedError = std::max(deformedError, other.deformedError);
 }
 
-/// In double precision, by the processor's plain way.
+/// In double precision, by the scalar reference on the CPU.
 std::vector<glm::vec3> referenceNormals(const osgSkin::DeformableSkin& skin) {
     std::vector<glm::vec3> positions(skin.getModel()->vertexCount()), normals(positions.size());
     osgSkin::DeformJob job;

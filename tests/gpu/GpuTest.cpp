@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What is seen of computed skins is what is seen of those that the processor deforms.
+// Skins deformed by compute shaders look like those deformed on the CPU.
 //
-// What compute shaders make of skins, beside what the processor does.
+// Results of the compute shaders compared with the CPU's.
 #include "GpuSubject.h"
 #include "Pixels.h"
 #include "SlopedTube.h"
@@ -28,7 +28,7 @@ using test::EglWindow;
 using test::GpuStage;
 using test::GpuSubject;
 
-/// A scene around the subject, and the context that it is drawn in.
+/// A scene around the subject, and its context.
 struct Manner {
     const char* name;
     const char* subject;
@@ -75,7 +75,7 @@ osg::ref_ptr<osg::Group> shaded(osg::Group& subject, const char* vertex, const c
     program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(&subject);
-    // As a technique would that draws everything in one way.
+    // Like a rendering technique that draws everything with one program.
     root->getOrCreateStateSet()->setAttribute(program, osg::StateAttribute::ON |
                                                            osg::StateAttribute::OVERRIDE);
     return root;
@@ -126,7 +126,7 @@ using Hint = osg::DisplaySettings::VertexBufferHint;
 TEST_P(GpuPicture, IsTheProcessors) {
     GpuSubject subject(GetParam().subject);
     ASSERT_EQ(subject.reason, "");
-    subject.poses = 4; // more of them would be too much alike
+    subject.poses = 4; // more of them would be too similar
     const osg::ref_ptr<osg::Group> scene = GetParam().around(*subject.scene);
     const bool isCore = GetParam().profile == EglWindow::Profile::Core;
     if (isCore) osg::DisplaySettings::instance()->setVertexBufferHint(Hint::VERTEX_ARRAY_OBJECT);
@@ -169,13 +169,13 @@ TEST_P(GpuThreads, OneDispatchAndBarrierAPoseAndContext) {
     {
         GpuStage stage(shadowed(*subject.scene), EglWindow::Profile::Compatibility, contexts,
                        GetParam());
-        stage.frame(0.0); // in which a context may yet have to learn what it can do
+        stage.frame(0.0); // in which a context may not know its capabilities yet
         stage.frame(0.0);
         stage.viewer.stopThreading();
         stage.viewer.startThreading();
         const osgSkin::GpuCounts before = osgSkin::gpuCounts();
         for (unsigned int i = 1; i <= poses; ++i) stage.frame(0.01 * i);
-        for (int i = 0; i < 3; ++i) stage.frame(0.01 * poses); // nothing new
+        for (int i = 0; i < 3; ++i) stage.frame(0.01 * poses); // with nothing new
         stage.viewer.stopThreading();
         const osgSkin::GpuCounts seen = osgSkin::gpuCounts();
         EXPECT_EQ(seen.dispatches - before.dispatches, poses * contexts);
@@ -224,7 +224,7 @@ using test::GpuSubject;
 
 class GpuSkin : public testing::TestWithParam<std::string> {};
 
-/// OSGSKIN_GPU_SUBJECTS names others, with commas between them.
+/// The default subjects, or OSGSKIN_GPU_SUBJECTS, separated by commas.
 std::vector<std::string> subjects() {
     const char* named = std::getenv("OSGSKIN_GPU_SUBJECTS");
     std::istringstream list(named ? named : "tube,small,large,thrower,climber");
@@ -245,7 +245,7 @@ TEST_P(GpuSkin, PositionsNormalsAndTangentsAreTheProcessors) {
         const double time = subject.timeOf(pose);
         stage.draw(time);
         for (const auto& skin : subject.skins) {
-            // Only by the comparisons so far, not to be drawn.
+            // Deformed only for the comparisons so far, not for drawing.
             EXPECT_EQ(skin->getDeformCount(), static_cast<unsigned int>(pose));
             most.take(test::difference(*skin, stage.computed(*skin)));
         }
@@ -261,7 +261,7 @@ TEST_P(GpuSkin, PositionsNormalsAndTangentsAreTheProcessors) {
               << std::endl;
 }
 
-/// Squares of what bones' limits of scale make of a direction's length are no floats.
+/// At the limits of bone scale the squared length of a direction is beyond single precision.
 TEST(GpuSkinScale, NormalsAreTheProcessorsWhateverTheScale) {
     const test::SlopedTube tube;
     for (const double scale : {0.99e9, 1.01e-9})

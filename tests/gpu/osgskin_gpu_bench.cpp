@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// osgskin_gpu_bench [CHARACTER [VERTICES]]: times what compute shaders take for so many vertices of
-// as many characters as that makes, each in a pose of its own: our deformation, copying the same
-// bytes, and linear blending of four matrices in the same shader language. No display is needed.
+// osgskin_gpu_bench [CHARACTER [VERTICES]]: times compute shaders over a number of vertices in as
+// many characters as needed, each in its own pose: our deformation, copying the same bytes, and
+// linear blending of four matrices in the same shading language. No display is needed.
 #include "EglWindow.h"
 #include "FindNodes.h"
 
@@ -31,7 +31,7 @@ namespace {
 constexpr GLenum kShaderStorage = 0x90D2, kComputeShader = 0x91B9;
 constexpr GLuint kThreads = 64;
 
-/// Null where a scene has none.
+/// Null if the scene has no skin.
 const osgSkin::SkinModel* largestSkin(osg::Node& scene) {
     const osgSkin::SkinModel* largest = nullptr;
     for (const auto& found : test::findNodes<osgSkin::DeformableSkin>(scene)) {
@@ -41,7 +41,7 @@ const osgSkin::SkinModel* largestSkin(osg::Node& scene) {
     return largest;
 }
 
-/// The context that is current.
+/// The current context.
 class Card {
 public:
     explicit Card(unsigned int id) : gl(*osg::GLExtensions::Get(id, true)) {}
@@ -76,7 +76,7 @@ public:
         gl.glUseProgram(program);
         gl.glUniform1i(gl.glGetUniformLocation(program, name), unit);
     }
-    /// Milliseconds; timer queries are wrong on llvmpipe.
+    /// Milliseconds, by the clock: timer queries are wrong on llvmpipe.
     double time(GLuint program, GLuint vertices, GLuint characters) const {
         gl.glUseProgram(program);
         double best = 1e9;
@@ -131,7 +131,7 @@ std::string copying() {
            "      vec3(from[at + 3], from[at + 4], from[at + 5]));\n}\n";
 }
 
-/// A vertex: position and joints, normal, weights; a palette: three rows a joint.
+/// A vertex has position and joints, normal, and weights; a palette has three rows per joint.
 std::string blending() {
     return "#version 430\nuniform usamplerBuffer rest;\nuniform samplerBuffer palettes;\n"
            "uniform int paletteSize;\n" +
@@ -151,7 +151,7 @@ std::string blending() {
            "}\n";
 }
 
-/// Characters in a pose each: joints turned by some tenths of a radian.
+/// A pose for each character: joints rotated by some tenths of a radian.
 std::vector<osgSkin::Pose> poses(const osgSkin::SkinModel& model, std::size_t count) {
     std::vector<osgSkin::Pose> result;
     const std::vector<osgSkin::BoundJoint>& joints = model.joints();
@@ -211,7 +211,7 @@ int bench(const osgSkin::SkinModel& model, GLuint wanted, const Card& card) {
     const GLuint copy = card.program(copying());
     set(copy, "vertices", static_cast<GLint>(vertices));
 
-    // The weights do not matter here, only how many there are; the joints are neighbours.
+    // The weights do not matter here, only their number; the joints are neighbours.
     const std::size_t joints = model.joints().size();
     std::vector<osg::Vec4ui> rest;
     for (GLuint v = 0; v < vertices; ++v) {
@@ -244,7 +244,7 @@ int bench(const osgSkin::SkinModel& model, GLuint wanted, const Card& card) {
                 "blending\n",
                 took, took / million, took / copied, took / blended);
 
-    // So that what was timed is known to be right: the last character, by the processor.
+    // Checks the timed result: the last character against the CPU.
     std::vector<glm::vec3> positions(vertices), normals(vertices);
     osgSkin::DeformJob job;
     job.model = &model;

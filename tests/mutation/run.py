@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Breaks the product on purpose, place by place, and tells which breaks no test notices.
+"""Mutation testing: makes deliberate bugs, one at a time, and lists those that no test detects.
 
     tests/mutation/run.py [--count N] [--seed S] [--again LIST] [--tests BUILD] [KIT...]
 
 Works in a copy of the last commit, build/mutation/tree. Each mutant changes one operator, number or
-order in one line; a kit's mutants are spread over its sources. One source is compiled and one library
-linked a mutant, into build/mutation/broken, where the test programs find it first; the source's
-assertions hold, the standard library's among them, as in tests/sanitizers. A kit's programs run in the
-order of KITS until one notices. What survives is listed with its place, to be given a test or, where no
-test could notice, to be explained in explained.txt. --again tries what was printed before.
+order in one line; a kit's mutants are spread over its sources. Each mutant compiles one source and links
+one library, into build/mutation/broken, where the test programs find it first; assertions are on, also
+the standard library's, as in tests/sanitizers. A kit's programs run in the order of KITS until one fails.
+Surviving mutants are listed with their locations: add a test or, if no test could detect one, explain it
+in explained.txt. --again repeats the mutants of an earlier output.
 """
 import argparse
 import json
@@ -29,7 +29,7 @@ TREE = HOME / "tree"
 BUILD = TREE / "build" / "release"
 BROKEN = HOME / "broken"
 EXPLAINED = Path(__file__).with_name("explained.txt")
-# Kit -> the test programs that are to notice, those that notice most and soonest first.
+# Kit -> its test programs, the most effective and fastest first.
 KITS = {
     "osgSkin": ["runtime_test", "serializers_test", "scene_test", "allocation_test", "bindTests"],
     "osgSkinRig": ["runtime_test", "importTests", "bindTests", "system_test"],
@@ -46,7 +46,7 @@ RULES = [
     (r"\b0\.5\b", "0.6"), (r"\bstd::lock_guard<std::mutex> lock\(\w+\);", ";"),
     (r"\bcontinue;", "break;"), (r"\+\+(\w+)\)", r"\1 += 2)"), (r"\bif \(!", "if ("),
 ]
-# Messages and declarations, where these marks mean something else.
+# Messages and declarations, in which these operators have another meaning.
 SKIPPED = re.compile(r'^\s*(//|\*|#|using|template|namespace|static_assert)|"|fail|Error|OSG_|operator')
 
 
@@ -56,16 +56,16 @@ def shell(command, where, timeout=None, **environment):
     try:
         return running.wait(timeout)
     except subprocess.TimeoutExpired:
-        os.killpg(running.pid, signal.SIGKILL)  # the shell's program, too
+        os.killpg(running.pid, signal.SIGKILL)  # kills the shell's child, too
         running.wait()
-        return 124  # a mutant that hangs is noticed
+        return 124  # a mutant that hangs counts as detected
 
 
 def prepare(kits, tests):
-    """The copy's libraries, and its test programs where those of no other build are used."""
+    """Builds the copy's libraries, and its test programs unless another build's are used."""
     BROKEN.mkdir(parents=True, exist_ok=True)
     if not TREE.exists():
-        # By force: a copy that was deleted by hand is still on git's list.
+        # --force: a copy that was deleted by hand is still in git's list.
         shell(f"git worktree add --force --detach '{TREE}'", ROOT)
     shell(f"git checkout --force --detach $(git -C '{ROOT}' rev-parse HEAD)", TREE)
     programs = sorted({test for kit in kits for test in KITS[kit]})
@@ -82,7 +82,7 @@ def run(program, build, limit, libraries):
 
 
 def notices(program, build, limits):
-    """True where a test of this program fails with the broken library."""
+    """True if a test of this program fails with the broken library."""
     if program not in limits:
         start = time.monotonic()
         if run(program, build, None, build / "lib"):
@@ -92,10 +92,10 @@ def notices(program, build, limits):
 
 
 def places(kit, commands):
-    """(file, line number, rule) in each of a kit's sources where a rule applies, a file a turn."""
+    """(file, line number, rule) for each line of a kit's sources that a rule matches, alternating files."""
     files = []
     for file in sorted((TREE / "nodekits" / kit / "src").rglob("*.cpp")):
-        # What a test program compiles or links by itself would be broken in the library alone.
+        # Sources that a test program compiles or links itself would be broken in the library only.
         entries = commands.get(str(file), [])
         if len(entries) != 1 or f"/{kit}.dir/" not in entries[0]["command"]:
             continue
@@ -109,7 +109,7 @@ def places(kit, commands):
 
 
 def compile_broken(kit, entry):
-    """Compiles a source as it is now and links its library, in BROKEN; false where that fails."""
+    """Compiles a source as it is now and links its library into BROKEN; false if that fails."""
     words = shlex.split(entry["command"])
     made = words[words.index("-o") + 1]
     words[words.index("-o") + 1] = str(BROKEN / "broken.o")
@@ -119,7 +119,7 @@ def compile_broken(kit, entry):
     library = sorted((BUILD / "lib").glob(f"lib{kit}.so.*"), key=lambda path: len(path.name))
     link = subprocess.run(["ninja", "-t", "commands", f"lib/{library[-1].name}"], cwd=BUILD, check=True,
                           capture_output=True, text=True).stdout.splitlines()[-1]
-    broken = BROKEN / library[0].name  # as programs name it
+    broken = BROKEN / library[0].name  # under the name that programs link to
     link = re.sub(rf"(?<= ){re.escape(made)}(?= )", str(BROKEN / "broken.o"), link)
     return shell(re.sub(r" -o \S+", f" -o {broken}", link), BUILD) == 0
 
@@ -130,7 +130,7 @@ def explained():
 
 
 def chosen(kit, arguments, commands):
-    """(file, line number, broken line), as many as there are."""
+    """(file, line number, broken line) for all mutants."""
     random.seed(f"{arguments.seed} {kit}")
     for file, number, (pattern, by) in places(kit, commands):
         lines = file.read_text().splitlines(keepends=True)
@@ -138,7 +138,7 @@ def chosen(kit, arguments, commands):
 
 
 def listed(kit, again):
-    """The same, of the lines of an earlier run's output."""
+    """The same for the lines of an earlier run's output."""
     for line in again.read_text().splitlines():
         found = re.search(rf"({kit}/\S+): (.*) -> (.*)", line)
         if not found:

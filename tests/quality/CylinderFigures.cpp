@@ -52,7 +52,8 @@ Subject makeCylinder() {
     cylinder.mesh = makeMesh();
     cylinder.rig.joints = {{"lower", -1, {0, -4, 0}, {}}, {"upper", 0, {0, 0, 0}, {}}};
     cylinder.rig.joints.back().tip = glm::dvec3(0, 4, 0);
-    // The paper's model: shapes press the fold flat, and what went through itself counted twice.
+    // The paper's model without shapes, which press the fold flat; the volume then counts
+    // self-overlapping parts twice.
     osgSkin::BindOptions options;
     options.shapes = osgSkin::BindOptions::Shapes::None;
     cylinder.binding = osgSkin::bind(cylinder.mesh, cylinder.rig, options, &cylinder.report);

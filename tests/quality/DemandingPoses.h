@@ -14,34 +14,38 @@
 
 namespace quality {
 
-/// A pose that is put together joint by joint. Bodies stand with +y up and face +z; their left is
-/// +x. Joints that the rig does not have are left out. All angles are in degrees.
+/// A pose that is composed joint by joint. Bodies stand with +y up and face +z; their left is +x.
+/// Joints that the rig lacks are ignored. All angles are in degrees.
 class BodyPose {
 public:
     /// The rest pose.
     /// \param rig must outlive this
     explicit BodyPose(const osgSkin::RestSkeleton& rig);
 
-    /// Rotates a joint about an axis of its parent's frame, after what it does already.
+    /// Rotates a joint about an axis of its parent's frame, after its rotation so far.
     BodyPose& rotate(const std::string& joint, const glm::dvec3& axis, double degrees);
 
-    /// Points a joint's bone in a direction of the body's space by the shortest rotation. Its
-    /// parents are posed first.
+    /// Points a joint's bone in a direction of the body's space by the shortest rotation. Pose its
+    /// parents first.
     ///
+    /// \param joint the bone's joint
     /// \param direction of any length
     /// \param roll about that direction afterwards
     BodyPose& aim(const std::string& joint, const glm::dvec3& direction, double roll = 0.0);
 
-    /// Twists a joint about a bone at rest, before what it does already.
-    /// \param along the joint whose bone that is; empty: its own
+    /// Twists a joint about a bone at rest, before its rotation so far.
+    /// \param joint to twist
+    /// \param degrees of the twist
+    /// \param along the joint whose bone is the axis; empty: the joint's own
     BodyPose& twist(const std::string& joint, double degrees, const std::string& along = {});
 
-    /// Bends an elbow or a knee, and nothing else, so that its two bones enclose an angle. Knees
-    /// bend about the x axis, elbows about the axis that they are bent about at rest.
-    /// \param flexion 0 where both bones are in line
+    /// Bends only an elbow or a knee, so that its two bones enclose an angle. Knees bend about the
+    /// x axis, elbows about their axis at rest.
+    /// \param joint elbow or knee
+    /// \param flexion 0 if both bones are in line
     BodyPose& flex(const std::string& joint, double flexion);
 
-    /// The rotation of a joint against its parent; unit.
+    /// The rotation of a joint relative to its parent; unit.
     glm::dquat& local(std::size_t joint) { return _local[joint]; }
 
     /// The unit direction of a joint's bone at rest: to its first child, or else to its tip.
@@ -57,21 +61,21 @@ private:
     std::vector<glm::dquat> _local;
 };
 
-/// The first child of a joint, -1 where it has none.
+/// The first child of a joint, or -1.
 int firstChild(const osgSkin::RestSkeleton& rig, int joint);
 
-/// A pose that skins find hard, and from where to look at it.
+/// A pose that is hard to skin, and a camera for it.
 struct DemandingPose {
     NamedPose pose;
     std::string centre;        ///< the joint in the middle of the picture
-    double height;             ///< of the picture, over the body's
+    double height;             ///< of the picture, relative to the body's
     double azimuth, elevation; ///< of the camera, degrees; 0, 0 is in front of the body
 };
 
-/// Twenty-four of them, by the names of the CMU rig's joints.
+/// Twenty-four poses, with the joint names of the CMU rig.
 std::vector<DemandingPose> demandingPoses(const osgSkin::RestSkeleton& rig);
 
-/// Hips bent by 90 degrees, and knees.
+/// Hips and knees bent by 90 degrees.
 BodyPose sittingPose(const osgSkin::RestSkeleton& rig);
 
 } // namespace quality

@@ -29,13 +29,13 @@ using osgSkin::ElasticJoint;
 using osgSkin::ElasticSample;
 using osgSkin::ElasticShapes;
 
-/// Distance of skin to bone, posed over rest: 2nd and 98th percentile on the fold's outer side,
+/// Distance from skin to bone, posed over rest: 2nd and 98th percentile on the fold's outer side,
 /// within a radius of the joint's plane.
 struct OuterSide {
     double low = 0.0, high = 0.0;
 };
 
-/// Cosine of the angle about the bone, from the outermost line, that the outer side takes up.
+/// Cosine of the angle about the bone that the outer side spans, measured from the outermost line.
 constexpr double kOuter = 0.7;
 
 double distanceToBones(const glm::dvec3& p, const ElasticJoint& joint, const glm::dmat3& turn) {
@@ -64,7 +64,7 @@ OuterSide outerSide(const Subject& subject, std::size_t index, const ElasticJoin
     for (const std::uint32_t v : shapes.vertices) {
         const glm::dvec3 p = posed[v] - joint.centre;
         const double height = glm::dot(along, p);
-        // What an incompressible solid gives way sideways is no bulge.
+        // Skin that an incompressible solid pushes out sideways is not a bulge.
         if (-glm::dot(inwards, p) < kOuter * glm::length(p - height * along) ||
             std::abs(height) > joint.radius || glm::length(p) > 3.0 * joint.radius)
             continue;
@@ -259,11 +259,11 @@ namespace {
 
 using osgSkin::CorrectiveJoint;
 
-/// Angles at which a ball joint is looked at between the directions that are sampled, degrees.
+/// Angles at which a ball joint is measured between the sampled directions, degrees.
 constexpr double kBetweenAngles[] = {45.0, 75.0};
 constexpr int kDirections = 8;
 
-/// Median distance from the bone's line to the edges across which the ratio passes one half.
+/// Median distance from the bone's line to the edges on which the ratio crosses one half.
 double radiusAt(const Subject& subject, const glm::dvec3& centre, const glm::dvec3& axis,
                 const std::vector<double>& ratios) {
     std::vector<double> radii;
@@ -288,7 +288,7 @@ double angleOf(double sineOfHalf) {
     return 2.0 * std::asin(sineOfHalf);
 }
 
-/// Midway between a hinge's samples of the main direction.
+/// Midway between a hinge's samples in the main direction.
 std::vector<glm::dquat> betweenHinges(const std::vector<glm::dquat>& samples,
                                       const glm::dvec3& axis) {
     std::vector<double> angles{0.0};

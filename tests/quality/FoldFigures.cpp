@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kReach = 4.0; ///< limb radii
 
-/// An elbow or a knee, folded about the axis that its bones or the body's front give.
+/// An elbow or a knee, and the axis it folds about, from its bones or the body's front.
 struct Limb {
     std::size_t joint = 0;
     compare::Segment upper, lower; ///< bones at rest
@@ -124,7 +124,7 @@ std::vector<FoldFigure> measureFolds(const Subject& plain, const Subject& shaped
     return figures;
 }
 
-/// The joints whose skin cuts itself with shapes and does not without, with how many pairs.
+/// The joints whose skin intersects itself only with shapes, with the numbers of pairs.
 std::string newPairs(const Subject& plain, const Subject& shaped, const NamedPose& pose) {
     SelfIntersections intersections(plain);
     const auto pairsOf = [&](const Subject& subject) {

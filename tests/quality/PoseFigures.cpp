@@ -15,7 +15,7 @@ namespace quality {
 
 namespace {
 
-/// What the skin's shape needs to be looked at again for, in every pose.
+/// Measures that have to be computed from the skin's shape in every pose.
 struct ShapeMeasures {
     explicit ShapeMeasures(const Subject& subject) : bulge(subject), intersections(subject) {}
     LimbBulge bulge;
@@ -77,7 +77,8 @@ PerMethod<PoseFigures> measurePoses(const Subject& subject, const std::vector<Na
 
 namespace {
 
-/// An edge moves where its length changes by more than this share; single precision is far below.
+/// An edge changes its length if it does so by more than this share; single precision is far more
+/// accurate.
 constexpr double kMoved = 1e-5;
 
 double movedStrain(const Subject& subject, const compare::Points& posed) {
@@ -147,7 +148,7 @@ void compareFigures(const std::string& name, double capped, double uncapped, Cap
 CappingCost measureCapping(const Subject& subject, const std::vector<NamedPose>& poses,
                            const PoseFigures& capped, const std::vector<WristTwist>& wrist) {
     CappingCost cost;
-    if (!subject.options) return cost; // by weights
+    if (!subject.options) return cost; // bound by weights
     Subject free = subject;
     osgSkin::BindOptions options = *subject.options;
     options.maxPartialInfluences = osgSkin::SkinModel::kMaxPartialInfluences;

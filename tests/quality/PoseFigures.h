@@ -9,7 +9,7 @@
 
 namespace quality {
 
-/// What one pose does to the skin.
+/// The effect of one pose on the skin.
 struct PoseFigure {
     std::string name;
     compare::EdgeStrain strain;
@@ -19,7 +19,7 @@ struct PoseFigure {
     std::size_t intersections = 0; ///< pairs of triangles, beyond those at rest
 };
 
-/// What a set of poses does to it.
+/// The effect of a set of poses on the skin.
 struct PoseFigures {
     double strain = 0.0;        ///< edge strain RMS, mean over the poses
     double percentile999 = 0.0; ///< 99.9th percentile of l'/l, mean over the poses
@@ -32,33 +32,32 @@ struct PoseFigures {
     std::vector<PoseFigure> poses;
 };
 
-/// Ours alone, and of each pose only strain and volume.
+/// Ours alone, with only strain and volume of each pose.
 PoseFigures measureOurs(const Subject& subject, const std::vector<NamedPose>& poses);
 
-/// All methods, and of each pose only strain and volume.
+/// All methods, with only strain and volume of each pose.
 PerMethod<PoseFigures> measureStrains(const Subject& subject, const std::vector<NamedPose>& poses);
 
 PerMethod<PoseFigures> measurePoses(const Subject& subject, const std::vector<NamedPose>& poses);
 
-/// Both hands, one after the other, twisted about their poles; the worse of the two.
+/// Each hand twisted about its pole; the worse of the two.
 struct WristTwist {
     double degrees = 0.0;
     PerMethod<double> strain;                  ///< RMS over the edges that change their length
     PerMethod<CrossSections::Least> leastArea; ///< of the forearm's cross-sections
 };
 
-/// At 60, 120 and 170 degrees. Empty where the rig has no hands.
+/// At 60, 120 and 170 degrees. Empty if the rig has no hands.
 std::vector<WristTwist> measureWristTwists(const Subject& subject);
 
-/// What it costs that a vertex follows few joints in part: the largest share by which any figure of
-/// the motions or of a twisted wrist is worse than with as many as the deformation takes.
+/// The cost of limiting how many joints a vertex follows in part: the largest share by which any
+/// figure of the motions or of a twisted wrist is worse than without the limit.
 struct CappingCost {
     double share = 0.0;
-    std::string figure; ///< where that is
+    std::string figure; ///< the figure it applies to
 };
 
-/// \param capped the subject's own figures
-/// \param wrist the subject's own, too
+/// `capped` and `wrist` are the subject's own figures.
 CappingCost measureCapping(const Subject& subject, const std::vector<NamedPose>& poses,
                            const PoseFigures& capped, const std::vector<WristTwist>& wrist);
 

@@ -7,7 +7,7 @@ namespace quality {
 
 namespace {
 
-/// Our figure over a peer's.
+/// Our figure divided by a peer's.
 double over(const Report& report, Method peer, double PoseFigures::*figure) {
     return report.motion[Method::Ours].*figure / report.motion[peer].*figure;
 }
@@ -55,7 +55,7 @@ std::vector<Bar> bars(const Report& report) {
         {"influences, most", static_cast<double>(report.binding.mostInfluences), true, 4});
     bars.push_back({"influences, mean", report.binding.meanInfluences, true, 2.1});
     bars.push_back({"capping costs at most", report.capping.share, true, 0.02});
-    // A second for 4,000 vertices, growing with their number.
+    // One second for 4,000 vertices, in proportion to their number.
     bars.push_back({"binding, seconds", report.binding.seconds, true,
                     std::max(1.0, 0.25e-3 * static_cast<double>(report.vertices))});
     return bars;

@@ -16,7 +16,7 @@
 
 namespace quality {
 
-/// A short piece of text as printf makes it.
+/// Formats a short text like printf.
 template <typename... Values>
 std::string format(const char* pattern, Values... values) {
     char line[200];
@@ -24,7 +24,7 @@ std::string format(const char* pattern, Values... values) {
     return line;
 }
 
-/// {"LBS": ..., "DQS": ..., "ours": ...} of what `figure` says for each method.
+/// {"LBS": ..., "DQS": ..., "ours": ...} with the value of `figure` for each method.
 template <typename Figure>
 nlohmann::ordered_json perMethod(const Figure& figure) {
     nlohmann::ordered_json json;
@@ -32,7 +32,7 @@ nlohmann::ordered_json perMethod(const Figure& figure) {
     return json;
 }
 
-/// A limit that a figure has to keep.
+/// A limit on a figure.
 struct Bar {
     std::string name;
     double value;
@@ -60,18 +60,18 @@ struct Report {
     PerMethod<PoseFigures> motion;
     std::vector<LimbRigidity> rigidity;
     std::vector<WristTwist> wrist;
-    std::optional<Continuity> continuity; ///< takes longest; may be left out
+    std::optional<Continuity> continuity; ///< the slowest figure; optional
     BindFigures binding;
     CappingCost capping;
 };
 
-/// The limits that hold for every body with default settings.
+/// The limits for every body with default settings.
 std::vector<Bar> bars(const Report& report);
 
-/// Prints a body's figures for people to read.
+/// Prints a body's figures as tables.
 void printTable(const Report& report, std::ostream& out);
 
-/// A body's figures for programs to read.
+/// A body's figures as JSON.
 nlohmann::ordered_json toJson(const Report& report);
 
 } // namespace quality

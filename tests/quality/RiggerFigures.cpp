@@ -26,7 +26,7 @@ const glm::dvec3 kRight(1.0, 0.0, 0.0), kFront(0.0, 0.0, 1.0);
 using VertexShares = std::vector<double>; ///< [vertex]
 using osgSkin::BindOptions;
 
-/// What painters (or heat) give to a joint and all that hangs on it.
+/// The weight that painters (or bone heat) give to a joint and all its descendants.
 VertexShares weightsBelow(const Subject& subject, int joint) {
     VertexShares result(subject.rest.size(), 0.0);
     for (std::size_t v = 0; v < result.size(); ++v)
@@ -113,10 +113,8 @@ void measureOwnership(const MeasuredSkin& skin, const std::vector<VertexShares>&
     figures.outside = percentOf(outside);
 }
 
-/// Area of a skin's cross-section across a bone, seen from the joint's own frame.
-/// \param region vertices that take part
-/// \param matrix G_j of the joint
-/// \param along of the bone's length, from the joint
+/// Area of a skin's cross-section of a bone, in the joint's own frame. `matrix` is the joint's G_j,
+/// `region` the vertices that take part, `along` the share of the bone's length from the joint.
 double sectionArea(const Subject& subject, const compare::Points& posed, const glm::dmat4& matrix,
                    int joint, const std::vector<bool>& region, double along) {
     const glm::dvec3& centre = subject.rig.joints[static_cast<std::size_t>(joint)].centre;
@@ -139,7 +137,7 @@ double sectionArea(const Subject& subject, const compare::Points& posed, const g
         const glm::dvec3 x = glm::mix(a, b, from / (from - to));
         cut.emplace_back(glm::dot(x, u), glm::dot(x, v));
     }
-    // Seen from the bone they come one after the other.
+    // Sorted by their angle about the bone.
     std::sort(cut.begin(), cut.end(), [](const glm::dvec2& a, const glm::dvec2& b) {
         return std::atan2(a.y, a.x) < std::atan2(b.y, b.x);
     });
@@ -174,7 +172,7 @@ std::optional<double> leastSection(const MeasuredSkin& skin,
     return least;
 }
 
-/// Pairs of triangles that cut each other and share no vertex, all of whose vertices are in `near`.
+/// Intersecting pairs of triangles without common vertices, all of whose vertices are in `near`.
 std::size_t pairsNear(SelfIntersections& intersections, const Subject& subject,
                       const compare::Points& posed, const std::vector<bool>& near) {
     const auto corner = [&](std::size_t t, std::size_t k) { return subject.triangles[3 * t + k]; };
@@ -265,7 +263,7 @@ BodyPose fistPose(const osgSkin::RestSkeleton& rig) {
     };
     for (const std::string side : {"_l", "_r"}) {
         const glm::dvec3 wrist = at("hand" + side);
-        // Out of the palm: where the thumb is.
+        // Out of the palm, on the thumb's side.
         glm::dvec3 palm = glm::normalize(
             glm::cross(at("index_01" + side) - wrist, at("pinky_01" + side) - wrist));
         if (glm::dot(at("thumb_03" + side) - wrist, palm) < 0.0) palm = -palm;
@@ -319,7 +317,7 @@ std::vector<MeasuredSkin> makeSkins(const SubjectFiles& files, const SkinChoice&
     const PaintedBody body = loadBody(files.body, files.rig, files.weights);
     const auto bound = [&](BindOptions::Shapes shapes) {
         Subject subject = makeSubject(body, files.ratios);
-        if (!subject.options) return subject; // by weights
+        if (!subject.options) return subject; // bound by weights
         subject.options->shapes = shapes;
         subject.options->cacheFolder = choice.cacheFolder;
         subject.binding =

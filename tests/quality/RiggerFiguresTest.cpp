@@ -71,7 +71,7 @@ PaintedBody leg() {
     return body;
 }
 
-/// Vertices of the lowest ring follow another joint than the painters say.
+/// The lowest ring's vertices follow another joint than the painted weights give.
 PaintedBody wrongAtTheFoot(std::uint32_t joint) {
     PaintedBody body = leg();
     for (std::size_t v = 0; v < kSides; ++v) body.painted[v] = {{joint, 1.0}};
@@ -85,7 +85,7 @@ TEST(BodyPose, FlexesToAnAngleBetweenTheBones) {
         EXPECT_NEAR(angleAt(rig, pose, "LeftArm", "LeftForeArm", "LeftHand"), flexion, 1e-6);
         EXPECT_NEAR(angleAt(rig, pose, "LeftUpLeg", "LeftLeg", "LeftFoot"), flexion, 1e-6);
     }
-    // Heels go back.
+    // Heels move back.
     const BodyPose pose = BodyPose(rig).flex("LeftLeg", 90.0);
     EXPECT_NEAR(placed(rig, pose, "LeftFoot").z, -4.0, 1e-9);
 }

@@ -34,7 +34,7 @@ struct SelfIntersections::Mesh {
 SelfIntersections::SelfIntersections(const Subject& subject) : _mesh(std::make_unique<Mesh>()) {
     for (const glm::dvec3& p : subject.rest) _mesh->surface.add_vertex({p.x, p.y, p.z});
     const std::vector<std::uint32_t>& corners = subject.triangles;
-    for (std::size_t t = 0; t + 2 < corners.size(); t += 3) // one that does not fit is left out
+    for (std::size_t t = 0; t + 2 < corners.size(); t += 3) // a loop that does not fit is left out
         _mesh->surface.add_face(Surface::Vertex_index(corners[t]),
                                 Surface::Vertex_index(corners[t + 1]),
                                 Surface::Vertex_index(corners[t + 2]));
@@ -117,8 +117,9 @@ namespace {
 
 using compare::Edge;
 
-/// For each cut edge the one that the cut leads on to. A triangle's cut leads from the edge where
-/// it goes below the plane to the edge where it comes up, so on a closed skin each has one.
+/// Maps each cut edge to the next edge of the cut. Within a triangle the cut runs from the edge
+/// that goes below the plane to the edge that comes up, so on a closed skin each edge has one
+/// successor.
 std::map<Edge, Edge> cuts(const Subject& subject, const std::vector<double>& height) {
     std::map<Edge, Edge> next;
     for (std::size_t t = 0; t + 2 < subject.triangles.size(); t += 3) {
@@ -136,7 +137,7 @@ std::map<Edge, Edge> cuts(const Subject& subject, const std::vector<double>& hei
     return next;
 }
 
-/// Takes the loop that begins at the first edge out of `next`; empty where it does not close.
+/// Removes the loop that begins at the first edge from `next`; empty if it does not close.
 std::vector<Edge> takeLoop(std::map<Edge, Edge>& next) {
     const Edge start = next.begin()->first;
     std::vector<Edge> loop;
@@ -186,8 +187,8 @@ osgSkin::Influence ratiosOf(const osgSkin::Binding& binding, std::uint32_t verte
     return {static_cast<std::uint32_t>(joint), 0.0f, 0.0f};
 }
 
-/// The ratios of one joint, between the edges' ends; all other joints stay at rest, so theirs do
-/// not matter.
+/// The ratios of one joint, interpolated between the edges' ends; all other joints stay at rest, so
+/// their ratios do not matter.
 osgSkin::Binding bindingOf(const Subject& subject, std::size_t joint,
                            const std::vector<EdgePoint>& points) {
     osgSkin::Binding binding;
@@ -274,7 +275,7 @@ double bendRatio(const osgSkin::Binding& binding, std::size_t vertex, std::size_
     return 0.0;
 }
 
-/// What a ratio is to painted weights: the share of the joint and all that hangs on it.
+/// The painted equivalent of a ratio: the weight of the joint and all its descendants.
 double paintedRatio(const Subject& subject, std::size_t vertex, int joint) {
     double sum = 0.0;
     for (std::uint32_t i = subject.weights.first[vertex]; i < subject.weights.first[vertex + 1];
@@ -323,11 +324,11 @@ std::vector<LimbRigidity> measureRigidity(const Subject& subject) {
 
 namespace {
 
-/// Skin nearer to the axis than this share of the body's size hardly moves, and single precision
-/// would show more than the sweep.
+/// Skin closer to the axis than this share of the body's size hardly moves, and rounding would hide
+/// the sweep.
 constexpr double kAxisShare = 0.005;
 
-/// Length of the rigid arc's chord for a degree, for each vertex; 0 for those to pass over.
+/// Chord length of the rigid arc for one degree, for each vertex; 0 for vertices to skip.
 std::vector<double> rigidSteps(const Subject& subject, const glm::dvec3& centre,
                                const glm::dvec3& axis) {
     const double least = kAxisShare * subject.mesh.size();
@@ -360,7 +361,7 @@ void sweep(const Subject& subject, std::size_t joint, const glm::dvec3& axis,
     }
 }
 
-/// The same of ours alone, to `result` where it is worse.
+/// The same for ours alone; updates `result` if it is worse.
 void sweepOurs(const Subject& subject, std::size_t joint, const glm::dvec3& axis, Sweep& result) {
     const std::vector<double> rigid =
         rigidSteps(subject, subject.binding.joints[joint].centre, axis);
@@ -407,7 +408,7 @@ Sweep measureShapedBends(const Subject& subject) {
 
 namespace {
 
-/// For each joint the one that its region counts as.
+/// Maps each joint to the one that its region counts as.
 std::vector<std::size_t> shownJoints(const osgSkin::RestSkeleton& rig) {
     const std::vector<std::string> rigid = osgSkin::automaticRigidJoints(rig);
     std::vector<std::size_t> shown(rig.joints.size(), 0);

@@ -13,16 +13,16 @@
 
 namespace quality {
 
-/// Counts pairs of triangles that cut each other, besides those that do so at rest.
+/// Counts intersecting pairs of triangles, except those that intersect at rest.
 class SelfIntersections {
 public:
     explicit SelfIntersections(const Subject& subject);
     ~SelfIntersections();
 
-    /// 0 where fewer pairs cut each other than at rest.
+    /// 0 if fewer pairs intersect than at rest.
     std::size_t beyondRest(const compare::Points& posed);
 
-    /// The pairs that cut each other, as indices of triangles, the smaller one first, sorted.
+    /// The intersecting pairs as triangle indices, the smaller one first, sorted.
     std::vector<std::pair<std::size_t, std::size_t>> pairs(const compare::Points& posed);
 
 private:
@@ -31,7 +31,7 @@ private:
     std::size_t _atRest = 0;
 };
 
-/// Angles between the normals that a method gives and those of the posed skin itself, degrees.
+/// Angles between a method's normals and those of the posed skin itself, degrees.
 struct NormalError {
     double mean = 0.0, percentile95 = 0.0;
 };
@@ -43,9 +43,9 @@ NormalError normalError(const Subject& subject, const PosedSkin& posed);
 NormalError normalError(const Subject& subject, const PosedSkin& posed,
                         const std::vector<std::uint32_t>& vertices);
 
-/// How far limbs swell: over the skin that the painted weights give to upper arms, forearms,
-/// thighs and shins most of all, the largest distance to the nearest posed bone over that to the
-/// nearest rest bone.
+/// How far limbs swell: the largest distance to the nearest posed bone over that to the nearest
+/// rest bone, over the skin whose largest painted weight belongs to an upper arm, forearm, thigh or
+/// shin.
 class LimbBulge {
 public:
     explicit LimbBulge(const Subject& subject);
@@ -59,32 +59,34 @@ private:
     std::vector<std::size_t> _jointOfBone;
 };
 
-/// A point of an edge of the skin.
+/// A point on an edge of the skin.
 struct EdgePoint {
     std::uint32_t from, to;
-    double share; ///< of the way from one to the other
+    double share; ///< from the first vertex to the second
 };
 
-/// The loop that a plane cuts out of the rest skin, of several the one nearest to `centre`; empty
-/// where the plane cuts nothing.
+/// The loop in which a plane cuts the rest skin; if there are several, the one nearest to `centre`;
+/// empty if the plane cuts nothing.
 std::vector<EdgePoint> crossSection(const Subject& subject, const glm::dvec3& centre,
                                     const glm::dvec3& normal);
 
-/// Cross-sections of a skin while a single joint turns.
+/// Cross-sections of a skin while a single joint rotates.
 ///
-/// Each is followed in two ways. The mesh's own: its points stay on their edges, so it also shrinks
-/// where a coarse mesh's edges cut across a twist. The method's: its points are vertices, with the
-/// mean ratios or weights of their edges' ends, as on an infinitely fine mesh.
+/// Each is measured twice. In the mesh's own section the points stay on their edges, so it also
+/// shrinks when a coarse mesh's edges cut across a twist. In the method's section the points are
+/// vertices with the mean ratios or weights of their edges' ends, as on an infinitely fine mesh.
 class CrossSections {
 public:
-    /// \param joint the only joint that will turn
+    /// \param subject the skin
+    /// \param joint the only joint that will rotate
+    /// \param loops the cross-sections at rest
     CrossSections(const Subject& subject, std::size_t joint,
                   const std::vector<std::vector<EdgePoint>>& loops);
 
     struct Least {
         double ofMethod = 1.0, ofMesh = 1.0; ///< smallest A'/A
     };
-    /// \param posed the whole skin, deformed by `method` under `skinning`
+    /// `posed` is the whole skin, deformed by `method` under `skinning`.
     Least leastAreas(Method method, const std::vector<glm::dmat4>& skinning,
                      const compare::Points& posed) const;
 
@@ -94,39 +96,41 @@ private:
     Subject _fine; ///< the points as vertices
 };
 
-/// How rigid the middle third of one limb is: over its skin, the mean share of the bend.
+/// Rigidity of the middle third of one limb: the mean share of the bend over its skin.
 struct LimbRigidity {
     std::string limb;
     std::size_t vertices = 0;
     double own = 0.0, next = 0.0;               ///< ours: of the bone's own joint and of the next
-    double paintedOwn = 0.0, paintedNext = 0.0; ///< the same of the painted weights
+                                                ///< one
+    double paintedOwn = 0.0, paintedNext = 0.0; ///< the same for the painted weights
 };
 
-/// Upper arms, forearms, thighs and shins, left and right; those that the rig does not have are
-/// left out. A limb's skin is what the painted weights give to its bone most of all.
+/// Upper arms, forearms, thighs and shins, left and right, if the rig has them. A limb's skin is
+/// the skin whose largest painted weight belongs to its bone.
 std::vector<LimbRigidity> measureRigidity(const Subject& subject);
 
-/// The largest step of any vertex while one joint turns by a degree, over that of a rigid arc: the
-/// way the vertex would go if it followed the joint wholly.
+/// The largest step of any vertex while one joint rotates by one degree, relative to a rigid arc:
+/// the vertex's path if it followed the joint fully.
 struct Sweep {
     double worst = 0.0;
-    std::string joint; ///< where that is
+    std::string joint; ///< with the largest step
 };
 
 struct Continuity {
     PerMethod<Sweep> bend, twist;
 };
 
-/// Sweeps each joint singly over -179..179 degrees of bend, about two axes, and of twist.
+/// Rotates each joint alone over -179..179 degrees of bend, about two axes, and of twist.
 Continuity measureContinuity(const Subject& subject);
 
-/// The largest step of ours in bends, about four axes each, of the joints that correctives shape.
+/// The largest step of ours in bends, about four axes each, of the joints with corrective shapes.
 Sweep measureShapedBends(const Subject& subject);
 
-/// What the binding itself is like.
+/// Properties of the binding itself.
 struct BindFigures {
-    /// Share of the vertices whose region is more than one joint away from the painted weights'
-    /// dominant joint. Joints below a rigid one, and joints of no length, count as the one above.
+    /// Share of the vertices whose region is more than one joint away from the joint with the
+    /// largest painted weight. Joints below a rigid one, and joints of no length, count as the one
+    /// above.
     double farRegions = 0.0;
     double meanInfluences = 0.0; ///< joints that a vertex follows in part
     std::size_t mostInfluences = 0;

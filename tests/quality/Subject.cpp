@@ -53,7 +53,7 @@ compare::SkinWeights normalised(const osgSkin::VertexWeights& painted) {
     return result;
 }
 
-/// For each vertex the first one of its position.
+/// Maps each vertex to the first one at the same position.
 std::vector<std::uint32_t> firstCopies(const compare::Points& points) {
     std::map<std::array<double, 3>, std::uint32_t> known;
     std::vector<std::uint32_t> result;
@@ -102,7 +102,7 @@ osg::ref_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject) {
     std::vector<glm::vec3> normals(subject.normals.begin(), subject.normals.end());
     normals.resize(rest.size(), glm::vec3(0.0f));
     for (glm::vec3& normal : normals)
-        if (normal == glm::vec3(0.0f)) normal = glm::vec3(0, 1, 0); // nobody looks at it
+        if (normal == glm::vec3(0.0f)) normal = glm::vec3(0, 1, 0); // never visible
     return osgSkin::SkinModel::create(subject.binding, {rest.begin(), rest.end()}, normals, source);
 }
 
@@ -140,8 +140,8 @@ std::uint32_t Subject::dominantJoint(std::size_t vertex) const {
 
 namespace {
 
-/// Samples first, first + step, ... below `end`, counted as the file does: its calibration pose,
-/// where it has one, is frame 0.
+/// Samples first, first + step, ... below `end`, numbered as in the file: a calibration pose, if
+/// any, is frame 0.
 struct Clip {
     const char* name;
     const char* file;
@@ -153,7 +153,8 @@ constexpr Clip kClips[] = {{"12_01", "12_01_walk_pybvh.bvh", 10, 519, 60},
                            {"01_03", "01_03.bvh", 400, 4399, 400},
                            {"01_01", "01_01.bvh", 300, 2699, 300}};
 
-/// The motions' joints for those of a game engine's rig; nothing for a rig with their own names.
+/// Maps the motions' joints to those of a game engine's rig; empty for a rig with the motions'
+/// names.
 std::map<std::string, std::string> jointMap(const osgSkin::RestSkeleton& rig) {
     static const std::map<std::string, std::string> kMiddle = {
         {"pelvis", "Hips"},     {"spine_01", "LowerBack"}, {"spine_02", "Spine"},
@@ -209,7 +210,7 @@ PosedSkin deformOurs(const Subject& subject, const std::vector<glm::dmat4>& skin
     return {{posed.begin(), posed.end()}, {normals.begin(), normals.end()}};
 }
 
-/// Points moved and normals turned by a matrix for each vertex.
+/// Moves points and rotates normals, with one matrix per vertex.
 PosedSkin deformBy(const std::vector<glm::dmat4>& matrices, const Subject& subject) {
     PosedSkin posed{compare::transformPoints(matrices, subject.rest), {}};
     for (std::size_t v = 0; v < matrices.size(); ++v) {

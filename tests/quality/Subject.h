@@ -32,10 +32,10 @@ struct PaintedBody {
 /// \param body mesh file
 /// \param rig skeleton file
 /// \param weights JSON of painted weights
-/// \throw osgSkin::Error where a file cannot be read or does not fit the others
+/// \throw osgSkin::Error if a file cannot be read or does not fit the others
 PaintedBody loadBody(const std::string& body, const std::string& rig, const std::string& weights);
 
-/// Where our ratios come from.
+/// The source of our ratios.
 enum class Ratios {
     Smooth,    ///< regions, made continuous: the default
     AsPrinted, ///< between boundary planes
@@ -47,42 +47,42 @@ struct SubjectFiles {
     Ratios ratios = Ratios::Smooth;
 };
 
-/// A body to measure: bound by us, and with its painted weights for the peers.
+/// A body to measure: bound with our ratios, and with its painted weights for the peers.
 struct Subject {
     std::string name;
     osgSkin::SkinMesh mesh;
     osgSkin::RestSkeleton rig;
     osgSkin::Binding binding;
     osgSkin::BindReport report;
-    std::optional<osgSkin::BindOptions> options; ///< unset where bound by weights
+    std::optional<osgSkin::BindOptions> options; ///< unset if bound by weights
     compare::SkinWeights weights;                ///< over the rig's joints
 
     compare::Points rest;
-    compare::Points normals; ///< at rest; zero where the measured skin has no triangle
-    /// The skin that is measured: corners name the first of the vertices that share a position.
+    compare::Points normals; ///< at rest; zero for vertices that the measured skin does not use
+    /// The measured skin: vertices at the same position are merged into the first one.
     std::vector<std::uint32_t> triangles;
     std::vector<compare::Edge> edges;
-    osg::ref_ptr<const osgSkin::SkinModel> model; ///< one vertex for each of the mesh
+    osg::ref_ptr<const osgSkin::SkinModel> model; ///< with the mesh's vertices, one to one
 
     /// Index of the joint of that name in any of the usual rigs ("LeftForeArm" is "lowerarm_l"
-    /// elsewhere), -1 where there is none.
+    /// elsewhere), or -1.
     int joint(const std::string& name) const;
 
-    /// The joint of the largest painted weight.
+    /// The joint with the largest painted weight.
     std::uint32_t dominantJoint(std::size_t vertex) const;
 };
 
-/// \throw osgSkin::Error where a file cannot be read or does not fit the others
+/// \throw osgSkin::Error if a file cannot be read or does not fit the others
 Subject loadSubject(const SubjectFiles& files);
 
 /// Binds a body.
-/// \throw osgSkin::Error where its parts do not fit each other
+/// \throw osgSkin::Error if its parts do not fit each other
 Subject makeSubject(PaintedBody body, Ratios ratios = Ratios::Smooth);
 
 /// The model of the subject's binding.
 osg::ref_ptr<const osgSkin::SkinModel> modelOf(const Subject& subject);
 
-/// A posed skin with the normals that its method gives.
+/// A posed skin with the method's own normals.
 struct PosedSkin {
     compare::Points points, normals;
 };
@@ -96,6 +96,7 @@ inline const std::vector<std::string> kShapes{"neutral", "male",       "female",
                                               "child",   "female_old", "male_heavy"};
 
 /// The files of a shape with about 4,000 vertices.
+/// \param shape one of kShapes
 /// \param rig "cmu_mb", "game_engine" or "default"
 inline SubjectFiles makeHumanFiles(const std::string& shape, const std::string& rig = "cmu_mb") {
     const std::string folder = OSGSKIN_SHARED_DATA "/makehuman/";
@@ -111,7 +112,7 @@ inline std::string makeHumanHeat(const std::string& shape) {
     return OSGSKIN_SHARED_DATA "/makehuman/heat/body4k_" + shape + ".json";
 }
 
-/// The shape whose files these are, empty where they are another body's.
+/// The shape that these files belong to; empty for another body.
 inline std::string shapeOf(const SubjectFiles& files) {
     for (const std::string& shape : kShapes)
         if (makeHumanFiles(shape).body == files.body) return shape;
@@ -119,12 +120,12 @@ inline std::string shapeOf(const SubjectFiles& files) {
 }
 
 struct NamedPose {
-    std::string name;                 ///< clip:frame, the frame as its file counts
+    std::string name;                 ///< clip:frame, numbered as in the file
     std::vector<glm::dmat4> skinning; ///< G_j of each joint of the rig
 };
 
-/// The standard poses: walk, pitch, climb and jump of the CMU motions in `folder`, 36 in all.
-/// \throw osgSkin::Error where a file is missing or does not fit the rig
+/// The standard poses: walk, pitch, climb and jump from the CMU motions in `folder`, 36 in all.
+/// \throw osgSkin::Error if a file is missing or does not fit the rig
 std::vector<NamedPose> standardPoses(const std::string& folder, const Subject& subject);
 
 enum class Method { Linear, DualQuaternion, Ours };
@@ -140,17 +141,18 @@ struct PerMethod {
 
 const char* nameOf(Method method);
 
-/// The posed skin, one point for each vertex of the mesh.
+/// The posed skin, one point per vertex of the mesh.
+/// \param subject the skin
+/// \param method of deformation
 /// \param skinning G_j = bone matrix * inverse bind matrix for each joint of the rig
 compare::Points deform(const Subject& subject, Method method,
                        const std::vector<glm::dmat4>& skinning);
 
-/// The same with normals. Those of linear blending are turned by the blended matrix, as renderers
-/// do.
+/// The same with normals. Linear blending rotates normals by the blended matrix, as renderers do.
 PosedSkin deformWithNormals(const Subject& subject, Method method,
                             const std::vector<glm::dmat4>& skinning);
 
-/// Joint `joint` alone turned about its centre, with all that hangs on it; radians.
+/// One joint rotated about its centre, with its descendants; radians.
 std::vector<glm::dmat4> singleTurn(const Subject& subject, std::size_t joint,
                                    const glm::dvec3& axis, double angle);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solves real bodies' joints as elastic solids and says how near to them skins come.
+// Solves the joints of real bodies as elastic solids and prints how close the skins come to them.
 #include "ElasticFigures.h"
 
 #include <CLI/CLI.hpp>

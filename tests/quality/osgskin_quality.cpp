@@ -78,7 +78,7 @@ std::vector<RiggerFigures> measureRigger(const SubjectFiles& files, const Option
     std::vector<RiggerFigures> figures =
         measureRigger(skins, standardPoses(options.motions, skins.front().subject));
     if (shape.empty()) return figures;
-    // The CMU rig has no joints for fingers.
+    // The heat weights are for the CMU rig only, which has no finger joints.
     choice.heat.clear();
     for (const MeasuredSkin& skin : makeSkins(makeHumanFiles(shape, "game_engine"), choice))
         for (RiggerFigures& entry : figures)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws bodies in demanding poses, each by osgSkin and beside it by dual quaternions.
+// Draws bodies in demanding poses, deformed by osgSkin and, beside it, by dual quaternions.
 #include "CommandLine.h"
 #include "DemandingPoses.h"
 #include "Drawing.h"
@@ -31,7 +31,7 @@ struct Options {
     std::string cacheFolder;
 };
 
-/// From the body's space, +y up and facing +z, to that of pictures, +z up and facing -y.
+/// From the body's space, +y up and facing +z, to the pictures', +z up and facing -y.
 osg::Vec3 toPicture(const glm::dvec3& v) {
     return {float(v.x), float(-v.z), float(v.y)};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Measures bodies that nobody has, made of those that there are: does binding hold its bars there?
+// Measures synthetic bodies derived from the available ones: does binding meet its limits on them?
 #include "FoldFigures.h"
 #include "Report.h"
 #include "Subject.h"
@@ -25,9 +25,9 @@ namespace quality {
 
 namespace {
 
-/// Other bodies made of a body: the same faces and painted weights, its skin and joints elsewhere.
+/// Makes bodies from another body: the same faces and painted weights with moved skin and joints.
 
-/// How a bone's skin is scaled along the bone and across it.
+/// Scale of a bone's skin along the bone and across it.
 struct BoneScale {
     double length = 1.0, girth = 1.0;
 };
@@ -35,7 +35,8 @@ struct BoneScale {
 constexpr double kAtExtremities = 0.2;
 constexpr int kSmoothings = 4;
 
-/// What `side` ("Left", "Right" or neither) says of the joint, by its whole name or without side.
+/// The value that `side` ("Left", "Right" or neither) has for the joint, by its full name or
+/// without the side.
 template <typename Value>
 const Value* entryOf(const std::map<std::string, Value>& entries, const std::string& joint) {
     if (const auto found = entries.find(joint); found != entries.end()) return &found->second;
@@ -46,7 +47,7 @@ const Value* entryOf(const std::map<std::string, Value>& entries, const std::str
     return nullptr;
 }
 
-/// The painted mean over a vertex's joints of what `of` says of each.
+/// The painted mean, over a vertex's joints, of the values of `of`.
 template <typename Value>
 Value paintedMean(const PaintedBody& body, std::size_t vertex,
                   const std::function<Value(std::size_t)>& of) {
@@ -88,7 +89,7 @@ std::vector<glm::dvec3> smoothNormals(const osgSkin::SkinMesh& mesh) {
     return normals;
 }
 
-/// Moves every point and joint by the joints' maps, skin by their painted mean.
+/// Moves every point and joint by the joints' maps; skin by their painted mean.
 PaintedBody moved(const PaintedBody& body,
                   const std::function<glm::dvec3(std::size_t, const glm::dvec3&)>& map) {
     PaintedBody result = body;
@@ -103,7 +104,7 @@ PaintedBody moved(const PaintedBody& body,
     return result;
 }
 
-/// The end of a joint's bone: the child that lies farthest off, or its tip.
+/// The end of a joint's bone: the farthest child, or its tip.
 glm::dvec3 boneEnd(const osgSkin::RestSkeleton& rig, std::size_t joint) {
     glm::dvec3 end = rig.joints[joint].tip.value_or(rig.joints[joint].centre);
     for (const int child : rig.children(static_cast<int>(joint))) {
@@ -115,7 +116,7 @@ glm::dvec3 boneEnd(const osgSkin::RestSkeleton& rig, std::size_t joint) {
     return end;
 }
 
-/// `from` moved on by `t` of the way to `to`: 0 is the one, 1 the other, and beyond both.
+/// Interpolates or extrapolates from `from` (t = 0) to `to` (t = 1).
 /// \pre both have the same faces and the same joints
 PaintedBody blended(const PaintedBody& from, const PaintedBody& to, double t) {
     PaintedBody result = from;
@@ -129,8 +130,8 @@ PaintedBody blended(const PaintedBody& from, const PaintedBody& to, double t) {
     return result;
 }
 
-/// The skin moved out by `distance`, negative in, along normals that are smoothed so that creases
-/// do not cross. Head, hands and feet take a fifth of it. The joints stay.
+/// Moves the skin out by `distance` (in, if negative) along normals that are smoothed so that
+/// creases do not cross. Head, hands and feet move by a fifth of it. The joints stay.
 PaintedBody thickened(PaintedBody body, double distance) {
     const std::vector<glm::dvec3> normals = smoothNormals(body.mesh);
     const std::vector<double> share = shares(body);
@@ -139,8 +140,8 @@ PaintedBody thickened(PaintedBody body, double distance) {
     return body;
 }
 
-/// Hollows and bumps: the skin moved along its normals by up to `depth`, in waves of `length`.
-/// Head, hands and feet take a fifth of it.
+/// Hollows and bumps: moves the skin along its normals by up to `depth`, in waves of `length`.
+/// Head, hands and feet move by a fifth of it.
 PaintedBody uneven(PaintedBody body, double depth, double length) {
     const std::vector<glm::dvec3> normals = smoothNormals(body.mesh);
     const std::vector<double> share = shares(body);
@@ -155,8 +156,8 @@ PaintedBody uneven(PaintedBody body, double depth, double length) {
 }
 
 /// Bones of other proportions, by the names of their joints, which may stand for both sides: "Arm"
-/// is "LeftArm" and "RightArm". What hangs on a bone moves with its end. Joints that are not named
-/// take the girth of none and keep their length.
+/// is "LeftArm" and "RightArm". The descendants of a bone move with its end. Other joints keep
+/// their girth and length.
 PaintedBody proportioned(const PaintedBody& body, const std::map<std::string, BoneScale>& bones) {
     const osgSkin::RestSkeleton& rig = body.rig;
     std::vector<glm::dvec3> centres(rig.joints.size());
@@ -182,9 +183,9 @@ PaintedBody proportioned(const PaintedBody& body, const std::map<std::string, Bo
     });
 }
 
-/// Another rest pose, by linear blending with the painted weights: each named joint turned about x,
-/// y and z through its centre, degrees, x first. The name of a side's joint without its side turns
-/// both as mirror images, by the left one's angles.
+/// Another rest pose, by linear blending with the painted weights: each named joint is rotated
+/// about x, then y, then z through its centre, degrees. A name without a side rotates both sides as
+/// mirror images, by the left one's angles.
 PaintedBody standing(const PaintedBody& body, const std::map<std::string, glm::dvec3>& turns) {
     const osgSkin::RestSkeleton& rig = body.rig;
     std::vector<glm::dmat4> matrices(rig.joints.size(), glm::dmat4(1.0));
@@ -209,7 +210,7 @@ PaintedBody standing(const PaintedBody& body, const std::map<std::string, glm::d
     });
 }
 
-/// Each triangle made four, with the new vertices in the middle of the edges.
+/// Splits each triangle in four, with new vertices in the middle of the edges.
 PaintedBody subdivided(const PaintedBody& body) {
     PaintedBody result = body;
     result.mesh.faceSizes.clear();
@@ -241,10 +242,10 @@ PaintedBody subdivided(const PaintedBody& body) {
     return result;
 }
 
-/// A body that nobody has: made of the two that there are.
+/// A synthetic body, derived from the two available ones.
 struct Variation {
     std::string name;
-    bool heldOut = false; ///< of the half that no setting may be chosen by
+    bool heldOut = false; ///< in the half that must not influence any setting
     std::function<PaintedBody()> make;
 };
 
@@ -378,7 +379,7 @@ std::vector<Variation> variations(const PaintedBody& neutral, const PaintedBody&
     return result;
 }
 
-/// An edge that is among the longest of its pose, l'/l, and how its ends' ratios differ.
+/// One of a pose's longest edges, its l'/l, and the difference of its ends' ratios.
 struct WorstEdge {
     compare::Edge edge{};
     std::size_t poses = 0; ///< in which it is among the longest
@@ -399,7 +400,7 @@ std::vector<glm::dvec2> ratiosOf(const osgSkin::Binding& binding, std::size_t ve
     return ratios;
 }
 
-/// The edges beyond the 99.9th percentile of any of the poses, ours, the largest sum first.
+/// The edges beyond the 99.9th percentile in any of the poses, for ours, the largest sum first.
 std::vector<WorstEdge> worstEdges(const Subject& subject, const std::vector<NamedPose>& poses) {
     std::map<compare::Edge, WorstEdge> found;
     const auto count =
@@ -433,7 +434,7 @@ std::vector<WorstEdge> worstEdges(const Subject& subject, const std::vector<Name
     return result;
 }
 
-/// One line on it: painted joints, regions and the joints whose ratios differ most over it.
+/// One line about it: painted joints, regions and the joints whose ratios differ most along it.
 std::string lineOf(const Subject& subject, const WorstEdge& worst) {
     const std::size_t a = worst.edge[0], b = worst.edge[1];
     const auto name = [&](std::size_t joint) { return subject.rig.joints[joint].name; };
@@ -490,7 +491,7 @@ PaintedBody sharedBody(const std::string& shape) {
                     makehuman + "weights/body4k_weights_cmu_mb.json");
 }
 
-/// Without the sweeps and what only pictures need.
+/// Without the sweeps and figures that only pictures need.
 Report measure(const Subject& subject, const std::vector<NamedPose>& poses) {
     Report report;
     report.body = subject.name;
@@ -504,7 +505,7 @@ Report measure(const Subject& subject, const std::vector<NamedPose>& poses) {
     return report;
 }
 
-/// The worst and the sum of a figure over a half's bodies, and how many miss its bar.
+/// The worst and the sum of a figure over a half's bodies, and how many miss its limit.
 struct Tally {
     std::string name;
     double worst = 0.0, sum = 0.0;
@@ -542,7 +543,7 @@ bool isWanted(const std::string& name, const std::vector<std::string>& only) {
            });
 }
 
-/// Calls `take` with each body that is asked for.
+/// Calls `take` with each selected body.
 template <typename Take>
 void forEachBody(const Options& options, Take take) {
     const PaintedBody neutral = sharedBody("neutral"), male = sharedBody("male");

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""check.py [ROOT]: holds the sources to nodekits/rooms.txt and to the rules below.
+"""check.py [ROOT]: checks the sources against nodekits/rooms.txt and the rules below.
 
-Prints each breach as PATH: what is wrong, and leaves with 1 where there is one. rooms.txt says how
-it is read; the other rules:
+Prints each breach as PATH: what is wrong, and exits with 1 if there is any. rooms.txt describes its
+own format; the other rules:
   - at most 1000 lines in any source, an SPDX line in all;
   - \\param, \\return and \\throw begin a line of their comment;
-  - an internal header of a kit has two users or a test; with one user it belongs into that user's file
-    (Highway's -inl.h parts of a kernel excepted);
-  - links and backquoted paths in Markdown lead somewhere, and where nodekits/README.md names a
-    function() in a line, a file named in that line has it; README.md shows the code that is compiled.
+  - an internal header of a kit has two users or a test; with one user it belongs in that user's file
+    (except for Highway's -inl.h parts of a kernel);
+  - links and backquoted paths in Markdown exist; if a line of nodekits/README.md names a function(),
+    a file linked in that line has it; README.md shows the code that is compiled.
 """
 import collections
 import pathlib
@@ -22,14 +22,14 @@ SCRIPTS = {".cmake", ".sh", ".py", ".txt"}
 
 
 class House:
-    """rooms.txt and the files that it speaks of."""
+    """rooms.txt and the files that it describes."""
 
     def __init__(self, root):
         self.root = root
         self.breaches = []
         self.licence = {}  # kit -> SPDX name
         self.needs = {}  # kit -> kits
-        self.rooms = collections.defaultdict(list)  # kit -> rooms from the ground up
+        self.rooms = collections.defaultdict(list)  # kit -> rooms, bottom to top
         self.headers = {}  # (kit, public header without a source) -> room
         self.tables = {}  # path -> why it has no header
         self.read_rooms()
@@ -67,14 +67,14 @@ class House:
                         self.breach(path, f"{kit} has no header {header}")
 
     def files(self, *folders):
-        """Sources and scripts of ours below these folders."""
+        """Our sources and scripts in these folders."""
         for folder in folders:
             for path in sorted((self.root / folder).rglob("*")):
                 if path.is_file() and (is_code(path) or path.suffix in SCRIPTS or path.name == "run"):
                     yield path
 
     def place(self, path):
-        """(kit, room) of a file of nodekits; None where it has none."""
+        """(kit, room) of a file of nodekits, or None."""
         parts = path.relative_to(self.root / "nodekits").parts
         kit = parts[0]
         if parts[1] == "src":
@@ -92,7 +92,7 @@ class House:
 
 
 def is_code(path):
-    """C++, public headers without an extension among it."""
+    """C++, including public headers without an extension."""
     return path.suffix in (".cpp", ".h") or (not path.suffix and path.parts[-3:-1][:1] == ("include",))
 
 
@@ -123,7 +123,7 @@ def check_sizes(house):
 
 
 def check_includes(house):
-    """Includes go one way. Returns the arrows between rooms."""
+    """Checks that includes go one way. Returns the arrows between rooms."""
     arrows = set()
     for path in filter(is_code, house.files("nodekits")):
         here = house.place(path)
@@ -149,7 +149,7 @@ def check_includes(house):
                     continue
                 there = house.place(file)
             if not there:
-                continue  # told where that file itself is looked at
+                continue  # reported when that file itself is checked
             order = house.rooms[kit]
             if order.index(there[1]) > order.index(room):
                 house.breach(path, f"includes {include}: an arrow upward, {room} -> {there[1]}")
@@ -159,8 +159,8 @@ def check_includes(house):
 
 
 def check_users(house):
-    """An internal header has two users, or a test."""
-    users = collections.defaultdict(set)  # header -> files that include it, its own source excepted
+    """Checks that an internal header has two users, or a test."""
+    users = collections.defaultdict(set)  # header -> files that include it, except its own source
     tests = " ".join(p.read_text() for p in house.files("tests", "osgPlugin", "examples", "data") if is_code(p))
     paths = [p for p in house.files("nodekits") if is_code(p)]
     for path in paths:
@@ -179,7 +179,7 @@ def check_users(house):
 
 
 def anchors(path):
-    """GitHub's names of a page's headings."""
+    """GitHub's anchors for a page's headings."""
     titles = re.findall(r"^#+ +(.*)$", path.read_text(), re.M)
     return {re.sub(r"[^\w\- ]", "", t.lower()).strip().replace(" ", "-") for t in titles}
 
@@ -202,7 +202,7 @@ def check_pages(house):
 
 
 def check_steps(house, page, text):
-    """The folders, files and functions that the architecture's page names are there."""
+    """Checks that the folders, files and functions named by the architecture's page exist."""
     for kit, rooms in house.rooms.items():
         row = re.search(rf"^\| \[?{kit}\b.*\| ([^|]*)\|$", text, re.M)
         if not row or re.findall(r"`([^`]+)`", row[1]) != rooms:
@@ -217,7 +217,7 @@ def check_steps(house, page, text):
 
 
 def check_example(house):
-    """README.md has the lines of the example that tests/downstream compiles, and its headers."""
+    """Checks that README.md has the lines and headers of the example that tests/downstream compiles."""
     example = house.root / "examples/osgskinthrow/ThrowScene.cpp"
     readme = house.root / "README.md"
     if not example.is_file() or not readme.is_file():

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Shows that check.py can fail: a tiny sound house, and for each rule one change that breaks it."""
+"""Shows that check.py can fail: a tiny valid source tree, and one change that breaks each rule."""
 import pathlib
 import subprocess
 import sys
@@ -38,7 +38,7 @@ SOUND = {
     "tests/downstream/main.cpp": MIT + "#include <osgSkin/A>\n",
 }
 
-# What is changed, and how the complaint about it must begin.
+# The change, and the start of the expected complaint.
 BROKEN = [
     ({"nodekits/low/src/ground/Base.h": MIT + "#include <low/Up>\n"},
      "nodekits/low/src/ground/Base.h: includes <low/Up>: an arrow upward, ground -> first"),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Part of each program that is built with the address sanitizer. OpenGL drivers lose a few hundred
-// bytes a context. They are unloaded before leaks are looked for, so that their frames have no
-// names and cannot be suppressed: libraries stay loaded here.
+// Part of each program that is built with the address sanitizer. OpenGL drivers leak a few hundred
+// bytes per context. They are unloaded before the leak check, so their frames have no names and
+// cannot be suppressed: here libraries stay loaded.
 extern "C" {
 
 __attribute__((visibility("default"))) int dlclose(void*) noexcept {

@@ -13,7 +13,7 @@
 
 namespace test {
 
-/// A way to deform: an instruction set, or the scalar reference.
+/// A deformation kernel: an instruction set, or the scalar reference.
 struct Way {
     std::string name;
     std::int64_t target; ///< of Highway; 0: the scalar reference
@@ -23,7 +23,7 @@ inline std::ostream& operator<<(std::ostream& out, const Way& way) {
     return out << way.name;
 }
 
-/// The reference and every instruction set that this machine has.
+/// The reference and every instruction set of this machine.
 inline std::vector<Way> ways() {
     std::vector<Way> result = {{"reference", 0}};
     for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
@@ -31,7 +31,7 @@ inline std::vector<Way> ways() {
     return result;
 }
 
-/// Tests that run once a way.
+/// Tests that run once per kernel.
 class EachTarget : public testing::TestWithParam<Way> {
 protected:
     void SetUp() override {

@@ -14,8 +14,7 @@ struct FoundNode {
     osg::Matrixd toWorld; ///< from its own space, its own transform included
 };
 
-/// All nodes and drawables of a kind, `root` among them, each as often as there are ways to it; in
-/// a traversal's order.
+/// All nodes and drawables of a type, including `root`, once per path to them, in traversal order.
 template <typename T>
 std::vector<FoundNode<T>> findNodes(osg::Node& root) {
     struct Visitor : osg::NodeVisitor {

@@ -6,7 +6,7 @@
 
 namespace test {
 
-/// Four bytes, the lowest first, as the numbers of a GLB's headers are.
+/// A number as four bytes, little-endian, as in a GLB's headers.
 inline std::string glbNumber(std::size_t value) {
     std::string bytes;
     for (int k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(value >> 8 * k & 0xff));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small glTF files for tests, each with something that exporters do.
+// Small glTF files for tests, each with a habit of some exporter.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace test {
 
-/// A file under construction: `json` may be changed at will before save().
+/// A file under construction: `json` may be changed freely before save().
 class GltfBuilder {
 public:
     nlohmann::json json = {{"asset", {{"version", "2.0"}}},
@@ -30,8 +30,8 @@ public:
         return json["nodes"].size() - 1;
     }
 
-    /// Numbers of a component type (5126: float), one view each. Normalised ones are given as the
-    /// floats that they stand for.
+    /// Adds numbers of a component type (5126: float), in a buffer view of their own. Normalised
+    /// ones are given as the floats that they represent.
     std::size_t accessor(const std::string& type, const std::vector<double>& values,
                          int component = 5126, bool normalized = false) {
         while (_bytes.size() % 4 != 0) _bytes.push_back('\0');
@@ -51,7 +51,7 @@ public:
         return json["accessors"].size() - 1;
     }
 
-    /// An animation of one channel, added to the one called `name` where that is there.
+    /// Adds an animation of one channel, or adds the channel to the existing animation `name`.
     void animate(const std::string& name, std::size_t node, const std::string& path,
                  const std::vector<double>& times, const std::vector<double>& values,
                  const std::string& interpolation = "LINEAR", int component = 5126) {
@@ -75,7 +75,7 @@ public:
 
     const std::string& bytes() const { return _bytes; }
 
-    /// Writes a file to the tests' folder, its buffer in the text; returns its path.
+    /// Writes a file with an embedded buffer to the tests' folder; returns its path.
     std::string save(const std::string& name) {
         if (!json.contains("buffers"))
             json["buffers"] = {{{"byteLength", _bytes.size()},
@@ -134,8 +134,8 @@ private:
     std::string _bytes;
 };
 
-/// A column of boxes, one a joint, each joint at its box's foot and wholly its own: "base",
-/// "middle" and "top", a unit apart along y. The mesh hangs beside the joints in the scene.
+/// A column of boxes, one per joint, each joint at its box's foot with weight 1: "base", "middle"
+/// and "top", one unit apart along y. The mesh is a sibling of the joints.
 struct GltfColumn : GltfBuilder {
     std::vector<std::size_t> joints;
     std::size_t meshNode = 0, positions = 0, weights = 0, jointIndices = 0, inverseBind = 0;
@@ -203,7 +203,7 @@ struct GltfColumn : GltfBuilder {
         return result;
     }
 
-    /// "bend": middle and top turn by up to 90 degrees, in a second.
+    /// "bend": middle and top rotate by up to 90 degrees in one second.
     void bend() {
         for (const std::size_t joint : {joints[1], joints[2]})
             animate("bend", joint, "rotation", {0.0, 0.5, 1.0}, turns({0, 60, 90}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// glTF 2 by its specification alone: what linear blending makes of a file, without Assimp and
-// without our importer.
+// glTF 2 from its specification alone: linear blending of a file, without Assimp and without our
+// importer.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -19,8 +19,8 @@
 
 namespace test {
 
-/// Reads files whose buffers are inside (.glb, or base64 in the text). Interpolation, matrices and
-/// skins are those of the specification; sparse accessors are not read.
+/// Reads files with embedded buffers (.glb, or base64 in the text). Interpolation, matrices and
+/// skins follow the specification; sparse accessors are not supported.
 class GltfReference {
 public:
     explicit GltfReference(const std::string& file) {
@@ -70,7 +70,8 @@ public:
         return first;
     }
 
-    /// From each node to the scene, seconds into an animation; without one, as the nodes stand.
+    /// From each node to the scene, at a time in seconds of an animation; without an animation, the
+    /// nodes' own transforms.
     std::vector<glm::dmat4> nodesAt(int animation, double seconds) const {
         std::vector<Local> locals;
         for (const nlohmann::json& node : json["nodes"]) locals.push_back(localOf(node));
@@ -83,7 +84,7 @@ public:
         return world;
     }
 
-    /// All vertices, primitive by primitive of the nodes' meshes, depth first.
+    /// All vertices, by primitive, in depth-first node order.
     std::vector<glm::dvec3> verticesAt(int animation, double seconds) {
         const std::vector<glm::dmat4> world = nodesAt(animation, seconds);
         if (_pieces.empty()) findPieces();
@@ -106,7 +107,7 @@ public:
         return result;
     }
 
-    /// Whether a vertex follows one joint alone, [vertex] as verticesAt().
+    /// Whether a vertex follows a single joint, [vertex] as in verticesAt().
     std::vector<bool> wholeWeights() {
         if (_pieces.empty()) findPieces();
         std::vector<bool> result;
@@ -134,7 +135,7 @@ private:
     struct Piece {
         std::size_t node = 0;
         std::vector<glm::dvec3> positions;
-        std::vector<std::size_t> joints; ///< nodes; none without a skin
+        std::vector<std::size_t> joints; ///< nodes; empty without a skin
         std::vector<glm::dmat4> inverseBind;
         std::vector<std::vector<std::pair<std::size_t, double>>> weights;
     };

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-/// What exporters make of a joint's name, spelled out.
+/// Spellings of joint names in the files of various exporters.
 namespace test {
 
-/// Who calls the joints of a body what; joints with sides without them.
+/// A tool's names for the joints of a body, without sides.
 struct Dialect {
     const char* name;
     std::map<std::string, std::string> names; ///< role, without its side -> name
@@ -60,7 +60,7 @@ inline const std::vector<Dialect>& dialects() {
     return all;
 }
 
-/// How a tool marks the side, and where.
+/// How and where a tool marks the side.
 struct SideStyle {
     const char* left;
     const char* right;
@@ -82,7 +82,7 @@ inline std::vector<SideStyle> sideStyles() {
     return result;
 }
 
-/// What tools put before a name and after it; "#" in the end stands for a count of the joints.
+/// Prefixes and suffixes that tools add to names; "#" at the end stands for a joint counter.
 inline const std::vector<std::string>& namePrefixes() {
     static const std::vector<std::string> all{
         "",       "mixamorig:", "mixamorig_", "mixamorig1:",       "DEF-",  "Neo_",

@@ -7,11 +7,10 @@
 
 namespace test {
 
-/// While it lives, the leak sanitizer does not count what is lost: for calls of readers that are
-/// not ours, and that nothing of ours stands before.
+/// While it lives, the leak sanitizer ignores leaks: for calls to third-party readers.
 class LeaksOfOthers {
 public:
-    /// \param others whether the calls are such ones; else all is counted
+    /// \param others whether leaks are to be ignored
     explicit LeaksOfOthers(bool others = true) : _others(others) { set(true); }
     ~LeaksOfOthers() { set(false); }
     LeaksOfOthers(const LeaksOfOthers&) = delete;

@@ -9,16 +9,16 @@
 
 namespace test {
 
-/// How a process grows: resident memory after each cycle, and a line through it by least squares.
+/// A process's growth: resident memory after each cycle, and its slope by least squares.
 class MemorySlope {
 public:
-    /// After a cycle. What the allocator merely keeps for later is given back first.
+    /// Call after a cycle. First returns the memory that the allocator merely caches.
     void sample() {
         ::malloc_trim(0);
         m_kilobytes.push_back(residentKilobytes());
     }
 
-    /// Kilobytes a cycle, over the later three quarters: the first ones fill caches.
+    /// Kilobytes per cycle, over the last three quarters: the first cycles fill caches.
     double slope() const {
         const std::size_t from = m_kilobytes.size() / 4;
         const auto count = static_cast<double>(m_kilobytes.size() - from);

@@ -9,7 +9,7 @@
 
 namespace test {
 
-/// What OSG's notify prints while this is alive, notices and worse.
+/// Captures OSG's notify output of level NOTICE and worse while this is alive.
 class Notices {
 public:
     Notices() { osg::setNotifyHandler(_handler); }

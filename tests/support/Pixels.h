@@ -8,7 +8,7 @@
 
 namespace test {
 
-/// Red, green or blue of a picture of three bytes a pixel.
+/// Red, green or blue of a picture with three bytes per pixel.
 inline int channel(const osg::Image& image, unsigned int pixel, unsigned int i) {
     return image.data()[pixel * 3 + i];
 }
@@ -17,7 +17,7 @@ inline unsigned int pixelCount(const osg::Image& image) {
     return static_cast<unsigned int>(image.s() * image.t());
 }
 
-/// Pixels in which two pictures of one size differ by more than a little.
+/// Number of pixels in which two pictures of one size clearly differ.
 inline unsigned int unlikePixels(const osg::Image& a, const osg::Image& b) {
     unsigned int unlike = 0;
     for (unsigned int pixel = 0; pixel < pixelCount(a); ++pixel) {
@@ -29,7 +29,7 @@ inline unsigned int unlikePixels(const osg::Image& a, const osg::Image& b) {
     return unlike;
 }
 
-/// Pixels that are not the black background.
+/// Number of pixels that are not the black background.
 inline unsigned int seenPixels(const osg::Image& image) {
     unsigned int seen = 0;
     for (unsigned int pixel = 0; pixel < pixelCount(image); ++pixel)

@@ -6,8 +6,8 @@
 
 namespace test {
 
-/// A rig of OSG's: an upright quad, 1 wide and 2 high, without normals. Its vertices are, in order,
-/// top, bottom, bottom and top.
+/// An osgAnimation rig: an upright quad, 1 wide and 2 high, without normals. Its vertices are, in
+/// order, top, bottom, bottom and top.
 inline osg::ref_ptr<osgAnimation::RigGeometry>
 makeQuadRig(const osgAnimation::VertexInfluenceMap& influences) {
     const osg::ref_ptr<osg::Geometry> quad =

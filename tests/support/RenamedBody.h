@@ -10,17 +10,17 @@
 #include <string>
 #include <vector>
 
-/// Skeletons whose joints are called otherwise than they were made.
+/// Skeletons with renamed joints.
 namespace test {
 
-/// The family of that name among the known ones.
+/// The known family of joint names that has this name.
 inline osgSkin::JointNames knownNames(const std::string& family) {
     const std::vector<osgSkin::JointNames>& known = osgSkin::knownJointNames();
     return *std::find_if(known.begin(), known.end(),
                          [&](const osgSkin::JointNames& names) { return names.name == family; });
 }
 
-/// The skeleton without a joint; what hung on it hangs on its parent.
+/// The skeleton without a joint, whose children move to its parent.
 inline osgSkin::RestSkeleton without(const osgSkin::RestSkeleton& skeleton,
                                      const std::string& name) {
     osgSkin::RestSkeleton result;
@@ -36,9 +36,8 @@ inline osgSkin::RestSkeleton without(const osgSkin::RestSkeleton& skeleton,
     return result;
 }
 
-/// A skeleton with names of CMU's MotionBuilder files, and what its joints are called in another
-/// family, joint by joint. Joints that the family has no name for are called "extra1" and so on,
-/// which says nothing about them.
+/// Maps the joints of a skeleton with CMU MotionBuilder names to their names in another family.
+/// Joints that the family has no name for are called "extra1" and so on, which is meaningless.
 inline std::map<std::string, std::string> namesIn(const osgSkin::RestSkeleton& skeleton,
                                                   const osgSkin::JointNames& family) {
     std::map<std::string, std::string> result;
@@ -62,7 +61,7 @@ inline osgSkin::RestSkeleton renamed(osgSkin::RestSkeleton skeleton,
     return skeleton;
 }
 
-/// Names that only their author knows, for every role that CMU's files have.
+/// Made-up names for every role that CMU's files have.
 inline osgSkin::JointNames robotNames() {
     osgSkin::JointNames robot{"robot", {}};
     std::size_t servo = 0;

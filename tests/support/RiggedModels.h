@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rigged models among those of Assimp's makers (Debian: assimp-testmodels).
+// The rigged models among Assimp's test models (Debian: assimp-testmodels).
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@ namespace test {
 
 constexpr char kModels[] = "/usr/share/assimp/models/";
 
-/// A rigged model and what is read from it.
+/// A rigged model and the expected contents.
 struct Rigged {
     const char* file;
     std::size_t joints, vertices, clips;

@@ -14,7 +14,7 @@
 
 namespace test {
 
-/// A tube whose ratios are known between its vertices, too, with their gradients.
+/// A tube with ratios and their gradients known everywhere along it, not only at its vertices.
 struct SlopedTube : Tube {
     explicit SlopedTube(int rings = 25, int sides = 12) : Tube(rings, sides) {
         for (std::uint32_t v = 0; v < positions.size(); ++v)
@@ -28,7 +28,7 @@ struct SlopedTube : Tube {
             }
     }
 
-    /// Puts the vertices where the deformation writes them straight.
+    /// Sorts the vertices so that the deformation writes its results in order.
     void bringIntoOrder() {
         const std::vector<glm::vec3> oldPositions = positions, oldNormals = normals;
         source = osgSkin::SkinModel::bestOrder(binding, source);
@@ -38,7 +38,7 @@ struct SlopedTube : Tube {
         }
     }
 
-    /// Three turned joints, one of them scaled about its centre.
+    /// Three rotated joints, one of them scaled about its centre.
     std::vector<osgSkin::JointMap> scaledMaps(std::size_t scaled, double scale) const {
         std::vector<osgSkin::JointMap> maps(3);
         for (std::size_t j = 0; j < 3; ++j) {
@@ -59,7 +59,7 @@ struct SlopedTube : Tube {
         return {rise(height, 3.5, 4.5), rise(height, 2.5, 4.0)};
     }
 
-    /// Where a pose takes any point near the tube.
+    /// The posed position of any point near the tube.
     glm::dvec3 posed(const osgSkin::Pose& pose, glm::dvec3 x) const {
         const double height = x.y;
         for (std::uint32_t j = 3; j-- > 0;) {
@@ -78,7 +78,7 @@ struct SlopedTube : Tube {
         return x;
     }
 
-    /// What a pose makes of a short way along the tube, per length.
+    /// The posed image of a short displacement along the tube, per length.
     glm::dvec3 posedWay(const osgSkin::Pose& pose, const glm::dvec3& x,
                         const glm::dvec3& along) const {
         constexpr double kStep = 1e-5;

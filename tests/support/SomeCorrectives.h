@@ -11,7 +11,7 @@
 
 namespace test {
 
-/// Functions of every basis, for one joint each, that move by about `size`.
+/// Functions of every basis for one joint, with displacements of about `size`.
 inline osgSkin::CorrectiveJoint someFunctions(const osgSkin::Binding& binding, std::uint32_t joint,
                                               osgSkin::CorrectiveJoint::Basis basis, double size,
                                               std::mt19937_64& random, std::size_t roundModes = 1) {
@@ -34,8 +34,8 @@ inline osgSkin::CorrectiveJoint someFunctions(const osgSkin::Binding& binding, s
     return result;
 }
 
-/// Correctives of the joints from 1 on, for about two vertices in three that follow them in part,
-/// and of one input, for about one in three.
+/// Correctives of the joints from 1 on, for about two thirds of the vertices that follow them in
+/// part, and of one input, for about one third.
 inline osgSkin::Correctives someCorrectives(const osgSkin::Binding& binding, double size,
                                             std::uint64_t seed, bool withNormals = false,
                                             std::size_t roundModes = 1) {
@@ -81,7 +81,8 @@ inline osgSkin::Correctives someCorrectives(const osgSkin::Binding& binding, dou
     return result;
 }
 
-/// What they add to a vertex in a pose, or to its normal, by the formula in osgSkin/Correctives.
+/// Their displacement of a vertex in a pose, or of its normal, by the formula in
+/// osgSkin/Correctives.
 inline glm::dvec3 correctionOf(const osgSkin::Binding& binding, const osgSkin::Pose& pose,
                                std::uint32_t vertex, bool ofNormal = false) {
     const osgSkin::Correctives& from = binding.correctives;

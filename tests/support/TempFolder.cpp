@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A folder of its own for what a test program writes: CTest runs tests side by side, and others may
-// run at the same time.
+// A separate folder for the files of a test program: CTest runs tests in parallel, and other
+// programs may run at the same time.
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace {
 
-/// What testing::TempDir() gives from before any other object of the program is made until the
-/// program ends; /tmp/ where there can be none.
+/// Sets testing::TempDir() from before the program's other objects are constructed until the
+/// program ends; /tmp/ if the folder cannot be made.
 class TempFolder {
 public:
     TempFolder() {
@@ -32,7 +32,7 @@ public:
 
 private:
     std::string _path;
-    const pid_t _maker = getpid(); ///< not those that it forks
+    const pid_t _maker = getpid(); ///< not its forked children
 };
 
 [[gnu::init_priority(101)]] const TempFolder kFolder;

@@ -15,7 +15,7 @@
 namespace test {
 
 /// A tube along +y from y = 0 to 6, radius 1, over a root at 0, a joint at 2 and one at 4, with
-/// ratios that rise along the tube: every kind of link (full, partial, none) occurs.
+/// ratios that rise along the tube, so that every kind of link (full, partial, none) occurs.
 struct Tube {
     osgSkin::Binding binding;
     std::vector<glm::vec3> positions;

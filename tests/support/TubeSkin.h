@@ -43,7 +43,7 @@ inline osg::ref_ptr<osgSkin::DeformableSkin> makeSkin() {
     return skin;
 }
 
-/// Bends the middle joint by `angle` about x, the end joint not at all.
+/// Bends the middle joint by `angle` about x, but not the end joint.
 inline void bend(osgSkin::DeformableSkin& skin, double angle) {
     const auto skinning =
         skinningFrom(skin.getModel()->joints(),

@@ -26,7 +26,7 @@ inline glm::dquat randomRotation(std::mt19937_64& random) {
         glm::dquat(normal(random), normal(random), normal(random), normal(random)));
 }
 
-/// Skinning matrices G_j from each joint's own turn about its centre: G_j = G_parent * D_j.
+/// Skinning matrices G_j from each joint's own rotation about its centre: G_j = G_parent * D_j.
 inline std::vector<glm::dmat4> skinningFrom(const std::vector<osgSkin::BoundJoint>& joints,
                                             const std::vector<glm::dquat>& turns,
                                             const glm::dvec3& rootOffset = glm::dvec3(0.0)) {

@@ -7,8 +7,8 @@
 
 namespace test {
 
-/// One update traversal of `scene` at `time`, in seconds of the simulation's clock and not
-/// negative; the frame's number is its millisecond, for callbacks that run once a frame.
+/// One update traversal of `scene` at `time`, in seconds of simulation time and not negative; the
+/// frame number is the time in milliseconds, for callbacks that run once per frame.
 inline void updateAt(osg::Node& scene, double time) {
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     stamp->setSimulationTime(time);

@@ -12,7 +12,7 @@
 namespace test {
 namespace {
 
-/// [joint], whether it hangs on a joint of one of the roles.
+/// [joint], whether it descends from a joint of one of the roles.
 std::vector<bool> below(const osgSkin::RestSkeleton& rest, const osgSkin::JointRoles& roles,
                         const std::vector<std::string>& wanted) {
     std::vector<bool> result(rest.joints.size());

@@ -12,14 +12,14 @@
 
 namespace test {
 
-/// Counts pairs of triangles that cut each other, one of a forearm or hand, the other of trunk,
-/// thighs or head.
+/// Counts intersecting pairs of triangles, one of a forearm or hand, the other of trunk, thighs or
+/// head.
 class ArmCuts {
 public:
     /// \param character must outlive this
     explicit ArmCuts(const osgSkin::Character& character);
 
-    /// Of the skin as it stands now.
+    /// In the skin's current pose.
     std::size_t count();
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Shells that hang on a hand or a head keep to it when the skin is bound by regions.
+// Shells near a hand or a head stay attached to it when the skin is bound by regions.
 //
-// Hands that a motion takes into the body: out they come, and nothing else moves.
+// Motions that move hands into the body: the guard moves the hands out, and nothing else.
 #include "ArmCuts.h"
 #include "BlendError.h"
 #include "CharacterFiles.h"
@@ -100,7 +100,7 @@ struct Fighter : GltfBuilder {
                             GltfColumn::turns({20, 50}));
     }
 
-    /// Gives each corner of each triangle a vertex of its own, as files with flat shading have.
+    /// Gives each corner of each triangle its own vertex, as in files with flat shading.
     void explode() {
         std::vector<double> all, joint;
         const std::size_t last = indices.size() - 36; // the head is the last box
@@ -131,7 +131,7 @@ struct Fighter : GltfBuilder {
         return nearest;
     }
 
-    /// The closed surface of the cells of a grid that a body takes up.
+    /// The closed surface of the grid cells that a body fills.
     void addBody() {
         constexpr double cell = 0.1;
         const auto inside = [](int x, int y, int z) {
@@ -186,7 +186,7 @@ struct Fighter : GltfBuilder {
     }
 };
 
-/// The most that a box is away from where its joint takes it, over the clip.
+/// The largest distance of a box from its joint's rigid motion, over the clip.
 double boxError(Character& character, const std::string& file, std::size_t first) {
     test::GltfReference reference(file);
     double most = 0.0;
@@ -201,7 +201,7 @@ double boxError(Character& character, const std::string& file, std::size_t first
     return most;
 }
 
-/// The joint that all of a box's vertices follow, and nothing below it; empty where they differ.
+/// The joint that all of a box's vertices follow, and no descendant of it; empty if they differ.
 std::string jointOfBox(const Character& character, std::size_t first, std::size_t count = 8) {
     const osgSkin::Binding& binding = character.binding;
     std::uint32_t joint = 0;
@@ -255,8 +255,8 @@ using osgSkin::SkinPoints;
 
 namespace {
 
-/// Points of two joints by turns, of the first around (0, 0, 0) and (4, 0, 0), of the second around
-/// the same places 2 higher; a bump in the middle of each.
+/// Alternating points of two joints: of the first around (0, 0, 0) and (4, 0, 0), of the second
+/// around the same positions 2 higher; a bump in the middle of each.
 SkinPoints bumps() {
     SkinPoints points;
     for (int ring = 0; ring < 8; ++ring)
@@ -301,12 +301,12 @@ using test::CharacterCase;
 
 constexpr double kTrunk = 0.16, kArm = 0.04; ///< radii
 
-/// Half a turn and less, in degrees.
+/// The rotation angle in degrees, at most 180.
 double degreesOf(const glm::dquat& q) {
     return glm::degrees(2.0 * std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), std::abs(q.w)));
 }
 
-/// A body of capsules without legs' skin: a round trunk, and two arms that hang beside it.
+/// A body of capsules without skin for the legs: a round trunk, and two arms that hang beside it.
 struct RoundBody {
     osgSkin::RestSkeleton rest;
     osgSkin::SkinMesh mesh;
@@ -314,7 +314,7 @@ struct RoundBody {
     osgSkin::JointRoles roles;
     std::size_t upper = 0, lower = 0; ///< left
 
-    /// \param apart of the shoulders from the trunk's axis
+    /// \param apart distance of the shoulders from the trunk's axis
     explicit RoundBody(double apart = 0.26) {
         const int hips = add("Hips", -1, {0, 1, 0});
         const int spine = add("Spine", hips, {0, 1.2, 0});
@@ -340,7 +340,7 @@ struct RoundBody {
         return rest.add(name, parent, centre);
     }
 
-    /// A closed tube downwards.
+    /// Adds a closed tube that points down.
     void tube(int joint, const glm::dvec3& top, double length, double radius) {
         constexpr std::uint32_t kAround = 16, kAlong = 12;
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -371,7 +371,7 @@ struct RoundBody {
         mesh.faceVertices.insert(mesh.faceVertices.end(), corners.begin(), corners.end());
     }
 
-    /// The left arm hangs, its elbow bent forwards; the upper arm turns inwards by degrees.
+    /// The left arm hangs, its elbow bent forwards; the upper arm rotates inwards by these degrees.
     Clip clip(const std::vector<double>& inwards) const {
         Clip clip;
         clip.frames = inwards.size();
@@ -412,7 +412,7 @@ struct RoundBody {
     }
 };
 
-/// How far the left upper arm is turned, by frame.
+/// The left upper arm's rotation, by frame.
 std::vector<double> turns(const RoundBody& body, const Clip& before, const Clip& after) {
     std::vector<double> result;
     for (std::size_t f = 0; f < before.frames; ++f) {
@@ -442,7 +442,7 @@ TEST(AvoidBody, TakesAHandOutOfTheTrunk) {
     EXPECT_EQ(cleared.turned, 1u);
     EXPECT_EQ(cleared.samples, 2u);
     EXPECT_GT(cleared.largestDegrees, 1.0);
-    // Nothing but that upper arm.
+    // Only that upper arm differs.
     for (std::size_t i = 0; i < before.rotations.size(); ++i)
         if (i != body.upper) {
             EXPECT_EQ(after.rotations[i], before.rotations[i]);
@@ -493,7 +493,7 @@ TEST(AvoidBody, AWalkersHandsKeepOutOfAWideBody) {
     osgSkin::Character character =
         osgSkin::loadCharacter(test::skinFile(*walk, test::makeTestFolder()));
     osgSkin::CharacterMotion before = character.motions.front();
-    Clip thinned = before.clip; // every twentieth sample will do
+    Clip thinned = before.clip; // every twentieth sample is enough
     thinned.frames = 0;
     thinned.frameTime *= 20.0;
     thinned.rotations.clear();

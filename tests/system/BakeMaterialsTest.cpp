@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What osgskinbake writes looks as the character does: materials, textures, vertex colours.
+// osgskinbake's output looks like the character: materials, textures, vertex colours.
 #include "Command.h"
 #include "GlbFile.h"
 
@@ -61,7 +61,7 @@ void expectNear(const osg::Vec4& a, const osg::Vec4& b, float tolerance) {
     for (unsigned k = 0; k < 4; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << k;
 }
 
-/// Adds floats to a glTF description, in a file of their own. Returns the accessor's index.
+/// Adds floats to a glTF description, in a separate file. Returns the accessor's index.
 std::size_t addFloats(nlohmann::json& gltf, const std::string& folder, const std::string& name,
                       const std::vector<float>& floats, const char* type, std::size_t components) {
     std::ofstream(folder + "/" + name, std::ios::binary)
@@ -90,7 +90,7 @@ std::vector<float> tubeTexCoords() {
     return texCoords;
 }
 
-/// The tube with a texture, cut out where it is transparent, on its second texture coordinates.
+/// The tube with a texture with alpha cut-out, on its second texture coordinates.
 std::string texturedRig(const std::string& folder) {
     nlohmann::json gltf = test::readJson(OSGSKIN_TEST_DATA "/rig/tube.gltf");
     osgDB::writeImageFile(*smallImage(), folder + "/skin.png");
@@ -113,8 +113,8 @@ std::string texturedRig(const std::string& folder) {
     return folder + "/rig.gltf";
 }
 
-/// The tube of tests/data/character as a `.skin` file, its `v` lines changed, texture coordinates
-/// added, and everything above y = 2 of another material.
+/// The tube of tests/data/character as a `.skin` file, with its `v` lines changed, texture
+/// coordinates added, and another material above y = 2.
 std::string texturedCharacter(const std::string& folder, bool coloured) {
     std::ifstream in(OSGSKIN_TEST_DATA "/character/body.obj");
     std::ofstream out(folder + "/body.obj");
@@ -167,7 +167,7 @@ void bake(const std::string& arguments, const std::string& folder) {
 
 void expectValid(const std::string& glb) {
     std::string why;
-    if (!test::hasGlbValidator(why)) return; // BakeFormats says so
+    if (!test::hasGlbValidator(why)) return; // BakeFormats reports it
     EXPECT_EQ(test::glbComplaints(glb), "");
 }
 
@@ -253,7 +253,7 @@ TEST(BakeMaterials, CharacterKeepsEachMaterial) {
     EXPECT_EQ(json["images"][0]["mimeType"], "image/png") << "a format that glTF does not have";
     expectValid(folder + "/baked.glb");
 
-    // Our own importer sees what it saw in the first place.
+    // Our own importer reads back the same as from the original.
     const osgSkin::ImportedMesh before = osgSkin::importMesh(folder + "/body.obj");
     const osgSkin::ImportedMesh after = osgSkin::importMesh(folder + "/baked.glb");
     ASSERT_EQ(before.parts.size(), 2u);
@@ -293,7 +293,7 @@ TEST(BakeMaterials, ObjSequenceNamesItsTextures) {
     expectSamePixels(*textureOf(after.parts[0])->getImage(), *smallImage());
 }
 
-/// glTF's opacity counts where a material says that it blends.
+/// glTF's opacity counts if the material is blended.
 TEST(BakeMaterials, OpaqueSurfacesAreOpaqueInObj) {
     const std::string folder = test::makeTestFolder();
     for (const bool blends : {false, true}) {
@@ -324,14 +324,14 @@ TEST(BakeMaterials, VertexColoursGoAlong) {
             const auto& places =
                 dynamic_cast<const osg::Vec3Array&>(*part.geometry->getVertexArray());
             ASSERT_NE(colours, nullptr);
-            // The first frame is the rest pose: the colour tells the height.
+            // The first frame is the rest pose: the colour encodes the height.
             for (std::size_t v = 0; v < places.size(); ++v)
                 expectNear((*colours)[v], {0.25f, places[v].y() / 4.0f, 0.75f, 1.0f}, 0.0025f);
         }
     }
 }
 
-/// A picture that stands in a scene may be called as a pipe beside it is.
+/// An image of a scene may have the name of a pipe beside the file.
 TEST(BakeMaterials, NothingButFilesIsOpenedForTextures) {
     const std::string folder = test::makeTestFolder();
     texturedCharacter(folder, false);
@@ -351,7 +351,7 @@ TEST(BakeMaterials, NothingButFilesIsOpenedForTextures) {
     const std::string pipe = folder + "/pipe.png";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     std::atomic<bool> baked{false}, wasOpened{false};
-    std::thread other([&] { // waits for whoever opens the pipe, who would wait for it
+    std::thread other([&] { // waits for a reader of the pipe, which would wait for it
         const int end = ::open(pipe.c_str(), O_WRONLY);
         wasOpened = !baked;
         ::close(end);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// osgskinbake from outside: its meshes agree with a reference that reads only what it writes.
+// osgskinbake from outside: its meshes agree with a reference that reads only the written files.
 //
-// The formats of osgskinbake beside OBJ hold the same frames, and are what their standards ask for.
+// osgskinbake's other formats hold the same frames as OBJ, and conform to their standards.
 //
-// What may be around a character: another locale, odd names, files of other systems, a signal.
+// Unusual circumstances: another locale, odd names, files of other systems, a signal.
 #include "CharacterFiles.h"
 #include "Command.h"
 #include "GlbFile.h"
@@ -104,7 +104,7 @@ TEST_P(BakedCharacter, EveryVertexIsBoundWithRatiosFromZeroToOne) {
                 if (share == 0.0 || share == 1.0) ++zeroOrOne;
             }
     }
-    // Beyond a region's boundaries ratios are exactly 0 or 1: on a body that is most of them.
+    // Outside the regions' boundaries ratios are exactly 0 or 1, which is most of a body.
     EXPECT_GT(double(zeroOrOne), 0.6 * double(all));
 }
 
@@ -137,7 +137,7 @@ TEST_P(BakedCharacter, DoesNotTear) {
             }
     }
     RecordProperty("longest", std::to_string(longest));
-    // Painted weights with dual quaternions reach 11.5 on these bodies; a tear goes far beyond.
+    // Painted weights with dual quaternions reach 11.5 on these bodies; a tear is far beyond that.
     EXPECT_LE(longest, 5.5);
 }
 
@@ -154,7 +154,8 @@ TEST(Bake, FramesAreTheFilesOwnSamples) {
     ASSERT_EQ(all.size(), 4u);
     ASSERT_EQ(later.size(), 2u);
     EXPECT_EQ(later[0]["frame"], 0);
-    // The arm turns about z by 0, 30, 60 and 90 degrees, with Y after it by 0, 0, 40 and 80.
+    // The arm's rotation is Rz * Ry, about z by 0, 30, 60 and 90 degrees and about y by 0, 0, 40
+    // and 80.
     for (std::size_t frame = 0; frame < 4; ++frame) {
         const nlohmann::json& r = all[frame]["joints"]["arm"]["rotation"];
         const double z[] = {0, 30, 60, 90}, y[] = {0, 0, 40, 80};
@@ -168,7 +169,7 @@ TEST(Bake, FramesAreTheFilesOwnSamples) {
     }
 }
 
-/// Keys at whole frames, whose times floats round: up or down.
+/// Keys at whole frames, whose times are rounded up or down in floats.
 TEST(Bake, TheLastFrameIsThere) {
     const std::string folder = test::makeTestFolder();
     for (const int last : {43, 70, 100, 115}) {
@@ -268,7 +269,7 @@ using test::vectorAt;
 
 const std::string kThrower = "'" OSGSKIN_DATA "/thrower.skin' ";
 
-/// A folder with frames 10, 15 and 20 as OBJ, and what else `arguments` ask for.
+/// A folder with frames 10, 15 and 20 as OBJ, and any other outputs of `arguments`.
 struct Baked {
     explicit Baked(const std::string& out) : folder(test::makeTestFolder()) {
         for (const std::string& name : {std::string("frame_%02d.obj"), out}) {
@@ -391,7 +392,7 @@ void write(const fs::path& file, const std::string& content) {
     std::ofstream(file, std::ios::binary) << content;
 }
 
-/// As a German reads and writes numbers.
+/// The decimal comma of a German locale.
 struct Comma : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
     char do_thousands_sep() const override { return '.'; }
@@ -442,7 +443,7 @@ void expectSame(const Character& a, const Character& b) {
     EXPECT_EQ(a.motions.size(), b.motions.size());
 }
 
-/// Copies of the character's parts, each with a line end, and something before its first.
+/// Copies of the character's parts with another line end and a prefix before the first line.
 std::string rewritten(const std::string& folder, const std::string& lineEnd,
                       const std::string& before) {
     for (const char* name : {"good.skin", "body.obj", "rig.bvh", "move.bvh"}) {
@@ -464,7 +465,7 @@ TEST(Faults, ADecimalCommaIsNoneOfOurs) {
         const CommaLocale comma;
         expectSame(loadCharacter(file), plain);
     }
-    // What osgDB reads, and what is found in the text of its numbers.
+    // Read by osgDB, and searched for numbers in its text.
     const std::string saved = OSGSKIN_TEST_DATA "/saved/tube.osgt";
     const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(saved);
     const CommaLocale comma;
@@ -497,7 +498,7 @@ TEST(Faults, LinesMayEndAsOtherSystemsEndThem) {
     expectSame(loadCharacter(rewritten(folder, "\r\n", "")), plain);
     expectSame(loadCharacter(rewritten(folder, "\n", "\xef\xbb\xbf")), plain);
     expectSame(loadCharacter(rewritten(folder, "\r\n", "\xef\xbb\xbf")), plain);
-    // A mark must not take the first word with it.
+    // A mark must not swallow the first word.
     std::string body = test::fileText(kParts + "body.obj");
     body.erase(0, body.find("v "));
     write(folder + "/body.obj", "\xef\xbb\xbf" + body);
@@ -547,7 +548,7 @@ TEST(Faults, NumbersAreOfNamesNotOfFolders) {
     EXPECT_TRUE(fs::exists(folder / "100%d" / "x_01.obj"));
 }
 
-/// Programs that would open a window, print to a full disk or do nothing of what they are asked.
+/// Command lines that would open a window, print to a full disk or ignore what they ask for.
 TEST(Faults, CommandLinesAreTakenAtTheirWord) {
     const std::string folder = test::makeTestFolder();
     const std::string crowd = "'" OSGSKIN_CROWD "' '" + kParts + "good.skin' --count 2 ";

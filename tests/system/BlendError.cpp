@@ -48,7 +48,8 @@ BlendError blendError(osgSkin::Character& character, const std::string& file) {
         EXPECT_GE(index, 0) << motion.name();
         if (index < 0) continue;
         const double first = reference.firstKey(std::size_t(index));
-        for (int k = 0; k < kTimes; ++k) { // between keys, and short of the end, which is the start
+        for (int k = 0; k < kTimes; ++k) { // between keys, and before the end, which equals the
+                                           // start
             const double seconds = motion.duration() * (k + 0.3) / kTimes;
             character.poseAt(motion, seconds);
             compare(character, reference.verticesAt(index, first + seconds), whole, motion.name(),

@@ -7,16 +7,17 @@
 
 namespace test {
 
-/// How far a character lies from linear blending, in the mean over the vertices, as a part of the
-/// body's size: the most of all clips and times that were looked at.
+/// A character's mean distance from linear blending over the vertices, relative to the body's size;
+/// the largest over all clips and times.
 struct BlendError {
     double whole = 0.0; ///< of vertices with weights of 0 and 1 only
     double mixed = 0.0; ///< of the others
-    std::string clip;   ///< in which `whole` is the most
+    std::string clip;   ///< with the largest `whole`
     std::size_t clips = 0;
 };
 
-/// Plays all of a glTF character's clips, and stands it as its nodes do where it has none.
+/// Plays all clips of a glTF character, or poses it like its nodes if it has none.
+/// \param character to play
 /// \param file that the character was loaded from
 BlendError blendError(osgSkin::Character& character, const std::string& file);
 

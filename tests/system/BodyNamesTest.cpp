@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The same body, read by the plug-in under names of several families: it must bend, keep its rigid
+// The same body, read by the plug-in with names of several families: it must bend, keep its rigid
 // parts and move alike.
 //
-// Motions on bodies whose skeleton was fitted: they play, and the skin holds together.
+// Motions on bodies with fitted skeletons: they play, and the skin holds together.
 //
-// Meshes that were bound to the same joints in different poses, as clothes to a body's.
+// Meshes bound to the same joints in different poses, such as clothes and a body.
 //
-// Painted characters of others, all clips, beside linear blending by glTF's own definition.
+// Third-party painted characters, all clips, compared with linear blending by glTF's own
+// definition.
 #include "BlendError.h"
 #include "Command.h"
 #include "DrawnSkin.h"
@@ -70,7 +71,7 @@ void writeBvh(const RestSkeleton& skeleton, const std::string& file) {
     out << "\n";
 }
 
-/// What is drawn of a character at a time, in the world.
+/// The drawn geometry of a character at a time, in the world.
 struct Drawn {
     explicit Drawn(osg::Node& scene) {
         for (const auto& found : test::findNodes<osgSkin::DeformableSkin>(scene)) {
@@ -86,7 +87,7 @@ struct Drawn {
     std::map<std::string, osg::Matrixd> rigids; ///< by the name of their bone
 };
 
-/// Reads the thrower on `skeleton` with its throw, at a time in which its hands are turned.
+/// Reads the thrower on `skeleton` with its throw, at a time when its hands are rotated.
 Drawn drawn(const RestSkeleton& skeleton, const std::string& extra) {
     const std::string folder = test::makeTestFolder();
     writeBvh(skeleton, folder + "/rig.bvh");
@@ -116,7 +117,7 @@ class BodyNames : public testing::Test {
 protected:
     void SetUp() override {
         body = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
-        // What VRM has no names for.
+        // VRM has no names for these.
         for (const char* joint : {"Neck1", "LHipJoint", "RHipJoint", "LeftFingerBase",
                                   "RightFingerBase", "LeftHandIndex1", "RightHandIndex1"})
             body = test::without(body, joint);
@@ -127,7 +128,7 @@ protected:
         const Drawn expected = drawn(body, {}), found = drawn(test::renamed(body, names), extra);
         ASSERT_EQ(expected.rigids.size(), 1u); // the head: thumbs and toes move
         ASSERT_GT(expected.skin.size(), 1000u);
-        // The product has both legs by their names, and skins have their vertices in its order.
+        // The joints' names decide the order of the legs in the product, and so of the vertices.
         ASSERT_EQ(found.skin.size(), expected.skin.size());
         std::size_t exact = 0;
         for (const osg::Vec3& v : found.skin) {
@@ -182,7 +183,7 @@ std::string motionFile(const Play& play) {
                        : OSGSKIN_DATA "/throw.bvh";
 }
 
-/// Where the skin's vertices are now, in the mesh's own order.
+/// The skin's current vertices, in the mesh's own order.
 std::vector<glm::dvec3> posedSkin(const Character& character) {
     std::vector<glm::dvec3> result(character.body.mesh.positions.size());
     test::forEachCopy(character, [&](std::uint32_t vertex, const osg::Vec3d& p) {
@@ -191,7 +192,7 @@ std::vector<glm::dvec3> posedSkin(const Character& character) {
     return result;
 }
 
-/// Each edge's length over its length at rest, in rising order.
+/// Each edge's length over its length at rest, ascending.
 std::vector<double> stretches(const osgSkin::SkinMesh& mesh, const std::vector<glm::dvec3>& posed) {
     std::vector<double> result;
     std::size_t corner = 0;
@@ -238,7 +239,7 @@ TEST_P(FitPlay, SkinHoldsTogether) {
     for (std::size_t frame = 0; frame < motion.clip.frames; frame += step) {
         character.pose(motion, frame);
         const std::vector<double> edges = stretches(character.body.mesh, posedSkin(character));
-        // Armpits stretch most where arms rest low and are raised. A tear would be far beyond.
+        // Armpits stretch most if arms rest low and are raised. A tear would be far beyond.
         EXPECT_LT(edges.back(), 5.0) << "frame " << frame;
         EXPECT_LT(edges[edges.size() * 999 / 1000], 3.2) << "frame " << frame;
     }
@@ -279,7 +280,7 @@ namespace {
 
 using test::GltfColumn;
 
-/// A column, and beside it another one on the same joints that was bound with its middle turned.
+/// A column, and beside it another one on the same joints that was bound with its middle rotated.
 std::string saveTwo(const std::string& name, double degrees) {
     GltfColumn column;
     column.bend();
@@ -354,7 +355,7 @@ TEST_P(LinearBlend, ClipsAreFoundByName) {
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file << ", which is missing";
     const osgSkin::Character all = osgSkin::loadCharacter(file);
     ASSERT_EQ(all.motions.size(), GetParam().clips);
-    // Of many each seventh, and the last.
+    // If there are many: every seventh, and the last.
     const std::size_t step = all.motions.size() > 20 ? 7 : 1;
     for (std::size_t m = all.motions.size(); m > 0; m = m > step ? m - step : 0) {
         const osgSkin::CharacterMotion& motion = all.motions[m - 1];

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The whole scene as the plug-in builds it: parts, seams, and a pose that a person could be in.
+// The whole scene as the plug-in builds it: parts, seams, and a plausible pose.
 //
-// Each bad file is refused with one line that names the file and the place, by the plug-in and by
-// osgskinbake alike.
+// The plug-in and osgskinbake refuse each bad file with one line that names the file and the place.
 //
-// What a .skin file may ask for beside the default way to find ratios.
+// Settings of a .skin file other than the default method for ratios.
 //
-// One motion of a file with several: in a .skin file and in options.
+// Choosing one motion of a file with several, in a .skin file and in options.
 #include "CharacterFiles.h"
 #include "Command.h"
 #include "DrawnSkin.h"
@@ -47,14 +46,14 @@ struct Triangles {
     void operator()(unsigned int a, unsigned int b, unsigned int c) { all.push_back({a, b, c}); }
 };
 
-/// A triangle as a cycle of source vertices that starts with its smallest.
+/// A triangle as a cycle of source vertices that starts with the smallest.
 std::array<std::uint32_t, 3> cycle(std::array<std::uint32_t, 3> t) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     return t;
 }
 
-/// The volume of a skin's box over that of the tight one around its posed vertices; 0 where a
-/// vertex lies outside.
+/// The volume of a skin's box over that of the tight box around its posed vertices; 0 if a vertex
+/// is outside.
 double looseness(const osgSkin::DeformableSkin& skin) {
     osg::BoundingBoxd tight;
     for (const osg::Vec3& v :
@@ -177,7 +176,7 @@ TEST_P(LoadedCharacter, ArmsAreWhereTheMotionHasThem) {
             if (hand.y() > shoulder.y()) above = true;
         }
     }
-    EXPECT_EQ(above, !walk); // a pitcher's hand goes over the shoulder, a walker's does not
+    EXPECT_EQ(above, !walk); // a pitcher's hand rises above the shoulder, a walker's does not
 }
 
 TEST_P(LoadedCharacter, BoundsHoldTheSkinTightlyInEveryFrame) {
@@ -203,7 +202,7 @@ TEST_P(LoadedCharacter, BakedBoundsHoldTheSkinBetweenSamples) {
     const auto copy = copies->makeInstance();
     auto* const place = copy.node->getChild(0)->asGroup();
     const auto& skin = dynamic_cast<const osgSkin::DeformableSkin&>(*place->getChild(0));
-    constexpr int kTimes = 500; // at no even step
+    constexpr int kTimes = 500; // at uneven steps
     double mean = 0.0;
     for (int i = 0; i < kTimes; ++i) {
         copy.player->setLayer(0, {clip, std::fmod(0.618034 * i, 1.0) * clip->duration()});
@@ -223,9 +222,9 @@ namespace {
 
 struct BadFile {
     const char* name;
-    const char* file;     ///< that the complaint must name
+    const char* file;     ///< that the message must name
     const char* place;    ///< in it
-    const char* expected; ///< some of what it says was expected
+    const char* expected; ///< part of what the message says was expected
 };
 
 std::ostream& operator<<(std::ostream& out, const BadFile& bad) {
@@ -328,7 +327,7 @@ TEST_P(BadInput, ReadNodeFileReturnsNull) {
     EXPECT_FALSE(node.valid());
     if (std::string(GetParam().name) == "no_such_character") {
         EXPECT_TRUE(notices.say("no_such_character.skin"));
-        return; // osgDB finds out by itself, in its own words
+        return; // osgDB's own error, in its own words
     }
     expectClear(notices.text());
 }
@@ -340,7 +339,7 @@ using osgSkin::Character;
 
 namespace {
 
-/// Compares the bend ratios of the joint "arm" with what its file makes of a vertex's height.
+/// Compares the bend ratios of the joint "arm" with the file's function of a vertex's height.
 void expectBend(const Character& character, const std::function<double(double)>& expected) {
     const osgSkin::Binding& binding = character.binding;
     ASSERT_EQ(binding.vertexCount(), character.body.mesh.positions.size());
@@ -395,8 +394,8 @@ namespace {
 using osgSkin::Character;
 using test::GltfColumn;
 
-/// A column with clips "Armature|still", "Armature|bow" and "twist", which hold turns of 0, 30 and
-/// 60 degrees.
+/// A column with clips "Armature|still", "Armature|bow" and "twist", which rotate by 0, 30 and 60
+/// degrees.
 std::string movesFile() {
     GltfColumn column;
     double angle = 0.0;
@@ -447,7 +446,7 @@ TEST(ClipChoice, InASkinFile) {
               std::string::npos);
 }
 
-/// A clip that moves faces alone keeps its number, and is not the first one.
+/// A clip that moves only the face keeps its number, and is not the first one.
 TEST(ClipChoice, NumbersAreTheFiles) {
     GltfColumn column;
     for (const char* name : {"blink", "walk", "run"})
@@ -489,7 +488,7 @@ TEST(ClipChoice, InOptions) {
     EXPECT_NE(why.find(R"(no clip "fly")"), std::string::npos) << why;
     EXPECT_NE(test::whyRefused(skin, test::loadOptions("motion=nowhere.gltf#bow")).find("neither"),
               std::string::npos);
-    // Of a rigged model's own clips, what stands behind the bar will do.
+    // For a rigged model's own clips, the part after the bar is enough.
     osgSkin::LoadOptions own;
     own.motion = "bow";
     EXPECT_EQ(osgSkin::loadCharacter(moves, own).motions.front().name(), "Armature|bow");

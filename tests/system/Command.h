@@ -5,17 +5,17 @@
 
 namespace test {
 
-/// What a command left behind.
+/// The result of a command.
 struct CommandResult {
-    int status = -1; ///< exit status; -1 where a signal ended it
+    int status = -1; ///< exit status; -1 if a signal ended it
     std::string out;
     std::string err;
 };
 
-/// Runs a shell's command in `folder`.
+/// Runs a shell command in `folder`.
 CommandResult runCommand(const std::string& command, const std::string& folder);
 
-/// Runs osgskinbake with `arguments` (a shell would split them) in `folder`.
+/// Runs osgskinbake with `arguments` (split as by a shell) in `folder`.
 CommandResult runBake(const std::string& arguments, const std::string& folder);
 
 /// A new empty folder, named for the running test.

@@ -10,7 +10,7 @@
 
 namespace test {
 
-/// Calls visit(source vertex, posed place) for every drawn copy of every vertex, of skins and of
+/// Calls visit(source vertex, posed position) for every drawn copy of every vertex, of skins and of
 /// rigid parts, in the skeleton's space.
 template <typename Visit>
 void forEachCopy(const osgSkin::Character& character, const Visit& visit) {

@@ -14,10 +14,10 @@ namespace test {
 
 std::string readBytes(const std::string& file);
 
-/// Throws where the file is no JSON.
+/// Throws if the file is not JSON.
 nlohmann::json readJson(const std::string& file);
 
-/// The number at a place in little-endian bytes.
+/// The number at an offset in little-endian bytes.
 template <typename Number>
 Number at(const std::string& bytes, std::size_t offset) {
     Number value{};
@@ -30,13 +30,13 @@ Number at(const std::string& bytes, std::size_t offset) {
 /// Three floats.
 glm::dvec3 vectorAt(const std::string& bytes, std::size_t offset);
 
-/// A .glb file, its two chunks apart.
+/// A .glb file, split into its two chunks.
 struct Glb {
     explicit Glb(const std::string& file);
 
     /// The bytes of a buffer view.
     std::string view(std::size_t index) const;
-    /// The bytes of an accessor, which must be as many as its type takes.
+    /// The bytes of an accessor; their number must match its type.
     std::string data(std::size_t index) const;
     std::vector<float> floats(std::size_t accessor) const;
     std::vector<glm::dvec3> vectors(std::size_t accessor) const;
@@ -45,10 +45,10 @@ struct Glb {
     std::string binary;
 };
 
-/// Whether Khronos' own validator is there (cmake/gltf_validator.sh), or why not.
+/// Whether Khronos' own validator is available (cmake/gltf_validator.sh), or why not.
 bool hasGlbValidator(std::string& why);
 
-/// The errors and warnings that the validator finds in a file, empty where there are none.
+/// The validator's errors and warnings for a file; empty if there are none.
 std::string glbComplaints(const std::string& file);
 
 } // namespace test

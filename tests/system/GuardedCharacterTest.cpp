@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Characters whose files name each other, ask for more than there is, or cannot be written whole.
+// Characters whose files name each other, need too many resources, or cannot be written completely.
 #include "Command.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG) // which counting lines is, too
+#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG) // also slow at counting lines
 constexpr double kSlower = 5.0;
 #else
 constexpr double kSlower = 1.0;
@@ -31,7 +31,7 @@ constexpr double kSlower = 1.0;
 
 const std::string kCharacter = OSGSKIN_TEST_DATA "/character/";
 
-/// The complaint about a character; "read" where there is none.
+/// The error message for a character, or "read".
 std::string refusal(const std::string& file, const char* options = "") {
     try {
         osgSkin::LoadOptions load;
@@ -43,7 +43,7 @@ std::string refusal(const std::string& file, const char* options = "") {
     }
 }
 
-/// Writes a `.skin` file into `folder`; `members` stand after the version.
+/// Writes a `.skin` file into `folder`; `members` follow the version.
 std::string skin(const std::string& folder, const std::string& name, const std::string& members) {
     std::string path = folder + "/" + name + ".skin";
     std::ofstream(path) << "{\"osgskin\": 1, " << members << "}";
@@ -58,7 +58,7 @@ void expectSays(const std::string& refused, const std::string& part) {
     EXPECT_NE(refused.find(part), std::string::npos) << '"' << part << "\" in: " << refused;
 }
 
-/// A rigged triangle that is read, to be broken.
+/// A valid rigged triangle, to be broken.
 test::GltfBuilder triangle() {
     test::GltfBuilder file;
     const std::size_t joint = file.node({{"name", "joint"}});
@@ -83,7 +83,7 @@ TEST(GuardedCharacter, FilesThatNameThemselvesAreRefused) {
     expectSays(refusal(skin(folder, "mesh", parts("mesh.skin", rig))), noMesh);
     expectSays(refusal(skin(folder, "bones", parts(body, "bones.skin"))), itself);
     expectSays(refusal(skin(folder, "twice", parts("twice.skin.skin", rig))), noMesh);
-    // The other plug-in keeps the reason to itself.
+    // The other plug-in does not report the reason.
     EXPECT_NE(refusal(skin(folder, "scaled", parts("scaled.skin.2.scale", rig))), "read");
     skin(folder, "b", parts(body, "a.skin"));
     expectSays(refusal(skin(folder, "a", parts(body, "b.skin"))), itself);
@@ -99,7 +99,7 @@ TEST(GuardedCharacter, FilesThatNameThemselvesAreRefused) {
     skin(folder, "c8", parts(body, rig));
     expectSays(refusal(folder + "/c0.skin"), "expected no more than 8");
     EXPECT_EQ(refusal(folder + "/c1.skin"), "read");
-    // What was refused is not open any more.
+    // A refused file is closed again.
     EXPECT_EQ(refusal(kCharacter + "good.skin"), "read");
     EXPECT_EQ(refusal(kCharacter + "good.skin"), "read");
 }
@@ -129,7 +129,7 @@ TEST(GuardedCharacter, DescriptionsAreRefusedWithTheirPlace) {
     EXPECT_EQ(refusal(kCharacter + "good.skin", "formats=all"), "read");
 }
 
-/// OpenSceneGraph trusts them.
+/// OpenSceneGraph trusts these files.
 TEST(GuardedCharacter, SavedScenesAreReadWhereFormatsNameThem) {
     const std::string folder = test::makeTestFolder(), rig = kCharacter + "rig.bvh";
     for (const char* format :
@@ -235,7 +235,7 @@ TEST(GuardedCharacter, AFileIsNamedSoOftenAtMost) {
                "props[100]");
 }
 
-/// A short file took gigabytes where it was named often.
+/// A short file took gigabytes if it was named often.
 TEST(GuardedCharacter, MotionsAreLimitedTogether) {
     const std::string folder = test::makeTestFolder();
     std::ofstream file(folder + "/long.bvh");
@@ -346,7 +346,7 @@ TEST(GuardedCharacter, JointsThatVerticesFollowAreLimited) {
     EXPECT_EQ(refusal(file, "maxInfluences=4000000"), "read");
 }
 
-/// As many clips as a megabyte names; each was compared with all before it.
+/// As many clips as fit in a megabyte; each was compared with all before it.
 TEST(GuardedCharacter, MotionsMayBeMany) {
     constexpr std::size_t kClips = 20'000;
     test::GltfBuilder file = triangle();
@@ -430,12 +430,12 @@ TEST(GuardedCharacter, GltfIsCheckedBeforeItIsRead) {
     EXPECT_EQ(refusal(triangle().save("triangle.gltf")), "read") << "without inverseBindMatrices";
     for (const Case& c : cases) {
         test::GltfBuilder file = triangle();
-        file.save("broken.gltf"); // makes its buffer
+        file.save("broken.gltf"); // writes its buffer
         file.json[nlohmann::json::json_pointer(c.place)] = c.value;
         SCOPED_TRACE(c.place);
         expectSays(refusal(file.save("broken.gltf")), c.message);
     }
-    // Zeros as numbers of vertices and joints.
+    // Zero vertices and joints.
     for (const char* named : {"indices", "attributes/JOINTS_0"}) {
         test::GltfBuilder file = triangle();
         file.save("nowhere.gltf");
@@ -456,10 +456,10 @@ TEST(GuardedCharacter, BakedFilesAreWholeOrAbsent) {
     const std::string good = "'" + kCharacter + "good.skin' --quiet ";
     const auto isEmpty = [&] {
         for (const auto& entry : fs::directory_iterator(folder))
-            if (entry.path().extension() != ".txt") return false; // what the command printed
+            if (entry.path().extension() != ".txt") return false; // the command's output
         return true;
     };
-    // The shell's limit on a file's size stands for a full disk.
+    // The shell's limit on file size simulates a full disk.
     for (const char* out :
          {"--rest r.obj", "--out o.glb", "--out o.pc2", "--out f%d.ply", "--pose p.json"}) {
         const auto result =

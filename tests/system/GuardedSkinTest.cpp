@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// `.skin` files and files of weights with more of something than anybody writes, and names that
-// mean no file, or one that would be written over.
+// `.skin` files and files of weights with more of something than anybody writes, and names that are
+// no file, or a file that would be overwritten.
 //
-// Bodies whose skeleton is in another unit, has another axis up or stands elsewhere.
+// Bodies whose skeleton is in another unit, has another up axis or another position.
 #include "Command.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 const std::string kPlainCharacter = OSGSKIN_TEST_DATA "/character/";
 #if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
-constexpr double kMaxSeconds = 40.0; ///< of this program's own
+constexpr double kMaxSeconds = 40.0; ///< of this program's own time
 #else
 constexpr double kMaxSeconds = 8.0;
 #endif
@@ -54,14 +54,14 @@ public:
         return path;
     }
 
-    /// A `.skin` file; `members` stand behind the mesh.
+    /// A `.skin` file; `members` follow the mesh.
     std::string skin(const std::string& members,
                      const std::string& skeleton = "\"rig.bvh\"") const {
         return save("a.skin", "{\"osgskin\": 1, \"mesh\": \"body.obj\", \"skeleton\": " + skeleton +
                                   ", " + members + "}");
     }
 
-    /// A skeleton of so many joints, "j0" to "j...", and a motion of one frame.
+    /// A skeleton of `count` joints, "j0", "j1", ..., and a motion of one frame.
     std::string bones(const std::string& name, std::size_t count) const {
         std::string text = "HIERARCHY\nROOT j0\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
         for (std::size_t j = 1; j < count; ++j)
@@ -82,7 +82,7 @@ void expectOneLine(const std::string& refused, const std::string& part) {
     EXPECT_EQ(refused.find('\n'), std::string::npos) << refused;
 }
 
-/// `count` items, each made of its number, with commas between them.
+/// `count` comma-separated items, each made from its number.
 template <typename Item>
 std::string list(std::size_t count, const Item& item) {
     std::string text;
@@ -185,7 +185,8 @@ TEST_F(GuardedSkin, WeightsThatAreAllZeroAreToldOf) {
     }
 }
 
-/// A few vertices without weights, of glasses say, and the others' are not taken.
+/// A few vertices without weights, glasses for example; the others' weights are not applied to
+/// them.
 TEST_F(GuardedSkin, WeightsThatAreLeftOutAreToldOf) {
     for (const double last : {1.0, 0.0}) {
         test::GltfBuilder gltf;
@@ -209,7 +210,7 @@ TEST_F(GuardedSkin, WeightsThatAreLeftOutAreToldOf) {
     }
 }
 
-/// OSG's own search would take any file in the working folder that is called as a name's last part.
+/// OSG's own search would accept any file in the working folder with the last part of the name.
 TEST_F(GuardedSkin, NamesMeanNoFilesInOtherFolders) {
     skin("\"up\": \"y\"");
     const fs::path before = fs::current_path();
@@ -273,11 +274,11 @@ TEST_F(GuardedSkin, NamesMayBeInNoUnicodeAndSendNoCommands) {
     EXPECT_EQ(std::count(usage.err.begin(), usage.err.end(), '\n'), 2) << usage.err;
 }
 
-/// Others may know the name under which a file is written, in a folder that is everybody's.
+/// Others may know the temporary name of a file that is written to a shared folder.
 TEST_F(GuardedSkin, UnfinishedFilesFollowNoLinks) {
     skin("\"up\": \"y\"");
     save("victim", "kept");
-    // A shell's process becomes the program, and has its number.
+    // The shell process becomes the program and keeps its process id.
     const test::CommandResult done = test::runCommand(
         "ln -s victim x.json.part$$; exec " OSGSKIN_BAKE " a.skin --quiet --binding x.json",
         folder);
@@ -322,7 +323,7 @@ namespace {
 
 const std::string kBodyThatFits = OSGSKIN_DATA "/thrower";
 
-/// Weights of the thrower: each joint has its share of the vertices, one after the other.
+/// Weights for the thrower: each joint has an equal range of the vertices.
 void paint(const std::string& path) {
     const osgSkin::RestSkeleton rest = osgSkin::importSkeleton(kBodyThatFits + ".bvh");
     const std::size_t vertices = osgSkin::importMesh(kBodyThatFits + ".obj").mesh.positions.size();
@@ -336,8 +337,9 @@ void paint(const std::string& path) {
     file << "]}}";
 }
 
-/// What is told of the thrower where his body is moved, and the skeleton, his own if no other is
-/// given, is not.
+/// Warnings about the thrower after moving his body but not the skeleton.
+/// \param move of the body
+/// \param skeleton file; empty: his own
 /// \param painted whether weights name each of his joints
 std::string misfitsOf(const osg::Matrixd& move, const std::string& skeleton = {},
                       bool painted = false) {

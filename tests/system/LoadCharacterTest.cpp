@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// loadCharacter() as an application calls it: what it takes, what it gives, what it refuses.
+// loadCharacter() as an application calls it: inputs, results, errors.
 //
-// Who loads a character can be told how far it has come; nothing but our programs prints it.
+// An application can receive progress of a load; only our programs print it.
 #include "Command.h"
 #include "DrawnSkin.h"
 #include "FindNodes.h"
@@ -49,7 +49,7 @@ const std::string kGood = OSGSKIN_TEST_DATA "/character/good.skin";
 const std::string kTube = OSGSKIN_TEST_DATA "/rig/tube.gltf";
 const std::string kMove = OSGSKIN_TEST_DATA "/character/move.bvh";
 
-/// All drawn copies' positions in rest space.
+/// The positions of all drawn copies in rest space.
 std::vector<osg::Vec3d> drawn(const Character& character) {
     std::vector<osg::Vec3d> result;
     test::forEachCopy(character, [&](std::uint32_t, const osg::Vec3d& p) { result.push_back(p); });
@@ -62,7 +62,7 @@ std::vector<std::string> motionsOf(const Character& character) {
     return names;
 }
 
-/// A scene of osgAnimation's own with one rig in it, as a file.
+/// Writes an osgAnimation scene with one rig to a file.
 std::string rigOfOsg() {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
     const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("bone");
@@ -75,7 +75,7 @@ std::string rigOfOsg() {
     return file;
 }
 
-/// Where nodes of this name stand, against their parents.
+/// Matrices of the nodes of this name, relative to their parents.
 std::vector<osg::Matrix> placesOf(osg::Node& node, const std::string& name) {
     std::vector<osg::Matrix> places;
     for (const auto& found : test::findNodes<osg::MatrixTransform>(node))
@@ -105,7 +105,7 @@ TEST(LoadCharacter, MakesASkinFile) {
     EXPECT_TRUE(character.root->getBound().valid());
 }
 
-/// Each prop goes with its own motion, from where that begins, in whatever order they are named.
+/// Each prop follows its own motion, from that motion's start, in any order.
 TEST(LoadCharacter, PropsGoWithTheirMotions) {
     const std::string file = testing::TempDir() + "load_character_props.skin";
     const std::string data = OSGSKIN_TEST_DATA "/character/";
@@ -128,8 +128,8 @@ TEST(LoadCharacter, PropsGoWithTheirMotions) {
     }
 }
 
-/// A prop that stays where it is has one sample; one that is filmed at another rate begins between
-/// two of them.
+/// A prop that does not move has one sample; a prop with another frame rate begins between two of
+/// them.
 TEST(LoadCharacter, PropsOfOtherRatesGoOnBesideTheirMotion) {
     const std::string folder = test::makeTestFolder(), file = folder + "/props.skin";
     const std::string data = OSGSKIN_TEST_DATA "/character/";
@@ -159,7 +159,7 @@ TEST(LoadCharacter, PropsOfOtherRatesGoOnBesideTheirMotion) {
     EXPECT_NEAR(std::atan2(x.y(), x.x()), osg::DegreesToRadians(40.0), 1e-5);
 }
 
-/// JSON does not tell 1 from 1.0.
+/// JSON does not distinguish 1 from 1.0.
 TEST(LoadCharacter, WholeNumbersMayBeWrittenWithAPoint) {
     const std::string file = testing::TempDir() + "load_character_whole.skin";
     const std::string data = OSGSKIN_TEST_DATA "/character/";
@@ -275,7 +275,7 @@ TEST(LoadCharacter, TellsBeforehandWhereItGets) {
             box.expandBy(p * character.toWorld);
         });
     }
-    EXPECT_LT(told.radius(), 1.25 * box.radius()); // and not much farther
+    EXPECT_LT(told.radius(), 1.25 * box.radius()); // but not by much
 }
 
 TEST(LoadCharacter, AMotionFileGoesFirst) {
@@ -285,7 +285,7 @@ TEST(LoadCharacter, AMotionFileGoesFirst) {
         const Character character = loadCharacter(file, options);
         ASSERT_FALSE(character.motions.empty());
         EXPECT_TRUE(character.motions.front().isSampled()) << file;
-        // A name of its own where the file has a motion of that name already.
+        // Its own name if the file already has a motion of that name.
         EXPECT_EQ(character.motions.front().name(), file == kGood ? kMove : "move");
     }
 }
@@ -301,7 +301,7 @@ TEST(LoadCharacter, AtRestNothingPlays) {
     }
 }
 
-/// Kernels keep vertices in their groups' own frames: rounding would show.
+/// Kernels store vertices in their groups' own frames: rounding would show.
 TEST(LoadCharacter, TheIdentityPoseIsTheRestToTheBit) {
     const Character character = loadCharacter(OSGSKIN_DATA "/thrower.skin");
     ASSERT_FALSE(character.skin.skins.empty());
@@ -363,7 +363,7 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-/// Keeps what it is told, and may cancel.
+/// Records the reported steps, and may cancel.
 struct Recorder {
     osgSkin::Progress progress() {
         return [this](const osgSkin::ProgressStep& step) {
@@ -372,7 +372,7 @@ struct Recorder {
             fractions.push_back(step.fraction);
         };
     }
-    /// The stages: what is told without a colon in it.
+    /// The stages: reported texts without a colon.
     Strings stages() const {
         Strings result;
         for (const std::string& what : whats)
@@ -393,7 +393,7 @@ struct Recorder {
     std::vector<double> fractions;
 };
 
-/// By osgDB and its `.skin` plug-in.
+/// Through osgDB and its `.skin` plug-in.
 osg::ref_ptr<osg::Node> read(const std::string& file, const osgSkin::Progress& progress) {
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
@@ -407,7 +407,7 @@ osgSkin::Character load(const std::string& file, Recorder& recorder) {
     return osgSkin::loadCharacter(file, options);
 }
 
-/// Standard error is a terminal while this lives.
+/// Makes standard error a terminal while this lives.
 class Terminal {
 public:
     Terminal() : _before(dup(STDERR_FILENO)) {
@@ -423,7 +423,7 @@ public:
     }
     bool works() const { return _master >= 0; }
 
-    /// What has been written to it.
+    /// The text that has been written to it.
     std::string text() const {
         std::string result;
         pollfd ready{_master, POLLIN, 0};
@@ -520,7 +520,7 @@ TEST(LoadProgress, TheLastOneSetCounts) {
     EXPECT_FALSE(osgSkin::getProgress(options));
     EXPECT_FALSE(osgSkin::getProgress(nullptr));
     Recorder first, second;
-    options->getOrCreateUserDataContainer()->addUserObject(new osg::Group); // somebody else's
+    options->getOrCreateUserDataContainer()->addUserObject(new osg::Group); // set by someone else
     osgSkin::setProgress(*options, first.progress());
     osgSkin::setProgress(*options, second.progress());
     const osg::ref_ptr<osgDB::Options> copy = options->cloneOptions();
@@ -534,7 +534,7 @@ TEST(LoadProgress, TheLastOneSetCounts) {
 TEST(LoadProgress, ThePlugInWritesNothingToATerminal) {
     const Terminal terminal;
     if (!terminal.works()) GTEST_SKIP() << "no pseudo-terminal";
-    // A load that waits for longer than any display would keep silent.
+    // A load that takes longer than the silent period of any progress display.
     const auto slow = [](const osgSkin::ProgressStep& step) {
         if (step.what == "scene") std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     };
@@ -549,7 +549,7 @@ TEST(ProgressLine, ShowsLongWorkOnATerminalWhileItLasts) {
     {
         example::ProgressLine line("body.skin");
         line.show({"mesh", 0.0});
-        // One second of nothing is not shown; then it is, though the work says nothing itself.
+        // A stage of one second without progress is not shown at first, then it is.
         while (terminal.text().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
         line.progress()({"binding: bend of Spine", 0.425});
         std::string text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files whose buffer views are compressed by meshopt, ours of gltfpack's kind, honest and hostile.
+// Files with buffer views compressed by meshopt, written by us as gltfpack does, valid and hostile.
 #include "DrawnSkin.h"
 #include "WhyRefused.h"
 
@@ -30,11 +30,13 @@ std::string inBase64(const std::string& bytes) {
     return text;
 }
 
-/// A column whose views are all packed, into a buffer in the text; the unpacked one is not there.
+/// A column whose views are all compressed, into a buffer in the text; the uncompressed buffer is
+/// omitted.
 struct PackedColumn : GltfColumn {
     std::string packed;
 
-    /// \param sequence indices are packed as a sequence, not as triangles
+    /// \param extension name of the compression extension
+    /// \param sequence whether indices are packed as a sequence instead of triangles
     void pack(const std::string& extension, bool sequence) {
         const std::size_t faces = json["meshes"][0]["primitives"][0]["indices"];
         for (std::size_t a = 0; a < json["accessors"].size(); ++a) {
@@ -85,7 +87,7 @@ private:
     static std::string packedIndices(const std::vector<unsigned int>& indices, bool sequence) {
         std::string result(200 + 12 * indices.size(), '\0');
         auto* const to = reinterpret_cast<unsigned char*>(result.data());
-        // The triangles' codec turns their corners; the sequence's keeps all.
+        // The triangle codec may rotate a triangle's corners; the sequence codec keeps their order.
         result.resize(
             sequence
                 ? meshopt_encodeIndexSequence(to, result.size(), indices.data(), indices.size())
@@ -93,8 +95,8 @@ private:
         return result;
     }
 
-    /// Floats of matrices and positions go through the exponential filter, rotations through that
-    /// of quaternions.
+    /// Floats of matrices and positions use the exponential filter, rotations the quaternion
+    /// filter.
     static std::string packedVertices(nlohmann::json& accessor, const char* from, std::size_t count,
                                       std::size_t stride, nlohmann::json& how) {
         std::string source(from, count * stride);
@@ -122,7 +124,7 @@ private:
 
 constexpr char kExt[] = "EXT_meshopt_compression";
 
-/// A bending column, packed.
+/// A bending column, compressed.
 PackedColumn bent(const std::string& extension = kExt, bool sequence = false) {
     PackedColumn column;
     column.bend();
@@ -133,7 +135,7 @@ PackedColumn bent(const std::string& extension = kExt, bool sequence = false) {
     return column;
 }
 
-/// All vertices in the middle of the motion.
+/// All vertices halfway through the motion.
 std::vector<osg::Vec3d> drawn(const std::string& file) {
     osgSkin::Character character = osgSkin::loadCharacter(file);
     character.poseAt(character.motions.at(0), 0.4);
@@ -195,7 +197,7 @@ TEST(Meshopt, HostileFilesAreRefused) {
     }
 }
 
-/// Zeros, which pack well, and which many views unpack again.
+/// Zeros compress well, and many views decompress them again.
 TEST(Meshopt, WhatIsUnpackedGoesByTheFilesSize) {
     constexpr std::size_t count = 100'000, stride = 64, bytes = count * stride;
     const std::string zeros(bytes, '\0');

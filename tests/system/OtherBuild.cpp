@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands in for a kit's library of an older version, as far as plug-ins ask it: preloaded, it
+// Stands in for an older version of a kit's library, as far as plug-ins query it: preloaded, it
 // answers before the real one.
 extern "C" __attribute__((visibility("default"))) const char* OSGSKIN_OTHER_KIT();
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The plug-ins in a host of somebody else's, OSG's own osgconv: they are silent, and refuse
-// libraries of another build instead of crashing.
+// The plug-ins in a third-party host, OSG's own osgconv: they are silent, and refuse libraries of
+// another build instead of crashing.
 //
 // `model.glb.skin`: any rigged model, re-skinned, as a viewer reads it.
 //
-// What props of a character have in common: their files, and their pictures' limit.
+// Props of a character share their files, and the limit on their pictures.
 #include "Command.h"
 #include "FindNodes.h"
 #include "KitCheck.h"
@@ -59,7 +59,7 @@ protected:
     std::string folder;
 };
 
-/// That osgconv ended by itself without a result, and said why in one line.
+/// Expects that osgconv exited by itself without a result and with a one-line reason.
 void expectRefused(const test::CommandResult& result, const std::string& plugIn,
                    const std::string& kit) {
     EXPECT_GE(result.status, 0) << "osgconv was ended by a signal";
@@ -73,7 +73,7 @@ void expectRefused(const test::CommandResult& result, const std::string& plugIn,
     EXPECT_NE(line.find("0.1.7 (00000000)"), std::string::npos) << line;
 }
 
-/// An arm along y, bent by 13 degrees at rest, as a `.skin` file with all it names.
+/// An arm along y, bent by 13 degrees at rest, as a `.skin` file with all files that it names.
 void writeArm(const std::string& folder) {
     constexpr int kSides = 16, kRings = 57;
     std::ofstream mesh(folder + "/arm.obj");
@@ -130,7 +130,7 @@ TEST_F(PlugIn, KeepsElasticShapesInTheUsersCacheFolder) {
     const std::string cache = "XDG_CACHE_HOME='" + folder + "/cache' ";
     const std::string kept = folder + "/cache/osgSkin";
     ASSERT_EQ(convert("arm.skin", "plain.osgb", cache).status, 0);
-    EXPECT_TRUE(filesIn(kept).empty()); // nobody asked for them
+    EXPECT_TRUE(filesIn(kept).empty()); // none was requested
     const auto shaped = [&](const std::string& to) {
         const auto result = convert("arm.skin", to + " -O shapes=elastic", cache);
         EXPECT_EQ(result.status, 0);
@@ -143,7 +143,7 @@ TEST_F(PlugIn, KeepsElasticShapesInTheUsersCacheFolder) {
     const auto written = std::filesystem::last_write_time(filesIn(kept)[0]);
     EXPECT_EQ(shaped("second.osgb"), first);
     EXPECT_EQ(std::filesystem::last_write_time(filesIn(kept)[0]), written);
-} // one that is broken is made anew: ElasticBind
+} // a broken one is made again: see ElasticBind
 
 TEST_F(PlugIn, RefusesLibrariesOfAnotherBuild) {
     expectRefused(
@@ -194,7 +194,7 @@ osg::ref_ptr<osg::Node> readCharacter(const std::string& file, const std::string
     return osgDB::readRefNodeFile(file, optionsOf(options));
 }
 
-/// Why a file is refused.
+/// The error message for a file.
 std::string complaint(const std::string& file, const std::string& options = {}) {
     osgDB::ReaderWriter::ReadResult result =
         osgDB::Registry::instance()->readNode(file, optionsOf(options));
@@ -233,7 +233,7 @@ void update(osg::Node& scene, double time) {
     scene.accept(visitor);
 }
 
-/// The box around all skins' vertices as they are posed, in the world.
+/// The world-space box around the posed vertices of all skins.
 osg::BoundingBox posedBox(osg::Node& scene) {
     const Parts parts(scene);
     osg::BoundingBox box;
@@ -255,7 +255,7 @@ TEST(PseudoLoader, ReSkinsAndPlaysTheFirstClip) {
     EXPECT_EQ(parts.manager->getAnimationList().size(), 2u);
     update(*scene, 0.0);
     const osg::BoundingBox rest = posedBox(*scene);
-    // The armature stands the tube along +Z of a format with Y up: it lies towards -Y.
+    // The armature rotates the tube to +Z, but the format has Y up: it points to -Y.
     EXPECT_NEAR(rest.yMin(), -2.0f, 1e-5f);
     EXPECT_NEAR(rest.yMax(), 0.0f, 1e-5f);
     update(*scene, 0.5);
@@ -285,7 +285,7 @@ TEST(PseudoLoader, MotionChoosesTheClip) {
 }
 
 TEST(PseudoLoader, MotionMayBeAFile) {
-    const std::string file = OSGSKIN_TEST_DATA "/character/move.bvh"; // of joints base and arm
+    const std::string file = OSGSKIN_TEST_DATA "/character/move.bvh"; // the joints base and arm
     const osg::ref_ptr<osg::Node> scene = readCharacter(kTubeSkin, "motion=\"" + file + "\"");
     ASSERT_NE(scene, nullptr);
     ASSERT_NE(Parts(*scene).manager, nullptr);
@@ -387,8 +387,8 @@ namespace {
 const std::string kFigure = OSGSKIN_TEST_DATA "/character/";
 constexpr int kPropSide = 200;
 
-/// A prop and its picture, which has more pixels than its file is worth.
-/// \return how many more
+/// A prop and its picture, which has more pixels than its file's size allows.
+/// \return the number of pixels above the allowance
 std::size_t saveProp(const std::string& folder, const std::string& name) {
     const osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(kPropSide, kPropSide, 1, GL_RGB, GL_UNSIGNED_BYTE);
@@ -463,7 +463,7 @@ TEST(PropPictures, OfACharacterCountTogether) {
     EXPECT_TRUE(notices.say("beside those before it (option maxPixels)")) << notices.text();
 }
 
-/// An armature above a thing: the thing follows the armature alone.
+/// An armature above an object that follows the armature alone.
 TEST(PropPictures, ComeWithAWordWhereTheirMotionHasMoreJoints) {
     const std::string folder = test::makeTestFolder();
     const std::size_t pixels = saveProp(folder, "ball");

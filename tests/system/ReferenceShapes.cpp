@@ -15,7 +15,7 @@ double softly(double t) {
     return t < 0.9 ? t : 0.9 + 0.1 * std::tanh(10.0 * t - 9.0);
 }
 
-/// The i-th B-spline of a degree, by the recursion as textbooks have it.
+/// The i-th B-spline of a degree, by the textbook recursion.
 double spline(const std::vector<double>& t, std::size_t i, int degree, double x) {
     if (degree == 0) return t[i] <= x && x < t[i + 1] ? 1.0 : 0.0;
     const auto d = static_cast<std::size_t>(degree);
@@ -27,7 +27,7 @@ double spline(const std::vector<double>& t, std::size_t i, int degree, double x)
 }
 
 std::vector<double> splines(const std::vector<double>& knots, double x) {
-    std::vector<double> t = knots; // the end ones three times
+    std::vector<double> t = knots; // each end knot three times
     t.insert(t.begin(), 2, knots.front());
     t.insert(t.end(), 2, knots.back());
     std::vector<double> values;

@@ -10,19 +10,18 @@
 
 namespace test {
 
-/// The scalar functions of one joint's correctives, from what osgskinbake writes about them and
-/// from the formula: it shares no code with the product.
+/// The scalar functions of one joint's correctives, computed from osgskinbake's output and the
+/// formula: shares no code with the product.
 class ReferenceShapes {
 public:
     /// \param json one of the binding's "correctives"
     explicit ReferenceShapes(const nlohmann::json& json);
 
-    /// Whether they follow an input of that name instead of the joint's bend.
+    /// Whether they follow the input of that name instead of the joint's bend.
     bool isInput() const { return _basis == "input"; }
     const std::string& joint() const { return _joint; }
 
-    /// What each mode's vectors are to be scaled by, in a bend by `psi` about `v`; w is the twist
-    /// axis.
+    /// The factor of each mode's vectors in a bend by `psi` about `v`; w is the twist axis.
     std::vector<double> weights(const glm::dvec3& v, double psi, const glm::dvec3& w) const;
     std::vector<double> weights(double input) const;
 

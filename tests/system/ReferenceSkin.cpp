@@ -19,7 +19,7 @@ glm::dvec3 turned(const glm::dvec3& x, const glm::dvec3& axis, double angle) {
            axis * glm::dot(axis, x) * (1.0 - std::cos(angle));
 }
 
-/// A joint's turn in the pose, split by the paper's equations 2 to 4 with arc tangents.
+/// A joint's rotation in the pose, split by the paper's equations 2 to 4 with arc tangents.
 struct Split {
     glm::dvec3 v{1, 0, 0};
     double psi = 0.0;

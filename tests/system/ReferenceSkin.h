@@ -19,8 +19,8 @@ std::vector<glm::dvec3> readObjVertices(const std::string& file);
 /// The faces of an OBJ file: its `f` lines with 1-based vertex numbers only.
 std::vector<std::vector<int>> readObjFaces(const std::string& file);
 
-/// The deformation again, in double precision and from nothing but what osgskinbake writes: written
-/// from the formula, it shares no code with the product.
+/// The deformation again, in double precision and only from osgskinbake's output: written from the
+/// formula, it shares no code with the product.
 class ReferenceSkin {
 public:
     ReferenceSkin(const nlohmann::json& binding, std::vector<glm::dvec3> rest);

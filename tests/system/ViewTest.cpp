@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What a viewer sees first: the whole figure, standing, from the front, and not from far away.
+// The first view of a figure: complete, standing, from the front, and not from far away.
 //
-// What OSG's programs do to a scene between reading and drawing it must leave the posed figure
-// where the scene says it is.
+// Changes that OSG's programs make to a scene between reading and drawing must leave the posed
+// figure at the scene's position.
 //
-// Characters that OSG's own scenes hold: bones, rigs and clips of osgAnimation.
+// Characters in OSG's own scenes: bones, rigs and clips of osgAnimation.
 #include "Command.h"
 #include "FindNodes.h"
 #include "GltfBuilder.h"
@@ -49,7 +49,7 @@ namespace {
 using osgSkin::Character;
 using osgSkin::loadCharacter;
 
-/// A text file of the thrower with its points and directions mapped.
+/// Copies a text file of the thrower with its points and directions mapped.
 void copyMapped(const std::string& from, const std::string& to, const osg::Matrixd& map) {
     std::ifstream in(from);
     std::ofstream out(to);
@@ -95,8 +95,8 @@ void expectFacesViewer(const Character& character) {
     EXPECT_GT(jointOf(character, "LeftArm").x(), jointOf(character, "RightArm").x());
 }
 
-/// A rigged person of a tetrahedron a joint, in a glTF file: y up, facing +z but for `turn`, which
-/// a node above holds.
+/// A rigged person with one tetrahedron per joint, in a glTF file: y up, facing +z except for the
+/// rotation `turn` of a node above.
 struct GltfPerson : test::GltfBuilder {
     explicit GltfPerson(const std::vector<double>& turn) {
         const std::vector<std::tuple<const char*, const char*, std::vector<double>>> parts{
@@ -162,8 +162,8 @@ struct GltfPerson : test::GltfBuilder {
 
 enum class Seat { Chair, Floor };
 
-/// The thrower's rig with thighs that lie ahead and on the floor the shins too, turned about z; and
-/// a motion of a sample that may turn it.
+/// The thrower's rig with its thighs forward, and on the floor its shins too, rotated about z; and
+/// a motion of one sample that may be rotated.
 Character sittingThrower(Seat seat, double turned, std::optional<double> played = std::nullopt) {
     const std::string folder = test::makeTestFolder(), file = folder + "/sitting.skin";
     const osg::Matrixd map = turnAbout({0, 0, 1}, turned);
@@ -187,7 +187,7 @@ Character sittingThrower(Seat seat, double turned, std::optional<double> played 
             line = text.str();
         }
         moved = line;
-        if (isLastLine && played) // the root's first channel turns about z
+        if (isLastLine && played) // the root's first channel rotates about z
             moved = std::to_string(*played) + line.substr(line.find(' '));
         isLastLine = word == "Frame";
         rig << line << '\n';
@@ -201,7 +201,7 @@ Character sittingThrower(Seat seat, double turned, std::optional<double> played 
     return loadCharacter(file);
 }
 
-/// Where a scene's bones are drawn.
+/// Positions of a scene's drawn bones.
 std::map<std::string, osg::Vec3d> bonesOf(Character& character) {
     std::map<std::string, osg::Vec3d> result;
     for (const auto& found : test::findNodes<osgAnimation::Bone>(*character.root))
@@ -214,14 +214,14 @@ std::map<std::string, osg::Vec3d> bonesOf(Character& character) {
 TEST(View, CharactersOfASkinFileFaceTheViewer) {
     for (const double degrees : {0.0, 90.0, 180.0, -90.0, 20.0})
         expectFacesViewer(turnedThrower(turnAbout({0, 1, 0}, degrees)));
-    // Files with Z up, of which nothing tells so.
+    // Files with Z up that do not declare it.
     const Character standing = turnedThrower(turnAbout({1, 0, 0}, 90.0));
     expectFacesViewer(standing);
     EXPECT_TRUE(standing.isZUp());
     expectFacesViewer(turnedThrower(turnAbout({1, 0, 0}, 90.0) * turnAbout({0, 0, 1}, 180.0)));
 }
 
-/// Thighs of one that sits lie ahead, trunk and shins stand.
+/// The thighs of a sitting figure are horizontal, trunk and shins vertical.
 TEST(View, WhoSitsAtRestIsNotTipped) {
     for (const Seat seat : {Seat::Chair, Seat::Floor}) {
         const Character character = sittingThrower(seat, 0.0);
@@ -231,7 +231,7 @@ TEST(View, WhoSitsAtRestIsNotTipped) {
     }
 }
 
-/// Of one that sits on the floor and is laid on the side at rest, the motion tells.
+/// For a figure that sits on the floor and lies on its side at rest, the motion decides.
 TEST(View, OfWhoIsNotStraightAtRestTheMotionTells) {
     const osg::Matrixd fromY = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
     EXPECT_EQ(sittingThrower(Seat::Floor, -90.0, 90.0).toWorld.compare(fromY), 0);
@@ -254,7 +254,7 @@ TEST(View, RiggedModelsFaceTheViewer) {
         EXPECT_GT(bones["Head"].z(), bones["LeftFoot"].z() + 1.0) << turn[0] << " " << turn[1];
         EXPECT_LT(bones["LeftToeBase"].y(), bones["LeftFoot"].y() - 0.1) << turn[1];
         EXPECT_GT(bones["LeftArm"].x(), bones["RightArm"].x() + 0.3) << turn[1];
-        // Where bounds were computed before it was turned, they would be elsewhere.
+        // Bounds computed before the rotation would be elsewhere.
         osg::ComputeBoundsVisitor bounds;
         character.root->accept(bounds);
         const osg::BoundingSphere& seen = character.root->getBound();
@@ -267,7 +267,7 @@ TEST(View, BoundsAreWhereTheClipPutsTheFigure) {
     const double height = 1.63; // from the toes to the top of the head, which nods
     const double near = loadCharacter(person.save("near.gltf")).root->getBound().radius();
     EXPECT_LT(near, 0.9 * height);
-    // Far from where its nodes stand, at times more, as captures do.
+    // Far from the nodes' own positions, and sometimes farther, as in motion captures.
     person.json.erase("buffers");
     person.animate("nod", 0, "translation", {0.0, 0.5, 1.0}, {50, 1, 0, 50, 1, 0.5, 50, 1, 0});
     const osg::BoundingSphere far = loadCharacter(person.save("far.gltf")).root->getBound();
@@ -279,7 +279,7 @@ namespace {
 
 const std::string kThrowerFile = OSGSKIN_DATA "/thrower.skin";
 
-/// Where a scene's skins and rigid parts are, in world space.
+/// World-space positions of a scene's skins and rigid parts.
 class Collector : public osg::NodeVisitor {
 public:
     std::vector<osg::Vec3d> skin;
@@ -313,7 +313,7 @@ Collector at(double time, osg::Node& scene) {
     return collector;
 }
 
-/// `scene` must stand at several times where the plain thrower, moved by `move`, does.
+/// At several times `scene` must equal the plain thrower moved by `move`.
 void expectPlaced(osg::Node* scene, const osg::Matrix& move) {
     ASSERT_NE(scene, nullptr);
     const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(kThrowerFile);
@@ -346,7 +346,7 @@ void PrintTo(const PseudoLoader& loader, std::ostream* out) {
 
 class Placement : public testing::TestWithParam<PseudoLoader> {};
 
-// Right angles, so that boxes of boxes are the same either way.
+// Right angles, so that a box of rotated boxes equals the rotated box.
 const PseudoLoader kLoaders[] = {
     {"plain", "", osg::Matrix()},
     {"trans", ".2,3,4.trans", osg::Matrix::translate(2, 3, 4)},
@@ -414,9 +414,9 @@ osg::ref_ptr<osgAnimation::Animation> makeClip(const std::string& name, double d
     return clip;
 }
 
-/// As exporters for OSG write it: a skeleton with two top bones, one of them with a hat before its
-/// bone, a skin as a sheet of quads over "lower" and "upper", painted for them at 3 and not at the
-/// joint, and a manager with two clips of which none plays.
+/// A file like those of OSG exporters: a skeleton with two top bones, one of them with a hat before
+/// its bone; a skin as a sheet of quads over "lower" and "upper", painted so that the weights
+/// change at 3 and not at the joint; and a manager with two clips, none of them playing.
 std::string sceneFile(const std::string& name) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
     skeleton->setDefaultUpdateCallback();
@@ -463,7 +463,7 @@ std::string sceneFile(const std::string& name) {
     return file;
 }
 
-/// The turn of the bone "upper" after some frames, in degrees.
+/// The rotation of the bone "upper" after some frames, in degrees.
 double leanOf(osg::Node& root) {
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     osgUtil::UpdateVisitor visitor;
@@ -521,7 +521,7 @@ TEST(OsgScene, HonoursOptions) {
     const Character still = osgSkin::loadCharacter(file, test::loadOptions("motion=none"));
     EXPECT_EQ(still.manager, nullptr);
     EXPECT_NEAR(leanOf(*still.root), 0.0, 1e-3);
-    // A vertex between the joint and where the paint ends.
+    // A vertex between the joint and the change of the weights.
     const auto region = [](const Character& character) {
         return character.binding.joints.at(character.binding.regions.at(10)).name;
     };

@@ -9,13 +9,13 @@
 
 namespace test {
 
-/// A plug-in's option string as loadCharacter() takes it.
+/// Parses a plug-in's option string into the options of loadCharacter().
 inline osgSkin::LoadOptions loadOptions(const std::string& text) {
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(text);
     return osgSkin::toLoadOptions(options);
 }
 
-/// What the error says of a file that cannot be loaded; "read" where it can.
+/// The error message for a file that cannot be loaded, or "read".
 inline std::string whyRefused(const std::string& file, const osgSkin::LoadOptions& options = {}) {
     try {
         osgSkin::loadCharacter(file, options);

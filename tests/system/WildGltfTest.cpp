@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What exporters write into glTF: each thing in a small file of its own, beside linear blending by
-// the format's definition.
+// glTF features of various exporters, each in a small file, compared with linear blending by the
+// format's definition.
 //
-// Clips that jump from key to key, as glTF's steps do and keys that share a time.
+// Clips with jumps: glTF's step interpolation, and keys with equal times.
 //
-// Clips that turn joints within another one's uneven scale, which shears what hangs on them.
+// Clips that rotate joints within another joint's uneven scale, which shears its children.
 #include "BlendError.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
@@ -32,7 +32,7 @@ using test::BlendError;
 using test::blendError;
 using test::GltfColumn;
 
-constexpr double kExact = 1e-5; ///< of the size: single precision
+constexpr double kExact = 1e-5; ///< relative to the size: single precision
 
 std::vector<std::string> jointsOf(const Character& character) {
     std::vector<std::string> result;
@@ -52,7 +52,7 @@ TEST(WildGltf, AMeshMayBeCalledAsItsBone) {
     GltfColumn column;
     column.bend();
     column.json["nodes"][column.meshNode]["name"] = "top";
-    // The mesh comes first, as in some exporters' order.
+    // The mesh comes first, as some exporters order it.
     column.json["scenes"][0]["nodes"] = {column.meshNode, 0};
     const std::string file = column.save("twin_mesh.gltf");
     expectExact(file);
@@ -78,8 +78,8 @@ TEST(WildGltf, JointsMayHaveNoNamesOrThatOfAssimpsRoot) {
     expectExact(column.save("no_names.gltf"));
 }
 
-/// Sketchfab's: the mesh in centimetres and Z up, turned and scaled by nodes above a root joint
-/// that nobody weights and whose inverse bind matrix is the identity.
+/// Sketchfab's layout: the mesh in centimetres and Z up, rotated and scaled by nodes above a root
+/// joint that has no weights and whose inverse bind matrix is the identity.
 TEST(WildGltf, HelperJointsWithoutWeightsDoNotCount) {
     for (const bool isTop : {true, false}) {
         GltfColumn column(100.0);
@@ -90,7 +90,7 @@ TEST(WildGltf, HelperJointsWithoutWeightsDoNotCount) {
             for (int k = 0; k < 16; ++k)
                 matrices.push_back(k == 13 ? -j : k == 15 ? 1.0 : k % 5 == 0 ? 0.01 : 0.0);
         const std::size_t helper = column.node({{"name", "_rootJoint"}});
-        if (isTop) { // above all, under a node that turns
+        if (isTop) { // above all, under a rotating node
             column.json["nodes"][helper]["children"] = {column.joints[0]};
             column.json["nodes"][helper]["translation"] = {0, 0.5, 0};
         } else { // a leaf
@@ -111,7 +111,7 @@ TEST(WildGltf, HelperJointsWithoutWeightsDoNotCount) {
         column.json["scenes"][0]["nodes"] = {above, column.meshNode};
         const std::string file = column.save(isTop ? "helper_root.gltf" : "helper_leaf.gltf");
         expectExact(file);
-        // The rest pose is the character's own: as tall as it is, its joints in it.
+        // The rest pose is the character's own: as tall as the mesh, with its joints inside.
         const Character character = loadCharacter(file);
         EXPECT_NEAR(character.body.mesh.size(), 2.9, 0.01);
         const int top = character.rest.find("top");
@@ -132,7 +132,7 @@ TEST(WildGltf, HelperJointsWithoutWeightsDoNotCount) {
 TEST(WildGltf, SkinsNeedNoInverseBindMatrices) {
     GltfColumn column;
     column.json["skins"][0].erase("inverseBindMatrices");
-    // Joints that stand at the origin in the bind pose move from there.
+    // Joints at the origin in the bind pose move from there.
     for (const std::size_t joint : {column.joints[1], column.joints[2]})
         column.json["nodes"][joint].erase("translation");
     column.bend();
@@ -188,7 +188,7 @@ TEST(WildGltf, ASecondSetOfJointsCounts) {
     EXPECT_LT(error.whole, kExact);
 }
 
-/// Up to sixteen joints a vertex: what is left out of the sets would turn vertices elsewhere.
+/// Up to sixteen joints per vertex: ignoring a set would rotate vertices to other positions.
 TEST(WildGltf, EverySetOfJointsCounts) {
     GltfColumn column;
     for (const std::size_t joint : {column.joints[1], column.joints[2]})
@@ -230,7 +230,7 @@ TEST(WildGltf, SplinesAndStepsAreReadAsSuch) {
     EXPECT_LT(error.whole, 1e-3) << error.clip; // 30 samples a second between the keys
 }
 
-/// A box of the column's first vertices and faces as a mesh without a skin.
+/// Copies a box of the column's first vertices and faces as a mesh without a skin.
 static std::size_t addBox(GltfColumn& column) {
     std::vector<double> places(column.places.begin(), column.places.begin() + 24);
     std::vector<double> indices;
@@ -246,7 +246,7 @@ static std::size_t addBox(GltfColumn& column) {
 TEST(WildGltf, ThingsFollowTheNodeThatTheyHangOn) {
     GltfColumn column;
     column.bend();
-    // A thing on an animated node below a joint, which no skin names.
+    // An object on an animated node below a joint; no skin names the node.
     const std::size_t grip = column.node({{"name", "grip"}, {"translation", {0.5, 0.5, 0}}});
     const std::size_t thing =
         column.node({{"name", "thing"}, {"mesh", addBox(column)}, {"translation", {0, 0.2, 0}}});
@@ -386,7 +386,7 @@ TEST(WildGltf, MorphTargetsAreAppliedAsTheyRest) {
             EXPECT_NEAR(moved.body.mesh.positions[v].x, plain[v].x() + by, 1e-6) << v;
     };
     expectMoved(column.save("by_mesh.gltf"), 0.1);
-    column.json["nodes"][column.meshNode]["weights"] = {0.5}; // goes before the mesh's
+    column.json["nodes"][column.meshNode]["weights"] = {0.5}; // takes precedence over the mesh's
     const test::Notices notices;
     expectMoved(column.save("by_node.gltf"), 0.2);
     EXPECT_EQ(notices.lines(), 0u) << notices.text();
@@ -419,12 +419,12 @@ using test::GltfColumn;
 
 constexpr double kRate = 30.0;
 
-/// By how many degrees a rotation turns about x, 0 to 180.
+/// Angle of a rotation about x, 0 to 180 degrees.
 double degreesOf(double sine, double cosine) {
     return 2.0 * std::atan2(std::abs(sine), std::abs(cosine)) * 180.0 / std::acos(-1.0);
 }
 
-/// How the column's middle is turned.
+/// Rotation of the column's middle.
 double turnAt(Character& character, double time) {
     character.poseAt(character.motions.at(0), time);
     osgAnimation::BoneMapVisitor bones;
@@ -434,14 +434,15 @@ double turnAt(Character& character, double time) {
     return degreesOf(turn.x(), turn.w());
 }
 
-/// A pose for every frame of two seconds, none like those beside it.
+/// A pose for every frame of two seconds, each different from its neighbours.
 std::vector<double> angles() {
     std::vector<double> result;
     for (int k = 0; k <= 60; ++k) result.push_back(k * 37 % 90);
     return result;
 }
 
-/// A file whose middle has angles(), each until the next; its times are floats, as all of glTF's.
+/// A file whose middle has angles(), with step interpolation; its times are floats, as all numbers
+/// in glTF.
 std::string saveSteps(const std::string& name, double first) {
     GltfColumn column;
     std::vector<double> times;
@@ -484,7 +485,7 @@ TEST(GltfSteps, KeysThatShareATimeAreAJump) {
         EXPECT_NEAR(turnAt(character, time), 40.0, 0.01) << time;
 }
 
-/// As osgAnimation plays them.
+/// As in osgAnimation.
 TEST(GltfSteps, ClipsAreAsLongAsTheyAreTold) {
     GltfColumn column;
     column.bend();
@@ -501,8 +502,8 @@ namespace {
 
 using test::GltfColumn;
 
-/// A column on joints below a base that is longer along one axis, in its bind pose, too; "top"
-/// turns about y or x.
+/// A column on joints below a base that is longer along one axis, also in its bind pose; "top"
+/// rotates about y or x.
 GltfColumn uneven(bool isAboutY, double length) {
     GltfColumn column;
     column.json["nodes"][0]["scale"] = {1.0, length, 1.0};

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# packages.sh BUILD FOLDER: cpack makes the three Debian packages, and each holds its own part.
+# packages.sh BUILD FOLDER: cpack makes the three Debian packages; checks each one's files.
 set -euo pipefail
 build=$1 folder=$2
 fail() {
@@ -13,7 +13,7 @@ mkdir -p "$folder"
 (cd "$build" && cpack -G DEB -B "$folder/packages") >"$folder/cpack.txt" 2>&1 ||
   { cat "$folder/cpack.txt"; fail "cpack"; }
 
-# expect PACKAGE FILE...: these are in it.
+# expect PACKAGE FILE...: the package contains these files.
 expect() {
   local package=$1 deb
   shift

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# runtime_only.sh BUILD SOURCE FOLDER: the runtime, the rig and GPU kits and the serializers, built where CGAL and Assimp
-# cannot be found and installed alone, name neither, and play a character that BUILD's .skin plug-in
-# has saved; and a game that links the rig kit alone retargets a motion and plays it.
+# runtime_only.sh BUILD SOURCE FOLDER: builds the runtime, the rig and GPU kits and the serializers
+# with CGAL and Assimp hidden, and installs them alone. They must not link either library, and play
+# a character saved by BUILD's .skin plug-in. A game that links only the rig kit retargets a motion
+# and plays it.
 set -euo pipefail
 build=$1 source=$2 folder=$3
 fail() {
@@ -12,8 +13,8 @@ fail() {
 
 rm -rf "$folder/installed" "$folder/play"
 mkdir -p "$folder"
-# The folder is kept from run to run, so that only what has changed is built again; without
-# optimisation, as what counts is what it needs, not its speed.
+# The folder is kept between runs, so that only changes are rebuilt; without optimisation, because
+# dependencies matter here, not speed.
 cmake --preset runtime-only --no-warn-unused-cli -S "$source" -B "$folder/build" -DCMAKE_EXPORT_COMPILE_COMMANDS=OFF \
   -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
   -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_assimp=ON \

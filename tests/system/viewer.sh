@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# viewer.sh FILE FOLDER: osgviewer plays FILE in a real window under Xvfb. Two pictures some time
-# apart must differ, the whole figure must be in view, and the console must stay silent.
+# viewer.sh FILE FOLDER: osgviewer plays FILE in a real window under Xvfb. Two pictures at different
+# times must differ, the whole figure must be in view, and the console must stay silent.
 set -euo pipefail
 file=$1 folder=$2
 mkdir -p "$folder"
@@ -15,7 +15,7 @@ export file folder
     import -window root "$folder/first.png"
     [ "$(identify -format %k "$folder/first.png")" -gt 50 ] && break
   done
-  for attempt in $(seq 10); do # a busy machine may draw less often
+  for attempt in $(seq 10); do # a busy machine may draw more slowly
     sleep 0.5
     import -window root "$folder/second.png"
     changed=$(compare -metric AE -fuzz 5% "$folder/first.png" "$folder/second.png" null: 2>&1)
@@ -34,8 +34,8 @@ fail() {
 changed=$(compare -metric AE -fuzz 5% "$folder/first.png" "$folder/second.png" null: 2>&1 || true)
 [ "${changed%.*}" -gt 500 ] || fail "seconds apart, only $changed pixels differ"
 for picture in first second; do
-  # The patches that are not background and no ball, which may fly out of view, as WxH+X+Y: must not
-  # touch the window's border.
+  # Regions that are neither background nor a ball, which may fly out of view, as WxH+X+Y; they must
+  # not touch the window's border.
   background=$(convert "$folder/$picture.png" -format '%[pixel:p{0,0}]' info:)
   convert "$folder/$picture.png" -fuzz 5% -fill black -opaque "$background" -fuzz 0 -fill white +opaque black \
     -define connected-components:area-threshold=2000 -define connected-components:mean-color=true \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Characters that a DatabasePager loads when the camera comes near and drops when it has gone.
+// Characters that a DatabasePager loads when the camera approaches and unloads when it leaves.
 #include "Window.h"
 
 #include <osgSkin/DeformableSkin>
@@ -43,7 +43,7 @@ protected:
         }
     }
 
-    /// Draws until `done` or for so many frames that it will never be.
+    /// Draws until `done`, but gives up after a large number of frames.
     template <typename Done>
     bool drawUntil(test::Windows& windows, double y, const Done& done) {
         for (int i = 0; i < 400; ++i) {

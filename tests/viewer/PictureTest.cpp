@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is seen of a skin in a window must be what is seen of the same vertices in a plain geometry,
-// however OSG draws.
+// A skin in a window must look like a plain geometry with the same vertices, in every drawing mode
+// of OSG.
 #include "Pixels.h"
 #include "TubeSkin.h"
 #include "Window.h"
@@ -26,7 +26,7 @@ const osg::Vec3d kEye(14, 3, 2);
 const osg::Vec3d kCentre(0, 3, 2);
 constexpr double kAngle = 1.2;
 
-/// The skin's present vertices in a geometry of OSG's own.
+/// The skin's current vertices in an OSG geometry.
 osg::ref_ptr<osg::Geometry> plain(const osgSkin::DeformableSkin& skin) {
     const osg::Geometry& posed = *skin.getDeformedGeometry();
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -58,7 +58,7 @@ const osg::Image& expected(double angle) {
 
 using Hint = osg::DisplaySettings::VertexBufferHint;
 
-/// How the scene is to be drawn.
+/// Settings for drawing the scene.
 struct Manner {
     const char* name;
     Hint hint; ///< of contexts
@@ -93,7 +93,7 @@ protected:
     Drawn() {
         osg::DisplaySettings::instance()->setVertexBufferHint(GetParam().hint);
         window = std::make_unique<test::Windows>(skin, kEye, kCentre);
-        window->frame(); // a context asks for the hint when it first draws
+        window->frame(); // a context reads the hint when it first draws
         osg::DisplaySettings::instance()->setVertexBufferHint(Hint::NO_PREFERENCE);
         GetParam().set(*skin);
     }
@@ -153,7 +153,7 @@ std::ostream& operator<<(std::ostream& out, const Threads& threads) {
 
 class Threaded : public testing::TestWithParam<Threads> {};
 
-/// A floor, a light above it, and what throws a shadow.
+/// A floor, a light above it, and a figure that casts a shadow.
 osg::ref_ptr<osg::Group> shadowed(osg::Node* figure) {
     const osg::ref_ptr<osgShadow::ShadowedScene> scene = new osgShadow::ShadowedScene;
     const osg::ref_ptr<osgShadow::ShadowMap> map = new osgShadow::ShadowMap;
@@ -213,9 +213,9 @@ TEST_P(Threaded, ShadowAndColourShowOnePose) {
     reference.frame();
     const auto is = windows.pictures().front();
     const auto should = reference.pictures().front();
-    // A few pixels on the shadow's border may round either way.
+    // A few pixels on the shadow's border may differ by rounding.
     EXPECT_LE(test::unlikePixels(*is, *should), 20u);
-    // The pose before would be seen: the test can fail.
+    // The previous pose would be visible, so the test can fail.
     test::Windows before(shadowed(plainAt(kAngle * (poses - 1) / poses)), kAbove, osg::Vec3d());
     before.frame();
     EXPECT_GT(test::unlikePixels(*before.pictures().front(), *should), 200u);

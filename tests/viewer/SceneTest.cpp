@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What applications do to a scene that a skin stands in: several skins and parents, parts that go
-// away while it runs, time that stops and goes back, masks and levels of detail, picking.
+// Changes that applications make to a scene with a skin: several skins and parents, parts that are
+// removed while it runs, time that stops and goes back, masks and levels of detail, picking.
 #include "TubeSkin.h"
 #include "UpdateAt.h"
 
@@ -200,7 +200,7 @@ TEST(Scene, OnlyTheLevelInUseIsDeformed) {
     lod->addChild(close, 0.0f, 10.0f);
     lod->addChild(distant, 10.0f, 1000.0f);
     for (const auto& skin : {close, distant}) test::bend(*skin, 0.3);
-    test::cull(*lod, true); // from 30 away
+    test::cull(*lod, true); // from a distance of 30
     EXPECT_EQ(close->getDeformCount(), 0u);
     EXPECT_EQ(distant->getDeformCount(), 1u);
 }

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# example.sh PROGRAM DATA FOLDER CYCLES RIG: presses every key of osgskinviewer, and looks for what each one does
-# in the pictures or in what the program says of them; then shows a character saved by CYCLES
-# (osgskin_cycles), the rigged model RIG, and a figure whose origin is not at its feet. Needs a display.
+# example.sh PROGRAM DATA FOLDER CYCLES RIG: presses every key of osgskinviewer, and checks its
+# effect in the pictures or in the program's output; then shows a character saved by CYCLES
+# (osgskin_cycles), the rigged model RIG, and a figure whose origin is not at its feet. Needs a
+# display.
 set -euo pipefail
 program=$1 data=$2 folder=$3 cycles=$4 rig=$5
 fail() {
@@ -18,7 +19,7 @@ cat >"$folder/two.skin" <<END
   { "file": "$data/throw.bvh", "name": "late throw", "skipFrames": 150 } ] }
 END
 
-# First the line of text goes: whatever differs from then on is in the scene.
+# First the line of text is hidden: every later difference is in the scene.
 seen='in234gbtjJk1uwxxwkth.,><0m'
 said='r-+ '
 "$program" "$folder/two.skin" --motion throw --joint LeftHand --at 1.1 --paused \
@@ -52,7 +53,7 @@ for at in nan inf 1e308; do
 done
 "$program" --help | grep -q 'space  play, pause' || fail "--help does not list the keys"
 
-# Any character is taken: a rigged model under its own name and the pseudo-loader's, a saved scene.
+# Any character is accepted: a rigged model with its own name or the pseudo-loader's, a saved scene.
 "$cycles" "$data/thrower.skin" "$folder/saved.osgb" 1 1 >/dev/null || fail "no scene is saved"
 for file in "$rig" "$rig.skin" "$folder/saved.osgb"; do
   mkdir -p "$folder/any"
@@ -68,7 +69,7 @@ grep -q "blending\|regions" "$folder/any.txt" && fail "a scene's mesh is gone, y
 "$program" "$data/thrower.obj" --pictures "$folder/any" 2>"$folder/error.txt" && fail "a plain mesh"
 grep -q 'thrower.obj: no mesh with bones' "$folder/error.txt" || fail "a plain mesh is not named"
 
-# The floor is under the feet, wherever the files have their origin: the picture stays the same.
+# The floor is under the feet, wherever the files' origin is: the picture stays the same.
 awk '$1 == "v" { $3 -= 0.9 } { print }' "$data/thrower.obj" >"$folder/low.obj"
 awk '$1 == "OFFSET" && !done { $3 -= 0.9; done = 1 } { print }' "$data/thrower.bvh" >"$folder/low.bvh"
 echo '{ "osgskin": 1, "mesh": "low.obj", "skeleton": "low.bvh" }' >"$folder/low.skin"
@@ -80,7 +81,7 @@ done
 changed=$(compare -metric AE -fuzz 3% "$folder"/{low,feet}/viewer_01.png null: 2>&1 || true)
 [ "${changed%.*}" -lt 200 ] || fail "the floor is elsewhere where the origin is: $changed pixels"
 
-# The camera goes by the figure, wherever a ball flies: what wireframe changes is large and in the middle.
+# The camera frames the figure, wherever a ball flies: wireframe changes many pixels in the middle.
 mkdir -p "$folder/home"
 "$program" --paused --keys iw --width 320 --height 280 --pictures "$folder/home" >/dev/null
 read -r width height x y < <(convert "$folder"/home/viewer_0[12].png -compose difference -composite \
@@ -88,7 +89,7 @@ read -r width height x y < <(convert "$folder"/home/viewer_0[12].png -compose di
 [ "$height" -ge 150 ] && [ "$y" -gt 0 ] && [ $((y + height)) -lt 280 ] || fail "$height pixels of 280 tall at $y"
 [ "$x" -gt 40 ] && [ $((x + width)) -lt 280 ] || fail "the figure is at $x, $width pixels wide, of 320"
 
-# A paused skin takes no time, and that is no negative number.
+# A paused skin takes no time, and never a negative one.
 "$program" --paused --times --keys iiii --width 320 --height 280 --pictures "$folder" >"$folder/times.txt"
 grep -c 'the skin [0-9.]* ms$' "$folder/times.txt" | grep -qx 5 || fail "times: $(cat "$folder/times.txt")"
 echo "Every key does what it is for, every character is shown, and stands on its floor"

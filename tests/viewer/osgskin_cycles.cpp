@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loads a character, plays it, saves it and lets go of it, again and again: for the sanitizers,
-// which see leaks and what is used after it has been freed, and for long runs, whose memory must
-// stay as it is. No display needed.
+// Loads, plays, saves and releases a character in a loop: for sanitizers, which find leaks and uses
+// after free, and for long runs, whose memory must not grow. No display needed.
 #include "MemorySlope.h"
 
 #include <osgSkin/DeformableSkin>
@@ -83,7 +82,7 @@ int main(int argc, char** argv) {
             std::cerr << "cycle " << cycle << ": something still holds the character" << std::endl;
             return 1;
         }
-        // Both ways in, by turns: from its files, and as saved.
+        // Both sources alternately: its files, and the saved scene.
         file = file == argv[1] ? argv[2] : argv[1];
         memory.sample();
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A crowd in two windows for many frames, in one of OSG's threading models: for ThreadSanitizer,
-// and for OSG's own stats, which say whether the update of a frame overlaps the draw of the one
-// before. For long runs, too, whose memory must stay as it is (tests/soak).
+// and for OSG's own stats, which show whether a frame's update overlaps the previous frame's draw.
+// Also for long runs, whose memory must not grow (tests/soak).
 #include "MemorySlope.h"
 
 #include <osgSkin/DeformableSkin>
@@ -24,12 +24,12 @@ namespace {
 
 using osgViewer::ViewerBase;
 
-/// Frames whose stats are kept: those of all would look like a leak.
+/// Number of frames with stats; keeping them for all frames would look like a leak.
 constexpr unsigned int kStats = 500;
-/// Frames from one line on a long run's way to the next.
+/// Frames between a long run's progress lines.
 constexpr unsigned int kTold = 20000;
 
-/// Frames from one look at the memory to the next.
+/// Frames between memory samples.
 constexpr unsigned int kCycle = 50;
 
 const std::map<std::string, ViewerBase::ThreadingModel> kModels = {
@@ -54,7 +54,7 @@ public:
     }
 };
 
-/// `count` copies of `character` in rows, each with its bones, its skin and its own time.
+/// `count` copies of `character` in rows, each with its own bones, skin and time.
 osg::ref_ptr<osg::Group> makeCrowd(const osg::Node& character, unsigned int count) {
     osg::ref_ptr<osg::Group> crowd = new osg::Group;
     for (unsigned int i = 0; i < count; ++i) {
@@ -87,7 +87,7 @@ osg::ref_ptr<osgViewer::View> makeView(osg::Node* scene, int x, int pixels) {
     return view;
 }
 
-/// In how many frames the update began before the draw of the frame before had ended, in any view.
+/// Number of frames whose update began before the previous frame's draw had ended, in any view.
 unsigned int overlaps(osgViewer::CompositeViewer& viewer, unsigned int from, unsigned int to) {
     unsigned int count = 0;
     for (unsigned int frame = from; frame < to; ++frame) {
@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
         view->getCamera()->getStats()->collectStats("rendering", true);
     }
     viewer.realize();
-    // Pauses and goes back once in a while: the same poses again, and others out of turn.
+    // Pauses and goes back now and then: repeats poses, also out of order.
     double time = 0.0;
     test::MemorySlope memory;
     for (unsigned int frame = 0; frame < frames; ++frame) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A shipped game, without a file and without the kits that read files or bind skins: an actor of
-// CMU's names lifts an arm while it walks ahead, and a robot of half the size, whose names only the
-// game knows, does the same.
+// A shipped game, without files and without the kits that read files or bind skins: an actor with
+// CMU's joint names lifts an arm while it walks ahead, and a robot of half the size, whose names
+// only the game knows, does the same.
 #include <osgSkin/Error>
 #include <osgSkinRig/ApplyFrame>
 #include <osgSkinRig/MakeAnimation>
@@ -48,7 +48,7 @@ osgSkin::RestSkeleton makeBody(const Names& names, double size) {
     return body;
 }
 
-/// The hand's position at a time of the animation that plays in the scene.
+/// The hand's position at a time of the scene's animation.
 osg::Vec3d handAt(double time, osg::Node& scene, const osgAnimation::Bone& hand) {
     osgUtil::UpdateVisitor visitor;
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
@@ -80,7 +80,8 @@ int play() {
     motion.skeleton = actor;
     motion.frameTime = 0.5;
     const auto leftArm = static_cast<std::size_t>(actor.find("LeftArm"));
-    for (int frame = 0; frame < 3; ++frame) { // the arm 0, 45 and 90 degrees up, a step ahead each
+    for (int frame = 0; frame < 3; ++frame) { // the arm raised by 0, 45 and 90 degrees, one step
+                                              // ahead each
         std::vector<osg::Quat> local(actor.joints.size());
         local[leftArm] = osg::Quat(frame * osg::PI_4, osg::Z_AXIS);
         motion.addFrame(osg::Vec3d(0, 10, frame), local);
@@ -110,7 +111,7 @@ int play() {
     skeleton->accept(bones);
     const osgAnimation::Bone& hand = *bones.getBoneMap().at("m3");
     osgSkin::applyFrame(clip, robot, 2, *skeleton);
-    // The shoulder rests at 1 7.5 0, the arm is 2.5 long, and the robot has gone 1 ahead.
+    // The shoulder rests at 1 7.5 0, the arm is 2.5 long, and the robot has moved 1 ahead.
     bool ok = isNear(hand.getMatrixInSkeletonSpace().getTrans(), {1, 10, 1}, "sample 2");
 
     const osg::ref_ptr<osg::Group> scene = new osg::Group;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A bound and posed body is the same body wherever it stands, however it is turned, mirrored or
-// measured, and in whatever order its joints come.
+// A bound and posed body is the same after moving, rotating, mirroring or scaling it, and for any
+// order of its joints.
 //
-// Who binds can be told how far it has come, and may give up.
+// An application can receive progress of binding, and may cancel it.
 #include "KnownBody.h"
 #include "Ratios.h"
 #include "Shapes.h"
@@ -130,7 +130,7 @@ double heightOf(const KnownBody& body) {
     return high - low;
 }
 
-/// A map of space: x -> offset + scale * axes x, with axes orthogonal, perhaps mirrored.
+/// A map of space: x -> offset + scale * axes x, with orthogonal axes, possibly mirrored.
 struct Similarity {
     const char* name;
     glm::dmat3 axes;
@@ -140,7 +140,7 @@ struct Similarity {
 
     glm::dvec3 operator()(const glm::dvec3& p) const { return offset + scale * (axes * p); }
     glm::dquat operator()(const glm::dquat& q) const {
-        // A mirror turns the other way round about the mirrored axis.
+        // A mirror reverses the rotation about the mirrored axis.
         const glm::dvec3 axis = glm::determinant(axes) * (axes * glm::dvec3(q.x, q.y, q.z));
         return {q.w, axis};
     }
@@ -153,7 +153,7 @@ double worstDistance(const KnownBody& a, const KnownBody& b) {
     return worst;
 }
 
-/// The same skeleton with each joint's children in the other order.
+/// The same skeleton with each joint's children in reverse order.
 osgSkin::RestSkeleton reordered(const osgSkin::RestSkeleton& skeleton) {
     std::vector<std::size_t> order, open{0};
     while (!open.empty()) {
@@ -209,7 +209,7 @@ TEST(BindTrust, TheOrderOfJointsDoesNotMatter) {
     ASSERT_EQ(other.truth.joints.size(), body.truth.joints.size());
     ASSERT_NE(other.truth.joints[1].name, body.truth.joints[1].name);
     EXPECT_LT(worstDistance(body.posed(kTurns), other.posed(kTurns)), 1e-5 * heightOf(body));
-    // Rotations of both legs, which the skin between them takes in part, do not commute.
+    // Rotations of both legs, which the skin between them follows in part, do not commute.
     Turns split = kTurns;
     split["LeftUpLeg"] = glm::angleAxis(1.0, glm::normalize(glm::dvec3(-1, 0, 1)));
     split["LowerBack"] = glm::angleAxis(0.5, glm::normalize(glm::dvec3(1, 1, 1)));
@@ -220,7 +220,7 @@ namespace {
 
 struct OddInput {
     const char* name;
-    std::function<void(SkinMesh&, RestSkeleton&)> make; ///< out of the cylinder and two joints
+    std::function<void(SkinMesh&, RestSkeleton&)> make; ///< from the cylinder and two joints
 };
 
 void PrintTo(const OddInput& odd, std::ostream* out) {
@@ -288,7 +288,7 @@ const OddInput kDegenerateCases[] = {
      }},
     {"ZeroAreaTriangles",
      [](SkinMesh& m, RestSkeleton&) {
-         addTriangle(m, 0, 16, 32); // three vertices in a line
+         addTriangle(m, 0, 16, 32); // three collinear vertices
          addTriangle(m, 5, 5, 21);
          m.positions.push_back(0.5 * (m.positions[0] + m.positions[16]));
          addTriangle(m, 0, 16, static_cast<std::uint32_t>(m.positions.size() - 1));

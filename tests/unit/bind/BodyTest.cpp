@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A body is bound alike whatever family its joints' names are of.
+// A body is bound alike for every family of joint names.
 #include "JointSpellings.h"
 #include "KnownBody.h"
 #include "Ratios.h"
@@ -32,8 +32,8 @@ namespace {
 struct Named {
     const char* mesh;
     const char* rig;
-    /// How far every point goes from where it is on the neutral body to where it is on the male
-    /// one, in place of `mesh` as it is.
+    /// How far to move every point from the neutral body towards the male one, 0 to 1; used in
+    /// place of `mesh`'s own points.
     double towardsMale = 0.0;
     const char* name = nullptr;
 };
@@ -54,7 +54,7 @@ void move(glm::dvec3& from, const glm::dvec3& to, double share) {
     from += share * (to - from);
 }
 
-/// Real bodies, bound as they come.
+/// Real bodies, without preparation.
 class Body : public testing::TestWithParam<Named> {
 protected:
     void SetUp() override {
@@ -136,7 +136,7 @@ TEST_P(Body, HasRigidHandsFeetAndHead) {
     for (const std::string& name : rigid) {
         const std::size_t joint = jointCalled(binding, name);
         const auto faces = std::count(split.faceJoint.begin(), split.faceJoint.end(), joint);
-        // Of the faces in the joint's region, which reaches up to half of the limb above.
+        // Counts the faces in the joint's region, which reaches up to half of the limb above.
         std::size_t corner = 0, own = 0;
         for (const std::uint32_t size : mesh.faceSizes) {
             if (binding.regions[mesh.faceVertices[corner]] == joint) ++own;
@@ -173,8 +173,8 @@ TEST_P(CmuBody, RegionsAgreeWithPaintedWeights) {
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
     const auto weights = shared::readWeights(file, skeleton, mesh.positions.size());
 
-    // A joint's region is on the tree of joints; joints below a rigid one and joints of no length
-    // count as the one above.
+    // A joint's region is compared along the joint tree; joints below a rigid one and joints of no
+    // length count as the one above.
     const std::vector<std::string> rigid =
         automaticRigidJoints(skeleton, {}, std::vector<bool>(skeleton.joints.size()));
     std::vector<std::size_t> shown(skeleton.joints.size());
@@ -202,7 +202,7 @@ TEST_P(CmuBody, RegionsAgreeWithPaintedWeights) {
 
 TEST_P(CmuBody, WristTwistSpreadsOverTheForearm) {
     std::vector<glm::vec3> rest(mesh.positions.begin(), mesh.positions.end());
-    std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not looked at
+    std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not used
     std::vector<std::uint32_t> source(rest.size());
     std::iota(source.begin(), source.end(), 0u);
     const auto model = SkinModel::create(binding, rest, normals, source);
@@ -262,7 +262,7 @@ namespace {
 
 enum class LastBone { Tip, EndJoint, Nothing };
 
-/// A cylinder, radius 1 and 8 long, over two joints; the upper half turns.
+/// A cylinder, radius 1 and 8 long, over two joints; the upper half rotates.
 class Cylinder : public testing::TestWithParam<std::tuple<int, LastBone>> {
 protected:
     void SetUp() override {
@@ -272,7 +272,7 @@ protected:
         if (last != LastBone::Tip) skeleton.joints.back().tip.reset();
         if (last == LastBone::EndJoint)
             shapes::addJoint(skeleton, "end", skeleton.joints.back().name, {0, 8, 0});
-        BindOptions options; // the ratios alone: the fold's press takes volume
+        BindOptions options; // the ratios alone: pressing folds flat reduces the volume
         options.shapes = BindOptions::Shapes::None;
         binding = bind(mesh, skeleton, options);
         std::vector<std::uint32_t> source(mesh.positions.size());
@@ -301,7 +301,7 @@ protected:
         return {posed.begin(), posed.end()};
     }
 
-    /// Smallest area of a ring over its own at rest.
+    /// Smallest area of a ring over that at rest.
     double leastArea(const std::vector<glm::dvec3>& points) const {
         std::map<double, std::vector<std::size_t>> rings;
         for (std::size_t v = 0; v < points.size(); ++v)
@@ -380,7 +380,8 @@ RestSkeleton body() {
     shapes::addJoint(s, "Head", "Neck", {0, 5, 0});
     s.joints.back().tip = glm::dvec3(0, 6, 0.2);
     shapes::addJoint(s, "LeftHand", "LeftShoulder", {3, 3.8, 0});
-    shapes::addJoint(s, "LeftHandThumb", "LeftHand", {3.5, 3.8, 0.01}); // straight on, but a thumb
+    shapes::addJoint(s, "LeftHandThumb", "LeftHand", {3.5, 3.8, 0.01}); // in line, except for a
+                                                                        // thumb
     shapes::addJoint(s, "LeftHandIndex", "LeftHand", {3.8, 3.6, 0.2});
     shapes::addJoint(s, "Tail", "LeftHandIndex", {4.4, 3.4, 0.3});
     return s;
@@ -417,13 +418,13 @@ TEST(Axes, SingleJointHasOne) {
 
 namespace {
 
-/// Heads, hands and feet whose fingers and toes nothing moves.
+/// Heads, hands, and feet with unmoved fingers and toes.
 std::vector<std::string> rigidIn(const RestSkeleton& skeleton,
                                  const std::vector<JointNames>& names = {}) {
     return automaticRigidJoints(skeleton, names, std::vector<bool>(skeleton.joints.size(), false));
 }
 
-/// Equal to the last bit, but for the joints' names.
+/// Identical to the last bit, except for the joints' names.
 void expectSame(const Binding& a, const Binding& b) {
     ASSERT_EQ(a.joints.size(), b.joints.size());
     for (std::size_t j = 0; j < a.joints.size(); ++j) {
@@ -442,7 +443,7 @@ void expectSame(const Binding& a, const Binding& b) {
 
 class BodyNames : public testing::Test {
 protected:
-    /// Binds the thrower under the names that `family` gives its joints, and compares with CMU's.
+    /// Binds the thrower with the joint names of `family`, and compares with CMU's.
     void expectAlike(const JointNames& family, const BindOptions& options) {
         const auto names = test::namesIn(body.truth, family);
         const RestSkeleton other = test::renamed(body.truth, names);
@@ -477,7 +478,7 @@ TEST_F(BodyNames, EveryKnownFamilyIsBoundAlike) {
     }
 }
 
-/// The joints' names as other tools spell them; a body's head, hands and feet are the same.
+/// Joint names as other tools spell them; a body's head, hands and feet are the same.
 TEST_F(BodyNames, EverySpellingHasTheSameRigidParts) {
     const std::map<std::string, std::string> roles = [] {
         std::map<std::string, std::string> result;
@@ -511,7 +512,7 @@ TEST_F(BodyNames, EverySpellingHasTheSameRigidParts) {
 TEST_F(BodyNames, ASpelledBodyIsBoundAlike) {
     RestSkeleton other = body.truth;
     for (std::size_t j = 0; j < other.joints.size(); ++j) {
-        // Neo_LeftArm_04Bone; one word says less than CMU's families know: fingers and hips
+        // Such as Neo_LeftArm_04Bone. Without CMU's family, fingers and hips are not recognised.
         other.joints[j].name = "Neo_" + other.joints[j].name + "_" + std::to_string(j) + "Bone";
     }
     expectSame(bind(body.mesh, body.truth), bind(body.mesh, other));
@@ -530,7 +531,7 @@ TEST_F(BodyNames, WithoutThemTheShapeTells) {
     for (const std::string& name : rigidIn(body.truth)) expected.push_back(names.at(name));
     EXPECT_EQ(rigidIn(robot), expected);
 
-    RestSkeleton folded = robot; // no shape of a body
+    RestSkeleton folded = robot; // not shaped like a body
     for (RestJoint& joint : folded.joints) {
         joint.centre = glm::dvec3(0.0);
         joint.tip.reset();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Bones that scale: a converted skin beside what osgAnimation makes of the same rig.
+// Scaled bones: a converted skin compared with osgAnimation's result for the same rig.
 #include "RigScene.h"
 #include "Shapes.h"
 
@@ -93,7 +93,7 @@ TEST(ConvertRigs, RigidWeightsMoveAsLinearBlendingDoes) {
     const double size = shapes::cylinder().size();
     for (int i = 0; i < 100; ++i) {
         scene.pose(someTurns(random), {0.3 * i, -2.0, 1.0});
-        // Beside the rounding of floats as far from the origin as the figure walks.
+        // The tolerance is the rounding of floats as far from the origin as the figure walks.
         EXPECT_LT(differenceFromLinear(scene, *report.skins[0], rigid),
                   1e-5 * std::max(size, 0.3 * i));
     }
@@ -110,7 +110,8 @@ TEST(ConvertRigs, BlendedWeightsTakeTheModelsTurnAndEndWhereTheBonesDo) {
     for (std::size_t v = 0; v < verticesOf(posed).size(); ++v) {
         const glm::dvec3& rest = mesh.positions[sourceOf(posed, v)];
         const osg::Vec3& p = verticesOf(posed)[v];
-        // A twist: linear blending shrinks the tube to a candy wrapper, the model keeps its radius.
+        // A twist: linear blending collapses the tube like a candy wrapper, the model keeps its
+        // radius.
         const double radius = std::hypot(rest.x, rest.z);
         EXPECT_NEAR(std::hypot(double(p.x()), double(p.z())), radius, 1e-4);
         const std::array<float, 3> weights = blended(rest.y);
@@ -203,7 +204,7 @@ TEST(ConvertRigs, TransformsThatMoveARigAreToldOf) {
         }
 }
 
-/// Out of its transform it would be drawn at all distances, or though it is switched off.
+/// Outside its transform it would be drawn at all distances, or although it is switched off.
 TEST(ConvertRigs, RigThatIsDrawnAtTimesStaysUnderItsTransform) {
     for (const double aside : {0.0, 4.0})
         for (const bool far : {false, true}) {
@@ -228,7 +229,7 @@ TEST(ConvertRigs, RigThatIsDrawnAtTimesStaysUnderItsTransform) {
 TEST(ConvertRigs, SeveralRigsOfOneSkeletonKeepTheirSeamsClosed) {
     Scene scene;
     scene.skeleton->addChild(makeRig(blended, "skin"));
-    // The same places, painted otherwise: without a common binding they would come apart.
+    // The same positions with different weights: without a common binding they would separate.
     scene.skeleton->addChild(makeRig(rigid, "coat"));
     const ConvertReport report = convertRigs(*scene.root);
     ASSERT_EQ(report.skins.size(), 2u);
@@ -247,7 +248,7 @@ TEST(ConvertRigs, OwnBindingNeedsNoGoodWeights) {
     const auto all = [](double) { return std::array<float, 3>{1.0f, 0.0f, 0.0f}; };
     scene.skeleton->addChild(makeRig(all));
     ConvertOptions options;
-    options.ratios = ConvertOptions::Ratios::Best; // one bone only: not worth following
+    options.ratios = ConvertOptions::Ratios::Best; // only one bone: not worth converting
     options.bind.joints["of another skeleton"].skip = true;
     const ConvertReport report = convertRigs(*scene.root, options);
     ASSERT_EQ(report.skins.size(), 1u);
@@ -313,7 +314,7 @@ osg::Matrixd& localOf(Scene& scene, std::size_t bone) {
     return const_cast<osg::Matrixd&>(element.getMatrix());
 }
 
-/// Sets the bones' own matrices: a turn, then a scale, at the joint.
+/// Sets the bones' own matrices: a rotation, then a scale, at the joint.
 struct Local {
     osg::Quat turn;
     osg::Vec3d scale{1, 1, 1};
@@ -378,11 +379,11 @@ std::array<Local, 3> scaled(std::array<Local, 3> locals, const std::array<double
     return locals;
 }
 
-constexpr double kSize = 6.5; ///< of the cylinder
+constexpr double kSize = 6.5; ///< the cylinder's
 
 } // namespace
 
-/// As FBX files from centimetres have it: the bones are scaled, and were when they were bound.
+/// As in FBX files in centimetres: the bones are scaled, also in the bind pose.
 TEST(ConvertScale, ThatIsInTheBindPoseTooChangesNothing) {
     const std::array<double, 3> by{100.0, 0.5, 0.02};
     const std::array<double, 3> offsets{kOffsets[0], kOffsets[1] / 100.0, kOffsets[2] / 50.0};
@@ -412,7 +413,7 @@ TEST(ConvertScale, OfTheWholeFigureIsFollowed) {
     }
 }
 
-/// Animated from frame to frame, every bone by itself.
+/// Animated from frame to frame, every bone separately.
 TEST(ConvertScale, OfSingleBonesIsFollowed) {
     Pair rigidly(rigid), painted(blended);
     for (int frame = 0; frame < 40; ++frame) {
@@ -422,7 +423,7 @@ TEST(ConvertScale, OfSingleBonesIsFollowed) {
         EXPECT_LT(rigidly.difference(scaled(kTurned, by)), 1e-5 * kSize) << "frame " << frame;
         EXPECT_LT(rigidly.difference(scaled(kRest, by)), 1e-5 * kSize) << "frame " << frame;
     }
-    // One joint at a vertex, and no turn: its share of the scale is what linear blending has.
+    // One joint per vertex and no rotation: its share of the scale equals that of linear blending.
     EXPECT_LT(painted.difference(scaled(kRest, {1.0, 1.5, 1.0})), 1e-5 * kSize);
     EXPECT_LT(painted.difference(scaled(kRest, {1.0, 1.0, 0.4})), 1e-5 * kSize);
 }
@@ -474,7 +475,7 @@ TEST(ConvertScale, ThatAClipMakesUnevenIsNoted) {
             new osgAnimation::BasicAnimationManager;
         manager->registerAnimation(clip);
         scene.root->setUpdateCallback(manager);
-        const ConvertReport report = convertRigs(*scene.skeleton); // the manager stands above
+        const ConvertReport report = convertRigs(*scene.skeleton); // the manager is above it
         EXPECT_EQ(report.skins.size(), 1u);
         ASSERT_EQ(report.notes.size(), even ? 0u : 1u);
         if (!even) {
@@ -488,8 +489,7 @@ TEST(ConvertScale, ThatAClipMakesUnevenIsNoted) {
 
 namespace {
 
-/// A cylinder over three bones, the last of which is rigid, in two parts: its lower and its upper
-/// half.
+/// A cylinder over three bones, the last one rigid, in two parts: its lower and its upper half.
 struct PartedBody {
     SkinMesh mesh = shapes::cylinder();
     Binding binding;
@@ -506,7 +506,7 @@ struct PartedBody {
         parts = {makePart(0.0, 3.0), makePart(3.0, 100.0)};
     }
 
-    /// The faces whose first corner is that high.
+    /// The faces whose first corner is between these heights.
     MeshPart makePart(double low, double high) const {
         MeshPart part;
         const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array,
@@ -620,7 +620,7 @@ TEST(PlaceSkins, HangsSkinsUnderTheSkeletonAndRigidPartsUnderTheirBones) {
     EXPECT_TRUE(scene.bones[2]->containsNode(placed.rigids[0].node));
 }
 
-/// As a rider's, with bones of the same names.
+/// Such as a rider's, with bones of the same names.
 TEST(PlaceSkins, LeavesASkeletonBelowAsItIs) {
     const PartedBody body;
     rigs::Scene scene, rider;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The elastic solver's parts, each on its own.
+// The elastic solver's components, each on its own.
 #include "ElasticTube.h"
 #include "elastic/JointSolid.h"
 #include "elastic/Preconditioner.h"
@@ -53,7 +53,7 @@ TEST(WindingTree, TellsInsideFromOutside) {
         const double radius = std::hypot(p.x(), p.z());
         if (radius > 0.98 && radius < 1.02) continue; // the tube's facets
         EXPECT_EQ(tree.inside(p), radius < 1.0) << p.transpose();
-        // What is far off counts as one: enough to tell a half from.
+        // Accuracy is low far from the boundary, but enough to distinguish it from one half.
         EXPECT_NEAR(std::abs(tree.at(p)), radius < 1.0 ? 1.0 : 0.0, 0.1);
         inside += radius < 1.0;
     }
@@ -76,7 +76,7 @@ TEST(VoxelLattice, FillsTheTubeAndEmbedsItsSkinExactly) {
     const ElasticTube tube;
     const RestSkin skin(pointsOf(tube), tube.triangles);
     const VoxelLattice lattice(skin, 1.0 / 3.0, 4.0);
-    // Cells that hold a sample inside: the tube's volume and up to a cell around it.
+    // Cells that hold a sample inside: the tube's volume and up to one cell around it.
     const double volume = double(lattice.cells().size()) / 27.0;
     EXPECT_GT(volume, 3.14 * 7.4);
     EXPECT_LT(volume, 3.14 * 8.2 * 1.4 * 1.4);
@@ -114,7 +114,7 @@ TEST(VoxelLattice, KnowsMostSidesWithoutAskingTheSkin) {
 }
 
 TEST(FoldSkin, TellsSidesByTheNearestTriangle) {
-    // Open below, and with a hood over its upper end: two shells.
+    // Open below, with a hood over its upper end: two shells.
     ElasticTube tube(1.0, glm::dvec3(0.0), false);
     const ElasticTube hood(1.3, glm::dvec3(0.0, 4.0, 0.0));
     const auto count = static_cast<std::uint32_t>(tube.positions.size());
@@ -180,7 +180,7 @@ TEST(Preconditioner, SolvesItsSystem) {
     std::mt19937 random(5);
     Points way = Points::Zero(3, lattice.rest().cols());
     for (Eigen::Index i = 0; i < lattice.freeNodes(); ++i) way.col(i) = randomPoint(random, 1.0);
-    // Gradient of the quadratic energy that it stands for: 2 |grad u|^2 / 2 and the bones.
+    // Gradient of the quadratic energy that it is derived from: 2 |grad u|^2 / 2 and the bones.
     Points gradient = Points::Zero(3, way.cols());
     const auto laplacian = lattice.shape().laplacian();
     for (const VoxelLattice::Cell& cell : lattice.cells())
@@ -212,7 +212,7 @@ TEST(Fascia, PullsEachNodeTowardsItsGoalByItsVolume) {
     EXPECT_EQ(fascia.value(goals, goals, gradient), 0.0);
 }
 
-/// What holds a tube's outer side, which is where z is negative.
+/// The constraint on a tube's outer side, where z is negative.
 class OuterSkinTest : public ::testing::Test {
 protected:
     OuterSkinTest() { core.outwards = -Point::UnitZ(), core.along = Point::UnitY(); }
@@ -242,8 +242,8 @@ TEST_F(OuterSkinTest, IsFreeAtRestAndHeldWhereItSwellsOrCavesIn) {
     EXPECT_GT(widened(1.1, &core), 0.1);
     EXPECT_GT(widened(0.9, &core), 0.1);
     EXPECT_EQ(widened(1.1, nullptr), 0.0);
-    EXPECT_EQ(widened(1.1, std::make_unique<HingeCore>().get()), 0.0); // nobody knows where it is
-    EXPECT_GT(widened(1.0, &core, 0.5), 0.01); // the bone turned into it, or away
+    EXPECT_EQ(widened(1.1, std::make_unique<HingeCore>().get()), 0.0); // its position is undefined
+    EXPECT_GT(widened(1.0, &core, 0.5), 0.01); // the bone rotated into it, or away
 }
 
 TEST_F(OuterSkinTest, PullsAsItsEnergyGrowsAndOnTheOuterSideAlone) {
@@ -366,7 +366,7 @@ using namespace osgSkin::elastic;
 constexpr double kEdge = 0.5;
 const Flesh kNoBulk{0.0, 0.0, 0.0};
 
-/// A batch of one cell, in all lanes, whose corners went through `map`.
+/// A batch with one cell in all lanes, its corners mapped by `map`.
 template <typename Map>
 CellBatch cellOf(const Map& map) {
     CellBatch batch;
@@ -398,7 +398,7 @@ TEST(CellEnergy, IsNothingForACellThatOnlyMoves) {
             for (const double slope : corner) EXPECT_NEAR(slope, 0.0, 1e-10);
 }
 
-// tr S of F = R S by the quartic's root against the one by singular values.
+// tr S of F = R S from the quartic's root, compared with singular values.
 TEST(CellEnergy, IsTheDistanceToTheNearestRotation) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> entry(-1.0, 1.0);
@@ -424,7 +424,7 @@ TEST(CellEnergy, GradientIsTheSlopeOfTheValue) {
     Flesh flesh;
     flesh.barrierBegins = 1.1; // so that the barrier acts at every point
     CellBatch batch;
-    // Each lane has a cell of its own.
+    // Each lane has a different cell.
     for (std::size_t lane = 0; lane < CellBatch::kCells; ++lane) {
         const CellBatch one = cellOf([&](const Point& p) {
             return Point(p + Point(shift(random), shift(random), shift(random)));

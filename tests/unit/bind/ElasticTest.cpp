@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Elastic shapes as binding gives them: from a mesh and a skeleton to correctives.
+// Elastic shapes as the result of binding: from a mesh and a skeleton to correctives.
 //
-// Two tubes side by side, as two legs.
+// Two tubes side by side, like two legs.
 //
-// Skins and joints that are not one closed tube in its prime.
+// Skins and joints that are not a single intact closed tube.
 //
 // A real body's elbow, bent to 129 and 139 degrees of total flexion.
 #include "ElasticTube.h"
@@ -41,7 +41,7 @@ SkinMesh arm() {
     return shapes::cylinder(14.0, 16);
 }
 
-/// Bent by 13 degrees at rest: so it is known which way it bends on.
+/// Bent by 13 degrees at rest, so that its bending direction is known.
 RestSkeleton bones() {
     RestSkeleton skeleton;
     skeleton.add("upper", -1, glm::dvec3(0, 0, 0));
@@ -63,7 +63,7 @@ bool hasNote(const BindReport& report, const std::string& text) {
     });
 }
 
-/// How far a joint's shapes take the vertex that they take furthest, where the hinge is bent to x.
+/// Largest displacement of a vertex by a joint's shapes, with the hinge bent to x.
 double mostMoved(const Correctives& shapes, double x) {
     const CorrectiveJoint& joint = shapes.joints[0];
     CorrectiveJoint::Functions phi;
@@ -95,10 +95,10 @@ TEST(ElasticBind, ShapesAHingeAndKeepsWhatItMade) {
     ASSERT_EQ(first.correctives.joints.size(), 1u);
     EXPECT_EQ(first.correctives.joints[0].joint, 1u);
     EXPECT_EQ(first.correctives.joints[0].basis, CorrectiveJoint::Basis::Hinge);
-    // It is solved a little the other way, too: shapes that are not run away there.
+    // It is solved slightly in the other direction too: unconstrained shapes would grow there.
     const CorrectiveJoint& hinge = first.correctives.joints[0];
     ASSERT_LT(hinge.low.x, -0.2);
-    // Knots are near enough for folds that begin to touch.
+    // Knots are close enough for folds that begin to touch.
     for (std::size_t k = 1; k < hinge.knots.size(); ++k)
         EXPECT_LT(std::asin(hinge.knots[k]) - std::asin(hinge.knots[k - 1]), 0.5 * 0.36);
     const double other = mostMoved(first.correctives, hinge.low.x);
@@ -164,7 +164,7 @@ TEST(ElasticBind, TakesPaintedWeightsAndSeams) {
     EXPECT_TRUE(bindWeights(mesh, bones(), weights).correctives.empty());
 }
 
-/// A sleeve of the arm's own faces, a little off it.
+/// A sleeve of the arm's own faces, slightly above it.
 TEST(ElasticBind, ClothesMoveAsTheSkinBelowThem) {
     SkinMesh mesh = arm();
     const SkinMesh bare = mesh;
@@ -210,13 +210,13 @@ TEST(ElasticBind, ClothesMoveAsTheSkinBelowThem) {
             apart = std::max(apart, glm::length(moveOf(copyOf[v], k) - below));
         }
     }
-    EXPECT_GT(largest, 1000.0f); // of 32767, as shares are kept
+    EXPECT_GT(largest, 1000.0f); // of 32767, the maximum of a stored share
     EXPECT_LT(apart, 0.02f * largest);
 }
 
 namespace {
 
-/// Bent once for all tests: they only look.
+/// Solved once for all tests, which only read it.
 const ElasticShapes& bent() {
     static const ElasticTube tube;
     static const ElasticShapes shapes =
@@ -248,7 +248,7 @@ TEST(ElasticCylinder, KeepsItsVolume) {
 TEST(ElasticCylinder, OuterSideNeitherCavesInNorSwells) {
     const int angles[] = {30, 60, 90, 120};
     for (std::size_t i = 0; i < 4; ++i) {
-        // Towards the outer side: the child's bone turns from +y to +z.
+        // Towards the outer side: the child's bone rotates from +y to +z.
         const double half = glm::radians(0.5 * angles[i]);
         const glm::dvec3 bone(0, std::cos(2.0 * half), std::sin(2.0 * half));
         const glm::dvec3 outwards(0, std::sin(half), -std::cos(half));
@@ -278,7 +278,8 @@ TEST(ElasticCylinder, ComesToTheSameFoldByAnyWay) {
         EXPECT_LT(glm::length(a.positions[v] - b.positions[v]), 0.05);
 }
 
-/// What cannot be bent so far is bent as far as it goes, for those who fit functions to it.
+/// For a bend that is too far, samples on the way to it are solved, so that functions can be
+/// fitted.
 TEST(ElasticCylinder, GoesPartOfTheWayToABendThatIsTooFar) {
     const ElasticTube tube;
     const ElasticShapes shapes = solveElasticJoint(tube.skin(), tube.joint({90, 178}));
@@ -304,7 +305,7 @@ TEST(ElasticCylinder, RimFollowsTheBones) {
             const glm::dvec3& rest = shapes.rest[v];
             if (glm::length(rest) < rim + 0.1) continue;
             const glm::dvec3 moved = rest.y > 0.0 ? sample.rotation * rest : rest;
-            // Ratios within the flesh tend to 0 and 1, and are not quite there.
+            // Ratios within the flesh approach 0 and 1, but do not reach them.
             EXPECT_LT(glm::length(sample.positions[v] - moved), 1e-4);
             ++(rest.y > 0.0 ? above : below);
         }
@@ -363,7 +364,7 @@ protected:
 
     static ElasticJoint jointOf(const ElasticTube& tube) { return tube.joint({-25, 25, 50}); }
 
-    /// \return how often progress was told
+    /// \return the number of progress reports
     std::size_t solve() {
         std::size_t told = 0;
         shapes = solveElasticJoints({positions, triangles}, joints,
@@ -468,7 +469,7 @@ TEST(ElasticSkin, MayWindInwards) {
     EXPECT_GT(shapes.samples[1].plainCrossings, 0u);
 }
 
-// A sleeve around the tube, which has no inside of its own, moves with the flesh below it.
+// A sleeve around the tube, which has no interior of its own, moves with the flesh below it.
 TEST(ElasticSkin, CarriesEveryShell) {
     ElasticTube dressed;
     const std::size_t skinOnly = dressed.positions.size();
@@ -495,7 +496,7 @@ TEST(ElasticSkin, CarriesEveryShell) {
     EXPECT_GT(carried, 300u);
 }
 
-// Two tubes a tenth of a radius apart do not grow together: the one that is not bent stays.
+// Two tubes a tenth of a radius apart do not merge: the one that is not bent stays.
 TEST(ElasticSkin, LeavesAloneWhatOnlyLiesBeside) {
     ElasticTube two;
     const std::size_t one = two.positions.size();
@@ -577,7 +578,7 @@ TEST(ElasticSkin, TellsHowFarItIsAndGivesUpWhenTold) {
 
 namespace {
 
-/// Corners of equal position as one.
+/// Merges corners at the same position.
 std::vector<std::array<std::uint32_t, 3>> weldedTriangles(const SkinMesh& mesh) {
     std::map<std::array<double, 3>, std::uint32_t> known;
     std::vector<std::uint32_t> first;
@@ -636,7 +637,7 @@ TEST(RealElastic, ElbowFoldsWithoutCrossings) {
     }
     EXPECT_GT(shapes.samples.back().plainCrossings, 20u);
 
-    // Vertices that the elbow does not reach, and the hand's, move as their bones do.
+    // Vertices out of the elbow's reach, and the hand's, move with their bones.
     for (std::size_t i = 0; i < shapes.vertices.size(); ++i) {
         if (glm::length(shapes.rest[i] - centre) < 0.97 * shapes.reach) continue;
         const glm::dvec3 turned =
@@ -688,7 +689,7 @@ TEST(ShapesCache, GivesBackWhatItWasGiven) {
     const ShapesCache cache((scratch.path() / "a" / "b").string(), kDigest);
     EXPECT_FALSE(cache.read(someBinding(), notes));
     cache.write(someShapes(), notes);
-    EXPECT_EQ(scratch.files().size(), 1u); // nothing is left beside it
+    EXPECT_EQ(scratch.files().size(), 1u); // no temporary file remains
     const std::optional<MadeShapes> found = cache.read(someBinding(), notes);
     EXPECT_TRUE(notes.empty());
     ASSERT_TRUE(found);
@@ -738,7 +739,7 @@ TEST(ShapesCache, SaysSoOfAFileThatIsNoUse) {
     }
     replace(file, whole);
     Binding smaller = someBinding();
-    smaller.regions.pop_back(); // the file is whole, but of another skin
+    smaller.regions.pop_back(); // the file is complete, but for another skin
     notes.clear();
     EXPECT_FALSE(cache.read(smaller, notes));
     EXPECT_EQ(notes.size(), 1u);
@@ -756,7 +757,8 @@ TEST(ShapesCache, OpensNothingButFilesAsLargeAsShapesAre) {
         EXPECT_EQ(notes.size(), 1u) << what;
         std::filesystem::remove(file);
     };
-    std::filesystem::resize_file(file, std::uintmax_t(1) << 40); // takes no place on the disk
+    std::filesystem::resize_file(file, std::uintmax_t(1) << 40); // a sparse file, without disk
+                                                                 // space
     expectNoUse("a file of a terabyte");
     ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
     expectNoUse("a pipe");

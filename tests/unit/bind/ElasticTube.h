@@ -11,7 +11,7 @@
 #include <vector>
 
 /// A tube of radius `scale` along y, six radii to either side of the joint at `centre`; a positive
-/// angle takes its upper half towards +z.
+/// angle rotates its upper half towards +z.
 class ElasticTube {
 public:
     explicit ElasticTube(double scale = 1.0, const glm::dvec3& centre = glm::dvec3(0.0),

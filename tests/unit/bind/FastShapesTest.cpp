@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Limbs that bend without a balloon and without going through themselves.
+// Limbs that bend without ballooning and without self-intersections.
 //
-// Meshes that are no surface: equations on their vertices took minutes, and gigabytes.
+// Meshes that are not surfaces: solving equations on their vertices took minutes, and gigabytes.
 #include "KnownBody.h"
 #include "Shapes.h"
 #include "mesh/WeldedMesh.h"
@@ -37,7 +37,7 @@ Binding bound(const SkinMesh& mesh, const RestSkeleton& skeleton, BindOptions::S
     return bind(mesh, skeleton, options);
 }
 
-/// The skin with one joint, and all below it, turned about its centre.
+/// The skin with one joint, and its descendants, rotated about its centre.
 std::vector<glm::dvec3> turned(const SkinMesh& mesh, const RestSkeleton& skeleton,
                                const Binding& binding, std::size_t joint, const glm::dvec3& axis,
                                double degrees) {
@@ -65,7 +65,7 @@ std::vector<glm::dvec3> turned(const SkinMesh& mesh, const RestSkeleton& skeleto
     return {posed.begin(), posed.end()};
 }
 
-/// What a cylinder along y of radius 1 that is bent at y = 4 does.
+/// Measures of a cylinder along y of radius 1 that is bent at y = 4.
 struct Fold {
     double outerLeast = 10.0, outerMost = 0.0; ///< distance to the bone, outer quarter
     double most = 0.0;                         ///< of the whole skin
@@ -97,12 +97,12 @@ Fold foldOf(const SkinMesh& mesh, const std::vector<glm::dvec3>& posed, const gl
     return fold;
 }
 
-/// Area of the section of a cylinder's child side at a distance from its centre, over that of the
+/// Area of a section through a cylinder's child side at a distance from its centre, relative to the
 /// unit circle. The section has to be a closed curve.
 double sectionOf(const SkinMesh& mesh, const std::vector<glm::dvec3>& posed,
                  const glm::dvec3& along, double distance) {
     double area = 0.0;
-    // The curve is seen from inside, so that no part of it counts backwards.
+    // Measured from inside, so that no part of the curve counts as negative.
     const glm::dvec3 origin = glm::dvec3(0, 4, 0) + distance * along;
     const std::vector<std::uint32_t> corners = mesh.triangles();
     for (std::size_t t = 0; t < corners.size(); t += 3) {
@@ -131,7 +131,7 @@ double bendOf(const Binding& binding, std::size_t vertex, std::size_t joint) {
 }
 
 /// How far skin beside a joint that is bent by 130 degrees lies past the plane between both bones:
-/// the mean of the deepest twentieth, in radii. The hinge is turned about the bone above.
+/// the mean of the deepest twentieth, in radii. The hinge is rotated about the bone above.
 double pastOf(const KnownBody& body, const Binding& binding, std::size_t joint, double turn) {
     const CorrectiveJoint* functions = nullptr;
     const Binding shaped = bound(body.mesh, body.truth, BindOptions::Shapes::Fast);
@@ -169,8 +169,8 @@ double pastOf(const KnownBody& body, const Binding& binding, std::size_t joint, 
            double(deepest);
 }
 
-/// By how much skin that follows a joint in part swells from the joint's bone when it bends: the
-/// mean, in lengths of the bone.
+/// How far skin that follows a joint in part swells from the joint's bone when it bends: the mean,
+/// in bone lengths.
 double swellingOf(const KnownBody& body, const Binding& binding, std::size_t joint,
                   const glm::dvec3& axis, double degrees) {
     const std::vector<glm::dvec3> posed =
@@ -229,7 +229,7 @@ TEST(FastShapes, CylinderKeepsItsOuterSideAndDoesNotFoldThroughItself) {
                 foldOf(mesh, turned(mesh, skeleton, shaped, 1, axis, degrees), axis, degrees);
             EXPECT_GE(fold.outerLeast, 0.94);
             EXPECT_LE(fold.outerMost, degrees < 140.0 ? 1.03 : 1.22);
-            // Deep folds widen the flanks: flesh has to go somewhere.
+            // Deep folds widen the flanks, since the volume has to go somewhere.
             EXPECT_LE(fold.most, degrees < 140.0 ? 1.06 : 1.38);
             EXPECT_LE(fold.past, 0.05);
         }
@@ -257,7 +257,7 @@ TEST(FastShapes, KeepTheSectionsBesideAJoint) {
         }
 }
 
-// A knee whose axis is turned about the thigh folds no deeper through itself than a straight one.
+// A knee whose axis is rotated about the thigh folds no deeper into itself than a straight one.
 TEST(FastShapes, ClearFoldsAboutTurnedAxes) {
     const KnownBody body = KnownBody::thrower();
     const Binding plain = bound(body.mesh, body.truth, BindOptions::Shapes::None);
@@ -321,7 +321,7 @@ TEST(FastShapes, ShouldersAndHipsSwellLess) {
 TEST(FastShapes, FindLimbsOfARigThatNobodyKnows) {
     KnownBody body = KnownBody::thrower();
     using Basis = CorrectiveJoint::Basis;
-    const std::map<int, bool> limbs = {// whether at the trunk
+    const std::map<int, bool> limbs = {// value: whether it joins the trunk
                                        {body.truth.find("LeftForeArm"), false},
                                        {body.truth.find("RightLeg"), false},
                                        {body.truth.find("LeftArm"), true},
@@ -367,7 +367,7 @@ TEST(FastShapes, MoveCopiesOfAVertexAlike) {
 
 namespace {
 
-/// Triangles between vertices at random, around the cylinder of shapes::cylinder().
+/// Triangles between random vertices, around the cylinder of shapes::cylinder().
 SkinMesh trianglesAtRandom(std::uint32_t vertices, std::size_t triangles) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(-1.0, 1.0);
@@ -438,7 +438,7 @@ TEST(Surface, FacesOfAllCellsOfASolidAreNone) {
     expectRefused(mesh, "expected a surface");
 }
 
-/// What has least to do with a body, and is fine.
+/// Surfaces that are unlike a body, but valid.
 TEST(Surface, BallsAndRingsAndSieves) {
     const auto isSurface = [](const shapes::Filled& filled, int range) {
         const WeldedMesh mesh(shapes::voxelSurface(filled, range, 0.25));

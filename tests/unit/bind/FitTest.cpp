@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Skeletons fitted to bodies whose joints are known, and to bodies made from them.
+// Skeletons fitted to bodies with known joints, and to bodies derived from them.
 //
-// Bodies and landmarks that no skeleton can be fitted to: said so, in one line.
+// Bodies and landmarks that no skeleton fits: refused with one line.
 //
-// What an author knows goes before what the fit would find.
+// An author's landmarks override the fit.
 //
-// Skeletons fitted to figures that are no one closed skin: dressed, in pieces, with large heads.
+// Skeletons fitted to figures that are not one closed skin: dressed, in pieces, with large heads.
 #include "JointSpellings.h"
 #include "KnownBody.h"
 #include "Shapes.h"
@@ -36,7 +36,8 @@ glm::dquat turn(double degrees, const glm::dvec3& axis) {
     return glm::angleAxis(glm::radians(degrees), axis);
 }
 
-/// All joints are there, inside, and where they belong: far inside the 4 % that count as good.
+/// All joints exist, are inside, and are far closer to their true positions than the 4 % that count
+/// as good.
 void expectFit(const KnownBody& body, const FitOptions& options = {}, double worst = 0.045) {
     FitReport report;
     const RestSkeleton fitted = fitSkeleton(body.mesh, options, &report);
@@ -77,7 +78,7 @@ KnownBody yawed(const KnownBody& body, double degrees) {
         [&](const glm::dvec3& p) { return turn(degrees, kY) * p + glm::dvec3(3, -7, 11); });
 }
 
-/// Moves every vertex, by a normal distribution's 2 mm for a person.
+/// Moves every vertex by a normally distributed distance, 2 mm for a person.
 KnownBody rough(const KnownBody& body) {
     KnownBody result = body;
     std::mt19937 generator(1);
@@ -224,7 +225,7 @@ TEST(Fit, LeavesSmallShellsOut) {
     EXPECT_NE(report.notes[0].find("largest of 2 shells"), std::string::npos) << report.notes[0];
 }
 
-/// Of many triangles, and far from the origin: the body has the larger area.
+/// With many triangles, and far from the origin: the body has the larger area.
 TEST(Fit, LeavesFineShellsOut) {
     const KnownBody body = KnownBody::thrower();
     const SkinMesh pole = shapes::moved(shapes::cylinder(8.0, 512), {0.0, 0.8, 0.3}, 0.1);
@@ -240,7 +241,7 @@ TEST(Fit, LeavesFineShellsOut) {
 
 namespace {
 
-/// The faces all of whose corners `keep` accepts.
+/// The faces whose corners `keep` all accepts.
 SkinMesh cut(const SkinMesh& mesh, const std::function<bool(const glm::dvec3&)>& keep) {
     SkinMesh result;
     result.positions = mesh.positions;
@@ -262,7 +263,7 @@ SkinMesh cut(const SkinMesh& mesh, const std::function<bool(const glm::dvec3&)>&
 struct BadBody {
     const char* name;
     SkinMesh (*make)(const SkinMesh& thrower);
-    const char* expected; ///< some of the complaint
+    const char* expected; ///< part of the message
 };
 
 void PrintTo(const BadBody& bad, std::ostream* out) {
@@ -349,7 +350,7 @@ const BadBody kBadBodies[] = {
 
 class FitError : public testing::TestWithParam<BadBody> {};
 
-/// What fitSkeleton() says to options on the thrower; empty where it says nothing.
+/// The error of fitSkeleton() with these options on the thrower; empty if there is none.
 std::string complaint(const SkinMesh& mesh, const FitOptions& options) {
     try {
         fitSkeleton(mesh, options);
@@ -396,7 +397,7 @@ TEST(FitOptionsError, WantsDirections) {
     options = {};
     options.facing = glm::dvec3(0.0);
     EXPECT_NE(complaint(mesh, options).find("expected a facing"), std::string::npos);
-    options.facing = glm::dvec3(1.0, 0.0, 0.0); // its left hand's side
+    options.facing = glm::dvec3(1.0, 0.0, 0.0); // the side of its left hand
     EXPECT_NE(complaint(mesh, options).find("must be perpendicular"), std::string::npos);
     options.facing = glm::dvec3(0.0, 0.0, -1.0);
     options.landmarks["LeftHand"] = {0.62, 1.07, 0.0115};
@@ -443,7 +444,7 @@ TEST(FitLandmark, IsKeptAndItsNeighboursFollow) {
 TEST(FitLandmark, TellsLeftFromRight) {
     const KnownBody body = KnownBody::thrower();
     FitOptions options;
-    options.landmarks["LeftHand"] = at(body.truth, "RightHand"); // it has its back to us
+    options.landmarks["LeftHand"] = at(body.truth, "RightHand"); // its back is towards us
     FitReport report;
     const RestSkeleton fitted = fitSkeleton(body.mesh, options, &report);
     EXPECT_EQ(report.facing, "from the landmarks");
@@ -463,7 +464,7 @@ TEST(FitLandmark, StandsInForArmsThatHang) {
 }
 
 TEST(FitLandmark, StandsInForLegsInARobe) {
-    // A person of boxes of 0.1: a robe down to y = -1, arms out at y = 0.6, a head up to 1.2.
+    // A person made of cubes of 0.1: a robe down to y = -1, arms out at y = 0.6, a head up to 1.2.
     const auto filled = [](int x, int y, int z) {
         const int aside = x < 0 ? -x - 1 : x;
         if (z < -1 || z > 0 || y < -10 || y >= 12) return false;
@@ -509,7 +510,7 @@ TEST(FitLandmarkNames, AreToldInEveryDialect) {
                 for (const auto& [role, own] : ours)
                     for (const std::string sideName : {"Left", "Right"}) {
                         const bool sided = role != "Hips" && role != "Head";
-                        if (dialect.names.at(role) == "root") continue; // the tree tells that
+                        if (dialect.names.at(role) == "root") continue; // the tree determines it
                         names.push_back(test::spelled(dialect, (sided ? sideName : "") + role, side,
                                                       prefix, "", 0));
                         expected[names.back()] = (sided ? sideName : "") + own;
@@ -518,7 +519,7 @@ TEST(FitLandmarkNames, AreToldInEveryDialect) {
                 EXPECT_EQ(fittedNamesOf(names), expected)
                     << dialect.name << ", side " << side.text() << ", " << prefix;
             }
-    EXPECT_EQ(fittedNamesOf({"hand.L"}).at("hand.L"), "LeftHand"); // alone
+    EXPECT_EQ(fittedNamesOf({"hand.L"}).at("hand.L"), "LeftHand"); // by itself
     EXPECT_TRUE(fittedNamesOf({"Nose", "leg.L", "hand_ik.L", "spine_02"}).empty());
 }
 
@@ -539,7 +540,7 @@ namespace {
 
 namespace part = osgSkin::proportions;
 
-/// An upright figure with straight limbs, whose thighs are so much longer than usual.
+/// An upright figure with straight limbs and unusually long thighs, by this factor.
 osgSkin::PlacedJoints figure(double thighs) {
     osgSkin::PlacedJoints placed;
     for (const double sign : {1.0, -1.0}) {
@@ -630,7 +631,7 @@ INSTANTIATE_TEST_SUITE_P(Thrower, FitWild, testing::ValuesIn(kFigures),
                          [](const auto& figure) { return std::string(figure.param.name); });
 
 TEST(FitWildError, NamesShellsAndLandmarks) {
-    // Shells that are no body: two boxes, one on the other.
+    // Shells that are not a body: two boxes, one above the other.
     const SkinMesh box = shapes::cylinder();
     const SkinMesh two = shapes::joined(box, shapes::moved(box, {0.0, 8.5, 0.0}));
     try {

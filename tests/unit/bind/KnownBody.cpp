@@ -18,7 +18,7 @@ using namespace osgSkin;
 
 namespace {
 
-/// Joints of a BVH file's hierarchy, at the sums of their offsets.
+/// Joints of a BVH file's hierarchy, at their accumulated offsets.
 RestSkeleton readBvhJoints(const std::filesystem::path& file) {
     RestSkeleton skeleton;
     std::vector<int> open; // -1 for an end site
@@ -60,7 +60,7 @@ KnownBody KnownBody::shared(const std::string& mesh, const std::string& rig) {
     if (!std::filesystem::exists(meshFile) || !std::filesystem::exists(rigFile)) return {};
     KnownBody body{::shared::readObj(meshFile), ::shared::readJoints(rigFile)};
     for (RestJoint& joint : body.truth.joints) {
-        // The one joint that CMU's files call by several names.
+        // The only joint with several names in CMU's files.
         const std::size_t at = joint.name.find("HandFinger1");
         if (at != std::string::npos) joint.name.replace(at, 11, "HandIndex1");
     }
@@ -90,7 +90,7 @@ KnownBody KnownBody::posed(const std::map<std::string, glm::dquat>& turns) const
     std::vector<glm::dmat4> skinning;
     for (const BoundJoint& joint : binding.joints) skinning.push_back(world.at(joint.name));
     const std::vector<glm::vec3> rest(mesh.positions.begin(), mesh.positions.end());
-    const std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not looked at
+    const std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not used
     std::vector<std::uint32_t> source(rest.size());
     std::iota(source.begin(), source.end(), 0u);
     const auto model = SkinModel::create(binding, rest, normals, source);

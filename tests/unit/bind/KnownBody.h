@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-/// Bodies whose joints are known, for tests that let fitSkeleton() find them.
+/// A body with known joints, for tests of fitSkeleton().
 struct KnownBody {
     osgSkin::SkinMesh mesh;
     osgSkin::RestSkeleton truth; ///< with a fitted skeleton's joint names
@@ -18,18 +18,18 @@ struct KnownBody {
     /// The project's own figure.
     static KnownBody thrower();
 
-    /// A body and its rig of the shared data; empty where they are missing.
+    /// A body and its rig from the shared data; empty if they are missing.
     static KnownBody shared(const std::string& mesh, const std::string& rig);
 
-    /// Every point of mesh and skeleton mapped.
+    /// Maps every point of mesh and skeleton.
     KnownBody mapped(const std::function<glm::dvec3(const glm::dvec3&)>& map) const;
 
-    /// The skin bent by turning joints about their centres, in rest space's axes.
+    /// The skin posed by rotating joints about their centres, in rest-space axes.
     KnownBody posed(const std::map<std::string, glm::dquat>& turns) const;
 };
 
-/// How far a fitted skeleton is from the truth, in shares of the body's height (its extent in y, or
-/// in z where `zUp`).
+/// Distances of a fitted skeleton from the truth, relative to the body's height (its extent in y,
+/// or in z with `zUp`).
 struct FitErrors {
     double mean = 0.0;
     double worst = 0.0;

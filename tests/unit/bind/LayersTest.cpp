@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Shells that lie on others: clothes on the thrower, and what is no cloth.
+// Shells on top of others: clothes on the thrower, and shells that are not clothes.
 #include "KnownBody.h"
 #include "Shapes.h"
 #include "Stretches.h"
@@ -35,7 +35,7 @@ bool isDressed(const glm::dvec3& p) {
     return p.y > 0.25 && p.y < 1.45 && std::abs(p.x) < 0.5;
 }
 
-/// A cloth with an inside, sewn to the outside along the rims.
+/// A garment with an inner layer, sewn to the outer one along the rims.
 SkinMesh lined(const SkinMesh& outside, const SkinMesh& inside) {
     SkinMesh result = outside;
     const auto count = static_cast<std::uint32_t>(outside.positions.size());
@@ -69,7 +69,7 @@ struct Dressed {
         body.mesh = shapes::joined(naked, cloth);
     }
 
-    /// The vertex of the body that is nearest at rest to each of the cloth's.
+    /// For each garment vertex, the body vertex that is nearest at rest.
     std::vector<std::size_t> below() const {
         std::vector<std::size_t> result;
         for (const glm::dvec3& p : cloth.positions) {
@@ -91,8 +91,8 @@ struct Dressed {
                 {{"LeftUpLeg", turn(-90, x)}, {"LeftLeg", turn(100, x)}, {"Spine", turn(30, x)}}};
     }
 
-    /// The most that a vertex of the cloth leaves the skin by, and the 99.9th percentile of its
-    /// edges' l'/l beside the skin's, over the poses.
+    /// The largest increase of a garment vertex's distance from the skin, and the 99.9th percentile
+    /// of its edges' l'/l relative to the skin's; each the maximum over the poses.
     std::pair<double, double> leaves() const {
         const std::vector<std::size_t> skin = below();
         const std::size_t first = naked.positions.size();
@@ -137,7 +137,7 @@ TEST(Layers, LinedClothFollowsTheSkinBelow) {
 }
 
 TEST(Layers, SleeveBesideTheBodyGoesWithItsArm) {
-    // Nearer to the trunk than to the arm that it is on.
+    // Nearer to the trunk than to its own arm.
     const auto isSleeve = [](const glm::dvec3& p) { return p.x > 1.1 && p.y < -0.2 && p.y > -3.0; };
     KnownBody bare{shapes::hangingArms(), shapes::hangingArmsSkeleton()};
     const SkinMesh sleeve = shapes::garment(bare.mesh, isSleeve, 0.15);
@@ -152,7 +152,7 @@ TEST(Layers, SleeveBesideTheBodyGoesWithItsArm) {
 }
 
 TEST(Layers, WhatAloneHasAJointKeepsIt) {
-    // A ball of a joint of its own, half out of a cylinder, as an eye is.
+    // A ball with its own joint, half outside a cylinder, like an eye.
     SkinMesh body = shapes::cylinder();
     const SkinMesh ball = shapes::voxelSurface(
         [](int x, int y, int z) {
@@ -176,7 +176,7 @@ TEST(Layers, WhatAloneHasAJointKeepsIt) {
 }
 
 TEST(Layers, WhatLiesOnALooseLayerIsBound) {
-    // A belt around a skirt, far from the body that the skirt touches at its upper end.
+    // A belt around a skirt, far from the body, which the skirt touches at its upper end.
     const SkinMesh body = shapes::cylinder(8.0, 16);
     SkinMesh skirt = shapes::garment(
         body, [](const glm::dvec3& p) { return p.y > 0.6 && p.y < 6.0; }, 0.05);
@@ -213,7 +213,7 @@ namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
-/// One after the other, the first of equals.
+/// Brute force; the first of equally near points.
 Indices byTrying(const std::vector<glm::dvec3>& points, const Indices& candidates,
                  const Indices& queries) {
     Indices result;
@@ -251,7 +251,8 @@ TEST_P(NearestPointsAmong, AreThoseFoundByTryingAll) {
     std::iota(all.begin(), all.end(), 0u);
     std::shuffle(all.begin(), all.end(), random);
     const Indices candidates(all.begin(), all.begin() + 1500);
-    const Indices queries(all.begin() + 1000, all.end()); // candidates, too: nearest to themselves
+    const Indices queries(all.begin() + 1000, all.end()); // including candidates, which are nearest
+                                                          // to themselves
     EXPECT_EQ(osgSkin::nearestPoints(points, candidates, queries),
               byTrying(points, candidates, queries));
 }
@@ -274,10 +275,10 @@ TEST(NearestPoints, OfOneCandidateIsThatOne) {
     EXPECT_EQ(osgSkin::nearestPoints({{0, 0, 0}, {5, 0, 0}}, {1}, {}), Indices{});
 }
 
-/// Half a box' side and how thick its walls are, in cubes.
+/// Half a box's side and the thickness of its walls, in cubes.
 constexpr int kHalf = 12, kWall = 2;
 
-/// The cubes of a hollow box with a square hole in its top, once pockets are filled.
+/// The number of cubes of a hollow box with a square hole in its top, after filling pockets.
 std::size_t filled(int hole) {
     const SkinMesh box = shapes::voxelSurface(
         [hole](int x, int y, int z) {
@@ -306,7 +307,7 @@ std::size_t filled(int hole) {
 TEST(SolidGrid, FillsWhatIsEnclosedButForGaps) {
     constexpr auto cube = [](std::size_t half) { return 8 * half * half * half; };
     constexpr std::size_t kBox = cube(kHalf), kCavity = cube(kHalf - kWall);
-    for (const int hole : {0, 1, 2, 4, 6}) { // all but corners, which are near to nothing
+    for (const int hole : {0, 1, 2, 4, 6}) { // except corners, which are far from everything
         EXPECT_GE(filled(hole), kBox - kCavity / 5) << hole;
         EXPECT_LE(filled(hole), kBox) << hole;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Muscles that swell as their joints bend and as the application tenses them.
+// Muscles that swell with their joints' bends and with the application's activations.
 #include "KnownBody.h"
 
 #include <osgSkin/DeformJob>
@@ -44,7 +44,7 @@ public:
         return static_cast<std::size_t>(body.truth.find(name));
     }
 
-    /// The joint is bent until it stands at `degrees` from straight.
+    /// Bends the joint to `degrees` from straight.
     std::vector<glm::vec3> posed(const std::string& name, const glm::dvec3& axis, double degrees,
                                  const std::map<std::string, float>& tensed = {}) const {
         const std::size_t j = joint(name);
@@ -111,7 +111,7 @@ public:
         return volume;
     }
 
-    /// Of the limb above a joint, as a cylinder.
+    /// Volume of the limb above a joint, as a cylinder.
     double limbVolume(const std::string& name, double girth) const {
         const BoundJoint& hinge = binding.joints[joint(name)];
         return girth * girth / (4.0 * glm::pi<double>()) *
@@ -138,7 +138,7 @@ BindOptions without() {
     return options;
 }
 
-/// The biceps' numbers, of one arm.
+/// Measures of one arm's biceps.
 class Biceps : public testing::TestWithParam<const char*> {
 protected:
     const MuscleBody muscles{withMuscles()}, plain{without()};
@@ -162,7 +162,7 @@ TEST_P(Biceps, GrowsAsArmsDo) {
     RecordProperty("percent", std::to_string(100.0 * growth));
     EXPECT_GT(growth, 0.08);
     EXPECT_LT(growth, 0.15);
-    // Little by little, and not at all at rest.
+    // Gradual, and nothing at rest.
     double before = -1.0;
     for (const double degrees : {10.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0}) {
         const double now = muscles.girth(elbow, muscles.posed(elbow, axis, degrees));
@@ -192,7 +192,7 @@ TEST_P(Biceps, SwellsWhereItIsTensed) {
         EXPECT_GT(tense / loose - 1.0, 0.05) << degrees;
         EXPECT_GT(half, loose);
         EXPECT_LT(half, tense);
-        // More than all there is does nothing more.
+        // Activations above the maximum have no further effect.
         EXPECT_EQ(muscles.posed(elbow, axis, degrees, {{name, 1.0f}}),
                   muscles.posed(elbow, axis, degrees, {{name, 7.0f}}));
     }
@@ -232,7 +232,7 @@ TEST(Muscles, MayBeTheAuthorsOwn) {
         {"Brachioradialis", "RightHand", {}, glm::dvec3(0, 0, 1), 0.0, 0.7, 0.1, 0.1});
     const MuscleBody body(options);
     EXPECT_EQ(body.binding.correctives.inputs, std::vector<std::string>{"Brachioradialis"});
-    // One of the automatic ones' names takes its place.
+    // A muscle with an automatic one's name replaces it.
     options = withMuscles();
     options.ownMuscles.push_back(
         {"LeftBiceps", "LeftForeArm", BindOptions::Muscle::Side::Flexor, {}, 0.1, 0.95, 0.3, 0.0});

@@ -37,7 +37,7 @@ struct Straight {
     RestSkeleton skeleton = shapes::chainAlongY({0.6, 3.0, 5.5}, 7.5);
 };
 
-/// Bend and twist ratios of joint 1 must be eq. 5 between these heights.
+/// Expects joint 1's bend and twist ratios to follow eq. 5 between these heights.
 void expectBetween(const Straight& limb, const Binding& binding, const glm::dvec2& bend,
                    const glm::dvec2& twist) {
     expectSound(binding);
@@ -85,7 +85,7 @@ TEST(Paper, BendsOverThreeTenthsOfABoneAndTwistsOverAllOfItByDefault) {
     for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
         const double y = limb.mesh.positions[v].y;
         const Influence ratios = ratiosOf(binding, v, 1);
-        const double bend = hermite((y - 2.28) / 1.47); // 0.3 of 2.4 above, of 2.5 below
+        const double bend = hermite((y - 2.28) / 1.47); // 0.3 of 2.4 above, and of 2.5 below
         EXPECT_NEAR(ratios.bend, bend, 1e-4) << "at " << y;
         EXPECT_NEAR(ratios.twist, std::min(bend, hermite((y - 3.0) / 2.5)), 1e-4) << "at " << y;
     }
@@ -97,7 +97,8 @@ TEST(Paper, ReportsTheBoundariesItUsed) {
     bind(limb.mesh, limb.skeleton, printed(), &report);
     ASSERT_EQ(report.boundaries.size(), 3u);
     const BindReport::Boundaries& joint = report.boundaries[1];
-    EXPECT_NEAR(joint.bendUpper.value(), -0.72 / 2.5, 1e-12); // 0.3 of the bone above, in its own
+    EXPECT_NEAR(joint.bendUpper.value(), -0.72 / 2.5, 1e-12); // 0.3 of the bone above, in units of
+                                                              // the joint's own bone
     EXPECT_NEAR(joint.bendLower.value(), 0.3, 1e-12);
     EXPECT_NEAR(joint.twistUpper.value(), 0.0, 1e-12);
     EXPECT_NEAR(joint.twistLower.value(), 1.0, 1e-12);
@@ -126,7 +127,7 @@ TEST(Paper, SmoothReportsOnlyTheBoundariesThatThereAre) {
 TEST(Paper, OneBoundaryBeyondTheOthersDefaultPushesItOn) {
     const Straight limb;
     BindOptions options = printed();
-    options.joints["joint1"].bendUpper = 0.4; // the default of the lower is 0.3
+    options.joints["joint1"].bendUpper = 0.4; // the lower one's default is 0.3
     options.joints["joint1"].twistUpper = 0.0;
     const Binding binding = bind(limb.mesh, limb.skeleton, options);
     for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
@@ -136,7 +137,7 @@ TEST(Paper, OneBoundaryBeyondTheOthersDefaultPushesItOn) {
 }
 
 TEST(Paper, BentLimbTakesTheShortestSegmentAcrossTheWedge) {
-    // The same cylinder over a chain that turns by 40 degrees at joint 1.
+    // The same cylinder over a chain that bends by 40 degrees at joint 1.
     SkinMesh mesh = shapes::cylinder();
     RestSkeleton skeleton = shapes::chainAlongY({0.6, 4.0}, 7.0);
     const double turn = 40.0 * 3.14159265358979 / 180.0;
@@ -157,7 +158,7 @@ TEST(Paper, BentLimbTakesTheShortestSegmentAcrossTheWedge) {
             EXPECT_EQ(ratio, above <= 0.0 ? 1.0f : 0.0f) << "vertex " << v;
             continue;
         }
-        // The direction in the plane of the two normals with the shortest way through.
+        // The direction of the shortest crossing in the plane of the two normals.
         double shortest = INFINITY, share = 0.0;
         for (double angle = turn - 1.57; angle < 1.57; angle += 1e-4) {
             const double h = below / std::cos(angle);
@@ -207,12 +208,12 @@ using osgSkin::philoShare;
 namespace {
 
 /// A point between two planes: its distance below the upper and above the lower one, and their unit
-/// normals, both towards the lower side.
+/// normals, both pointing to the lower side.
 struct Wedge {
     double a, b;
     glm::dvec3 upper, lower;
 
-    /// Length of the segment through the point along `d`; infinite where it does not meet both.
+    /// Length of the segment through the point along `d`; infinite if it does not meet both planes.
     double length(const glm::dvec3& d) const {
         const double down = glm::dot(d, upper), on = glm::dot(d, lower);
         return down > 0.0 && on > 0.0 ? a / down + b / on : INFINITY;
@@ -223,7 +224,7 @@ struct Wedge {
     }
 };
 
-/// The direction of the shortest segment by search over all of space.
+/// The direction of the shortest segment by search over all directions.
 glm::dvec3 shortest(const Wedge& wedge) {
     glm::dvec3 best = glm::normalize(wedge.upper + wedge.lower);
     for (double step = 0.5; step > 1e-9; step *= 0.7)
@@ -257,7 +258,7 @@ TEST_F(Philo, SegmentIsTheShortestOfAllThroughThePoint) {
     for (int i = 0; i < 300; ++i) {
         const Wedge wedge{std::exp(between(-4, 4)), std::exp(between(-4, 4)), direction(),
                           direction()};
-        if (wedge.angle() > 2.9) continue; // nearly a half space: the search itself gets poor
+        if (wedge.angle() > 2.9) continue; // nearly a half space: the search itself is inaccurate
         EXPECT_NEAR(philoShare(wedge.a, wedge.b, wedge.angle()), wedge.share(shortest(wedge)), 1e-5)
             << wedge.a << ' ' << wedge.b << ' ' << wedge.angle();
     }
@@ -348,7 +349,8 @@ TEST(Twist, OfAHandBuildsUpAlongTheForearm) {
             << "at " << height;
 }
 
-/// Skin is sheared alike everywhere: where the forearm is thinner a hand's twist grows faster.
+/// Skin is sheared equally everywhere: a hand's twist grows faster along thinner parts of the
+/// forearm.
 TEST(Twist, OfAHandGrowsFasterWhereTheForearmIsThinner) {
     SkinMesh tapered = arm();
     for (glm::dvec3& p : tapered.positions) {
@@ -361,13 +363,13 @@ TEST(Twist, OfAHandGrowsFasterWhereTheForearmIsThinner) {
                (twistAt(binding, 3, 10.5) - twistAt(binding, 3, 9.5));
     };
     const float straight = ofRates(bind(arm(), armSkeleton()));
-    // Rates go with the inverse of the radii there.
+    // Rates are inversely proportional to the radii there.
     EXPECT_NEAR(ofRates(bind(tapered, armSkeleton())) / straight, 0.75 / 0.625, 0.06);
 }
 
 TEST(Twist, OfALimbBuildsUpTowardsTheChild) {
     const Binding binding = bind(arm(), armSkeleton());
-    EXPECT_LT(twistAt(binding, 1, 2.5), 0.3f); // the bend is long complete here
+    EXPECT_LT(twistAt(binding, 1, 2.5), 0.3f); // the bend is already complete here
     EXPECT_NEAR(twistAt(binding, 1, 4.0), 0.5, 0.15);
     EXPECT_GT(twistAt(binding, 1, 6.0), 0.85f);
     EXPECT_EQ(twistAt(binding, 1, 8.0), 1.0f);

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-/// How many connected patches of regions there are beyond one for each region on each shell.
-/// Vertices that share a position are one; vertices without a face do not count.
+/// Number of connected patches of regions beyond one per region and shell. Vertices at the same
+/// position are merged; vertices without a face do not count.
 std::size_t severedPatches(const osgSkin::SkinMesh& mesh,
                            const std::vector<std::uint32_t>& regions);

@@ -3,7 +3,7 @@
 
 #include <sys/resource.h>
 
-/// The most memory that this process has had so far, MB.
+/// This process's peak memory so far, MB.
 inline long peakMemory() {
     rusage use{};
     getrusage(RUSAGE_SELF, &use);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The ratios' gradients, of which the normals of the deformed surface are made.
+// The ratios' gradients, which determine the normals of the deformed surface.
 #include "PeakMemory.h"
 #include "Ratios.h"
 #include "Shapes.h"
@@ -35,7 +35,7 @@ float ringBend(const SkinMesh& mesh, const Binding& binding, std::size_t joint, 
             high = std::fmax(high, ratiosOf(binding, v, joint).bend);
         }
     EXPECT_LE(low, high) << "no ring at " << height;
-    EXPECT_NEAR(low, high, 0.15) << "ring at " << height; // the fans' diagonals lean one way
+    EXPECT_NEAR(low, high, 0.15) << "ring at " << height; // the fans' diagonals all lean one way
     return 0.5f * (low + high);
 }
 
@@ -113,8 +113,8 @@ TEST(Ratios, AuthorsBoundariesAreKept) {
 }
 
 TEST(Ratios, OneBoundaryOfTheAuthorsPlacesTheOther) {
-    // The one that he left out is as far behind his as it would be behind the joint, or where it
-    // would be.
+    // The boundary that the author omits is as far behind his own as it would be behind the joint,
+    // or at its default.
     const SkinMesh mesh = shapes::cylinder();
     for (const double upper : {-0.5, 0.2}) {
         BindOptions options;
@@ -149,7 +149,7 @@ TEST(Ratios, JointOfNoLengthTurnsWhatItsChildrenTurn) {
     const SkinMesh mesh = shapes::hangingArms();
     RestSkeleton skeleton;
     shapes::addJoint(skeleton, "chest", "", {0, 1, 0});
-    shapes::addJoint(skeleton, "both", "chest", {0, 1, 0}); // where its parent is
+    shapes::addJoint(skeleton, "both", "chest", {0, 1, 0}); // its parent's position
     shapes::addJoint(skeleton, "left", "both", {1.6, -0.9, 0});
     shapes::addJoint(skeleton, "right", "both", {-1.6, -0.9, 0});
     const Binding binding = bind(mesh, skeleton);
@@ -164,7 +164,7 @@ TEST(Ratios, JointOfNoLengthTurnsWhatItsChildrenTurn) {
 }
 
 TEST(Ratios, StayContinuousWhereManyJointsMeet) {
-    // A ball with six joints close around its middle: everywhere more than four of them would turn.
+    // A ball with six joints close to its centre: more than four of them would rotate every vertex.
     const SkinMesh ball = shapes::voxelSurface(
         [](int x, int y, int z) {
             return (x + .5) * (x + .5) + (y + .5) * (y + .5) + (z + .5) * (z + .5) < 100.0;
@@ -199,7 +199,7 @@ TEST(Ratios, StayContinuousWhereManyJointsMeet) {
             }
         corner += size;
     }
-    EXPECT_LT(steepest, 0.3f); // rounding the surplus joints alone would step by up to 0.5
+    EXPECT_LT(steepest, 0.3f); // rounding only the surplus joints would make steps of up to 0.5
 }
 
 TEST(Ratios, AreTheSameEachTime) {
@@ -214,7 +214,7 @@ TEST(Ratios, AreTheSameEachTime) {
     }
 }
 
-/// A ratio of every joint at every vertex would be 480 MB.
+/// A ratio for every joint at every vertex would take 480 MB.
 TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
     const SkinMesh mesh = shapes::cylinder(80.0);
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 40.0}, 79.0);
@@ -226,7 +226,7 @@ TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
     }
     const auto before = peakMemory();
     const Binding binding = bind(mesh, skeleton);
-#ifndef __SANITIZE_ADDRESS__ // which keeps what is freed for a while
+#ifndef __SANITIZE_ADDRESS__ // the sanitizer keeps freed memory for a while
     EXPECT_LT(peakMemory() - before, 100);
 #else
     static_cast<void>(before);
@@ -234,7 +234,8 @@ TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
     EXPECT_EQ(binding.vertexCount(), mesh.positions.size());
 }
 
-/// A vertex of a chain's last joint has all of them, one of its first joint that alone.
+/// A vertex of a chain's last joint has ratios for all joints, one of its first joint only for that
+/// one.
 TEST(Ratios, AreAsManyAsJointsAboveVertices) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({1.0, 4.0, 6.0}, 7.0);
@@ -256,7 +257,8 @@ TEST(Ratios, AreAsManyAsJointsAboveVertices) {
     }
 }
 
-/// Each vertex has every joint of a long chain above it: 36 bytes each are the binding itself.
+/// Each vertex has every joint of a long chain above it: the binding itself takes 36 bytes for
+/// each.
 TEST(Ratios, OfALongChainTakeLittleMoreThanTheBinding) {
     const SkinMesh mesh = shapes::cylinder(80.0);
     RestSkeleton skeleton = shapes::chainAlongY({1.0}, 1.0);
@@ -268,7 +270,7 @@ TEST(Ratios, OfALongChainTakeLittleMoreThanTheBinding) {
     const Binding binding = bind(mesh, skeleton);
     ASSERT_GT(binding.influences.size(), 600 * mesh.positions.size());
     ASSERT_EQ(binding.gradients.size(), binding.influences.size());
-#ifndef __SANITIZE_ADDRESS__ // which keeps what is freed for a while
+#ifndef __SANITIZE_ADDRESS__ // the sanitizer keeps freed memory for a while
     const auto influences = static_cast<long>(binding.influences.size());
     EXPECT_LT(peakMemory() - before, influences * 90 / 1'048'576);
 #else
@@ -278,14 +280,14 @@ TEST(Ratios, OfALongChainTakeLittleMoreThanTheBinding) {
 
 namespace {
 
-/// Index of a vertex's influence of a joint, or that of the end.
+/// Index of a vertex's influence by a joint, or the end index.
 std::uint32_t find(const Binding& binding, std::uint32_t vertex, std::uint32_t joint) {
     std::uint32_t i = binding.firstInfluence[vertex];
     while (i < binding.firstInfluence[vertex + 1] && binding.influences[i].joint != joint) ++i;
     return i;
 }
 
-/// Area-weighted.
+/// Area-weighted normals.
 std::vector<glm::vec3> normalsOf(const std::vector<glm::vec3>& points,
                                  const std::vector<std::uint32_t>& corners) {
     std::vector<glm::vec3> normals(points.size(), glm::vec3(0.0f));
@@ -308,7 +310,7 @@ struct NormalError {
     double mean = 0.0, percentile95 = 0.0; ///< degrees
 };
 
-/// Of a cylinder along y that is bent at y = 4, within 2.5 of there.
+/// For a cylinder along y that is bent at y = 4, within 2.5 of the bend.
 NormalError errorOf(const SkinMesh& mesh, const Binding& binding, double degrees) {
     std::vector<std::uint32_t> source(mesh.positions.size());
     std::iota(source.begin(), source.end(), 0u);
@@ -367,7 +369,7 @@ TEST(RatioGradients, SayHowRatiosGrowAlongEdges) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
     BindOptions options = withNormals();
-    options.shapes = BindOptions::Shapes::None; // shapes shorten gradients where they open folds
+    options.shapes = BindOptions::Shapes::None; // shapes shorten gradients to open folds
     const Binding binding = bind(mesh, skeleton, options);
     ASSERT_EQ(binding.gradients.size(), binding.influences.size());
     const std::vector<std::uint32_t> corners = mesh.triangles();
@@ -385,7 +387,7 @@ TEST(RatioGradients, SayHowRatiosGrowAlongEdges) {
                           double(std::abs(twist - 0.5f * glm::dot(ga.twist + gb.twist, way)))});
         steepest = std::max(steepest, double(std::abs(bend)));
     }
-    EXPECT_GE(steepest, 0.05); // there is something to compare
+    EXPECT_GE(steepest, 0.05); // otherwise there is nothing to compare
     EXPECT_LE(worst, 0.2 * steepest);
 }
 
@@ -393,7 +395,7 @@ TEST(RatioGradients, AreTheSameOnBothSidesOfASeam) {
     SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
     const Binding whole = bind(mesh, skeleton, withNormals());
-    // The first face's corners become vertices of their own.
+    // Gives the first face's corners vertices of their own.
     const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
     std::vector<std::uint32_t> from;
     std::size_t first = 0;
@@ -430,7 +432,7 @@ namespace {
 
 constexpr double kLength = 10.0;
 
-/// Rings of triangles around y, radius 1, each vertex moved by up to `jitter` edges.
+/// Rings of triangles around y, radius 1, each vertex moved by up to `jitter` edge lengths.
 SkinMesh tube(int sides, double jitter) {
     SkinMesh mesh;
     const double edge = glm::two_pi<double>() / sides;
@@ -458,7 +460,7 @@ SkinMesh tube(int sides, double jitter) {
     return mesh;
 }
 
-/// Five implicit Euler steps along a line, cell by cell: what the tube's field should be at `y`.
+/// Five implicit Euler steps on a line of cells: the expected value of the tube's field at `y`.
 class Line {
 public:
     Line(double border, double above, double below) {
@@ -509,7 +511,7 @@ protected:
         const Tube& t = GetParam();
         const WeldedMesh mesh(tube(t.sides, t.jitter));
         std::vector<double> field(mesh.vertexCount()), widths(mesh.vertexCount());
-        double lastAbove = 0.0, firstBelow = kLength; // the border is between them
+        double lastAbove = 0.0, firstBelow = kLength; // the boundary is between them
         for (std::size_t v = 0; v < field.size(); ++v) {
             const double y = mesh.positions[v].y;
             const bool isAbove = y < kLength / 2;

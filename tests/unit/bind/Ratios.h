@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-/// The ratios of a joint at a vertex; both 0 where it is not listed.
+/// The ratios of a joint at a vertex; both 0 if it is not listed.
 inline osgSkin::Influence ratiosOf(const osgSkin::Binding& binding, std::size_t vertex,
                                    std::size_t joint) {
     for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
@@ -15,7 +15,7 @@ inline osgSkin::Influence ratiosOf(const osgSkin::Binding& binding, std::size_t 
     return {static_cast<std::uint32_t>(joint), 0.0f, 0.0f};
 }
 
-/// Index of the joint called `name`.
+/// Index of the joint `name`.
 inline std::size_t jointCalled(const osgSkin::Binding& binding, const std::string& name) {
     std::size_t j = 0;
     while (j < binding.joints.size() && binding.joints[j].name != name) ++j;
@@ -35,6 +35,6 @@ inline std::size_t partialJoints(const osgSkin::Binding& binding, std::size_t ve
     return count;
 }
 
-/// What must hold at every vertex of every binding: it validates, no joint's ratio exceeds its
-/// parent's, and no more joints are partial than the runtime has room for.
+/// Expects the invariants of every binding at every vertex: it validates, no joint's ratio exceeds
+/// its parent's, and no more joints are partial than the runtime supports.
 void expectSound(const osgSkin::Binding& binding);

@@ -123,7 +123,7 @@ TEST(Regions, SeamsDoNotStopThem) {
         for (std::size_t j = 0; j < whole.joints.size(); ++j)
             ASSERT_NEAR(ratiosOf(pieces, i, j).bend, ratiosOf(whole, v, j).bend, 1e-5);
     }
-    // Copies of one vertex are exactly alike, or the seam would open.
+    // Copies of one vertex are identical, or the seam would open.
     std::map<std::uint32_t, std::size_t> first;
     for (std::size_t i = 0; i < split.positions.size(); ++i) {
         const std::size_t copy = first.emplace(mesh.faceVertices[i], i).first->second;
@@ -138,7 +138,7 @@ TEST(Regions, SeamsMayBeOffByRounding) {
     const SkinMesh mesh = shapes::hangingArms();
     BindReport report;
     SkinMesh split = shapes::exploded(mesh);
-    for (const double off : {1e-9, 1e-6}) { // the body's size is 6: single precision's is 5e-7
+    for (const double off : {1e-9, 1e-6}) { // the body's size is 6, single precision's step 5e-7
         for (std::size_t i = 0; i < split.positions.size(); ++i)
             split.positions[i].x += off * static_cast<double>(i % 3);
         bind(split, shapes::hangingArmsSkeleton(), {}, &report);
@@ -146,13 +146,14 @@ TEST(Regions, SeamsMayBeOffByRounding) {
         EXPECT_EQ(report.shells, 1u);
     }
     for (std::size_t i = 0; i < split.positions.size(); ++i)
-        split.positions[i].x += 1e-3 * static_cast<double>(i % 3); // another place
+        split.positions[i].x += 1e-3 * static_cast<double>(i % 3); // a different position
     bind(split, shapes::hangingArmsSkeleton(), {}, &report);
     EXPECT_GT(report.weldedVertices, mesh.positions.size());
 }
 
 TEST(Regions, ShellWithoutADelaunayEdgeTakesTheNearest) {
-    // Two buttons on the far end of a cylinder: no joint lies inside them, the skin hides them all.
+    // Two buttons at the far end of a cylinder: no joint lies inside them, and the skin hides all
+    // joints.
     const SkinMesh tube = shapes::cylinder();
     const SkinMesh button = shapes::moved(shapes::cylinder(0.5), {0, 0, 0}, 0.05);
     const SkinMesh mesh = shapes::joined(shapes::joined(tube, shapes::moved(button, {1.2, 6.0, 0})),
@@ -183,7 +184,7 @@ TEST(Regions, JointOutsideTheSkinHasNone) {
 
 TEST(Regions, JointOutsideInTheMiddleOfAChainStillBends) {
     RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.1, 7.0}, 7.6);
-    skeleton.joints[1].centre.x = 1.2; // the elbow stands out of the skin, whose radius is 1
+    skeleton.joints[1].centre.x = 1.2; // the elbow is outside the skin, whose radius is 1
     const SkinMesh mesh = shapes::cylinder();
     BindReport report;
     const Binding binding = bind(mesh, skeleton, {}, &report);
@@ -203,9 +204,9 @@ TEST(Regions, JointOutsideInTheMiddleOfAChainStillBends) {
     }
 }
 
-/// Its region begins where it is, not half-way between the joints that lie in the skin.
+/// Its region begins beside it, not halfway between the joints inside the skin.
 TEST(Regions, OfAJointOutsideBeginBesideIt) {
-    std::size_t above = 0; // of the skin's rings, those that the joint above keeps
+    std::size_t above = 0; // the rings that the joint above keeps
     for (const double height : {2.5, 4.1, 5.5}) {
         RestSkeleton skeleton = shapes::chainAlongY({1.1, height, 7.0}, 7.6);
         skeleton.joints[1].centre.x = 1.2;
@@ -231,7 +232,7 @@ TEST(Regions, JointsBesideEachOtherInOnePointHaveThatOfTheirBones) {
     EXPECT_GT(regionOf(report, "leftHip")->vertices, 0u);
     EXPECT_GT(regionOf(report, "rightHip")->vertices, 0u);
 
-    // The printed method sees joint centres only.
+    // The printed method uses joint centres only.
     BindOptions printed;
     printed.method = BindOptions::Method::Paper;
     bind(shapes::hangingArms(), skeleton, printed, &report);
@@ -241,7 +242,7 @@ TEST(Regions, JointsBesideEachOtherInOnePointHaveThatOfTheirBones) {
               std::string::npos);
 }
 
-/// A root on the floor, as games have: what it moves is whole, and all of it turns with the hips.
+/// A root on the floor, as in games: all skin follows it fully, and rotates with the hips.
 TEST(Regions, ARootOutsideHasNoSkin) {
     RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.0, 6.0, 7.0}, 7.6);
     const char* const names[] = {"Hips", "Spine", "Neck", "Head"};
@@ -266,7 +267,8 @@ TEST(Regions, ARootOutsideHasNoSkin) {
     }
 }
 
-/// Targets, twists and copies of another rig stand where a joint stands, and take nothing from it.
+/// Targets, twist bones and copies of another rig share a joint's position, and take no skin from
+/// it.
 TEST(Regions, AHelperInAJointsPlaceTakesNoSkin) {
     const RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.0, 7.0}, 7.6);
     const Binding plain = bind(shapes::cylinder(), skeleton);
@@ -276,7 +278,7 @@ TEST(Regions, AHelperInAJointsPlaceTakesNoSkin) {
     const Binding binding = bind(shapes::cylinder(), with, {}, &report);
     EXPECT_EQ(binding.regions, plain.regions);
     EXPECT_EQ(regionOf(report, "target"), nullptr);
-    // Links of a twist, the first of which stands in the joint's place.
+    // Links of a twist, the first one at the joint's position.
     RestSkeleton known = shapes::chainAlongY({1.1, 2.5, 4.0, 7.0}, 7.6);
     const char* const names[] = {"LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand"};
     for (std::size_t j = 0; j < 4; ++j) known.joints[j].name = names[j];
@@ -285,7 +287,7 @@ TEST(Regions, AHelperInAJointsPlaceTakesNoSkin) {
     twisted.add("LeftForeArmTwist1", twist, glm::dvec3(0.0, 5.5, 0.0));
     EXPECT_EQ(bind(shapes::cylinder(), twisted).regions, bind(shapes::cylinder(), known).regions);
 
-    // The other way round: the helper comes first in its file.
+    // The reverse: the helper comes first in its file.
     RestSkeleton first;
     first.joints.push_back(skeleton.joints[0]);
     first.add("target", 0, skeleton.joints[1].centre);
@@ -328,7 +330,7 @@ TEST(Regions, ReportSaysWhatWasFound) {
 
 namespace {
 
-/// A closed box with vertices of its own.
+/// A closed box with its own vertices.
 SkinMesh box(const glm::dvec3& low, const glm::dvec3& high) {
     SkinMesh mesh;
     for (int i = 0; i < 8; ++i)
@@ -341,7 +343,7 @@ SkinMesh box(const glm::dvec3& low, const glm::dvec3& high) {
     return mesh;
 }
 
-/// Trunk, two arms and a head, box by box: their sides touch, corner on corner.
+/// Trunk, two arms and a head as boxes: their sides touch, corner to corner.
 SkinMesh blocks() {
     const SkinMesh arms =
         shapes::joined(box({4, 12, -2}, {8, 24, 2}), box({-8, 12, -2}, {-4, 24, 2}));
@@ -362,7 +364,7 @@ RestSkeleton blocksSkeleton() {
     return skeleton;
 }
 
-/// A forearm along y with a hand of two fingers, each a bone with a tip.
+/// A forearm along y with a hand of two fingers, each one bone with a tip.
 RestSkeleton handSkeleton() {
     RestSkeleton skeleton;
     shapes::addJoint(skeleton, "LeftArm", "", {0, 0, 0});
@@ -405,7 +407,7 @@ TEST(Ownership, BoxesThatTouchFollowOneJointEach) {
 TEST(Ownership, PiecesThatShareVerticesAreOne) {
     SkinMesh mesh = shapes::joined(box({0, 0, 0}, {1, 4, 1}), box({1, 0, 0}, {2, 4, 1}));
     for (std::uint32_t& corner :
-         mesh.faceVertices) // the second box's left side is the first's right
+         mesh.faceVertices) // the second box's left side coincides with the first's right side
         if (corner >= 8 && corner % 2 == 0) corner -= 7;
     BindReport report;
     bind(mesh, shapes::chainAlongY({0.5, 2.0}, 3.5), {}, &report);
@@ -413,7 +415,7 @@ TEST(Ownership, PiecesThatShareVerticesAreOne) {
 }
 
 TEST(Ownership, ControlsAndRootsOnTheFloorOwnNothing) {
-    // A tube from y = 2 up, its root far below, a target beside it and one inside it.
+    // A tube from y = 2 up, its root far below, a target beside it and another one inside it.
     const SkinMesh mesh = shapes::moved(shapes::cylinder(12.0), {0, 2, 0});
     RestSkeleton skeleton;
     shapes::addJoint(skeleton, "floor", "", {0, -20, 0});
@@ -457,7 +459,7 @@ TEST(Ownership, LimbsAsShortAsThickBendAtTheirJointsOnly) {
 }
 
 TEST(Ownership, ALimbWithoutSkinIsReported) {
-    // Both bones are in one place, and one of the two can own the skin.
+    // Both bones coincide; either of the two may own the skin.
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 5.0}, 11.0);
     skeleton.joints.push_back({"slim", 0, {0.05, 5.0, 0.0}, glm::dvec3(0.05, 11.0, 0.0)});
     BindReport report;
@@ -482,7 +484,7 @@ TEST(RigidNames, HandsWithFingersBendUnlessNothingMovesThem) {
 
 class RealOwnership : public testing::TestWithParam<PaintedCase> {};
 
-/// Painters give these vertices to the head or a joint, or not at all; the limits are a rigger's.
+/// Painters assign these vertices to the head or a joint, or do not; the limits are a rigger's.
 TEST_P(RealOwnership, IsAsPaintersHaveIt) {
     const auto [shape, rig] = GetParam();
     const auto folder = shared::makehuman();
@@ -535,7 +537,7 @@ TEST_P(RealOwnership, IsAsPaintersHaveIt) {
             outside += isOutside ? 1 : 0;
         }
         EXPECT_GE(double(headWhole), 0.99 * double(head));
-        if (!rigid) continue; // painters do not agree about fingers
+        if (!rigid) continue; // painters disagree about fingers
         EXPECT_LE(100.0 * double(inside) / double(painted.size()), 3.0);
         EXPECT_LE(100.0 * double(outside) / double(painted.size()), 7.0);
     }

@@ -18,12 +18,12 @@
 #include <string>
 #include <vector>
 
-/// Rigs of osgAnimation in a scene: a cylinder over a chain of three bones.
+/// osgAnimation rigs in a scene: a cylinder over a chain of three bones.
 namespace rigs {
 
 inline const std::array<double, 3> kHeights{0.6, 3.0, 5.5};
 
-/// How a vertex at a height is painted: one weight a bone.
+/// The painted weights of a vertex at a height, one per bone.
 using Paint = std::array<float, 3> (*)(double height);
 
 inline std::array<float, 3> rigid(double height) {
@@ -39,7 +39,7 @@ inline std::array<float, 3> blended(double height) {
     return {1.0f - low, low - high, high};
 }
 
-/// A cylinder as a rig of osgAnimation over a chain of three bones.
+/// A cylinder as an osgAnimation rig over a chain of three bones.
 inline osg::ref_ptr<osgAnimation::RigGeometry> makeRig(Paint paint,
                                                        const std::string& name = "rig") {
     const osgSkin::SkinMesh mesh = shapes::cylinder();
@@ -94,7 +94,7 @@ struct Scene {
         }
     }
 
-    /// Turns and moves the bones, and lets an update traversal carry it to the skins.
+    /// Rotates and moves the bones, and updates the skins with an update traversal.
     void pose(const std::vector<osg::Quat>& turns, const osg::Vec3d& step) {
         double below = 0.0;
         for (std::size_t b = 0; b < bones.size(); ++b) {
@@ -122,7 +122,7 @@ inline const osg::Vec3Array& verticesOf(const osg::Geometry& geometry) {
     return static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
 }
 
-/// Which vertex of the source a skin's vertex was: its texture coordinate tells.
+/// The source vertex of a skin's vertex, read from its texture coordinate.
 inline std::size_t sourceOf(const osg::Geometry& geometry, std::size_t vertex) {
     const auto& coordinates = static_cast<const osg::Vec2Array&>(*geometry.getTexCoordArray(0));
     return std::size_t(coordinates[vertex].x()) - 1;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// A folder of its own that goes when it does.
+/// A separate folder that its destructor removes.
 class ScratchFolder {
 public:
     ScratchFolder()

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How far from joints skin is shaped: less far where something else is near.
+// The reach of shapes around joints: shorter if something else is close.
 //
-// Shapes that move no vertex much faster than the joint turns.
+// Shapes that move no vertex much faster than the joint rotates.
 #include "shapes/ShapeFit.h"
 #include "SharedBody.h"
 #include "shapes/LimitVelocity.h"
@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kTolerance = 1e-4;
 
-/// Ten vertices that bulge with the bend; what they do is no polynomial.
+/// Ten vertices that bulge with the bend, not as a polynomial.
 glm::dvec3 offsetAt(std::size_t vertex, const glm::dvec2& xy) {
     const double v = static_cast<double>(vertex);
     return {0.3 * xy.x * xy.x * std::sin(v), 0.2 * std::sin(2.0 * xy.x) * std::cos(v),
@@ -76,7 +76,7 @@ TEST(ShapeFit, MeetsItsSamplesAndWhatLiesBetween) {
 
 TEST(ShapeFit, MeetsWhatCountsMoreBetter) {
     JointShapes shapes = shapesOfHinge();
-    for (std::size_t s = 0; s < shapes.samples.size(); ++s) // a jump, which no smooth sum meets
+    for (std::size_t s = 0; s < shapes.samples.size(); ++s) // a jump, which no smooth sum can fit
         for (glm::dvec3& offset : shapes.offsets[s])
             if (shapes.samples[s].x > 0.62) offset.z += 1.0;
     const auto worst = [](const FittedShapes& fit) {
@@ -104,7 +104,7 @@ TEST(ShapeFit, FewerModesAreWorseAndNoneAreNeededForNothing) {
 TEST(ShapeFit, HasNoMoreModesThanAreEnough) {
     JointShapes shapes = shapesOfHinge();
     const FittedShapes all = fitShapes(shapes, {6, kTolerance});
-    std::vector<double> left; // by one mode, by two...
+    std::vector<double> left; // after one mode, two modes...
     for (std::size_t modes = 1; modes <= all.functions.modes; ++modes)
         left.push_back(fitShapes(shapes, {modes, kTolerance}).residual);
     ASSERT_GE(left.size(), 3u);
@@ -123,7 +123,7 @@ TEST(ShapeFit, IsPackedForEveryCopyAndLeavesOutWhatHardlyMoves) {
     JointShapes shapes = shapesOfHinge();
     for (auto& sample : shapes.offsets) sample[4] = glm::dvec3(1e-6);
     const FittedShapes fit = fitShapes(shapes, {6, kTolerance});
-    const std::vector<std::uint32_t> weldedOf = {0, 4, 7, 7, 12}; // 12 is not the joint's
+    const std::vector<std::uint32_t> weldedOf = {0, 4, 7, 7, 12}; // 12 does not belong to the joint
     const Correctives packed = packShapes({fit}, weldedOf);
     const std::vector<std::uint32_t> firstEntry = {0, 1, 1, 2, 3, 3};
     EXPECT_EQ(packed.firstEntry, firstEntry);
@@ -138,7 +138,7 @@ TEST(ShapeFit, IsPackedForEveryCopyAndLeavesOutWhatHardlyMoves) {
 TEST(ShapeFit, IsPackedWithoutTheLastModesThatMakeNoDifference) {
     const JointShapes shapes = shapesOfHinge();
     FittedShapes fit = fitShapes(shapes, {6, kTolerance});
-    fit.tolerance = 0.1; // more than what bends to the side do
+    fit.tolerance = 0.1; // larger than the effect of bends to the side
     std::vector<std::uint32_t> weldedOf;
     for (std::uint32_t v = 0; v < shapes.vertices.size(); ++v) weldedOf.push_back(v);
     const Correctives packed = packShapes({fit}, weldedOf);
@@ -164,8 +164,8 @@ namespace {
 
 const Armpit pit{{1.5, 2.25}, {0.0, 1.0, 0.0}}; // the trunk is below
 
-/// The farthest vertices that a joint's shapes move while its pit is closed, in radii: where they
-/// lean to the trunk by over 30 degrees from the plane across the limb, and on the other side.
+/// The farthest vertices that a joint's shapes move while its pit is closed, in radii: those more
+/// than 30 degrees from the plane across the limb towards the trunk, and those on the other side.
 struct Farthest {
     double pit = 0.0, away = 0.0;
 };
@@ -224,7 +224,7 @@ TEST(ShapeReach, APitIsOpenWhereTheLimbIsRaised) {
     joint.functions.axis = {0.0, 0.0, 1.0};
     joint.twistAxis = joint.bone = {1.0, 0.0, 0.0}; // sideways
     joint.away = {0.0, 1.0, 0.0};
-    const auto closedAt = [&](double degrees) { // raised by so many
+    const auto closedAt = [&](double degrees) { // raised by these degrees
         return joint.armpitClosure(
             joint.bendAt({std::sin(0.5 * degrees / 180.0 * std::acos(-1.0)), 0.0}));
     };
@@ -273,7 +273,8 @@ TEST(ShapeReach, EndsEarlierInArmpitsAndAtHips) {
 
 namespace {
 
-/// A hinge about x of a limb along y, and skin that follows it wholly, so far off the axis.
+/// A hinge about x of a limb along y, and skin that follows it fully, at these distances from the
+/// axis.
 ShapedJoint jointWith(const std::vector<double>& radii) {
     ShapedJoint joint;
     joint.functions.joint = 1;
@@ -288,7 +289,7 @@ ShapedJoint jointWith(const std::vector<double>& radii) {
     return joint;
 }
 
-/// All vertices are lifted off the axis as the joint bends, by so much at a right angle.
+/// Lifts all vertices off the axis as the joint bends, by `most` at a right angle.
 FittedShapes lifted(const ShapedJoint& joint, double most) {
     FittedShapes shapes;
     shapes.functions = joint.functions;
@@ -302,7 +303,7 @@ FittedShapes lifted(const ShapedJoint& joint, double most) {
     return shapes;
 }
 
-/// The largest step by a degree about the joint's main axis, over a rigid body's.
+/// The largest step per degree about the joint's main axis, relative to a rigid body's.
 double fastest(const ShapedJoint& joint, const FittedShapes& shapes, std::size_t vertex) {
     const ShapedJoint::Vertex& of = joint.vertices[vertex];
     const auto at = [&](double degrees) {
@@ -326,10 +327,10 @@ double fastest(const ShapedJoint& joint, const FittedShapes& shapes, std::size_t
 TEST(LimitVelocity, HoldBackWhatIsNearTheAxis) {
     const ShapedJoint joint = jointWith({0.2, 0.6, 3.0});
     FittedShapes shapes = lifted(joint, 0.25);
-    ASSERT_GT(fastest(joint, shapes, 0), 2.0); // else there was nothing to limit
+    ASSERT_GT(fastest(joint, shapes, 0), 2.0); // otherwise there is nothing to limit
     limitVelocity(joint, shapes);
     EXPECT_LT(fastest(joint, shapes, 0), 1.53);
-    EXPECT_GT(fastest(joint, shapes, 0), 1.4); // no more than it takes
+    EXPECT_GT(fastest(joint, shapes, 0), 1.4); // no more than necessary
     EXPECT_LT(fastest(joint, shapes, 1), 1.53);
 }
 
@@ -343,7 +344,7 @@ TEST(LimitVelocity, TakeNeighboursAlongAndLeaveOthersAlone) {
     EXPECT_EQ(shapes.vectors[2], glm::dvec3(0, 0, 1));
 }
 
-// A shape that comes in a part of the bend only is made to come in slower, not to stay away.
+// A shape that appears only in a part of the bend is slowed down, not removed.
 TEST(LimitVelocity, SlowDownWhatComesFast) {
     const ShapedJoint joint = jointWith({1.0});
     FittedShapes shapes = lifted(joint, 0.0);
@@ -354,7 +355,8 @@ TEST(LimitVelocity, SlowDownWhatComesFast) {
     shapes.functions.coefficients[functions + 5] = 1.0;
     shapes.functions.coefficients[2 * functions] = 1.0;
     const double most = 0.7;
-    // From 0 to `most` and back to its end's slope of 0 along the limb: most of it half way.
+    // From 0 to `most` and back to slope 0 at the end of the range, along the limb: largest
+    // halfway.
     shapes.vectors = {{0.0, 3.0 * most / 0.49, 0.0}, {0.0, -2.0 * most / 0.343, 0.0}, {0, 0, 0}};
     const auto offsetAt = [&](double x) {
         double weights[3];

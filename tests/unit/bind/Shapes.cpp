@@ -90,7 +90,7 @@ osgSkin::SkinMesh hangingArms() {
     return voxelSurface(
         [](int x, int y, int z) {
             if (y < -16 || y >= 8 || z < -2 || z >= 2) return false;
-            const int side = x < 0 ? -1 - x : x; // cells 0.. away from the middle
+            const int side = x < 0 ? -1 - x : x; // cells 0.. from the middle outwards
             if (side < 4) return true;           // trunk
             if (side == 4) return y >= 4;        // the gap, bridged by the shoulders
             return side < 8;                     // arm

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-/// l'/l of each edge, the longest last.
+/// l'/l of each edge, ascending.
 inline std::vector<double> stretches(const osgSkin::SkinMesh& rest,
                                      const osgSkin::SkinMesh& posed) {
     std::vector<double> result;

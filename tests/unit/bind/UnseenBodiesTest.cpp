@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Bodies of other proportions than those at hand, made of them.
+// Bodies of other proportions than the available ones, derived from them.
 //
-// Fields for the turns that a joint makes: on a sheet, and on bodies.
+// Fields for a joint's typical rotations: on a sheet, and on bodies.
 //
-// Which parts of a skin are drawn out, on a ring: closed, cut, and alone.
+// Detecting stretched parts of a skin, on a ring: closed, cut, and alone.
 //
-// Real bodies as people have them, bound without a setting.
+// Real bodies, bound with default settings.
 #include "KnownBody.h"
 #include "Patches.h"
 #include "Ratios.h"
@@ -41,7 +41,7 @@ using namespace osgSkin;
 
 namespace {
 
-/// The skin moved in along its normals.
+/// Moves the skin in along its normals.
 KnownBody thinned(KnownBody body, double distance) {
     const WeldedMesh skin(body.mesh);
     for (std::size_t v = 0; v < body.mesh.positions.size(); ++v)
@@ -49,7 +49,7 @@ KnownBody thinned(KnownBody body, double distance) {
     return body;
 }
 
-/// Both forearms `factor` times as long; what is beyond an elbow moves with it.
+/// Both forearms `factor` times as long; everything beyond an elbow moves along.
 KnownBody withForearms(const KnownBody& body, double factor) {
     KnownBody result = body;
     for (const std::string side : {"Left", "Right"}) {
@@ -69,7 +69,7 @@ KnownBody withForearms(const KnownBody& body, double factor) {
     return result;
 }
 
-/// Of the body with both arms raised.
+/// l'/l of the body's edges with both arms raised.
 std::vector<double> stretchesWithArmsUp(const KnownBody& body) {
     const glm::dvec3 z(0, 0, 1);
     const KnownBody up = body.posed({{"LeftArm", glm::angleAxis(glm::radians(100.0), z)},
@@ -94,7 +94,7 @@ double upperArmRigidity(const KnownBody& body) {
     return sum / count;
 }
 
-/// A square of triangles, two units wide, and the field that rises over it from the left.
+/// A square of triangles, two units wide, with a field that rises across it from the left.
 struct Sheet {
     SkinMesh mesh;
     std::vector<double> field;
@@ -151,8 +151,9 @@ TEST(GradientFactor, IsOneWhereASlopeIsEven) {
 }
 
 TEST(GradientFactor, SaysHowMuchSteeperASlopeIsThanAtLarge) {
-    // Rises within two units at the lower edge, within one at the upper: half again as steep in
-    // the mean, so a third steeper than that at the one, and not below 1 at the other.
+    // Rises within two units at the lower edge, within one at the upper: on average one and a half
+    // times as steep as at the lower edge. So the upper edge is a third steeper than the mean, and
+    // at the lower one the share is not below 1.
     const Sheet fan([](const glm::dvec3& p) {
         const double width = 1.5 - 0.5 * p.y;
         return std::clamp(0.5 + p.x / width, 0.0, 1.0);
@@ -210,7 +211,7 @@ struct Rise {
         }
     }
 
-    /// Largest growth along x between neighbours around a height.
+    /// Largest increase along x between neighbours near a height.
     double steepestAt(double y) const {
         const auto side = static_cast<std::size_t>(std::lround(std::sqrt(mesh.positions.size())));
         const double step = 2.0 / static_cast<double>(side - 1);
@@ -222,7 +223,7 @@ struct Rise {
     }
 };
 
-/// About the sheet's middle: what is below the middle is stretched, what is above it pressed.
+/// About the sheet's centre: the lower half is stretched, the upper half compressed.
 const std::vector<glm::dvec3> kTurn = {{0.0, 0.0, 1.5}};
 
 } // namespace
@@ -290,11 +291,11 @@ TEST(UnseenBodies, ArmsThatReachForwardsStretchLittle) {
          {"RightArm",
           glm::angleAxis(glm::radians(80.0), glm::dvec3(forwards.x, -forwards.y, -forwards.z))}});
     const std::vector<double> sorted = stretches(neutral.mesh, posed.mesh);
-    EXPECT_LT(percentile999(sorted), 1.52); // 1.55 where swings do not count
+    EXPECT_LT(percentile999(sorted), 1.52); // 1.55 without swings
     EXPECT_LT(sorted.back(), 1.60);         // 1.67
 }
 
-/// A pad over the shoulder, which nothing holds, keeps the field that it had.
+/// A pad over the shoulder that is attached to nothing keeps its field.
 TEST(UnseenBodies, PadsOnTheShoulderStayOnIt) {
     KnownBody body = KnownBody::shared("body4k_neutral", "cmu_mb_neutral");
     if (body.mesh.positions.empty()) GTEST_SKIP() << "needs ../shared/data/makehuman";
@@ -302,7 +303,7 @@ TEST(UnseenBodies, PadsOnTheShoulderStayOnIt) {
         body.truth.joints.at(std::size_t(body.truth.find("LeftArm"))).centre;
     const std::vector<glm::dvec3> skin = body.mesh.positions;
     const double height = glm::distance(shoulder, body.truth.joints.front().centre) * 3.0;
-    // Where each vertex of the pad comes from; away from the joint by a hundredth of the height.
+    // The pad vertex of each skin vertex, moved away from the joint by a hundredth of the height.
     std::vector<std::uint32_t> padOf(skin.size(), 0), below;
     const std::vector<std::uint32_t> corners = body.mesh.triangles();
     for (std::size_t t = 0; t < corners.size(); t += 3) {
@@ -331,7 +332,7 @@ TEST(UnseenBodies, PadsOnTheShoulderStayOnIt) {
     for (std::size_t i = 0; i < below.size(); ++i)
         farthest = std::max(farthest, glm::distance(posed.mesh.positions[skin.size() + i],
                                                     posed.mesh.positions[below[i]]));
-    EXPECT_LT(farthest, 0.02 * height); // 0.03 where it is drawn out
+    EXPECT_LT(farthest, 0.02 * height); // 0.03 if it is stretched
 }
 
 namespace {
@@ -363,7 +364,7 @@ struct Ring {
         mesh.faceSizes.assign(mesh.faceVertices.size() / 3, 3);
     }
 
-    /// How many vertices above the middle stay free, and below.
+    /// The numbers of vertices above and below the middle that stay free.
     std::pair<std::size_t, std::size_t> freeAfter() const {
         std::vector<bool> free = isFree;
         pinUnanchoredPatches(HeatGraph(WeldedMesh(mesh)), field, free);
@@ -389,7 +390,7 @@ TEST(PinnedPatches, BetweenBothKindsStaysFree) {
 TEST(PinnedPatches, WhatEndsIsKept) {
     Ring ring;
     const auto whole = ring.freeAfter();
-    // One triangle less, at the top.
+    // One triangle fewer, at the top.
     const std::size_t cut = std::size_t(6) * kThrough * (kAround / 4);
     ring.mesh.faceVertices.erase(ring.mesh.faceVertices.begin() + std::ptrdiff_t(cut),
                                  ring.mesh.faceVertices.begin() + std::ptrdiff_t(cut + 3));
@@ -414,10 +415,10 @@ namespace {
 struct BodyCase {
     const char* name;
     const char* mesh; ///< below the shared data
-    const char* rig;  ///< joints_*.json of MakeHuman; ours where it has a folder
+    const char* rig;  ///< joints_*.json of MakeHuman; our own rig if it names a folder
     SkinMesh (*change)(const SkinMesh&, const RestSkeleton&);
     std::size_t shells;
-    double longestReach; ///< l'/l with the arms raised; they may rest anywhere below
+    double longestReach; ///< l'/l with the arms raised; they may rest at any lower angle
 };
 
 void PrintTo(const BodyCase& body, std::ostream* out) {
@@ -433,7 +434,7 @@ SkinMesh exploded(const SkinMesh& mesh, const RestSkeleton&) {
     return shapes::exploded(mesh);
 }
 
-/// Two eyes inside the head and trousers outside of the legs.
+/// Two eyes inside the head, and trousers around the legs.
 SkinMesh dressed(const SkinMesh& body, const RestSkeleton& skeleton) {
     const SkinMesh ball = shapes::voxelSurface(
         [](int x, int y, int z) {
@@ -446,7 +447,7 @@ SkinMesh dressed(const SkinMesh& body, const RestSkeleton& skeleton) {
     const glm::dvec3 head = at("Head") + glm::dvec3(0.0, 0.6, 0.6);
     SkinMesh all = shapes::joined(body, shapes::moved(ball, head + glm::dvec3(0.3, 0, 0)));
     all = shapes::joined(all, shapes::moved(ball, head - glm::dvec3(0.3, 0, 0)));
-    // Trousers, without the hands beside them.
+    // Trousers, excluding the hands beside them.
     const double low = at("LeftFoot").y + 1.0, high = at("LowerBack").y - 0.3;
     const auto isBelow = [&](const glm::dvec3& p) {
         return p.y > low && p.y < high && std::abs(p.x) < 2.2;
@@ -482,7 +483,7 @@ protected:
         binding = bind(mesh, skeleton, options, &report);
     }
 
-    /// The skin with the given joints turned by degrees about x or z, parents first.
+    /// The skin with the given joints rotated by degrees about x or z, parents first.
     std::vector<glm::vec3>
     posed(const std::vector<std::pair<std::string, glm::dvec2>>& turns) const {
         std::vector<glm::dmat4> skinning(skeleton.joints.size(), glm::dmat4(1.0));
@@ -500,7 +501,7 @@ protected:
         std::vector<std::uint32_t> source(mesh.positions.size());
         std::iota(source.begin(), source.end(), 0u);
         const std::vector<glm::vec3> rest(mesh.positions.begin(), mesh.positions.end());
-        const std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not looked at
+        const std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not used
         const auto model = SkinModel::create(binding, rest, normals, source);
         Pose pose(binding.joints);
         EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
@@ -515,7 +516,7 @@ protected:
         return result;
     }
 
-    /// Largest l'/l of the edges that are not tiny.
+    /// Largest l'/l among edges that are not tiny.
     double longestEdge(const std::vector<glm::vec3>& points) const {
         const double least = 1e-3 * mesh.size();
         double longest = 0.0;

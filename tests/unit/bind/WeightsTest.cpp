@@ -22,7 +22,7 @@ using namespace osgSkin;
 
 namespace {
 
-/// A cylinder over three joints, painted so that each takes over from the one above.
+/// A cylinder over three joints; each joint's painted weights take over from the one above.
 struct PaintedCylinder {
     SkinMesh mesh = shapes::cylinder();
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 4.0, 6.0}, 7.0);
@@ -75,7 +75,7 @@ TEST(BindWeights, RegionIsTheHeaviestJoint) {
     EXPECT_TRUE(report.notes.empty()) << report.text();
 }
 
-/// A row of every joint for every vertex would be 400 MB.
+/// An entry for every joint at every vertex would take 400 MB.
 TEST(BindWeights, TakeMemoryAsTheyAreManyNotAsJointsAre) {
     const SkinMesh mesh = shapes::cylinder(80.0);
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 40.0}, 79.0);
@@ -91,7 +91,7 @@ TEST(BindWeights, TakeMemoryAsTheyAreManyNotAsJointsAre) {
     ASSERT_GT(weights.size(), 5000u);
     const auto before = peakMemory();
     const Binding binding = bindWeights(mesh, skeleton, weights);
-#ifndef __SANITIZE_ADDRESS__ // which keeps what is freed for a while
+#ifndef __SANITIZE_ADDRESS__ // the sanitizer keeps freed memory for a while
     EXPECT_LT(peakMemory() - before, 200);
 #else
     static_cast<void>(before);
@@ -129,7 +129,7 @@ TEST(BindWeights, CopiesOfAVertexMoveAlike) {
     const SkinMesh whole = shapes::cylinder();
     for (std::size_t i = 0; i < whole.faceVertices.size(); ++i) {
         copies.push_back(input.weights[whole.faceVertices[i]]);
-        if (i % 2) copies.back() = {{0, 1.0}}; // somebody painted across the seam
+        if (i % 2) copies.back() = {{0, 1.0}}; // the seam's copies were painted differently
     }
     input.weights = copies;
     const Binding binding = input.bind();
@@ -161,7 +161,7 @@ TEST(BindWeights, SevenJointsAtAVertexBecomeFour) {
     expectSound(binding);
     EXPECT_EQ(report.cappedVertices, mesh.positions.size());
     EXPECT_EQ(partialJoints(binding, 0), 4u);
-    EXPECT_EQ(ratiosOf(binding, 0, 1).bend, 1.0f); // 15/16, the least partial, goes to 1
+    EXPECT_EQ(ratiosOf(binding, 0, 1).bend, 1.0f); // 15/16, the least partial ratio, becomes 1
     EXPECT_EQ(ratiosOf(binding, 0, 6).bend, 0.0f); // and 1/16 to 0
 }
 
@@ -250,7 +250,7 @@ TEST(BindWeights, RatiosOfABodyAgreeWithItsPaint) {
                     sum += painted[v][k];
             worst = std::max(worst, std::abs(sum / all - double(ratiosOf(binding, v, j).bend)));
         }
-        if (worst > 2e-4) ++capped; // only where there were more than 4 partial joints
+        if (worst > 2e-4) ++capped; // only if there were more than 4 partial joints
     }
     EXPECT_LE(capped, report.cappedVertices);
     EXPECT_LT(static_cast<double>(capped), 0.08 * static_cast<double>(painted.size()));

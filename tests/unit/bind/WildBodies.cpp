@@ -52,7 +52,7 @@ glm::dvec3 middleOf(const SkinMesh& mesh, const std::vector<std::uint32_t>& face
     return sum / static_cast<double>(face.size());
 }
 
-/// Adds faces with vertices of their own, each moved.
+/// Adds faces with their own, moved vertices.
 template <typename Move>
 void append(SkinMesh& mesh, const Faces& faces, const Move& move) {
     std::map<std::uint32_t, std::uint32_t> copy;
@@ -67,7 +67,7 @@ void append(SkinMesh& mesh, const Faces& faces, const Move& move) {
     }
 }
 
-/// The faces whose middle `keep` accepts.
+/// The faces whose centre `keep` accepts.
 template <typename Keep>
 Faces chosen(const SkinMesh& mesh, const Keep& keep) {
     Faces result;
@@ -76,7 +76,7 @@ Faces chosen(const SkinMesh& mesh, const Keep& keep) {
     return result;
 }
 
-/// A surface of revolution about a segment: rings at `along` with radii, closed at both ends.
+/// A surface of revolution about a segment: rings of given radii at `along`, closed at both ends.
 SkinMesh lathe(const glm::dvec3& from, const glm::dvec3& to,
                const std::vector<std::array<double, 2>>& rings, bool closed = true) {
     constexpr std::uint32_t kSides = 16;
@@ -107,7 +107,7 @@ SkinMesh lathe(const glm::dvec3& from, const glm::dvec3& to,
     return mesh;
 }
 
-/// A capsule of two radii; a ball where both ends are one point but for `end`.
+/// A capsule of two radii; a ball if both ends coincide except for `end`.
 SkinMesh capsule(const glm::dvec3& a, const glm::dvec3& b, double ra, double rb) {
     const double length = glm::distance(a, b);
     std::vector<std::array<double, 2>> rings;
@@ -126,7 +126,7 @@ void add(SkinMesh& mesh, const SkinMesh& other) {
     mesh = shapes::joined(mesh, other);
 }
 
-/// Where clothes are, by heights: of the hips, the neck and the joints.
+/// Positions of clothes, by the heights of the hips, the neck and the joints.
 struct Wardrobe {
     explicit Wardrobe(const KnownBody& body)
         : height(heightOf(body)), neck(at(body, "Neck")), hip(at(body, "LeftUpLeg")),
@@ -180,7 +180,7 @@ glm::dvec3 nearestOn(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3&
 
 struct Limb {
     std::string from, to;
-    double radius; ///< of a mannequin's, in heights
+    double radius; ///< of a mannequin's limb, relative to the height
 };
 
 std::vector<Limb> limbs() {
@@ -247,7 +247,7 @@ KnownBody segmented(const KnownBody& body, double shrunk, bool lids) {
         append(mesh, piece,
                [&](std::uint32_t v) { return glm::mix(body.mesh.positions[v], middle, shrunk); });
         if (lids) {
-            // A fan over each edge that has one face only.
+            // A fan over each edge that has only one face.
             std::map<std::array<std::uint32_t, 2>, int> edges;
             std::size_t corner = 0;
             for (const std::uint32_t size : mesh.faceSizes) {

@@ -106,8 +106,8 @@ TEST(DualQuaternionBlend, ACrossSectionKeepsItsArea) {
                 << degrees;
 }
 
-/// Turns of 150 and -150 degrees are 60 degrees apart, the short way through 180: their quaternions
-/// point against each other, and blended as they are would give 0.
+/// Rotations of 150 and -150 degrees are 60 degrees apart by the shorter path through 180: their
+/// quaternions have opposite signs, and blending without correction would give 0.
 TEST(DualQuaternionBlend, GoesTheShortWayRound) {
     const HalfTurned skin;
     const glm::dvec3 axis(0, 0, 1);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Bad usage ends with 2 and says why.
+# Bad usage exits with 2 and a reason.
 foreach(arguments "--no-such-option" "--bend;nine" "--twist;1000" "--bend;nan" "--pictures")
   execute_process(COMMAND ${PROGRAM} ${arguments}
     RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE message)

@@ -14,7 +14,7 @@ if(NOT count EQUAL 9)
 endif()
 foreach(picture IN LISTS pictures)
   file(SIZE ${picture} size)
-  if(size LESS 20000) # an even picture of this size packs into less
+  if(size LESS 20000) # a uniform picture of this size is smaller
     message(SEND_ERROR "${picture} has ${size} bytes: is it blank?")
   endif()
 endforeach()

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
-# `PROGRAM --report` ends with 0, and its table holds what theory and our own bar ask for.
+# `PROGRAM --report` exits with 0, and its table meets theory and our own limit.
 execute_process(COMMAND ${PROGRAM} --report RESULT_VARIABLE status OUTPUT_VARIABLE report)
 if(NOT status STREQUAL "0")
   message(FATAL_ERROR "exit status ${status}, expected 0")
 endif()
 message("${report}")
 
-# expect_row(BEND TWIST METHOD FIGURES): a row of the table that begins so; FIGURES is a pattern.
+# expect_row(BEND TWIST METHOD FIGURES): expects a row of the table with this start; FIGURES is a
+# pattern.
 function(expect_row bend twist method figures)
   string(REGEX MATCH "\n +${bend} +${twist}  ${method} +${figures}" row "${report}")
   if(row STREQUAL "")

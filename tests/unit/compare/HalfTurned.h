@@ -12,14 +12,14 @@
 
 namespace test {
 
-/// A turn about `axis` (any length), then a shift.
+/// A rotation about `axis` (any length), then a translation.
 inline glm::dmat4 turnAndShift(double radians, const glm::dvec3& axis, const glm::dvec3& shift) {
     glm::dmat4 result = glm::mat4_cast(glm::angleAxis(radians, glm::normalize(axis)));
     result[3] = glm::dvec4(shift, 1.0);
     return result;
 }
 
-/// A limb's cross-section, a unit circle about z, half of which follows each of two joints.
+/// A limb's cross-section, a unit circle about z; one half follows each of two joints.
 struct HalfTurned {
     std::vector<glm::dvec3> rest;
     std::vector<std::uint32_t> loop;
@@ -34,7 +34,7 @@ struct HalfTurned {
         }
     }
 
-    /// The first joint at rest, the second one turned about the circle's middle.
+    /// The first joint at rest, the second one rotated about the circle's centre.
     std::vector<glm::dmat4> turned(double degrees, const glm::dvec3& axis) const {
         return {glm::dmat4(1.0), turnAndShift(glm::radians(degrees), axis, glm::dvec3(0.0))};
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What exporters write that differs in form from the plain file must be read like it, or refused
-// with a reason.
+// Exporters' variations of the format must be read like the plain file, or refused with a reason.
 #include "ExpectError.h"
 #include "Figure.h"
 #include "NamedCase.h"
@@ -43,7 +42,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text;
 }
 
-/// A BVH file for as long as this lives.
+/// A BVH file that exists while this lives.
 class TemporaryBvh {
 public:
     explicit TemporaryBvh(const std::string& text)
@@ -217,7 +216,7 @@ TEST(BvhDialect, ARootMayMoveAndNotTurn) {
     }
 }
 
-/// Props and cameras turn about one axis; some figures rise and sink alone.
+/// Props and cameras rotate about one axis; some figures only rise and sink.
 TEST(BvhDialect, ARootMayMoveAndTurnInPart) {
     const auto motionOf = [](const std::string& channels, const std::string& numbers) {
         const TemporaryBvh file("HIERARCHY\nROOT base\n{\nOFFSET 7 8 9\nCHANNELS " + channels +
@@ -271,12 +270,13 @@ TEST(BvhDialect, PositionsMayComeInAnyOrder) {
     EXPECT_EQ(osgSkin::importMotion(file.path).rootPositions[1], glm::dvec3(11, 2, 1));
 }
 
-/// Exporters that write positions for every joint mean its offset, or a stretch that is no skin's.
+/// Exporters that write positions for every joint mean its offset, or a stretch that no skin
+/// follows.
 TEST(BvhDialect, PositionsOfOtherJointsAreReadAndOnlyTheRootsAreUsed) {
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
     const std::string more = "CHANNELS 6 Xposition Yposition Zposition Xrotation";
     std::string text = replaced(plainText(), "CHANNELS 3 Xrotation", more);
-    // A second child, so that the root of the motion stays the root.
+    // A second child, so that the motion's root remains the root.
     text =
         replaced(text, "  JOINT Spine", "  JOINT Leg\n  {\n    OFFSET 0 -5 0\n  }\n  JOINT Spine");
     text = replaced(text, "0 10 0 0 0 0 0 0 0", "0 10 0 0 0 0 0 5 1 0 0 0");
@@ -301,7 +301,7 @@ TEST(BvhDialect, RotationsAreExact) {
     std::ifstream file(path);
     std::string line;
     while (std::getline(file, line) && line.rfind("Frame Time", 0) != 0) continue;
-    // MotionBuilder's files: the root's position, then Z, Y, X of all joints alike.
+    // MotionBuilder's files: the root's position, then Z, Y, X for all joints.
     double worst = 0.0;
     for (std::size_t f = 0; f < motion.frames && std::getline(file, line); ++f) {
         std::istringstream values(line);
@@ -433,12 +433,12 @@ TEST(ImportMotion, RootWithoutPositionChannelsStaysAtItsOffset) {
     EXPECT_LT(difference(motion.rotation(0, 0), turn(10, kY) * turn(20, kX) * turn(30, kZ)), 1e-12);
 }
 
-/// Of hips that move over a root on the ground, the path is the hips': rotated by the root, from
-/// where it stands.
+/// If the hips move relative to a root on the ground, the path is that of the hips: rotated by the
+/// root, from its position.
 TEST(ImportMotion, BeginsWithTheJointThatMoves) {
     const test::Notices notices;
     const osgSkin::Motion motion = osgSkin::importMotion(testData("root_on_ground.bvh"));
-    EXPECT_EQ(notices.text(), ""); // the root's own moves are used as well
+    EXPECT_EQ(notices.text(), ""); // the root's own movement is used as well
     ASSERT_EQ(motion.skeleton.joints.size(), 3u);
     EXPECT_EQ(motion.skeleton.joints[0].name, "pelvis");
     EXPECT_EQ(motion.skeleton.joints[0].parent, -1);
@@ -502,7 +502,7 @@ TEST(ImportMotion, PassesOverFramesBeyondTheDeclared) {
     EXPECT_EQ(motion.frames, 2u);
 }
 
-/// A motion made in code, by GLM's types and by OSG's.
+/// A motion made in code, from GLM's types and from OSG's.
 TEST(Motion, IsMadeOfSamples) {
     osgSkin::RestSkeleton skeleton;
     EXPECT_EQ(skeleton.add("Hips", -1, glm::dvec3(0, 1, 0)), 0);

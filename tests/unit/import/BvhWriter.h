@@ -12,15 +12,17 @@
 #include <functional>
 #include <string>
 
-/// Writes a motion as a BVH file, its zero pose as it is.
-/// \param inChannels the joints' offsets stand in position channels, and OFFSET is zero
+/// Writes a motion as a BVH file with its own zero pose.
+/// \param motion to write
+/// \param path of the file
+/// \param inChannels writes the joints' offsets in position channels, and zeros in OFFSET
 inline void writeBvh(const osgSkin::Motion& motion, const std::string& path,
                      bool inChannels = false) {
     const osgSkin::RestSkeleton& skeleton = motion.skeleton;
     std::ofstream out(path);
     out.precision(12);
     out << "HIERARCHY\n";
-    std::vector<std::size_t> order; // depth first, as the file has them
+    std::vector<std::size_t> order; // depth first, as in the file
     const auto offsetOf = [&](const osgSkin::RestJoint& joint) {
         if (joint.parent < 0) return joint.centre;
         return joint.centre - skeleton.joints[std::size_t(joint.parent)].centre;

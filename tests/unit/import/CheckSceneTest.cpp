@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes that OSG reads from files, and that it or osgAnimation could not draw or update.
+// Scenes that OSG reads from files but that it or osgAnimation could not draw or update safely.
 #include "osg/CheckScene.h"
 #include "ExpectError.h"
 
@@ -33,7 +33,7 @@ using osgAnimation::VertexInfluenceMap;
 
 const char* const kSavedFormats[] = {"osgt", "osgb", "osgx"};
 
-/// A triangle with normals, or as many as fit into so many vertices.
+/// Triangles with normals, as many as fit into the number of vertices.
 osg::ref_ptr<osg::Geometry> makeTriangles(unsigned vertices = 3) {
     osg::ref_ptr<osg::Geometry> result = new osg::Geometry;
     const osg::ref_ptr<osg::Vec3Array> places = new osg::Vec3Array;
@@ -45,7 +45,7 @@ osg::ref_ptr<osg::Geometry> makeTriangles(unsigned vertices = 3) {
     return result;
 }
 
-/// Reads what is saved in each format, and moves it.
+/// Saves the scene in each format, reads it and updates it.
 void expectMoved(osg::Node& scene, const std::string& message) {
     for (const char* format : kSavedFormats) {
         SCOPED_TRACE(format);
@@ -163,7 +163,7 @@ TEST(CheckScene, BonesAndWhatMovesThemHavePlaces) {
     for (const char* format : kSavedFormats)
         for (const double number : {0.5, 1e19, nan})
             for (int where = 0; where < 2; ++where) {
-                // OSG reads no such number from a text.
+                // OSG cannot read such a number from text.
                 if (std::isnan(number) && format != kSavedFormats[1]) continue;
                 const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("bone");
                 const osg::ref_ptr<osgAnimation::UpdateBone> update =
@@ -270,7 +270,7 @@ TEST(CheckScene, ChannelsAreOfTheKindThatTheyMove) {
     }
 }
 
-// OSG divides by an animation's length, and looks behind the only key of a pose then.
+// OSG divides by an animation's length, and reads beyond a pose's only key then.
 TEST(CheckScene, AnimationsLastForAFiniteTime) {
     using osgAnimation::Animation;
     for (const double duration : {0.0, 2.0, double(NAN), double(INFINITY)}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which of a file's clips is read, and at what times.
+// The choice of a file's clips, and their times.
 #include "ExpectError.h"
 #include "Figure.h"
 #include "FindNodes.h"
@@ -37,7 +37,7 @@ struct Bones {
     std::map<std::string, osg::ref_ptr<osgAnimation::Bone>> byName;
 };
 
-/// Turns that grow past 180 degrees, so that neighbouring quaternions change sign.
+/// Rotations that grow past 180 degrees, so that neighbouring quaternions change sign.
 Clip makeClip(const RestSkeleton& rig, std::size_t frames) {
     Clip clip;
     clip.name = "turns";
@@ -68,7 +68,7 @@ osg::ref_ptr<osgAnimation::Skeleton> makePlayer(const Clip& clip, const RestSkel
         new osgAnimation::BasicAnimationManager;
     osg::ref_ptr<osgAnimation::Animation> animation = osgSkin::makeAnimation(clip, rig);
     manager->registerAnimation(animation);
-    // Above the skeleton's own callback: the targets are set before the bones read them.
+    // Before the skeleton's own callback, so that the targets are set before the bones read them.
     manager->setNestedCallback(skeleton->getUpdateCallback());
     skeleton->setUpdateCallback(manager);
     manager->playAnimation(animation);
@@ -189,7 +189,7 @@ TEST(ApplyFrame, OutlivesAnUpdateTraversal) {
               1e-5);
 }
 
-/// As a rider's, below the first bone, with bones of the same names.
+/// Such as a rider's, below the first bone, with bones of the same names.
 TEST(ApplyFrame, LeavesASkeletonBelowAsItIs) {
     const RestSkeleton rig = makeFigure(30.0);
     const Clip clip = makeClip(rig, 5);
@@ -246,7 +246,7 @@ using test::GltfColumn;
 
 constexpr double kDegree = 3.14159265358979 / 180.0;
 
-/// The angle of the middle joint's turn about x in a sample, in degrees.
+/// The middle joint's rotation about x in a sample, in degrees.
 double angleAt(const Motion& motion, std::size_t frame) {
     const int joint = motion.skeleton.find("middle");
     EXPECT_GE(joint, 0);
@@ -332,7 +332,7 @@ TEST(ClipChoice, ByNameOrNumber) {
     EXPECT_EQ(importMotion(file, 0, "walk").name, "Armature|walk");
     EXPECT_NEAR(angleAt(importMotion(file, 0, "1"), 0), 10.0, 1e-3);
     EXPECT_NEAR(angleAt(importMotion(file, 0, "3"), 0), 30.0, 1e-3);
-    EXPECT_NEAR(angleAt(importMotion(file, 0, "2"), 0), 20.0, 1e-3); // a name goes first
+    EXPECT_NEAR(angleAt(importMotion(file, 0, "2"), 0), 20.0, 1e-3); // a name takes precedence
     expectError([&] { importMotion(file, 0, "jump"); },
                 R"(no clip "jump", expected one of 0 "idle", 1 "Armature|walk", 2 "2", 3)");
     expectError([&] { importMotion(file, 0, "run"); }, R"(several clips "run")");

@@ -7,7 +7,7 @@
 
 #include <string>
 
-/// Expects `action` to throw an osgSkin::Error of one line that contains `part`.
+/// Expects `action` to throw an osgSkin::Error with a one-line message that contains `part`.
 template <typename Action>
 void expectError(const Action& action, const std::string& part) {
     try {

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-/// Small figures made by hand, for tests that need no file.
+/// Small hand-made figures, for tests without files.
 
 inline glm::dquat turnDegrees(double degrees, const glm::dvec3& axis) {
     return glm::angleAxis(glm::radians(degrees), glm::normalize(axis));
 }
 
-/// A body with its left arm and leg only. The arm hangs `armDegrees` below the horizontal.
+/// A body with only its left arm and leg. The arm hangs `armDegrees` below the horizontal.
 inline osgSkin::RestSkeleton makeFigure(double armDegrees, double size = 1.0) {
     const glm::dvec3 arm = turnDegrees(-armDegrees, {0, 0, 1}) * glm::dvec3(1, 0, 0);
     osgSkin::RestSkeleton figure;
@@ -52,7 +52,7 @@ inline osgSkin::Motion standStill(const osgSkin::RestSkeleton& figure, std::size
     return motion;
 }
 
-/// World orientations and places of a clip's joints in one sample.
+/// World-space orientations and positions of a clip's joints in one sample.
 struct Placed {
     std::vector<glm::dquat> turns;
     std::vector<glm::dvec3> places;
@@ -90,7 +90,7 @@ inline double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-/// Angle of the turn between two orientations, degrees.
+/// Angle of the rotation between two orientations, degrees.
 inline double angleBetween(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat d = glm::conjugate(a) * b;
     return glm::degrees(2.0 * std::atan2(glm::length(glm::dvec3(d.x, d.y, d.z)), std::abs(d.w)));

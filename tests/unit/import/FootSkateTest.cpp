@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Twist that an elbow or a knee cannot show is shared out along the limb.
+// Twist that an elbow or a knee cannot have is distributed along the limb.
 #include "Figure.h"
 #include "Paths.h"
 
@@ -32,8 +32,7 @@ RetargetReport reportOf(const Motion& motion, const RestSkeleton& rig) {
     return report;
 }
 
-/// The figure sways over its foot, which stands: hips on a circle about it, leg straight, sole
-/// flat.
+/// The figure sways over its fixed foot: hips on a circle around it, leg straight, sole flat.
 Motion sway(std::size_t frames, double from, double to) {
     Motion motion = standStill(makeFigure(0.0), frames);
     for (std::size_t f = 0; f < frames; ++f) {
@@ -46,7 +45,7 @@ Motion sway(std::size_t frames, double from, double to) {
     return motion;
 }
 
-/// The leg's joints at other heights, ankle and sole where they are.
+/// The leg's joints at other heights, with the same ankle and sole.
 RestSkeleton withLeg(double hips, double upLeg, double knee) {
     RestSkeleton rig = makeFigure(0.0);
     for (const std::size_t j : {0u, 7u}) rig.joints[j].centre.y = hips;
@@ -70,7 +69,7 @@ TEST(FootSkate, OfAFootThatStandsIsNone) {
     }
 }
 
-/// Hips as high as the actor's over shorter legs: the hips go the way of the longer ones.
+/// Hips as high as the actor's over shorter legs: the hips follow the path of the longer ones.
 TEST(FootSkate, OfAnotherLegIsWhatItsLengthLacks) {
     const FootSkate foot = reportOf(sway(50, -0.2, 0.2), withLeg(10, 7, 4)).feet.at(0);
     EXPECT_NEAR(foot.worst, (kLeg - 6.0) * 2.0 * std::sin(0.2), 1e-9);
@@ -79,7 +78,7 @@ TEST(FootSkate, OfAnotherLegIsWhatItsLengthLacks) {
     EXPECT_EQ(foot.leg, 6.0);
 }
 
-/// Legs as long as the actor's under higher hips: the way is scaled by more than the legs are.
+/// Legs as long as the actor's under higher hips: the path is scaled by more than the legs are.
 TEST(FootSkate, OfAnotherHipScaleIsWhatTheWayHasTooMuch) {
     const RetargetReport report = reportOf(sway(50, -0.2, 0.2), withLeg(12, 9, 5));
     EXPECT_NEAR(report.scale, 1.2, 1e-12);
@@ -96,7 +95,7 @@ TEST(FootSkate, OfTheActorsOwnIsScaledToTheRig) {
     EXPECT_NEAR(foot.worst, 0.25, 1e-9);
 }
 
-/// A stand, a step of 3 ahead and 1 up in 0.4 s, a stand; the second one with a slip of 0.2.
+/// Stands, steps 3 ahead and 1 up in 0.4 s, and stands again; the second time with a slip of 0.2.
 TEST(FootSkate, CountsContactsAndNotTheStepBetween) {
     Motion motion = standStill(makeFigure(0.0), 70);
     for (std::size_t f = 0; f < motion.frames; ++f) {
@@ -144,7 +143,7 @@ TEST(FootSkate, IsInTheReportsText) {
     EXPECT_EQ(report.feetText(), "foot RightFoot: never planted\n" + line);
 }
 
-/// What the README's table says: of all contacts of both feet, in hundredths of the leg.
+/// The values in the README's table: over all contacts of both feet, in hundredths of the leg.
 struct Actor {
     const char* path; ///< below the shared data
     std::size_t skip; ///< calibration poses
@@ -245,7 +244,7 @@ double twistOf(const Clip& clip, std::size_t frame, std::size_t joint, const glm
     return glm::degrees(2.0 * (q.w < 0.0 ? std::atan2(-sine, -q.w) : std::atan2(sine, q.w)));
 }
 
-/// The twists of a limb in one sample: upper joint, hinge, end.
+/// A limb's twists in one sample: upper joint, hinge, end.
 std::vector<double> twistsOf(const Clip& clip, const RestSkeleton& figure, const Limb& limb,
                              std::size_t frame) {
     const glm::dvec3 lower = boneOf(figure, limb.hinge, limb.end);
@@ -253,7 +252,7 @@ std::vector<double> twistsOf(const Clip& clip, const RestSkeleton& figure, const
             twistOf(clip, frame, limb.hinge, lower), twistOf(clip, frame, limb.end, lower)};
 }
 
-/// A motion in which the hinge is bent and, sample by sample, twisted by the degrees given.
+/// A motion with the hinge bent and twisted by these degrees, one per sample.
 Motion twisted(const RestSkeleton& figure, const Limb& limb, const std::vector<double>& degrees,
                double bend = 50.0) {
     Motion motion = standStill(figure, degrees.size());
@@ -281,7 +280,8 @@ Clip unshared(const Motion& motion, const RestSkeleton& figure) {
     return osgSkin::retarget(motion, figure, options);
 }
 
-/// Joints are where they were, and all but the two that twist are oriented as they were.
+/// Expects unchanged joint positions, and unchanged orientations except for the two joints that
+/// twist.
 void expectSamePose(const Clip& clip, const Clip& before, const RestSkeleton& figure,
                     const std::vector<std::size_t>& twisting) {
     for (std::size_t f = 0; f < clip.frames; ++f) {
@@ -357,11 +357,11 @@ TEST(HingeTwist, GoesToTheJointThatHasLess) {
     Motion motion = twisted(figure, elbow, {150.0});
     motion.rotations[kArm] = glm::dquat(1, 0, 0, 0);
     const glm::dvec3 along(1, 0, 0);
-    motion.rotations[kHand] = turnDegrees(80.0, along); // more than all of the excess
+    motion.rotations[kHand] = turnDegrees(80.0, along); // more than the whole excess
     std::vector<double> twists = twistsOf(osgSkin::retarget(motion, figure), figure, elbow, 0);
     EXPECT_NEAR(twists[0], 60.0, 1e-6);
     EXPECT_NEAR(twists[2], 80.0, 1e-6);
-    motion.rotations[kHand] = turnDegrees(20.0, along); // both come to 40
+    motion.rotations[kHand] = turnDegrees(20.0, along); // both become 40
     twists = twistsOf(osgSkin::retarget(motion, figure), figure, elbow, 0);
     EXPECT_NEAR(twists[0], 40.0, 1e-6);
     EXPECT_NEAR(twists[2], 40.0, 1e-6);
@@ -373,7 +373,7 @@ TEST(HingeTwist, GoesToTheJointThatHasLess) {
 
 TEST(HingeTwist, PassesThroughJointsWithinTheUpperArm) {
     RestSkeleton figure = makeFigure(0.0);
-    // LeftArm -> LeftArmRoll -> LeftForeArm, and a muscle that hangs on the arm.
+    // LeftArm -> LeftArmRoll -> LeftForeArm, and a muscle bone below the arm.
     figure.joints.insert(figure.joints.begin() + 5, {"LeftArmRoll", 4, {3.5, 15, 0}, {}});
     for (std::size_t j = 6; j < figure.joints.size(); ++j)
         if (figure.joints[j].parent >= 5 || j == 6) ++figure.joints[j].parent;
@@ -388,7 +388,7 @@ TEST(HingeTwist, PassesThroughJointsWithinTheUpperArm) {
         for (std::size_t j = 0; j < muscle; ++j)
             ASSERT_LT(glm::length(now.places[j] - then.places[j]), 1e-6) << f << ", joint " << j;
         ASSERT_LT(angleBetween(now.turns[7], then.turns[7]), 1e-6);
-        // Whatever hangs on the upper arm twists along.
+        // Everything attached to the upper arm twists with it.
         ASSERT_LT(angleBetween(now.turns[4], now.turns[muscle]), 1e-6);
         ASSERT_GT(angleBetween(now.turns[4], then.turns[4]), 1.0);
         ASSERT_LT(std::abs(twistsOf(clip, figure, limb, f)[1]), 90.0 + 1e-6);
@@ -396,7 +396,7 @@ TEST(HingeTwist, PassesThroughJointsWithinTheUpperArm) {
 }
 
 TEST(HingeTwist, BeginsWithTheShorterAngle) {
-    // All samples beyond half a turn: 200 degrees are -160.
+    // All samples beyond 180 degrees: 200 degrees become -160.
     const Limb& elbow = kLimbs[0];
     const RestSkeleton figure = figureWith(elbow);
     const Motion motion = twisted(figure, elbow, range(200.0, 220.0, 1.0));

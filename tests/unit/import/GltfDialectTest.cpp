@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What glTF's specification allows and Assimp does not read, and numbers that it takes for others.
+// glTF features that Assimp does not read, or reads wrongly.
 #include "ExpectError.h"
 #include "FindNodes.h"
 #include "GltfBuilder.h"
@@ -32,7 +32,7 @@ json& primitiveOf(GltfColumn& column) {
     return column.json["meshes"][0]["primitives"][0];
 }
 
-/// The column's places with a number of floats behind each; the last ones are not there.
+/// The column's positions with extra floats after each, missing after the last ones.
 std::size_t trimmedPlaces(GltfColumn& column, std::size_t unused) {
     std::vector<double> numbers;
     for (std::size_t v = 0; v < kColumnVertices; ++v) {
@@ -49,7 +49,7 @@ std::size_t trimmedPlaces(GltfColumn& column, std::size_t unused) {
     return accessor;
 }
 
-/// Makes all numbers of an accessor changes to zeros that stand nowhere.
+/// Turns an accessor into sparse changes to zeros, without a buffer view of its own.
 void makeSparse(GltfColumn& column, std::size_t accessor) {
     json& whole = column.json["accessors"][accessor];
     const auto count = whole["count"].get<std::size_t>();
@@ -65,7 +65,7 @@ void makeSparse(GltfColumn& column, std::size_t accessor) {
     sparse.erase("bufferView");
 }
 
-/// The sum of a bone's weights, by its number.
+/// The sum of a bone's weights, by its index.
 double weightOf(const osgSkin::ImportedRig& rig, const std::string& bone) {
     double result = 0.0;
     for (const osgSkin::BoneWeights& weights : rig.body.weights)
@@ -80,7 +80,7 @@ void expectRigRefused(GltfColumn& column, const std::string& message) {
     expectError([&] { osgSkin::importMotion(path); }, path + ": " + message);
 }
 
-/// A column whose middle is moved in a way.
+/// A column whose middle is animated in one property.
 GltfColumn moved(const std::string& path, const std::vector<double>& values,
                  const std::string& interpolation = "LINEAR") {
     GltfColumn column;
@@ -133,7 +133,7 @@ TEST(GltfDialect, JointsAndIndicesMayBeSparse) {
             column.json["meshes"][0]["primitives"][0]["indices"].get<std::size_t>();
         for (const std::size_t accessor : {column.jointIndices, indices}) {
             makeSparse(column, accessor);
-            column.json["accessors"][accessor]["normalized"] = true; // which means nothing here
+            column.json["accessors"][accessor]["normalized"] = true; // which has no meaning here
         }
         const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("sparse.gltf"));
         EXPECT_EQ(rig.body.mesh.positions, whole.body.mesh.positions);
@@ -145,7 +145,7 @@ TEST(GltfDialect, JointsAndIndicesMayBeSparse) {
 
 TEST(GltfDialect, ASkinnedMeshMayBeShownTwice) {
     GltfColumn
-        column; // a sanitizer finds the bones that Assimp loses of a mesh that it shows twice
+        column; // a sanitizer finds the bones that Assimp leaks for a mesh that is instanced twice
     const std::size_t again = column.node({{"name", "again"}, {"mesh", 0}, {"skin", 0}});
     column.json["scenes"][0]["nodes"].push_back(again);
     const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("twice.gltf"));
@@ -166,7 +166,7 @@ TEST(GltfDialect, ALibraryHasNoScene) {
 }
 
 TEST(GltfDialect, OnlyWholeTrianglesAreDrawn) {
-    // Points, a list, a ring and a strip of lines, triangles, a strip and a fan of them.
+    // Points; lines as list, loop and strip; triangles as list, strip and fan.
     const std::size_t faces[7][5] = {{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {0, 0, 0, 0, 0},
                                      {0, 0, 0, 0, 0}, {0, 0, 0, 1, 1}, {0, 0, 0, 1, 2},
                                      {0, 0, 0, 1, 2}};
@@ -242,7 +242,7 @@ TEST(BadGltf, BindMatricesAreFinite) {
     }
 }
 
-/// Rotations from rest of joints below negative scales turn the other way, about mirrored axes.
+/// Rotations of joints below negative scales are reversed, about mirrored axes.
 TEST(GltfDialect, MotionsMayBeMirrored) {
     const glm::dvec3 scales[] = {{1, 1, 1},   {-1, 1, 1},  {1, -1, 1},  {1, 1, -1},
                                  {-1, -1, 1}, {1, -1, -1}, {-2, -2, -2}};
@@ -303,7 +303,7 @@ TEST(GltfDialect, RotationsOfNodesAreMadeUnit) {
         std::vector<double> rotation = GltfColumn::turn(50);
         for (double& number : rotation) number *= length;
         column.json["nodes"][column.joints[1]]["rotation"] = rotation;
-        column.json.erase("skins"); // which would say where joints were
+        column.json.erase("skins"); // which would give the joints' bind positions
         column.json["nodes"][column.meshNode] = {{"name", "none"}};
         column.animate("move", column.joints[2], "translation", {0.0, 1.0}, {0, 1, 0, 0, 2, 0});
         column.animate("move", column.joints[0], "rotation", {0.0, 1.0}, GltfColumn::turns({0, 0}));
@@ -333,7 +333,7 @@ TEST(GltfDialect, ChannelsOfOtherPathsAreLeftOut) {
     }
 }
 
-/// As things are hidden: their joint's matrix has an inverse, or nothing would move.
+/// Scale 0 hides things: the joint's matrix needs an inverse, or nothing would move.
 TEST(GltfDialect, ScalesOf0AreAlmost0) {
     GltfColumn column;
     column.animate("hide", column.joints[1], "scale", {0.0, 1.0, 2.0},
@@ -366,13 +366,13 @@ TEST(GltfDialect, JointsMayBeHiddenAtRest) {
     EXPECT_TRUE(osg::Matrixd().invert(bones[2].node->getMatrixInSkeletonSpace()));
 }
 
-/// Exporters store nodes as the clip's first frame has them; the bind pose is the skin's, where its
-/// mesh and matrices say so.
+/// Exporters store nodes in the pose of the clip's first frame; the bind pose is the skin's, as
+/// given by its mesh and matrices.
 TEST(GltfDialect, APosedRootDoesNotTurnTheBindPose) {
     const struct {
         double degrees;
         double height;     ///< of the first joint
-        double meshTurned; ///< degrees, its node
+        double meshTurned; ///< of its node, degrees
         bool isPose;
     } cases[] = {{20.0, 0.0, 0.0, true},  {20.0, 1.0, 0.0, true},  {90.0, 1.0, 0.0, true},
                  {90.0, 0.0, 0.0, false}, {60.0, 0.0, 0.0, false}, {0.0, 1.0, 0.0, true},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What glTF files say of surfaces in ways that Assimp passes over.
+// glTF material features that Assimp ignores.
 #include "GltfBuilder.h"
 #include "Notices.h"
 #include "Paths.h"
@@ -36,12 +36,12 @@ void paint(GltfColumn& column, const json& material) {
     column.json["meshes"][0]["primitives"][0]["material"] = 0;
 }
 
-/// Gives the column a texture, of 2 by 2 texels.
+/// Gives the column a texture of 2 by 2 texels.
 void addTexture(GltfColumn& column) {
     const osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(2, 2, 1, GL_RGB, GL_UNSIGNED_BYTE);
     std::fill(image->data(), image->data() + image->getTotalSizeInBytes(), 200);
-    // Of its own: tests run beside each other.
+    // A unique name: tests run in parallel.
     const std::string name =
         std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".bmp";
     ASSERT_TRUE(osgDB::writeImageFile(*image, testing::TempDir() + name));
@@ -61,10 +61,10 @@ const Attribute& stateOf(const ImportedMesh& mesh, std::size_t part,
 TEST(GltfLooks, TexturesAreMovedAsTheirMaterialsSay) {
     GltfColumn column;
     addTexture(column);
-    std::vector<double> texCoords; // in 12 bits, as packers store them
+    std::vector<double> texCoords; // in 12 bits, as compressors store them
     for (int v = 0; v < 24; ++v) texCoords.insert(texCoords.end(), {v % 2 ? 4095.0 : 0.0, 1365.0});
     column.attributes()["TEXCOORD_0"] =
-        column.accessor("VEC2", std::vector<double>(48, 7.0)); // of another texture
+        column.accessor("VEC2", std::vector<double>(48, 7.0)); // another texture's
     column.attributes()["TEXCOORD_1"] = column.accessor("VEC2", texCoords, 5123);
     const json transform = {{"offset", {0.25, 0.5}},
                             {"rotation", std::acos(0.0)},
@@ -80,7 +80,7 @@ TEST(GltfLooks, TexturesAreMovedAsTheirMaterialsSay) {
     std::set<int> columns;
     for (const osg::Vec2& texCoord : found) {
         EXPECT_NEAR(texCoord.x(), 0.25 + 0.5, 1e-6);
-        // A quarter turn; v goes up from here on.
+        // A quarter turn; v points up from here on.
         const double up = 1.0 - texCoord.y();
         EXPECT_NEAR(up, up < 0.0 ? 0.5 - 1.0 : 0.5, 1e-6);
         columns.insert(up < 0.0 ? 1 : 0);
@@ -88,7 +88,8 @@ TEST(GltfLooks, TexturesAreMovedAsTheirMaterialsSay) {
     EXPECT_EQ(columns.size(), 2u);
 }
 
-/// Eyes that glow by a texture are not drawn; without it the whole figure would.
+/// An emissive texture, of glowing eyes for example, is not drawn; emission without the texture
+/// would make the whole figure glow.
 TEST(GltfLooks, TexturesOfEmissionAreToldOf) {
     const auto read = [](const json& pbr, bool hasTexture) {
         GltfColumn column;
@@ -111,7 +112,7 @@ TEST(GltfLooks, TexturesOfEmissionAreToldOf) {
     EXPECT_EQ(emission(read(grey, true)), osg::Vec4(0, 0, 0, 1));
     EXPECT_EQ(emission(read(json::object(), true)), osg::Vec4(0, 0, 0, 1));
     EXPECT_TRUE(notices.say("textures of emission: 1, left out")) << notices.text();
-    // Of what is black without, it is the picture.
+    // If the rest is black, the emissive texture is the picture.
     const test::Notices none;
     const ImportedMesh lamp = read(black, true);
     EXPECT_EQ(none.text(), "");
@@ -143,7 +144,7 @@ TEST(GltfLooks, ColoursWithoutOpacityAreOpaque) {
     }
 }
 
-/// The file's numbers are linear light, ours sRGB: 0.52252 is 0.75, and 0.21404 is 0.5.
+/// The file's numbers are linear, ours sRGB: 0.52252 is 0.75, and 0.21404 is 0.5.
 TEST(GltfLooks, ColoursOfVerticesAreTakenTimesTheMaterials) {
     GltfColumn column;
     std::vector<double> colours;
@@ -195,7 +196,7 @@ TEST(GltfLooks, ThingsBesideTheFigureAreNoneOfIt) {
     EXPECT_EQ(vertices(1.0, 2.0), 24u) << "a thing that stands apart is part of it";
 }
 
-/// The figure is all that its skin's parts are, not the first one alone.
+/// The figure consists of all parts of its skin, not only the first.
 TEST(GltfLooks, ThingsBesideThePartsOfAFigureAreNoneOfIt) {
     test::GltfColumn column;
     std::vector<double> aside = column.places;
@@ -232,7 +233,7 @@ TEST(GltfLooks, ATextureThatMaterialsShareIsReadOnce) {
     EXPECT_EQ(images.count(nullptr), 0u);
 }
 
-/// For those who read the format of an extension's texture there is nothing else to draw with.
+/// These textures exist only in an extension's format, without a fallback.
 TEST(GltfLooks, TexturesOfExtensionsAreReadOrMissed) {
     for (const char* extension : {"MSFT_texture_dds", "EXT_texture_webp"}) {
         GltfColumn column;
@@ -263,7 +264,7 @@ TEST(GltfLooks, ExtensionsThatMoveThingsAreMissed) {
 }
 
 TEST(GltfLooks, MeshesMayBeCompressedByDraco) {
-    // Two triangles of four vertices, as draco::Encoder writes them.
+    // Two triangles with four vertices, as draco::Encoder writes them.
     const std::string file = testing::TempDir() + "packed.gltf";
     std::ofstream(file)
         << R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],
@@ -285,7 +286,7 @@ TEST(GltfLooks, MeshesMayBeCompressedByDraco) {
     } catch (const osgSkin::Error& error) {
         const std::string why = error.what();
         ASSERT_NE(why.find("raco"), std::string::npos) << why;
-        GTEST_SKIP() << "this build of Assimp has no Draco";
+        GTEST_SKIP() << "this build has no Draco";
     }
 }
 
@@ -319,7 +320,7 @@ TEST(GltfLooks, PicturesAreWhatTheyBeginAs) {
         const auto value = static_cast<unsigned char>(byte);
         escaped += {'%', digits[value >> 4], digits[value & 15]};
     }
-    // None, another one's, in capitals, and one that says nothing.
+    // Missing, another format's, upper case, and a meaningless one.
     for (const char* mime : {"", "image/jpeg", "image/BMP", "application/octet-stream"})
         for (const bool isInText : {false, true}) {
             GltfColumn column;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// glTF files whose numbers name what is not there, and buffers in every place that they may have.
+// glTF files whose indices are out of range, and every allowed location of a buffer.
 //
-// glTF files that are broken as a whole, or of another version: each says where.
+// glTF files that are broken as a whole, or of another version: each error names the location.
 #include "ExpectError.h"
 #include "GlbNumber.h"
 #include "GltfBuilder.h"
@@ -33,7 +33,7 @@ using nlohmann::json;
 using test::glbNumber;
 using test::GltfColumn;
 
-/// Corners of faces of the column.
+/// Vertex indices of the column's faces.
 std::vector<double> indices() {
     std::vector<double> result;
     for (int j = 0; j < 3; ++j)
@@ -48,7 +48,7 @@ void expectMeshRefused(GltfColumn& column, const std::string& message) {
     expectError([&] { osgSkin::importRig(path); }, path + ": " + message);
 }
 
-/// A column with some of its joint indices and weights changed: the first joint's is in front.
+/// A column with some joint indices and weights changed; the first joint's come first.
 void expectWeights(const std::vector<double>& joints, const std::vector<double>& weights,
                    const std::string& message, bool normalized = false) {
     GltfColumn column;
@@ -75,7 +75,7 @@ void expectWeights(const std::vector<double>& joints, const std::vector<double>&
     EXPECT_NEAR(weight, 1.0, 1e-6);
 }
 
-/// A binary file of a text and, where there are some, bytes.
+/// A binary file from a text and optional bytes.
 std::string saveGlb(const std::string& name, std::string text, std::string bytes) {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
@@ -97,7 +97,7 @@ std::string escaped(const std::string& bytes) {
     return result;
 }
 
-/// Megabytes that this program took at most.
+/// Peak memory of this program, MB.
 long peakMegabytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -123,7 +123,7 @@ TEST(BadGltf, IndicesNameVerticesThatAreThere) {
         corners[5] = beyond;
         column.json["meshes"][0]["primitives"][0]["indices"] =
             column.accessor("SCALAR", corners, 5123);
-        column.json["accessors"].back()["normalized"] = beyond > 24; // which means nothing here
+        column.json["accessors"].back()["normalized"] = beyond > 24; // which has no meaning here
         expectMeshRefused(column, "malformed glTF: accessors[5], meshes[0].primitives[0].indices: "
                                   "number 5 is " +
                                       std::to_string(beyond) + ", expected a vertex below 24");
@@ -138,14 +138,14 @@ TEST(BadGltf, JointsAndWeightsAreSome) {
             "JOINTS_0: vertex 5 follows joint 3, expected one of the 3 that the skin has");
     expectWeights({0, 3, 0, 0}, {0.5, 0.5, 0, 0},
                   "malformed glTF: accessors[5]" + primitive + "JOINTS_0: vertex 5 follows joint 3",
-                  true); // which means nothing here
+                  true); // which has no meaning here
     expectWeights({0, 0, 0, 0}, {std::nan(""), 0, 0, 0},
                   "malformed glTF: accessors[6]" + primitive +
                       "WEIGHTS_0: vertex 5 has the weight nan, expected a number of 0 or more");
     expectWeights({0, 1, 0, 0}, {1.5, -0.5, 0, 0},
                   "malformed glTF: accessors[6]" + primitive +
                       "WEIGHTS_0: vertex 5 has the weight -0.5");
-    // What exporters write: joints that are not followed, and rounding errors.
+    // Exporters write these: unused joints, and rounding errors.
     expectWeights({0, 200, 0, 0}, {1, 0, 0, 0}, "");
     expectWeights({0, 200, 1, 0}, {1, 0, -1e-8, 0}, "");
 }
@@ -159,7 +159,7 @@ TEST(BadGltf, SetsOfJointsAreFourAtMost) {
                       "of joints and weights at most");
 }
 
-/// A mesh that two nodes show, only one of which moves it.
+/// A mesh that two nodes instance, only one of which animates it.
 TEST(GltfMorphs, WeightsOfANodeAreItsOwn) {
     for (const bool first : {true, false}) {
         GltfColumn column;
@@ -183,7 +183,8 @@ TEST(GltfMorphs, WeightsOfANodeAreItsOwn) {
     }
 }
 
-/// As those do that write a body of several materials: one list of vertices for all of them.
+/// Like exporters that write a body with several materials: one list of vertices for all
+/// primitives.
 TEST(GltfMeshes, VerticesThatPrimitivesShareAreTakenWhereTheyAreUsed) {
     GltfColumn column;
     json& primitives = column.json["meshes"][0]["primitives"];
@@ -210,7 +211,7 @@ TEST(GltfMeshes, VerticesThatPrimitivesShareAreTakenWhereTheyAreUsed) {
     for (std::size_t v = 0; v < used.size(); ++v) EXPECT_EQ(boneOf[v], names[used[v] / 8]) << v;
 }
 
-/// Each vertex of each primitive takes memory, however few bytes say so.
+/// Each vertex of each primitive takes memory, however few bytes describe it.
 TEST(BadGltf, PrimitivesThatNameTheSameVerticesAreInProportion) {
     GltfColumn column;
     json& primitives = column.json["meshes"][0]["primitives"];
@@ -299,7 +300,7 @@ TEST(GltfBuffers, StandInTheChunkTheTextOrOtherFiles) {
     const json beside = {{"uri", "my%20buffer%25.bin"}};
     const json escapes = {{"uri", "data:," + escaped(bytes)}};
     expectColumn(saveGlb("chunk.glb", text(json::object()), bytes));
-    // The chunk is nobody's where the first buffer has another place.
+    // The chunk belongs to no buffer if the first buffer has another location.
     for (const std::string& chunk : {std::string(), std::string("abcd")}) {
         expectColumn(saveGlb("beside.glb", text(beside), chunk));
         expectColumn(saveGlb("escapes.glb", text(escapes), chunk));
@@ -366,7 +367,9 @@ using test::GltfColumn;
 using test::saveText;
 
 /// A binary file of one chunk.
-/// \param told the length that its header tells; 0: the file's
+/// \param text of the chunk
+/// \param version in the header
+/// \param told the length in the header; 0: the file's
 std::string glbOf(const std::string& text, std::size_t version = 2, std::size_t told = 0) {
     const std::string chunk = glbNumber(text.size()) + "JSON" + text;
     return "glTF" + glbNumber(version) + glbNumber(told > 0 ? told : 12 + chunk.size()) + chunk;
@@ -458,7 +461,7 @@ TEST(GltfNames, EndWhereTheyEnd) {
     ASSERT_EQ(rig.animations.size(), 1u);
 }
 
-/// Of two nodes called alike the one that moves keeps its name.
+/// If two nodes have the same name, the animated one keeps it.
 TEST(GltfNames, GoToWhatMovesFirst) {
     GltfColumn column;
     column.bend();
@@ -467,7 +470,7 @@ TEST(GltfNames, GoToWhatMovesFirst) {
     const json before = roots;
     const std::size_t moved = column.node({{"name", "twin"}, {"children", before}});
     const std::size_t still = column.node({{"name", "twin"}, {"children", {moved}}});
-    std::swap(nodes[moved], nodes[still]); // the one that stands comes first in the file
+    std::swap(nodes[moved], nodes[still]); // the static one comes first in the file
     nodes[moved]["children"] = {still};
     roots = {moved};
     column.animate("bend", still, "translation", {0.0, 1.0}, {0, 0, 0, 0, 1, 0});
@@ -480,12 +483,12 @@ TEST(GltfNames, GoToWhatMovesFirst) {
 
 TEST(GltfNames, AreAsLongAsTheyMayBe) {
     GltfColumn column;
-    // Assimp writes a number behind the name of each of several primitives.
+    // Assimp appends a number to the name of each of several primitives.
     json& mesh = column.json["meshes"][0];
     mesh["name"] = std::string(1023, 'm');
     const json primitive = mesh["primitives"][0];
     for (int i = 0; i < 11; ++i) mesh["primitives"].push_back(primitive);
-    std::string joint; // whose 500th byte is within a letter
+    std::string joint; // whose 500th byte is within a character
     for (int i = 0; i < 300; ++i) joint += i == 0 ? "j" : "\u00e9";
     column.json["nodes"][0]["name"] = joint;
     const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("long.gltf"));

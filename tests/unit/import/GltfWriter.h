@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-/// A glTF file's one buffer, with its views and accessors.
+/// A glTF file's single buffer, with its views and accessors.
 class GltfBuffer {
 public:
-    /// Adds numbers, `width` to each of `count` elements; returns the accessor's index.
+    /// Adds `count` elements of `width` numbers; returns the accessor's index.
     std::size_t add(const std::vector<float>& numbers, std::size_t width, bool isTime) {
         const std::size_t bytes = numbers.size() * sizeof(float), at = _bytes.size();
         _bytes.resize(at + bytes);
@@ -58,8 +58,10 @@ private:
 };
 
 /// Writes a motion as a glTF file with nodes and one animation, no mesh.
+/// \param motion to write
 /// \param axes from each joint's own axes to the motion's zero pose
-/// \param posed rotations of the joints, from the zero pose, in which the nodes are left
+/// \param posed rotations of the nodes relative to the zero pose
+/// \param path of the file
 inline void writeGltf(const osgSkin::Motion& motion, const std::vector<glm::dquat>& axes,
                       const std::vector<glm::dquat>& posed, const std::string& path) {
     const auto& joints = motion.skeleton.joints;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Files that readers behind us believed: each took memory, time or the program with it.
+// Files that third-party readers trusted: each took excessive memory or time, or crashed the
+// program.
 //
-// What a reader behind us asks OpenSceneGraph for goes through our guard, whatever kind it is of.
+// Third-party readers' requests to OpenSceneGraph go through our guard, for objects of every kind.
 #include "ExpectError.h"
 #include "GlbNumber.h"
 #include "LeaksOfOthers.h"
@@ -58,7 +59,7 @@ const std::string kPlyVertices = "element vertex 3\nproperty float x\nproperty f
 const std::string kPlyFaces = "element face 1\nproperty list uchar int vertex_indices\n";
 const std::string kPlyTriangle = "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-/// Joints without channels below one that has a channel.
+/// Joints without channels below one with a channel.
 std::string bvh(std::size_t joints, std::size_t frames, bool nested) {
     std::string text = "HIERARCHY\nROOT r\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
     for (std::size_t j = 0; j < joints; ++j)
@@ -79,12 +80,12 @@ std::string gltf(const std::string& parts) {
     return R"({"asset":{"version":"2.0"},)" + parts + "}";
 }
 
-/// Lists within each other.
+/// Nested lists.
 std::string nested(std::size_t lists) {
     return std::string(lists, '[') + std::string(lists, ']');
 }
 
-/// A binary file of a text and, where there are some, bytes.
+/// A binary file from a text and optional bytes.
 std::string glb(std::string text, const std::string& bytes = "") {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     std::string chunks = glbNumber(text.size()) + "JSON" + text;
@@ -92,7 +93,7 @@ std::string glb(std::string text, const std::string& bytes = "") {
     return "glTF" + glbNumber(2) + glbNumber(12 + chunks.size()) + chunks;
 }
 
-/// Keys at 0 and 1e30 seconds; the values are zeros, which take no room.
+/// Keys at 0 and 1e30 seconds; the values are zeros without a buffer view.
 const std::string kLongSpline =
     gltf(R"("buffers":[{"byteLength":8,"uri":"data:;base64,AAAAAMrySXE="}],
 "bufferViews":[{"buffer":0,"byteLength":8}],"nodes":[{}],
@@ -101,7 +102,7 @@ const std::string kLongSpline =
 "animations":[{"samplers":[{"input":0,"output":1,"interpolation":"CUBICSPLINE"}],
                "channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}])");
 
-/// Positions of which number 9 is changed, if there are so many.
+/// Positions with a sparse change of number 9, if there are so many.
 std::string sparse(std::size_t vertices, int indexType, const std::string& primitive = "",
                    const std::string& mesh = "") {
     return gltf(R"("buffers":[{"byteLength":16,"uri":"data:;base64,CQAAAAAAAAAAAAAAAAAAAA=="}],
@@ -115,7 +116,7 @@ std::string sparse(std::size_t vertices, int indexType, const std::string& primi
                 primitive + "}]" + mesh + "}]");
 }
 
-/// Nodes that show one mesh, each with weights of its own: a copy of all its primitives for each.
+/// Nodes that instance one mesh, each with its own weights: each copies all primitives.
 const std::string kManyCopies = gltf(
     R"("accessors":[{"componentType":5126,"type":"VEC3","count":0}],
 "meshes":[{"primitives":[)" +
@@ -188,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
         Guarded{"property_twice.ply",
                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float x\n",
                 "line 5: a second property \"x\" of \"vertex\""},
-        // Rows would have a number more than columns are known of.
+        // Rows would have one more number than the known columns.
         Guarded{"misspelt.ply",
                 "ply\nformat ascii 1.0\nelement vertex 3\npropertty float quality\n",
                 "line 4: \"propertty\" begins no line, expected \"property\""},
@@ -263,7 +264,7 @@ TEST(Guard, NothingButFilesIsOpened) {
     expectError([] { osgSkin::importMesh("http://127.0.0.1:9/a.osgt"); }, "an address");
 
     ASSERT_EQ(mkfifo((folder + "/pipe.mtl").c_str(), 0600), 0);
-    // Materials and textures that cannot be had are done without.
+    // Unavailable materials and textures are ignored.
     for (const char* library : {"pipe.mtl", "texture.mtl"}) {
         const std::string mesh = folder + "/mesh.obj";
         std::ofstream(mesh) << "mtllib " << library
@@ -286,7 +287,7 @@ TEST(Guard, NothingIsRunOrUnpacked) {
         expectError([&] { osgSkin::importSkeleton(script + behind); }, reason);
         expectError([&] { osgSkin::readScene(script + behind, nullptr); }, reason);
     }
-    // A shell's command would have this name in it; OpenSceneGraph jumps to nowhere over the other.
+    // A shell command would contain this name; OpenSceneGraph crashes on the other.
     const std::string archive = folder + "a;touch ran;.tgz";
     for (const std::string& packed : {archive, folder + "body.gz", folder + "body.OSGT.GZ"}) {
         std::ofstream(packed) << "v 0 0 0";
@@ -301,8 +302,8 @@ TEST(Guard, NothingIsRunOrUnpacked) {
     std::filesystem::remove_all(folder);
 }
 
-// Assimp looks for itself what a file is whose name it does not know: readers of formats that are
-// checked here by their names, and readers that read beyond what is there.
+// Assimp detects the format of files with unknown extensions by content: it would use readers of
+// formats that we check by extension, and readers that read out of bounds.
 TEST(Guard, MotionsAreReadByTheirNamesAlone) {
     for (const char* name :
          {"walk.osgt", "walk.osgb", "walk.osgx", "walk.skin", "walk.dat", "walk"})
@@ -337,7 +338,7 @@ TEST(Guard, MotionsAreAsLargeAsTheirFiles) {
                 "one of more than 10000 (option maxJoints)");
 }
 
-/// Texture coordinates of the faces' corners only, so that those of the strips' are none.
+/// Only the faces' corners have texture coordinates; the strips' have none.
 TEST(Guard, StripsBesideFacesHaveNoTextureCoordinates) {
     const std::string path = saveText(
         "strips.ply", "ply\nformat ascii 1.0\n" + kPlyVertices + kPlyFaces +
@@ -378,7 +379,7 @@ TEST(Guard, MorphTargetsAndBuffersAreAsLargeAsTheirFiles) {
                 "malformed glTF: buffers: expected less than 1 MB in all (option maxFileMB)");
 }
 
-/// A library named by many spellings, of many materials, each of kilobytes.
+/// One library under many spellings of its name, with many materials of kilobytes each.
 TEST(Guard, MaterialLibrariesAreReadOnce) {
     std::string library, text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 20'000; ++i) library += "newmtl a" + std::to_string(i) + "\nKd 0 0 1\n";
@@ -409,7 +410,7 @@ TEST(Guard, MaterialLibrariesAreReadOnce) {
     expectError([&] { osgSkin::importMesh(beyond, few); }, "100 materials, expected at most ");
 }
 
-/// Numbers of any length are what they are, or refused.
+/// Numbers of any length have their value, or are refused.
 TEST(Guard, LongNumbersOfObjFilesAreTheirValues) {
     const std::string rest = "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const std::string thirds(2000, '3');
@@ -452,8 +453,8 @@ namespace {
 
 using Result = osgDB::ReaderWriter::ReadResult;
 
-/// Reads `KIND FILE` from its own file, asks for that, and makes a group that is named after what
-/// came of it.
+/// Reads `KIND FILE` from its own file, requests that, and makes a group that is named after the
+/// result.
 class Asker : public osgDB::ReaderWriter {
 public:
     Asker() { supportsExtension("asks", "what a reader may ask for"); }
@@ -490,7 +491,7 @@ public:
         std::filesystem::remove_all(_folder);
     }
 
-    /// What a reader is told that asks for a file.
+    /// The result that a reader gets when it requests a file.
     std::string asked(const std::string& kind, const std::string& name) {
         const std::string path = file("reader.asks");
         std::ofstream(path) << kind << ' ' << name;
@@ -504,7 +505,7 @@ private:
     const osg::ref_ptr<Asker> _asker = new Asker;
 };
 
-/// Joints below each other, as many as OpenSceneGraph's reader has no stack for.
+/// Nested joints, more than OpenSceneGraph's recursive reader has stack for.
 std::string deepBvh(int joints) {
     std::string text = "HIERARCHY\nROOT r\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
     for (int j = 0; j < joints; ++j)
@@ -557,7 +558,7 @@ TEST_F(GuardedReads, ReadWhatOpenSceneGraphReads) {
     EXPECT_NE(asked("script", file("none.unknown")), "read");
 }
 
-/// Its readers of OBJ, PLY and BVH believe what they read.
+/// Its readers of OBJ, PLY and BVH do not check their input.
 TEST_F(GuardedReads, AskOpenSceneGraphForNoFormatOfOurs) {
     const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
                             "property float y\nproperty float z\nelement face 1\n"
@@ -580,7 +581,7 @@ TEST_F(GuardedReads, AskOpenSceneGraphForNoFormatOfOurs) {
             expectError([&] { osgSkin::importMesh(path + behind); }, path + ": ");
             expectError([&] { osgSkin::importSkeleton(path + behind); }, path + ": ");
         }
-        // These would ask for it past us.
+        // These would bypass our check.
         for (const char* behind : {".normals", ".2.scale.normals", ".normals.gles", ".logo"})
             expectError([&] { osgSkin::readScene(path + behind, nullptr); },
                         "expected a file that only has to be read");
@@ -594,7 +595,7 @@ TEST_F(GuardedReads, ReadMeshesAsOpenSceneGraphWould) {
         const std::string path = testData(name);
         osg::ref_ptr<osg::Node> theirs;
         {
-            const test::LeaksOfOthers ofOpenSceneGraph; // its reader of PLY loses the properties
+            const test::LeaksOfOthers ofOpenSceneGraph; // its PLY reader leaks the properties
             theirs = osgDB::readRefNodeFile(path);
         }
         ASSERT_TRUE(theirs);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Files of less than a megabyte that took minutes, or gigabytes: what they have many of was
-// compared with all others, or copied for each.
+// Files of less than a megabyte that took minutes, or gigabytes: their many elements were compared
+// with all others, or copied for each.
 //
-// What becomes of the test models of Assimp's makers (Debian: assimp-testmodels), the broken ones
-// among them: read, or refused with a reason, and never a crash.
+// Results for Assimp's test models (Debian: assimp-testmodels), including broken ones: read, or
+// refused with a reason, but never a crash.
 #include "ExpectError.h"
 #include "GltfBuilder.h"
 #include "LeaksOfOthers.h"
@@ -39,8 +39,8 @@ namespace {
 using nlohmann::json;
 using test::GltfColumn;
 
-/// Of this program's own.
-#ifdef __SANITIZE_ADDRESS__ // which takes five times as long
+/// Processor time of this program.
+#ifdef __SANITIZE_ADDRESS__ // takes five times as long
 constexpr double kMaxSeconds = 24.0;
 #else
 constexpr double kMaxSeconds = 8.0;
@@ -204,7 +204,7 @@ TEST_F(GuardedTime, MatricesThatASkinDoesNotNeedCount) {
                 "skins[1].inverseBindMatrices: expected no more vertices, corners and keys");
 }
 
-/// Each would be drawn by itself.
+/// Each would be drawn separately.
 TEST_F(GuardedTime, ZerosThatStandNowhereCount) {
     GltfColumn column;
     const std::size_t many = 450'000;
@@ -219,7 +219,8 @@ TEST_F(GuardedTime, ZerosThatStandNowhereCount) {
     const std::string file = column.save("zeros.gltf");
     expectError([&] { osgSkin::importMesh(file); }, "(option maxSamples)");
     const osg::ref_ptr<osgDB::Options> more = new osgDB::Options("maxSamples=9000000");
-    EXPECT_EQ(osgSkin::importMesh(file, more).mesh.positions.size(), 24u); // no face names others
+    EXPECT_EQ(osgSkin::importMesh(file, more).mesh.positions.size(), 24u); // no face refers to
+                                                                           // others
 }
 
 TEST_F(GuardedTime, MaterialsAreInProportion) {
@@ -238,7 +239,7 @@ TEST_F(GuardedTime, MaterialsAreInProportion) {
     EXPECT_EQ(osgSkin::importMesh(folder + "many.obj", options).parts.size(), 2000u);
 }
 
-/// Groups that show each other twice.
+/// Groups that instance each other twice.
 TEST_F(GuardedTime, WhatASceneShowsOftenIsOnePart) {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     const osg::ref_ptr<osg::Vec3Array> places = new osg::Vec3Array;
@@ -273,8 +274,7 @@ std::vector<std::filesystem::path> allModels() {
     return result;
 }
 
-/// Whether a file is in a format that is for trusted files only: Assimp loses memory where it gives
-/// up.
+/// Whether a file has a format for trusted files only: Assimp leaks memory on errors.
 bool isForTrustedOnly(const std::filesystem::path& file) {
     const std::string ours[] = {".obj", ".ply", ".bvh", ".gltf", ".glb", ".vrm"};
     std::string extension = file.extension().string();
@@ -302,7 +302,7 @@ TEST(TestModels, RiggedOnesAreReadWhole) {
     }
 }
 
-/// The file has weights for joint3 and joint4, and no frames for them.
+/// The file has weights for joint3 and joint4, but no frames for them.
 TEST(TestModels, BonesWithoutANodeFollowTheirNeighbours) {
     OSGSKIN_NEEDS(kModels);
     const osgSkin::ImportedRig rig = osgSkin::importRig(std::string(kModels) + "X/anim_test.x");
@@ -318,7 +318,7 @@ TEST(TestModels, BonesWithoutANodeFollowTheirNeighbours) {
         height = joint.centre.y;
     }
     EXPECT_LT(height, 5.0);
-    // Whole weights: what the file paints, it paints in full.
+    // The weights of every vertex sum to 1.
     std::vector<double> sums(rig.body.mesh.positions.size(), 0.0);
     for (const osgSkin::BoneWeights& weights : rig.body.weights)
         for (const auto& entry : weights.entries) sums[entry.vertex] += entry.weight;
@@ -365,7 +365,7 @@ TEST(TestModels, AllOthersAreRefusedWithAReason) {
     EXPECT_GT(reasons["no mesh with bones, expected a"], 200u);
 }
 
-/// Whatever a `.skin` file may name for its mesh, its skeleton and its motions.
+/// As the mesh, the skeleton and the motions of a `.skin` file.
 TEST(TestModels, NoneDoesHarmAsAMeshASkeletonOrAMotion) {
     OSGSKIN_NEEDS(kModels);
     std::size_t read = 0, refused = 0;

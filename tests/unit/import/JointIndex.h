@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <string>
 
-/// Where a joint that must be there is; 0 where it is not, which is a failure.
+/// Index of a joint that must exist; if it does not, fails and returns 0.
 inline std::size_t jointIndex(const osgSkin::RestSkeleton& skeleton, const std::string& name) {
     const int j = skeleton.find(name);
     EXPECT_GE(j, 0) << name;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a joint is, told by its name; and motions of a body whatever its joints are called.
+// Joint roles from names, and motions for a body with any joint names.
 //
-// Every exporter's spelling of a body's joints, and names that are none of them.
+// Every exporter's spelling of a body's joints, and names that are not joints of the body.
 #include "Figure.h"
 #include "JointSpellings.h"
 #include "RenamedBody.h"
@@ -23,7 +23,7 @@ using namespace osgSkin;
 
 namespace {
 
-/// What a single name says, without a family.
+/// The role of a single name, without a family.
 JointPart partOf(const std::string& name, const std::string& child = {}) {
     RestSkeleton skeleton{{{"root", -1, {}, {}}, {name, 0, {}, {}}}};
     if (!child.empty()) skeleton.joints.push_back({child, 1, {}, {}});
@@ -60,7 +60,7 @@ TEST(JointRoles, WordsTellThePartWhereNoFamilyDoes) {
 TEST(JointRoles, TheFamilyGoesBeforeTheWords) {
     JointNames family{"odd", {}};
     family.roles = {{"Hips", {"base"}},
-                    {"LeftHand", {"foot"}}, // a chimpanzee's author, maybe
+                    {"LeftHand", {"foot"}}, // possibly a chimpanzee
                     {"LeftUpperArm", {"wrist"}},
                     {"Head", {"servo1"}}};
     const RestSkeleton skeleton{{{"base", -1, {}, {}},
@@ -85,7 +85,7 @@ TEST(JointRoles, AFamilyNeedsFourRoles) {
     EXPECT_FALSE(recogniseJoints(skeleton, {family}).known());
 }
 
-/// The thrower without what only CMU's files have: a second joint in the neck, fingers in one.
+/// The thrower without CMU's special joints: a second joint in the neck, and one for the fingers.
 RestSkeleton plainThrower() {
     RestSkeleton body = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
     for (const char* joint : {"Neck1", "LHipJoint", "RHipJoint", "LeftFingerBase",
@@ -94,7 +94,7 @@ RestSkeleton plainThrower() {
     return body;
 }
 
-/// The clip is that of the body under CMU's names; `options` tell the names.
+/// Expects the clip of the body with CMU's names; `options` give the names.
 void expectAlike(const JointNames& family, const RetargetOptions& options) {
     const RestSkeleton body = plainThrower();
     const Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
@@ -110,7 +110,7 @@ void expectAlike(const JointNames& family, const RetargetOptions& options) {
     EXPECT_EQ(clip.rootPositions, expected.rootPositions);
 }
 
-/// MakeHuman's "pelvis.L" leads from the root to the thigh: a hip, however far out it stands.
+/// MakeHuman's "pelvis.L" leads from the root to the thigh: a hip, however far from the middle.
 TEST(JointRoles, HipsOfEveryFamilyAreNotAligned) {
     RestSkeleton body = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
     body = test::renamed(body, test::namesIn(body, test::knownNames("MakeHuman")));
@@ -135,7 +135,7 @@ TEST(JointRoles, ARokokoBodyMovesLikeTheSameBody) {
     expectAlike(test::knownNames("Rokoko"), {});
 }
 
-/// Assimp's exporters make joints of what it made of an FBX joint's pivots.
+/// Assimp's exporters write the pivots of an FBX joint as joints.
 TEST(JointRoles, PivotsAreNoPartOfABody) {
     const std::string pivot = "_$AssimpFbx$_Rotation";
     RestSkeleton skeleton;
@@ -197,11 +197,11 @@ RestSkeleton spelledBody(const test::Dialect& dialect, const test::SideStyle& si
     RestSkeleton body;
     for (const Bone& bone : kBody)
         body.add(test::spelled(dialect, bone.role, side, prefix, suffix, body.joints.size()),
-                 bone.parent, glm::dvec3(0.0)); // nothing to tell by its shape
+                 bone.parent, glm::dvec3(0.0)); // no shape to recognise
     return body;
 }
 
-/// Joints whose role is not the one that they have, by name.
+/// Names of the joints with a wrong role.
 std::string wrong(const RestSkeleton& body) {
     const JointRoles roles = recogniseJoints(body);
     std::string result;
@@ -212,7 +212,7 @@ std::string wrong(const RestSkeleton& body) {
     return result;
 }
 
-/// A single letter in lower case, with no sign between it and other small letters, is no mark.
+/// A single lower-case letter directly beside other lower-case letters is no side mark.
 bool isLegible(const test::Dialect& dialect, const test::SideStyle& side, const std::string& prefix,
                const std::string& suffix) {
     if (!std::string(side.separator).empty()) return true;
@@ -224,7 +224,7 @@ bool isLegible(const test::Dialect& dialect, const test::SideStyle& side, const 
     return word || !small || !std::isalnum(static_cast<unsigned char>(before));
 }
 
-/// What hangs on bodies beside their joints, and what rigs are worked by.
+/// Accessories of bodies, and the controls of rigs.
 const char* const kOthers[] = {"Tail",
                                "Tail1",
                                "Tail_01",
@@ -514,7 +514,7 @@ const char* const kOthers[] = {"Tail",
                                "scene",
                                "geometry"};
 
-/// The body with another joint on the one that its name speaks of, or on the spine.
+/// The body with another joint below the one that its name mentions, or below the spine.
 RestSkeleton withOther(RestSkeleton body, const std::string& name) {
     static const std::pair<const char*, std::size_t> kOn[] = {
         {"hand", 7}, {"arm", 5}, {"foot", 14}, {"leg", 13}, {"head", 3}, {"hair", 3}};
@@ -556,7 +556,7 @@ TEST(JointSpelling, WhatIsNoCodeOfASignStays) {
         EXPECT_EQ(wrong(spelledBody(mixamo, before, prefix, "")), "") << prefix;
 }
 
-/// A figure's name runs on into the side and the part, with no sign between them.
+/// A figure's name runs into the side and the part without a separator.
 TEST(JointSpelling, NamesMayRunOnIntoSides) {
     RestSkeleton body =
         spelledBody(test::dialects().front(), {"left", "right", true, ""}, "neo", "");
@@ -591,7 +591,7 @@ TEST(JointSpelling, OtherNamesAreNoJointsOfTheBody) {
         }
 }
 
-/// A name alone, beside no others, is none of the body either.
+/// Nor does a single name, without others, belong to the body.
 TEST(JointSpelling, OtherNamesAloneAreNothing) {
     RestSkeleton skeleton;
     for (const char* other : kOthers)

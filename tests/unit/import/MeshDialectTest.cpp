@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Meshes in OBJ, PLY and OFF as other programs write them, and what looks like them and is none.
+// OBJ, PLY and OFF meshes as other programs write them, and files that only resemble them.
 //
-// Polygons with corners that point inwards, and with any number of corners.
+// Polygons with concave corners, and with any number of corners.
 #include "ExpectError.h"
 #include "Notices.h"
 #include "Paths.h"
@@ -43,7 +43,7 @@ osg::Vec4 diffuseOf(const ImportedMesh& mesh) {
         .getDiffuse(osg::Material::FRONT);
 }
 
-/// A material library, and a square with its material "m".
+/// The diffuse colour of a square with the library's material "m".
 osg::Vec4 diffuseBy(const std::string& library) {
     std::ofstream(testing::TempDir() + "dialect.mtl") << "newmtl m\n" << library;
     return diffuseOf(
@@ -75,7 +75,7 @@ TEST(ObjDialects, LinesGoOnBehindBackslashes) {
         EXPECT_EQ(mesh.mesh.positions.size(), 4u);
         EXPECT_EQ(mesh.mesh.faceSizes, std::vector<std::uint32_t>{4});
     }
-    // Right behind the keyword, too.
+    // Directly after the keyword, too.
     for (const std::string end : {"\n", "\r\n"}) {
         const ImportedMesh mesh =
             readMesh("words.obj", "v\\" + end + " 0 0 0\nv 1 0 0\nv 1 1 0\nv " + "0 1 0\nf\\" +
@@ -127,7 +127,7 @@ TEST(ObjDialects, FourthNumbersOfVerticesAreToldOf) {
     EXPECT_TRUE(before.say("1 of 3 vertices have a fourth number that is not 1")) << before.text();
 }
 
-/// Lines that a person would take for a face or a vertex are not passed over.
+/// Lines that a person would read as a face or a vertex are not ignored.
 TEST(ObjDialects, KeywordsToTheEyeAloneAreRefused) {
     for (const std::string line : {"F 1 2 3", "f\v1 2 3", "\ff 1 2 3",
                                    "\xc2\xa0"
@@ -139,14 +139,14 @@ TEST(ObjDialects, KeywordsToTheEyeAloneAreRefused) {
                                    "V 0 0 1", "VN 0 0 1"})
         expectError([&] { readMesh("eye.obj", kSquare + "f 1 2 3\n" + line + "\n"); },
                     "eye.obj: line 6: \"");
-    // What is something else is passed over, as ever.
+    // Other lines are ignored, as always.
     EXPECT_EQ(readMesh("else.obj", kSquare + "Fine 1 2\n\xc3\xa9 1\nvp 1 2\nl 1 2\nf 1 2 3\n")
                   .mesh.triangles()
                   .size(),
               3u);
 }
 
-/// "fo", a face's outline, is the format's first name for a face.
+/// "fo", face outline, is the format's old keyword for a face.
 TEST(ObjDialects, FacesMayHaveTheirOldName) {
     const ImportedMesh mesh =
         readMesh("old.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nfo 2 4 3\n");
@@ -167,8 +167,8 @@ TEST(ObjDialects, MaterialsMayHaveOneNumberOrNone) {
     EXPECT_EQ(diffuseBy("Kd nan 0 0\n"), plain);
     EXPECT_EQ(diffuseBy("Kd 0,5 0,5 0,5\n"), plain);
     EXPECT_EQ(diffuseBy(""), plain);
-    EXPECT_EQ(diffuseBy("map_Kd -o 1e999 0 0 nowhere.png\n"), plain); // which is left out
-    EXPECT_EQ(diffuseBy("newmtl n\nKd 1 0 0\n"), plain);              // another one's
+    EXPECT_EQ(diffuseBy("map_Kd -o 1e999 0 0 nowhere.png\n"), plain); // which is ignored
+    EXPECT_EQ(diffuseBy("newmtl n\nKd 1 0 0\n"), plain);              // another material's
     EXPECT_EQ(plain, osg::Vec4(.8f, .74f, .68f, 1)) << "as without a library, and not black";
     EXPECT_EQ(diffuseBy("kd 0.25\nD 0.5\n"), osg::Vec4(.25f, .25f, .25f, .5f));
 }
@@ -231,7 +231,7 @@ TEST(PlyDialects, BlanksMayEndTheFirstLine) {
 }
 
 TEST(PlyDialects, WordsBehindTheLastElementAreRefused) {
-    // Rows of four numbers, of which the header tells three.
+    // Rows of four numbers, of which the header declares three.
     const std::string longer = "0 0 0 3\n0 1 2 3\n1 0 0 3\n";
     expectError([&] { readMesh("rows.ply", ply(kThreeVertices + kFaces, longer)); },
                 "rows.ply: words behind the last element");
@@ -278,7 +278,7 @@ TEST(OffDialects, FacesHaveAnyNumberOfCorners) {
         text += std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
         face += " " + std::to_string(k);
     }
-    // Points and lines are none.
+    // Points and lines are not faces.
     const ImportedMesh mesh = readMesh("wheel.off", text + "1 0\n" + face + "\n2 0 1\n");
     EXPECT_EQ(mesh.mesh.faceSizes, std::vector<std::uint32_t>{300});
     for (const char* broken :
@@ -338,7 +338,7 @@ SkinMesh polygon(const std::vector<glm::dvec3>& corners) {
     return mesh;
 }
 
-/// All areas added up, and those of triangles that face the other way than the polygon.
+/// The sum of all areas, and that of triangles that face away from the polygon's side.
 struct Areas {
     double all = 0.0, back = 0.0;
 };
@@ -361,7 +361,7 @@ Areas areasOf(const SkinMesh& mesh) {
     return areas;
 }
 
-/// A comb of so many teeth, one wide and two high with a gap of one between them, on a bar of one.
+/// A comb with this many teeth, one wide and two high with gaps of one, on a bar of height one.
 std::vector<glm::dvec3> comb(int teeth) {
     std::vector<glm::dvec3> corners{{0, 0, 0}, {2 * teeth - 1, 0, 0}};
     for (int t = teeth - 1; t >= 0; --t) {
@@ -404,7 +404,7 @@ TEST(Polygons, ConvexOnesAreFans) {
     EXPECT_EQ(mesh.triangles(), (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4}));
 }
 
-/// One that is bent has no plane in which all would see the same inner corners.
+/// A bent polygon has no plane in which everyone would find the same concave corners.
 TEST(Polygons, BentOnesAreCutAlikeHoweverTheyStand) {
     std::mt19937 random(12);
     std::uniform_real_distribution<double> number(-1.0, 1.0);
@@ -418,7 +418,7 @@ TEST(Polygons, BentOnesAreCutAlikeHoweverTheyStand) {
         for (const glm::dvec3& corner : corners) turned.push_back(turn * corner);
         const std::vector<std::uint32_t> as = polygon(corners).triangles();
         EXPECT_EQ(as, polygon(turned).triangles()) << i;
-        cut += as[3] != 0; // no fan
+        cut += as[3] != 0; // not a fan
     }
     EXPECT_GT(cut, 40);
 }
@@ -433,7 +433,7 @@ TEST(Polygons, WithoutAreaOrInnerAreCutSomehow) {
         EXPECT_EQ(polygon(corners).triangles().size(), 3 * (corners.size() - 2));
 }
 
-/// A zigzag that winds back, whose ears are hidden by the corners between.
+/// A zigzag that winds back, whose ears are blocked by the corners between.
 TEST(Polygons, TakeNoMinutes) {
     const std::clock_t begin = std::clock();
     std::vector<glm::dvec3> corners;

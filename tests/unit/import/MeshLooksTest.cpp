@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What mesh files say of looks: colours in either range, several textures; and what is told of
-// them.
+// Material features of mesh files: colours in either range, several textures; and the warnings.
 //
 // Images of meshes: their formats, their sizes, and broken ones.
 //
-// Pictures that are named, or stored, more often than there are files of them.
+// Pictures that are named, or stored, more often than there are files.
 #include "ExpectError.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
@@ -57,7 +56,7 @@ void saveImage(const std::string& name, unsigned char grey) {
     ASSERT_TRUE(osgDB::writeImageFile(*image, testing::TempDir() + name));
 }
 
-/// The grey of a part's texture; -1: it has none.
+/// The grey value of a part's texture; -1 if it has none.
 int greyOf(const osgSkin::MeshPart& part) {
     const auto* texture = dynamic_cast<const osg::Texture2D*>(
         part.geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
@@ -81,7 +80,7 @@ TEST(MeshLooks, ColoursCountTo1OrTo255) {
     const std::string bytes = saveLooks("bytes.obj", coloured("255 0 0", "0 51 102"));
     EXPECT_EQ(colourOf(bytes, 0), red);
     EXPECT_EQ(colourOf(bytes, 1), osg::Vec4(0.0f, 51.0f / 255.0f, 102.0f / 255.0f, 1.0f));
-    // Brighter than white it may be, in either range.
+    // Brighter than white is allowed, in either range.
     EXPECT_EQ(colourOf(saveLooks("bright.obj", coloured("2.5 0 0", "0 0.5 1")), 1), mixed);
     EXPECT_EQ(colourOf(saveLooks("brighter.obj", coloured("300 0 0", "0 1 1")), 0), red);
     const std::string floats = saveLooks(
@@ -94,8 +93,7 @@ TEST(MeshLooks, ColoursCountTo1OrTo255) {
     EXPECT_EQ(colourOf(floats, 1), osg::Vec4(0.0f, 51.0f / 255.0f, 0.0f, 51.0f / 255.0f));
 }
 
-/// Colours of whole types count as far as their numbers do; what is as bright as no light counts to
-/// 255, too.
+/// Integer colours range up to the maximum of their type, but up to 255 if no number is larger.
 TEST(MeshLooks, PlyColoursCountAsTheirNumbersDo) {
     const auto second = [](const std::string& type, const char* first, const char* next) {
         std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
@@ -229,7 +227,8 @@ using test::with;
 using test::written;
 
 /// A TGA picture of 5 x 3 pixels.
-/// \param kind 1: by a table of two colours, 2: by colours; 8 more: packed
+/// \param kind 1: palette of two colours, 2: true colour; plus 8: compressed
+/// \param pixels data
 std::string tga(int kind, const std::string& pixels) {
     const bool mapped = (kind & 7) == 1;
     return little(0, 1) + little(mapped ? 1 : 0, 1) + little(std::uint32_t(kind), 1) +
@@ -322,14 +321,14 @@ TEST(Pictures, ThatAreBrokenAreLeftOut) {
     ASSERT_NE(table, std::string::npos);
     expectRefused("table.jpg", with(jpg, table + 5, std::string(16, '\x7f')),
                   "a Huffman table of more than 256 entries");
-    // What the content says, and not the name, chooses among decoders; there is none for GIF.
+    // The decoder is chosen by content, not by name; there is none for GIF.
     savePicture("named.png", written("jpg"));
     EXPECT_TRUE(drawnWith("named.png").image.valid());
     expectRefused("gif.png", "GIF89a" + little(5, 2) + little(3, 2) + "\0\0\0;"s, reason);
 }
 
 TEST(Pictures, OfAModelCountTogether) {
-    // Larger than its file is worth.
+    // More pixels than its file's size allows.
     const int side = 200;
     const std::string small = written("png", side, side);
     ASSERT_LT(16 * small.size(), std::size_t(side) * side);
@@ -402,8 +401,7 @@ using test::written;
 
 constexpr int kSide = 200;
 
-/// The value of maxPixels at which so many pictures as written by written("png", kSide, kSide), and
-/// no more, are drawn.
+/// The value of maxPixels that allows exactly this many pictures by written("png", kSide, kSide).
 std::string optionFor(std::size_t pictures) {
     const std::size_t each = std::size_t(kSide) * kSide - 16 * written("png", kSide, kSide).size();
     return "maxPixels=" + std::to_string(pictures * each);
@@ -438,8 +436,9 @@ Images imagesOf(const std::string& path, const osgDB::Options* options) {
     return result;
 }
 
-/// A column for each image, which each stands in a view of its own.
-/// \param views where an image begins and how long it is, within `bytes`
+/// A column with an image per view.
+/// \param bytes of the buffer
+/// \param views offset and length of each image in `bytes`
 test::GltfColumn columnWith(const std::string& bytes,
                             const std::vector<std::pair<std::size_t, std::size_t>>& views) {
     test::GltfColumn column;
@@ -458,7 +457,7 @@ test::GltfColumn columnWith(const std::string& bytes,
     return column;
 }
 
-/// Shows each image of a file on a part of its own.
+/// Shows each image of a file on a separate part.
 void showImages(nlohmann::json& file) {
     const nlohmann::json primitive = file["meshes"][0]["primitives"][0];
     file["meshes"][0]["primitives"].clear();
@@ -533,7 +532,7 @@ TEST(Pictures, ThatStandInTheSameBytesAreReadOnce) {
     EXPECT_EQ(images.all.size(), 1u);
 }
 
-/// Each is copied before anything looks at it.
+/// Each is copied before anything checks it.
 TEST(Pictures, OfAGltfFileHaveItsBytesTogether) {
     const std::string bytes(50000, 'x');
     std::vector<std::pair<std::size_t, std::size_t>> views;
@@ -563,7 +562,7 @@ TEST(Pictures, OfMeshesThatAreReadTogetherCountTogether) {
     const test::Notices notices;
     EXPECT_EQ(imagesOf(third, osgSkin::shareImages(together)).drawn, 0u);
     EXPECT_TRUE(notices.say("beside those before it (option maxPixels)")) << notices.text();
-    // What the caller has counts nothing.
+    // The caller's data are not used.
     EXPECT_EQ(words->getUserDataContainer(), nullptr);
     EXPECT_EQ(imagesOf(third, words).drawn, 1u);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a mesh file says wrongly, and how much is said about it.
+// Errors in mesh files, and their messages.
 //
-// OFF files as others write them, and byte order marks before texts of meshes.
+// OFF files of other programs, and byte order marks at the start of text meshes.
 #include "ExpectError.h"
 #include "NamedCase.h"
 #include "Notices.h"
@@ -43,7 +43,7 @@ const osg::DrawElementsUInt& triangles(const osgSkin::MeshPart& part) {
     return dynamic_cast<const osg::DrawElementsUInt&>(*part.geometry->getPrimitiveSet(0));
 }
 
-/// What every part must be, whatever it was read from.
+/// Invariants of every part, for every format.
 void expectConsistent(const osgSkin::ImportedMesh& imported) {
     std::vector<std::size_t> trianglesOf(imported.mesh.faceSizes.size(), 0);
     for (const osgSkin::MeshPart& part : imported.parts) {
@@ -71,7 +71,7 @@ TEST(ImportObj, KeepsVerticesAndPolygonsInFileOrder) {
     EXPECT_EQ(imported.mesh.positions[6], glm::dvec3(2.5, 0.5, 0));
     EXPECT_EQ(imported.mesh.positions[7].x, 0.1234567890123); // all digits
     EXPECT_EQ(imported.mesh.faceSizes, (Indices{4, 4, 3}));
-    // The last face counts from the end of the list.
+    // The last face has negative indices, relative to the end of the list.
     EXPECT_EQ(imported.mesh.faceVertices, (Indices{3, 0, 1, 2, 1, 4, 5, 2, 4, 6, 5}));
     expectConsistent(imported);
 }
@@ -104,7 +104,7 @@ TEST(ImportObj, ReadsVertexColours) {
 
 TEST(ImportObj, CopiesAVertexOnlyWhereItsAttributesDiffer) {
     const osgSkin::ImportedMesh imported = osgSkin::importMesh(testData("mesh/quads.obj"));
-    // Corner 2/2 of the first face and 2/5 of the second lie in different parts; within the first
+    // Corner 2/2 of the first face and 2/5 of the second are in different parts; within the first
     // part no vertex has two texture coordinates.
     EXPECT_EQ(imported.parts[0].sourceVertex.size(), 7u);
     EXPECT_EQ(imported.parts[1].sourceVertex.size(), 4u);
@@ -175,16 +175,16 @@ TEST(ImportOsg, ReadsTrianglesWhereTheyStand) {
     EXPECT_EQ(imported.mesh.faceSizes, (Indices{3, 3}));
     EXPECT_EQ(imported.mesh.positions[2], glm::dvec3(-1, 1, 5));
     expectConsistent(imported);
-    // Mirrored, the square still shows its outside to +z.
+    // Mirrored, the square still faces +z.
     for (const osg::Vec3& n : normals(imported.parts[0]))
         EXPECT_LT((n - osg::Vec3(0, 0, 1)).length(), 1e-6f);
 }
 
-/// Turned, and flatter: normals stay upright on what they stood on.
+/// Rotated and flattened: normals stay perpendicular to the surface.
 TEST(ImportOsg, TurnsNormalsWithTheSurface) {
     const osg::ref_ptr<osg::Geometry> slope = new osg::Geometry;
     const osg::Vec3 corners[] = {{0, 0, 0}, {1, 0, 1}, {0, 1, 0}};
-    osg::Vec3 smooth(-0.8f, 0.2f, 1.0f); // as of a round surface, not the triangle's own
+    osg::Vec3 smooth(-0.8f, 0.2f, 1.0f); // as for a round surface, not the triangle's own
     smooth.normalize();
     const osg::Vec3 given[] = {smooth, smooth, smooth};
     slope->setVertexArray(new osg::Vec3Array(3, corners));
@@ -280,7 +280,7 @@ TEST(MeshErrors, MissingFileNamesTheReason) {
     }
 }
 
-/// A cube, its normals along the faces' own or against them, as an OBJ file.
+/// A cube with normals along the faces' own or against them, as an OBJ file.
 std::string cube(const std::string& name, double side, const std::string& materials = "") {
     std::string path = testing::TempDir() + name;
     std::ofstream out(path);
@@ -301,7 +301,7 @@ std::string cube(const std::string& name, double side, const std::string& materi
     return path;
 }
 
-/// How far the normals point outwards at the cube's corners, at least.
+/// The least outward component of the normals at the cube's corners.
 double outwards(const osgSkin::ImportedMesh& mesh) {
     double least = 1.0;
     for (const osgSkin::MeshPart& part : mesh.parts) {
@@ -349,7 +349,7 @@ TEST(MeshTrust, MissingMaterialsAreOneLine) {
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
 }
 
-/// The colours of an OBJ mesh's parts, red, green and blue, in the order of its faces.
+/// The colours of an OBJ mesh's parts, in the order of its faces.
 static std::vector<osg::Vec4> coloursOf(const osgSkin::ImportedMesh& mesh) {
     std::vector<osg::Vec4> result;
     for (const osgSkin::MeshPart& part : mesh.parts)
@@ -382,7 +382,7 @@ TEST(MeshTrust, NamesOfMaterialsAndLibrariesMayHaveBlanks) {
     }
 }
 
-/// Three bytes a vertex: each is bound.
+/// Three bytes per vertex, and each is bound.
 TEST(MeshTrust, VerticesAreInProportion) {
     const std::string path = testing::TempDir() + "bytes.ply";
     const std::size_t vertices = 200'000;

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <string>
 
-/// A malformed file and what its error must say.
+/// A malformed file and parts of its error message.
 struct BadFile {
     const char* file;
     const char* message;
@@ -17,7 +17,7 @@ inline void PrintTo(const BadFile& bad, std::ostream* out) {
     *out << bad.file;
 }
 
-/// A test's name from its file's.
+/// Derives a test's name from its file's.
 inline std::string nameOf(const testing::TestParamInfo<BadFile>& info) {
     std::string name = info.param.file;
     for (char& c : name)

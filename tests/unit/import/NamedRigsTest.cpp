@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Skeletons as tools name them, whole: what is particular to each beyond spelling.
+// Complete skeletons with tools' own names: their peculiarities beyond spelling.
 //
-// Names of files: what they lead through, where they end, and which file they mean.
+// File names: archives in their paths, where they end, and which file they mean.
 //
-// A mesh and its bone of one name, in formats where bones are known by their names.
+// A mesh and its bone with one name, in formats that refer to bones by name.
 #include "ExpectError.h"
 #include "Paths.h"
 
@@ -48,8 +48,8 @@ std::string withBlanks(std::string name) {
     return name;
 }
 
-/// A skeleton by its names, each after its parent's: "Hips LeftLeg<Hips ...". A name with a blank
-/// has "+" for it.
+/// A skeleton from its names, each followed by its parent's: "Hips LeftLeg<Hips ...". "+" stands
+/// for a space in a name.
 RestSkeleton makeNamed(const std::string& joints) {
     RestSkeleton skeleton;
     std::istringstream words(joints);
@@ -62,7 +62,7 @@ RestSkeleton makeNamed(const std::string& joints) {
     return skeleton;
 }
 
-/// A list of joints with "@" for the side, on both sides.
+/// Expands a list of joints with "@" for the side to both sides.
 std::string bothSides(const std::string& joints, const std::string& left,
                       const std::string& right) {
     std::string result;
@@ -287,8 +287,8 @@ TEST(NamedRigs, InJapanese) {
     EXPECT_EQ(roles.roles[std::size_t(skeleton.find("左足ＩＫ"))], "");
 }
 
-/// All below one root, as glTF lists the joints of a skin whose nodes are lost: no joint stands
-/// above another one, and the last of the trunk is not the head.
+/// All joints below one root, as glTF lists a skin's joints if their nodes are missing: no joint is
+/// above another, and the trunk's last joint is not the head.
 TEST(NamedRigs, AListOfNamesTellsNoHead) {
     const RestSkeleton skeleton =
         makeNamed("root Hips<root Neck<root Spine<root LeftArm<root RightArm<root "
@@ -299,7 +299,7 @@ TEST(NamedRigs, AListOfNamesTellsNoHead) {
     EXPECT_EQ(roles.joints.count("Spine"), 1u);
 }
 
-/// Names that no list has between those that it has: the tree tells what they are.
+/// Unknown names between known ones: the tree determines their roles.
 TEST(NamedRigs, GapsBetweenKnownNamesAreFilledByTheTree) {
     expectRoles("gaps",
                 "pelvis vert1<pelvis vert2<vert1 trunk<vert2 cerv<trunk head<cerv "
@@ -337,7 +337,7 @@ TEST(NamedRigs, GapsBetweenKnownNamesAreFilledByTheTree) {
                 "Left", "Right", {{"Hand", "@HandWrist"}, {"Foot", "@FootAnkle"}});
 }
 
-/// A hand or a foot that names do not tell stands below a limb that they do.
+/// A hand or a foot with an unknown name is below a limb with a known one.
 TEST(NamedRigs, EndsOfLimbsAreFilledByTheTree) {
     expectRoles("ends",
                 "hips spine<hips neck<spine head<neck @_clavicle<spine @_upperarm<@_clavicle "
@@ -404,7 +404,7 @@ TEST_F(SafeNames, LeadThroughNoArchive) {
         ASSERT_TRUE(made->writeImage(*image, "inner.bmp").success());
         made->close();
     }
-    osgDB::Registry::instance()->clearArchiveCache(); // which holds what is closed
+    osgDB::Registry::instance()->clearArchiveCache(); // the cache keeps closed archives
     ASSERT_TRUE(osgDB::readRefNodeFile(archive + "/inner.osgt"));
     osgDB::Registry::instance()->clearArchiveCache();
     const char* const reason = "expected a file that only has to be read";
@@ -417,12 +417,13 @@ TEST_F(SafeNames, LeadThroughNoArchive) {
     save("a.mtl", "newmtl a\nKd 1 0 0\nmap_Kd evil.osga/inner.bmp\n");
     const std::string mesh = save("mesh.obj", "mtllib a.mtl\nusemtl a\n" + kTriangle);
     EXPECT_FALSE(hasTexture(osgSkin::importMesh(mesh)));
-    // Folders may be called as they like.
+    // Folders may have any name.
     std::filesystem::create_directory(file("folder.zip"));
     EXPECT_EQ(osgSkin::importMesh(save("folder.zip/m.obj", kTriangle)).mesh.positions.size(), 3u);
 }
 
-/// Some readers end a name at a byte 0, others do not: what is checked would not be what is read.
+/// Some readers end a name at a byte 0, others do not: the checked file would differ from the one
+/// that is read.
 TEST_F(SafeNames, HaveNoByteZero) {
     const char* const reason = "a name with a byte 0 in it";
     for (const std::string& whole : {save("mesh.obj", kTriangle), testData("rig/tube.gltf"),
@@ -452,7 +453,7 @@ TEST_F(SafeNames, AreNoLongerThanNamesOfFiles) {
     }
 }
 
-/// A texture has folders of another machine often: the mesh's own is looked in, no other.
+/// A texture often names folders of another machine: only the mesh's own folder is searched.
 TEST_F(SafeNames, TexturesComeFromNoOtherFolder) {
     const std::string ppm = "P6\n1 1\n255\nabc";
     for (const std::string folder : {"here", "mesh"})
@@ -475,7 +476,7 @@ TEST_F(SafeNames, TexturesComeFromNoOtherFolder) {
     std::filesystem::current_path(before);
 }
 
-/// OSG would look for the name's last part in the working folder.
+/// OSG would search for the name's last part in the working folder.
 TEST_F(SafeNames, MeanNoOtherFile) {
     saveScene("named.osgt");
     const std::filesystem::path before = std::filesystem::current_path();
@@ -495,7 +496,7 @@ TEST_F(SafeNames, MeanNoOtherFile) {
 
 namespace {
 
-/// Our tube again as FBX, its mesh called `name` and first among the root's children.
+/// Our tube exported as FBX, with its mesh called `name` and first among the root's children.
 std::string exportedTube(const std::string& name) {
     Assimp::Importer importer;
     importer.ReadFile(testData("rig/tube.gltf"), 0);
@@ -511,7 +512,7 @@ std::string exportedTube(const std::string& name) {
     Assimp::Exporter exporter;
     EXPECT_EQ(exporter.Export(scene, "fbxa", path), AI_SUCCESS) << exporter.GetErrorString();
     delete scene;
-    // FBX knows its models by numbers; Assimp, by their names.
+    // FBX identifies its models by numbers; Assimp by their names.
     std::ifstream in(path);
     std::string text{std::istreambuf_iterator<char>(in), {}};
     const std::string given = "\"Model::tube of skin\"";
@@ -550,7 +551,7 @@ void expectSame(const osgSkin::ImportedRig& found, const osgSkin::ImportedRig& e
     }
 }
 
-/// A figure of X: its mesh's frame has the name of one of its bones.
+/// An X file: its mesh's frame has the name of one of its bones.
 std::string xFile(const std::string& mesh) {
     const std::string unit = "1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0,0.0,";
     std::string path = testing::TempDir() + "twin_" + mesh + ".x";

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <string>
 
-/// A file of tests/data.
+/// The path of a file in tests/data.
 inline std::string testData(const std::string& name) {
     return std::string(OSGSKIN_TEST_DATA) + "/" + name;
 }
 
-/// A body or motion of others, which the repository does not hold.
+/// The path of a third-party body or motion, which is not in the repository.
 inline std::string sharedData(const std::string& name) {
     return std::string(OSGSKIN_SHARED_DATA) + "/" + name;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures beside a mesh that names them.
+// Pictures beside a mesh that refers to them.
 #pragma once
 
 #include "ExpectError.h"
@@ -22,7 +22,7 @@
 namespace test {
 
 struct Drawn {
-    osg::ref_ptr<const osg::Image> image; ///< null: the mesh came without
+    osg::ref_ptr<const osg::Image> image; ///< null: the mesh has no picture
     std::string notices;
 };
 
@@ -30,7 +30,7 @@ inline void savePicture(const std::string& name, const std::string& content) {
     std::ofstream(testing::TempDir() + name, std::ios::binary) << content;
 }
 
-/// What a mesh is drawn with whose material names a picture.
+/// The image and notices of a mesh whose material names a picture.
 inline Drawn drawnWith(const std::string& picture, const std::string& options = {}) {
     savePicture("picture_" + picture + ".mtl", "newmtl skin\nKd 1 1 1\nmap_Kd " + picture + "\n");
     savePicture("picture_" + picture + ".obj",
@@ -56,7 +56,7 @@ inline void expectRefused(const std::string& name, const std::string& content,
     EXPECT_NE(drawn.notices.find(reason), std::string::npos) << drawn.notices;
 }
 
-/// A number of so many bytes, the least significant one first.
+/// A little-endian number of `count` bytes.
 inline std::string little(std::uint32_t number, int count) {
     std::string result;
     for (int i = 0; i < count; ++i)
@@ -68,7 +68,7 @@ inline std::string big(std::uint32_t number, int count) {
     return {result.rbegin(), result.rend()};
 }
 
-/// `text` with other bytes at a place.
+/// `text` with other bytes at a position.
 inline std::string with(std::string text, std::size_t at, const std::string& bytes) {
     return text.replace(at, bytes.size(), bytes);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which joint's position carries a motion's figure, and what is told of what does not.
+// The joint whose position moves a motion's figure, and warnings about others.
 #include "ExpectError.h"
 #include "Figure.h"
 #include "GltfBuilder.h"
@@ -28,7 +28,7 @@ using osgSkin::Motion;
 using osgSkin::RestSkeleton;
 using osgSkin::RetargetReport;
 
-/// Every joint turns, each by another angle; the root walks and hops.
+/// Every joint rotates by a different angle; the root walks and hops.
 Motion wave(const RestSkeleton& figure, std::size_t frames) {
     Motion motion = standStill(figure, frames);
     for (std::size_t f = 0; f < frames; ++f) {
@@ -112,7 +112,7 @@ TEST(Retarget, JointsWithoutADirectionFollowTheLimb) {
     EXPECT_LT(angleBetween(clip.rotations[6], {1, 0, 0, 0}), 1e-9);
 }
 
-/// Exporters write a bone without a length as rounding leaves it, in metres or in centimetres.
+/// Exporters write a bone of no length with rounding errors, in metres or in centimetres.
 TEST(Retarget, RoundingErrorsAreNoDirection) {
     for (const double unit : {0.01, 1.0, 100.0}) {
         RestSkeleton rig = makeFigure(48.0), zeroPose = makeFigure(0.0);
@@ -193,7 +193,7 @@ TEST(Retarget, StandsOnTheRestPosesFloorWhateverTheMotionsFloorIs) {
     const RestSkeleton rig = makeFigure(0.0);
     Motion motion = standStill(makeFigure(0.0), 100);
     for (std::size_t f = 0; f < 100; ++f) {
-        motion.rootPositions[f].y += 7.0;              // the capture's own floor
+        motion.rootPositions[f].y += 7.0;              // the capture's own floor level
         if (f >= 60) motion.rootPositions[f].y += 5.0; // most of the time on a ladder
     }
     motion.rootPositions[10].y -= 3.0; // one bad sample
@@ -202,7 +202,7 @@ TEST(Retarget, StandsOnTheRestPosesFloorWhateverTheMotionsFloorIs) {
     EXPECT_NEAR(clip.rootPositions[99].y, 15.0, 1e-9);
 }
 
-/// A skeleton below a root of its own, every joint's index one more.
+/// A skeleton below an additional root, with every joint's index increased by one.
 RestSkeleton onGround(const RestSkeleton& figure) {
     RestSkeleton rig;
     rig.joints.push_back({"Ground", -1, {0, 0, 0}, {}});
@@ -245,7 +245,7 @@ TEST(RetargetNotes, TellOfLimbsThatStayAtRest) {
     osgSkin::retarget(standStill(figure, 1), figure, {}, &report);
     EXPECT_TRUE(report.notes.empty());
 
-    other.joints[4].name = "Fin"; // the motion calls the upper arm something else
+    other.joints[4].name = "Fin"; // the motion has another name for the upper arm
     osgSkin::retarget(standStill(other, 1), figure, {}, &report);
     ASSERT_EQ(report.notes.size(), 1u);
     EXPECT_EQ(report.notes[0].find("the motion has nothing for \"LeftArm\" of the rig"), 0u)
@@ -356,7 +356,7 @@ TEST_P(CmuClip, LimbsPointWhereTheMotionsLimbsPoint) {
     }
 }
 
-/// The rig's sole is as flat as the motion's is, however steep the two skeletons' foot bones are.
+/// The rig's sole is as flat as the motion's, whatever the slopes of the two skeletons' foot bones.
 TEST_P(CmuClip, FeetTurnWithTheMotionButForTheirHeading) {
     for (const std::string name : {"LeftFoot", "RightFoot"}) {
         const auto ours = static_cast<std::size_t>(rig.find(name));
@@ -398,7 +398,7 @@ INSTANTIATE_TEST_SUITE_P(Files, CmuClip,
 class CmuWalk : public CmuClip {};
 
 TEST_P(CmuWalk, FeetStandOnTheFloorOfTheRestPose) {
-    constexpr double bodyHeight = 16.4; // decimeters
+    constexpr double bodyHeight = 16.4; // decimetres
     const std::size_t feet[] = {jointIndex(rig, "LeftFoot"), jointIndex(rig, "RightFoot"),
                                 jointIndex(rig, "LeftToeBase"), jointIndex(rig, "RightToeBase")};
     for (std::size_t f = 0; f < clip.frames; ++f) {
@@ -426,7 +426,7 @@ using test::GltfColumn;
 
 constexpr char kOnly[] = "only moves of \"base\" are used";
 
-/// How far the figure goes from its first sample to its last.
+/// Distance of the figure's last sample from its first.
 double wayOf(const osgSkin::Motion& motion) {
     return glm::distance(motion.rootPositions.front(), motion.rootPositions.back());
 }
@@ -441,7 +441,7 @@ TEST(RootMotion, NodesMayCountInUnitsOfTheirOwn) {
         for (const std::size_t joint : {column.joints[1], column.joints[2]})
             column.json["nodes"][joint]["translation"] = {0, 1.0 / unit, 0};
         column.json["scenes"][0]["nodes"] = {armature};
-        column.json.erase("skins"); // a motion only
+        column.json.erase("skins"); // only a motion
         column.json.erase("meshes");
         column.json["nodes"][column.meshNode] = {{"name", "empty"}};
         column.animate("walk", column.joints[0], "rotation", {0.0, 1.0},
@@ -456,7 +456,7 @@ TEST(RootMotion, NodesMayCountInUnitsOfTheirOwn) {
     }
 }
 
-/// Of a figure that crouches in place below a root that stays.
+/// For a figure that crouches in place below a static root.
 TEST(RootMotion, FiguresOfBvhFilesMayBeSmall) {
     for (const double unit : {0.002, 0.01, 1.0, 100.0}) {
         const auto vector = [&](double y) { return "0 " + std::to_string(unit * y) + " 0"; };

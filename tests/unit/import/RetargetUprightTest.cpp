@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Bodies that face other ways than the actor, in spaces with other axes up.
+// Bodies that face other directions than the actor, in spaces with other up axes.
 //
-// Motions of one family of names on bodies of another: arms and legs must be where the actor's are.
+// Motions of one family of names on bodies of another: arms and legs must point where the actor's
+// do.
 #include "Figure.h"
 #include "JointIndex.h"
 #include "Paths.h"
@@ -99,7 +100,7 @@ protected:
 
     const glm::dquat& turn() const { return GetParam().turn; }
 
-    /// `clip` is what the unturned body does, turned; to the rounding.
+    /// Expects `clip` to be the unrotated body's motion, rotated, except for rounding.
     void expectTurned(const Clip& clip, const RestSkeleton& turnedRig, const glm::dquat& by) const {
         for (std::size_t f = 0; f < clip.frames; f += 9) {
             const Placed ours = place(clip, turnedRig, f), theirs = place(straight, rig, f);
@@ -135,7 +136,7 @@ TEST_P(UprightFrames, ATurnedActorIsTurnedBack) {
     EXPECT_LT(angleBetween(report.rotation, glm::conjugate(turn())), 1e-5);
 }
 
-/// Thighs that begin in one point, but for rounding: the shoulders tell, whatever the unit.
+/// Thighs that begin at one point, except for rounding: the shoulders decide, in any unit.
 TEST(UprightBodies, HipsInOnePointDoNotTellWhereItFaces) {
     const Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
     for (const double unit : {0.01, 1.0, 100.0}) {
@@ -154,9 +155,9 @@ TEST(UprightBodies, HipsInOnePointDoNotTellWhereItFaces) {
     }
 }
 
-/// A driver's body gets up and throws: its bones are where the standing one's are.
+/// A driver's body gets up and throws: its bones equal those of the standing body.
 TEST_P(UprightFrames, ABodyThatSitsAtRestDoesTheSame) {
-    // Of one on the floor that is laid down, too, nothing tells what stands.
+    // For a body on the floor that is also laid down, nothing determines which axis is up.
     const bool isTilted = (turn() * glm::dvec3(0, 1, 0)).y < 0.5;
     for (const auto& [seat, degrees] :
          {std::pair(Seat::Chair, 50.0), std::pair(Seat::Chair, 85.0), std::pair(Seat::Chair, 100.0),
@@ -165,7 +166,7 @@ TEST_P(UprightFrames, ABodyThatSitsAtRestDoesTheSame) {
         SCOPED_TRACE(degrees);
         const RestSkeleton body = turned(seated(rig, degrees, seat), turn());
         const Clip clip = osgSkin::retarget(motion, body, {}, &report);
-        // Its steps are as long; feet on the floor do not tell how high ankles will be.
+        // Its steps are as long; feet on the floor do not determine the height of the ankles.
         EXPECT_NEAR(report.scale, straightReport.scale, seat == Seat::Floor ? 0.07 : 0.03);
         for (std::size_t f = 0; f < clip.frames; f += 30) {
             const Placed ours = place(clip, body, f), theirs = place(straight, rig, f);
@@ -178,7 +179,7 @@ TEST_P(UprightFrames, ABodyThatSitsAtRestDoesTheSame) {
     }
 }
 
-/// A ball stays where the hand is.
+/// A ball stays in the hand.
 TEST_P(UprightFrames, PropsTurnToo) {
     const RestSkeleton body = turned(rig, turn());
     osgSkin::retarget(motion, body, {}, &report);
@@ -192,7 +193,7 @@ TEST_P(UprightFrames, PropsTurnToo) {
     EXPECT_LT(glm::length(inSpace(report) - turn() * inSpace(straightReport)), 1e-6);
 }
 
-/// As the actor is carried over: scaled, turned, and moved.
+/// Transformed like the actor: scaled, rotated, and moved.
 TEST(Props, ArePutWhereTheActorIs) {
     osgSkin::RetargetReport report;
     report.scale = 2.0;
@@ -214,7 +215,7 @@ struct ExpectedBone {
     const char* to;
 };
 
-/// The bar: limbs within a degree of the turned actor's own, left ones left.
+/// The limit: limbs within a degree of the rotated actor's own, left ones left.
 TEST(UprightActors, LimbsAreWhereTheTurnedActorsAre) {
     const std::string rigPath = sharedData("makehuman/rig/cmu_mb_neutral.bvh");
     OSGSKIN_NEEDS(rigPath);
@@ -250,7 +251,7 @@ TEST(UprightActors, LimbsAreWhereTheTurnedActorsAre) {
     }
 }
 
-/// Joints' names that say nothing, of a body whose shape does.
+/// Joints with meaningless names, on a body that its shape identifies.
 TEST(UprightStrangers, IsToldByTheShape) {
     Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
     for (std::size_t j = 0; j < motion.skeleton.joints.size(); ++j)
@@ -261,9 +262,9 @@ TEST(UprightStrangers, IsToldByTheShape) {
     EXPECT_LT(angleBetween(report.rotation, turnDegrees(90, kUp)), 1e-5);
 }
 
-/// Nothing tells how bodies lie to each other whose joints' names say nothing, nor their shape.
+/// Nothing relates two bodies if neither their joints' names nor their shapes are known.
 TEST(UprightStrangers, IsTakenToBeTheSame) {
-    RestSkeleton figure = makeFigure(0.0); // of one side only
+    RestSkeleton figure = makeFigure(0.0); // one side only
     for (std::size_t j = 0; j < figure.joints.size(); ++j)
         figure.joints[j].name = "part" + std::to_string(j);
     RetargetReport report;
@@ -272,7 +273,7 @@ TEST(UprightStrangers, IsTakenToBeTheSame) {
     EXPECT_LT(angleBetween(report.rotation, {1, 0, 0, 0}), 1e-9);
 }
 
-/// The names of one skeleton do for both, with the caller's map.
+/// The names of one skeleton suffice for both, with the caller's map.
 TEST(UprightStrangers, FollowsTheMapToKnownNames) {
     const RestSkeleton rig = osgSkin::importSkeleton(OSGSKIN_DATA "/thrower.bvh");
     const Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
@@ -295,8 +296,8 @@ using osgSkin::RestSkeleton;
 using osgSkin::RetargetOptions;
 using osgSkin::RetargetReport;
 
-/// The joints of the left arm and leg, shoulder to wrist and hip to ankle; the right ones follow by
-/// exchanging `left` for `right`.
+/// The joints of the left arm and leg, shoulder to wrist and hip to ankle; for the right ones
+/// replace `left` by `right`.
 struct Limbs {
     const char* arm[3];
     const char* leg[3];
@@ -404,7 +405,7 @@ std::string pathOf(const File& file) {
 
 class EveryMotion : public testing::TestWithParam<File> {};
 
-/// The thrower with its joints renamed, part by part, as another family calls them.
+/// The thrower with its joints renamed, part by part, to another family's names.
 RestSkeleton renamed(const RestSkeleton& thrower, const std::string& family,
                      const std::string& prefix = {}) {
     const auto& known = osgSkin::knownJointNames();
@@ -514,7 +515,7 @@ TEST(JointNames, TheCallerMayAddAFamily) {
         {"RightFoot", "servo12"}};
     for (osgSkin::RestJoint& joint : rig.joints)
         joint.name = robot.count(joint.name) != 0 ? robot.at(joint.name) : "part " + joint.name;
-    RetargetReport shape; // of names that say nothing, which the skeleton's shape makes up for
+    RetargetReport shape; // with meaningless names, which the skeleton's shape replaces
     osgSkin::retarget(motion, rig, {}, &shape);
     EXPECT_EQ(shape.rigNames, osgSkin::kInferredFromGeometry);
 

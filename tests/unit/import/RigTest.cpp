@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The imported rig, posed by osgAnimation, beside Assimp's own numbers: node matrices multiplied
-// out here, with nothing of ours in between.
+// The imported rig, posed by osgAnimation, compared with Assimp's own numbers: node matrices
+// multiplied here, without any of our code in between.
 //
-// Skeletons, clips and props whose numbers cannot be used are refused before anything plays them.
+// Skeletons, clips and props with unusable numbers are refused before anything plays them.
 //
-// Things without a skin that clips move by nodes of their own, which no joint is above.
+// Objects without a skin that clips animate by their own nodes, with no joint above.
 #include "ExpectError.h"
 #include "Figure.h"
 #include "GltfBuilder.h"
@@ -50,7 +50,7 @@ using namespace osgSkin;
 
 namespace {
 
-/// OSG's matrices are the transposed of Assimp's.
+/// OSG's matrices are the transposes of Assimp's.
 osg::Matrixd toOsg(const aiMatrix4x4& m) {
     osg::Matrixd result;
     for (unsigned row = 0; row < 4; ++row)
@@ -69,7 +69,7 @@ aiQuaternion blend(aiQuaternion a, aiQuaternion b, double share) {
     return result.Normalize();
 }
 
-/// A track's value between its keys, held before the first and after the last.
+/// A track's value between its keys, constant before the first and after the last.
 template <typename Key>
 auto valueAt(const Key* keys, unsigned count, double time) {
     unsigned k = 0;
@@ -136,7 +136,8 @@ struct Player {
     osgAnimation::BoneMap bones;
 };
 
-/// Bones stand where Assimp's nodes do, and carry bound skin to where Assimp's bones carry it.
+/// Expects bones at the positions of Assimp's nodes, and bound skin at the positions that Assimp's
+/// bones give.
 void expectPose(const osgSkin::ImportedRig& rig, Player& player, const aiScene& scene,
                 const Places& places, double tolerance) {
     for (const osgSkin::RestJoint& joint : rig.rest.joints) {
@@ -149,7 +150,7 @@ void expectPose(const osgSkin::ImportedRig& rig, Player& player, const aiScene& 
                     << joint.name;
         ASSERT_LT((found.getTrans() - expected.getTrans()).length(), tolerance) << joint.name;
     }
-    std::map<std::string, osg::Vec3d> bound; // body vertices come mesh by mesh, in node order
+    std::map<std::string, osg::Vec3d> bound; // body vertices are ordered by mesh, in node order
     std::size_t first = 0;
     const std::function<void(const aiNode&)> walk = [&](const aiNode& node) {
         for (unsigned m = 0; m < node.mNumMeshes; ++m) {
@@ -237,7 +238,7 @@ TEST_P(RigRoundTrip, BonesAgreeWithAssimpsNodes) {
         player.manager->playAnimation(rig.animations[a]);
         const double zero = firstKey(animation);
         const double duration = rig.animations[a]->getDuration();
-        for (double share = 0.0; share < 0.99; share += 0.07) { // the loop's end is its start
+        for (double share = 0.0; share < 0.99; share += 0.07) { // the loop's end equals its start
             const double seconds = share * duration;
             test::updateAt(*player.root, start + seconds);
             expectPose(rig, player, *scene, placesAt(*scene, &animation, zero + seconds * rate),
@@ -266,7 +267,7 @@ TEST(ImportRig, KeepsTheBindPoseApartFromTheNodesPose) {
     EXPECT_NEAR(rig.animations[0]->getDuration(), 1.0, 1e-6);
 }
 
-/// Assimp's reader of OBJ files loses the faces that end at a vertex that is not there.
+/// Assimp's OBJ reader leaks the faces that end at a missing vertex.
 TEST(ImportRig, DoesNotAskAssimpForRigsInMeshes) {
     const std::string file = testing::TempDir() + "rigless_faces.obj";
     std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 4/4 1/1 2/2\n";
@@ -380,7 +381,7 @@ namespace {
 
 using test::GltfColumn;
 
-/// A column with a box of its own within it that a clip moves up, or holds where it is.
+/// A column with a separate box inside it that a clip moves up, or keeps at its position.
 std::string saveBox(const std::string& path, const std::vector<double>& values) {
     GltfColumn column;
     column.bend();
@@ -401,7 +402,7 @@ std::string saveBox(const std::string& path, const std::vector<double>& values) 
     return column.save("moved_apart.gltf");
 }
 
-/// What is told of a file.
+/// The warnings about a file.
 std::string toldOf(const std::string& file) {
     const test::Notices notices;
     EXPECT_EQ(osgSkin::importRig(file).body.mesh.positions.size(), 48u);
@@ -448,7 +449,7 @@ void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
         << a.x << " " << a.y << " " << a.z << ", expected " << b.x << " " << b.y << " " << b.z;
 }
 
-/// A quad of two bones under a skeleton that stands aside, as a scene of osgAnimation.
+/// A quad with two bones under a skeleton with an offset, as an osgAnimation scene.
 osg::ref_ptr<osg::Group> makeRig(unsigned strayVertex) {
     const osg::ref_ptr<osg::Geometry> quad = new osg::Geometry;
     const osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
@@ -468,7 +469,8 @@ osg::ref_ptr<osg::Group> makeRig(unsigned strayVertex) {
     skeleton->setMatrix(osg::Matrix::translate(5, 0, 0));
     const osg::ref_ptr<osgAnimation::Bone> low = new osgAnimation::Bone("low");
     const osg::ref_ptr<osgAnimation::Bone> high = new osgAnimation::Bone("high");
-    low->setMatrix(osg::Matrix::rotate(0.4, osg::Vec3(0, 1, 0))); // posed: not where it was bound
+    low->setMatrix(osg::Matrix::rotate(0.4, osg::Vec3(0, 1, 0))); // posed differently from its bind
+                                                                  // pose
     high->setInvBindMatrixInSkeletonSpace(osg::Matrix::translate(0, 0, -1));
     low->addChild(high);
     skeleton->addChild(low);
@@ -487,7 +489,7 @@ std::string written(osg::Node& scene, const std::string& name) {
 } // namespace
 
 TEST(MeshWeights, GltfSkinStandsInItsBindPoseUnderItsArmature) {
-    // The second file's nodes rest in another pose than the skin was bound in.
+    // The second file's nodes rest in another pose than the bind pose.
     for (const char* file : {"rig/tube.gltf", "rig/posed.gltf"}) {
         SCOPED_TRACE(file);
         const ImportedMesh mesh = importMesh(testData(file));
@@ -495,7 +497,7 @@ TEST(MeshWeights, GltfSkinStandsInItsBindPoseUnderItsArmature) {
         ASSERT_EQ(mesh.mesh.positions.size(), 36u);
         EXPECT_EQ(weights.size(), 2u);
         for (std::uint32_t v = 0; v < 36; ++v) {
-            // Half the size, and up is -Y turned to Z; the mesh node's own place is not used.
+            // Half the size, and up is -Y rotated to Z; the mesh node's own position is not used.
             const double height = 0.5 * std::floor(v / 4.0);
             EXPECT_NEAR(mesh.mesh.positions[v].z, 0.5 * height, 1e-6);
             const double arm = std::clamp(height - 1.5, 0.0, 1.0);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Joints whose names say nothing, told by the skeleton's shape.
+// Joints with meaningless names, recognised by the skeleton's shape.
 //
-// Joints that are no part of the body: targets, cloth, what a hand holds. They move nothing else.
+// Joints that are not part of the body: targets, cloth, held objects. They move nothing else.
 //
-// Skeletons of others, whose bones have axes and update callbacks of their own, in a clip's frame.
+// Third-party skeletons, whose bones have their own axes and update callbacks, in a clip's frame.
 #include "ExpectError.h"
 #include "Figure.h"
 #include "FindNodes.h"
@@ -50,7 +50,7 @@ RestSkeleton nameless(RestSkeleton skeleton) {
     return skeleton;
 }
 
-/// The joints that the shape takes for others than their names say, of those that every body has.
+/// Joints that the shape gives another role than their names do, among those that every body has.
 std::string wrongByShape(const RestSkeleton& body, const JointRoles& told) {
     const JointRoles named = recogniseJoints(body);
     std::string result;
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, ShapeRoles,
                              return name;
                          });
 
-/// Any two of its limbs mirror each other.
+/// Any two of its limbs are mirror images.
 TEST(ShapeRolesOf, AStarOfThreeThousandLimbsIsNone) {
     RestSkeleton star;
     star.add("middle", -1, glm::dvec3(0));
@@ -158,7 +158,7 @@ TEST(ShapeRolesOf, ThingsThatAreNoPersonAreNone) {
     for (int j = 0; j < 20; ++j) snake.add("b" + std::to_string(j), j - 1, glm::dvec3(0, 0, j));
     EXPECT_FALSE(recogniseJoints(snake).known());
 
-    // A dog: its trunk lies across its legs.
+    // A dog: its trunk is perpendicular to its legs.
     RestSkeleton dog;
     const int rump = dog.add("a", -1, glm::dvec3(0, 1, 0));
     const int chest = dog.add("b", rump, glm::dvec3(0, 1, 1));
@@ -330,7 +330,7 @@ TEST(HelperJoints, AMotionWithoutLegsKeepsItsUnit) {
               1e-9);
 }
 
-/// What a hand holds is not where it points to; its end and its fingers are.
+/// A held object does not give the hand's direction; its tip and its fingers do.
 TEST(HelperJoints, AHandDoesNotTurnToWhatItHolds) {
     RestSkeleton rig = makeBody(0.0);
     const int hand = rig.find("LeftHand");
@@ -385,7 +385,7 @@ void fill(osgAnimation::StackedTransform& stack, Stack kind, const osg::Matrixd&
         stack.push_back(new osgAnimation::StackedScaleElement("scale", local.getScale()));
 }
 
-/// The rig's skeleton, each bone with other axes, as most tools have them: along the bone.
+/// The rig's skeleton with other axes for each bone: along the bone, as in most tools.
 osg::ref_ptr<osgAnimation::Skeleton> ownAxes(const RestSkeleton& rig, Stack kind) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = osgSkin::makeSkeleton(rig);
     double turn = 20.0;
@@ -409,7 +409,7 @@ osg::ref_ptr<osgAnimation::Skeleton> ownAxes(const RestSkeleton& rig, Stack kind
     return skeleton;
 }
 
-/// What each bone does to the skin.
+/// Each bone's skinning matrix.
 std::map<std::string, osg::Matrixd> skinning(osgAnimation::Skeleton& skeleton) {
     std::map<std::string, osg::Matrixd> result;
     for (const auto& found : test::findNodes<osgAnimation::Bone>(skeleton))
@@ -471,7 +471,7 @@ TEST_P(OwnAxes, PlayWhatAClipSays) {
     }
 }
 
-/// A skeleton that no skin was bound to: bones keep the axes that they have as it is read.
+/// A skeleton that no skin was bound to: bones keep the axes of the file.
 TEST(OwnAxesTrees, MayBeBoundToNothing) {
     const RestSkeleton rig = makeFigure(30.0);
     const osg::ref_ptr<osgAnimation::Skeleton> bound = ownAxes(rig, Stack::TurnAndMove),
@@ -490,7 +490,7 @@ TEST(OwnAxesTrees, MayBeBoundToNothing) {
                 << name;
 }
 
-/// Bones that the rig does not know stand between, or are missing.
+/// Bones that the rig does not know are between others, or some are missing.
 TEST(OwnAxesTrees, MayDiffer) {
     const RestSkeleton rig = makeFigure(30.0);
     const osg::ref_ptr<osgAnimation::Skeleton> plain = osgSkin::makeSkeleton(rig),

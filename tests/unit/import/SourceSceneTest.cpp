@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The document that files are read into: glTF by our reader against the same file by Assimp's, and
-// one reading for all that is made of it.
+// The document that files are read into: our glTF reader compared with Assimp's on the same file,
+// and one reading for everything that is made from it.
 #include "ExpectError.h"
 #include "GltfBuilder.h"
 #include "Paths.h"
@@ -97,7 +97,7 @@ void expectSame(const SourceScene& a, const SourceScene& b) {
     ASSERT_EQ(a.nodes.size(), b.nodes.size());
     for (std::size_t n = 0; n < a.nodes.size(); ++n) {
         const SourceNode &node = a.nodes[n], &other = b.nodes[n];
-        if (n > 0) { // the root of several roots is called differently
+        if (n > 0) { // the common root of several roots has another name
             EXPECT_EQ(node.name, other.name);
         }
         EXPECT_EQ(node.parent, other.parent);
@@ -146,7 +146,7 @@ TEST(SourceScene, FilesAreReadOnceForWhoSharesThem) {
 }
 
 TEST(SourceScene, MotionsDoNotChangeWhatIsShared) {
-    GltfColumn column; // whose clip alone says where the upper joint stands
+    GltfColumn column; // in which only the clip gives the upper joint's position
     column.animate("grow", column.joints[2], "translation", {0, 1}, {0, 3, 0, 0, 3, 0});
     column.json["nodes"][column.joints[2]].erase("translation");
     const std::string file = column.save("offsets.gltf");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Motions whose zero pose is none that a body could stand in.
+// Motions with a zero pose in which no body could stand.
 #include "BvhWriter.h"
 #include "ExpectError.h"
 #include "Figure.h"
@@ -23,8 +23,8 @@ namespace {
 
 const glm::dquat kIdentity(1, 0, 0, 0);
 
-/// The same movements, counted from another zero pose: `world` has the rotations of the joints to
-/// it. The joints' frames turn along where `withFrames`, as a file with axes of its own has them.
+/// The same movements, relative to another zero pose: `world` has the joints' rotations to it. With
+/// `withFrames` the joints' frames rotate along, as in a file with its own axes.
 Motion rebasedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
                    bool withFrames = false) {
     Motion result = motion;
@@ -53,7 +53,7 @@ Motion rebasedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
     return result;
 }
 
-/// Every joint turned in a way of its own: arms and legs point anywhere.
+/// Every joint rotated differently: arms and legs point in any direction.
 std::vector<glm::dquat> folded(std::size_t joints, unsigned seed = 7) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -64,7 +64,7 @@ std::vector<glm::dquat> folded(std::size_t joints, unsigned seed = 7) {
     return result;
 }
 
-/// Every bone along +y, as capture suits' software writes zero poses.
+/// Every bone along +y, like the zero poses of capture suits' software.
 std::vector<glm::dquat> alongOneAxis(const RestSkeleton& skeleton) {
     std::vector<glm::dquat> result;
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
@@ -85,10 +85,10 @@ std::vector<glm::dquat> alongOneAxis(const RestSkeleton& skeleton) {
 struct Difference {
     double limbs = 0.0;  ///< degrees between a limb of the rig and the actor's, the worst
     double heads = 0.0;  ///< the same from the hips to the head
-    double lowest = 1e9; ///< of the rig's ankles, above where they are at rest
+    double lowest = 1e9; ///< of the rig's ankles, above their height at rest
 };
 
-/// How the rig moves beside the actor, who faces another way from the start.
+/// Compares the rig's motion with the actor's, who initially faces another direction.
 Difference compare(const Clip& clip, const RestSkeleton& rig, const Motion& actor) {
     static const char* const kBones[][2] = {
         {"LeftArm", "LeftForeArm"},    {"LeftForeArm", "LeftHand"}, {"RightArm", "RightForeArm"},
@@ -139,12 +139,12 @@ protected:
         EXPECT_TRUE(saysOf(report, note)) << report.text().substr(0, 600);
         const Difference difference = compare(clip, rig, actor);
         EXPECT_LT(difference.limbs, 1.0);
-        EXPECT_LT(difference.heads, 12.0); // the sample that counts may lean
+        EXPECT_LT(difference.heads, 12.0); // the chosen sample may lean
         EXPECT_GT(difference.lowest, -0.1 * rig.joints[0].centre.y);
         EXPECT_NEAR(report.scale, 1.0, 0.1) << "the same body";
     }
 
-    /// Through a file, as a user has it.
+    /// Through a file, like a user.
     Motion throughBvh(const Motion& motion, bool offsetsInChannels = false) {
         const std::string path = testing::TempDir() + "osgskin_" +
                                  testing::UnitTest::GetInstance()->current_test_info()->name() +
@@ -201,7 +201,7 @@ TEST_F(StandingPose, AStandingZeroPoseStaysWhatItIs) {
     EXPECT_TRUE(report.notes.empty()) << report.notes[0];
 }
 
-/// Whose neck and head have no joints is upright by his arms, wherever he stands.
+/// An actor without neck and head joints is upright by his arms, in any position.
 TEST_F(StandingPose, AHeadlessActorsZeroPoseStaysWhatItIs) {
     Motion aside = actor;
     for (RestJoint& joint : aside.skeleton.joints) {
@@ -230,7 +230,7 @@ TEST_F(StandingPose, AHeadlessActorsZeroPoseStaysWhatItIs) {
                   1e-6);
 }
 
-/// Who stands nowhere cannot be carried over, and is not made up.
+/// A motion without a standing sample cannot be retargeted, and no pose is invented.
 TEST_F(StandingPose, WhoNeverStandsIsRefusedWithAReason) {
     Motion sitting = actor;
     for (std::size_t f = 0; f < sitting.frames; ++f)
@@ -261,7 +261,7 @@ TEST_F(StandingPose, TheSameFoldedSkeletonGetsItsRotationsCopied) {
         ASSERT_LT(glm::distance(clip.rootPositions[f], motion.rootPositions[f]), 1e-6);
 }
 
-/// A file with the animation only rests in any pose; its joints' axes are the character's.
+/// A file with only the animation rests in any pose; its joints' axes are the character's.
 TEST_F(StandingPose, TheSameJointsInAnotherPoseMoveLikeTheirOwn) {
     const Motion motion = rebasedFrom(actor, folded(joints), true);
     RetargetReport ours, theirs;
@@ -274,15 +274,15 @@ TEST_F(StandingPose, TheSameJointsInAnotherPoseMoveLikeTheirOwn) {
         ASSERT_LT(glm::distance(clip.rootPositions[f], expected.rootPositions[f]), 1e-6);
 }
 
-/// The same through files, the animation's without a mesh and posed as its first sample.
+/// The same through files, the animation's without a mesh and posed like its first sample.
 TEST_F(StandingPose, AGltfWithAnimationOnlyMovesItsCharacter) {
     const std::string stem = testing::TempDir() + "osgskin_animation_only_";
     Motion still = actor;
-    const std::vector<glm::dquat> axes = folded(joints, 11); // as exporters have them
+    const std::vector<glm::dquat> axes = folded(joints, 11); // as exporters write them
     writeGltf(still, axes, std::vector<glm::dquat>(joints, kIdentity), stem + "character.gltf");
     std::vector<glm::dquat> crouching(joints, kIdentity);
     for (std::size_t j = 0; j < joints; ++j)
-        crouching[j] = folded(joints, 5)[j]; // whatever pose the file was left in
+        crouching[j] = folded(joints, 5)[j]; // in any pose of the file
     writeGltf(still, axes, crouching, stem + "only.gltf");
 
     const RestSkeleton character = importSkeleton(stem + "character.gltf");
@@ -295,14 +295,14 @@ TEST_F(StandingPose, AGltfWithAnimationOnlyMovesItsCharacter) {
     ASSERT_EQ(clip.rotations.size(), expected.rotations.size());
     for (std::size_t i = 0; i < clip.rotations.size(); ++i)
         ASSERT_LT(angleBetween(clip.rotations[i], expected.rotations[i]), 0.01);
-    // On another's body, a sample in which the actor stands tells.
+    // On another body, a sample in which the actor stands gives the rest pose.
     RetargetReport other;
     const Clip onOther = retarget(only, rig, {}, &other);
     EXPECT_TRUE(saysOf(other, "counted from sample")) << other.text().substr(0, 300);
     EXPECT_LT(compare(onOther, rig, actor).limbs, 1.0);
 }
 
-/// Names that say nothing, on a skeleton that is folded: the rig's shape tells for both.
+/// Meaningless names, on a folded skeleton: the rig's shape identifies both.
 TEST_F(StandingPose, TheRigsShapeTellsWhatTheMotionsJointsAre) {
     Motion motion = rebasedFrom(actor, folded(joints));
     RestSkeleton nameless = rig;
@@ -331,7 +331,7 @@ TEST_F(StandingPose, AZeroPoseThatLiesIsReplacedWhereTheActorStaysInPlaceToo) {
     EXPECT_LT(compare(clip, rig, actor).limbs, 1.0);
 }
 
-/// Who sleeps has a zero pose that stands.
+/// A sleeping actor has a zero pose that stands.
 TEST_F(StandingPose, AnActorWhoLiesStaysLying) {
     Motion asleep = actor;
     for (std::size_t f = 0; f < asleep.frames; ++f) {
@@ -347,7 +347,7 @@ TEST_F(StandingPose, AnActorWhoLiesStaysLying) {
     EXPECT_TRUE(saysOf(report, "he lies, or the zero pose does"));
 }
 
-/// An actor who never straightens the legs does not show whether a zero pose along z lies.
+/// An actor who never straightens the legs does not show whether a zero pose along z lies down.
 TEST_F(StandingPose, AZeroPoseThatNoSampleStandsAlongIsToldOf) {
     Motion crouches = actor;
     for (std::size_t f = 0; f < crouches.frames; ++f)
@@ -368,8 +368,9 @@ TEST_F(StandingPose, AZeroPoseThatNoSampleStandsAlongIsToldOf) {
     }
 }
 
-/// A clip alone rests as its first sample has the actor. glTF says which axis is up; elsewhere who
-/// lies half of the time may as well be an actor who stands along another one.
+/// A motion without a character rests in the actor's first sample. glTF defines which axis is up;
+/// in other formats an actor who lies half of the time may also be one who stands along another
+/// axis.
 TEST_F(StandingPose, WhoGetsUpDoesSoWhereYIsUp) {
     Motion getsUp = actor;
     for (std::size_t f = 0; f < getsUp.frames; ++f) {
@@ -391,7 +392,7 @@ TEST_F(StandingPose, WhoGetsUpDoesSoWhereYIsUp) {
     }
 }
 
-/// Authors name sides as they see them.
+/// Authors name sides from their own view.
 TEST_F(StandingPose, FeetThatPointBackwardsAreToldOf) {
     RestSkeleton swapped = rig;
     for (RestJoint& joint : swapped.joints) {
@@ -426,7 +427,7 @@ TEST_F(StandingPose, ARootFarFromTheOriginStartsAtIt) {
     EXPECT_NEAR(placed.places[0].x, rig.joints[0].centre.x, 1e-6);
     EXPECT_NEAR(placed.places[0].z, rig.joints[0].centre.z, 1e-6);
     EXPECT_LT(compare(clip, rig, actor).limbs, 1.0);
-    const std::size_t last = clip.frames - 1; // a prop goes where the actor does
+    const std::size_t last = clip.frames - 1; // a prop moves with the actor
     EXPECT_LT(
         glm::distance(clip.rootPositions[last],
                       report.scale * (report.rotation * far.rootPositions[last]) + report.offset),
@@ -440,7 +441,7 @@ TEST_F(StandingPose, ARootFarFromTheOriginStartsAtIt) {
     EXPECT_GT(moved.rootPositions[0].x, 1.9 * rig.joints[0].centre.y);
 }
 
-/// A rig that lies while the actor stands is no dance.
+/// A rig that lies while the actor stands is not a dance.
 TEST_F(StandingPose, HipsOnTheFloorOfAnActorWhoStandsAreAnError) {
     RetargetOptions options;
     for (const std::string side : {"Left", "Right"}) {
@@ -473,9 +474,9 @@ using osgSkin::RestSkeleton;
 using osgSkin::RetargetReport;
 
 constexpr std::size_t kFoot = 10;
-const glm::dvec3 kToes = {0, -1, 2}; ///< where makeFigure()'s foot points
+const glm::dvec3 kToes = {0, -1, 2}; ///< the direction of makeFigure()'s foot
 
-/// Frame d has the foot nodding a little and rolled by d - 180 degrees about its own length.
+/// In frame d the foot nods a little and is rolled by d - 180 degrees about its own length.
 Motion rollAround() {
     Motion motion = standStill(makeFigure(0.0), 361);
     for (std::size_t f = 0; f < motion.frames; ++f)
@@ -532,7 +533,7 @@ TEST(FootRoll, TurnsToesAlong) {
     EXPECT_NEAR(angleBetween(clip.rotations[kFoot + 1], motion.rotations[kFoot + 1]), 0.0, 1e-6);
 }
 
-/// A dancer whose feet the file has upside down for most of its seven seconds.
+/// A dancer whose feet are upside down in the file for most of its seven seconds.
 TEST(FootRoll, OfTheDancerIsWhatAnAnkleCan) {
     const std::string dance = sharedData("cmu/daz/05_06.bvh");
     OSGSKIN_NEEDS(dance);
@@ -548,7 +549,7 @@ TEST(FootRoll, OfTheDancerIsWhatAnAnkleCan) {
         for (std::size_t f = 0; f < clip.frames; ++f)
             if (angleBetween(glm::dquat(1, 0, 0, 0), clip.rotations[f * clip.joints + foot]) > 90.0)
                 ++wrung;
-        // What is left are the samples in which the file bends the foot back as well.
+        // The remaining samples are those in which the file also bends the foot back.
         EXPECT_LT(wrung, report.entries[foot].flippedFrames / 7) << name;
     }
 }

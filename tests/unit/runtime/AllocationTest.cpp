@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Counts what a frame takes from the heap; a program of its own, because it replaces operator new.
+// Counts a frame's heap allocations; a separate program, because it replaces operator new.
 #include <osgSkin/DeformPool>
 #include <osgSkin/PoseBounds>
 #include <osgSkin/UpdateDeformableSkin>
@@ -44,7 +44,7 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
     return counted(std::malloc(size));
 }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { // std::stable_sort's
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { // used by std::stable_sort
     void* memory = std::malloc(size);
     return memory ? counted(memory) : nullptr;
 }
@@ -82,7 +82,7 @@ TEST(Allocation, CounterWorks) {
 
 namespace {
 
-/// Skins that go through some poses, frame after frame.
+/// Skins that cycle through some poses, frame after frame.
 struct Frames {
     explicit Frames(std::size_t count, int rings) : model(test::Tube(rings).model()) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -120,7 +120,7 @@ struct Frames {
 
 TEST(Allocation, NoneInAThousandFrames) {
     Frames frames(1, 25);
-    bool good = frames.setPose(0, 0); // takes this thread's memory
+    bool good = frames.setPose(0, 0); // allocates this thread's memory
     const std::size_t before = allocations;
     for (std::size_t frame = 0; frame < 1000; ++frame) {
         good = frames.setPose(0, frame) && good;
@@ -136,7 +136,7 @@ TEST(Allocation, NoneInAThousandFrames) {
 TEST(Allocation, NoneInAThousandFramesOfAPool) {
     Frames frames(4, 900);
     const osg::ref_ptr<osgSkin::DeformPool> pool = new osgSkin::DeformPool(2);
-    pool->setMinimumVertices(10000); // so that each skin is shared among threads, too
+    pool->setMinimumVertices(10000); // so that each skin is also divided among threads
     std::atomic<bool> good{true};
     const auto run = [&](std::size_t frame) {
         pool->forEach(frames.poses.size(), [&](std::size_t i) {
@@ -144,7 +144,7 @@ TEST(Allocation, NoneInAThousandFramesOfAPool) {
         });
         if (!pool->run(frames.jobs.data(), frames.jobs.size())) good = false;
     };
-    // Both threads take their own memory: each has to wait for the other to begin.
+    // Both threads allocate their own memory: each has to wait for the other to begin.
     pool->forEach(50, [&](std::size_t) {
         osgSkin::Pose pose = frames.poses[0];
         pose.set(frames.skinning[0].data(), frames.skinning[0].size());
@@ -169,7 +169,7 @@ osg::ref_ptr<osg::Geometry> makeGeometry() {
     return geometry;
 }
 
-/// A skin of as many vertices and joints as a character has.
+/// A skin with as many vertices and joints as a character.
 osg::ref_ptr<osgSkin::DeformableSkin> makeCharacter() {
     osgSkin::Binding binding;
     const glm::dvec3 axis(0, 1, 0);
@@ -212,7 +212,8 @@ TEST(Memory, AFurtherCharacterTakesTwoBuffersAndFourKibibytes) {
     ASSERT_TRUE(update->pose(*first, *skeleton));
     first->getDeformedGeometry();
 
-    // What OSG takes for two geometries of their own vertices and normals in a buffer object.
+    // The memory that OSG uses for two geometries with their own vertices and normals in a buffer
+    // object.
     std::size_t before = bytesInUse;
     std::vector<osg::ref_ptr<osg::Geometry>> buffers;
     buffers.reserve(2);

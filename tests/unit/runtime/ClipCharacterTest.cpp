@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Characters whose parts are copied, and skins whose bones come and go.
+// Characters whose parts are copied, and skins whose bones are removed and added.
 #include "Notices.h"
 #include "PlayedFigure.h"
 
@@ -50,7 +50,7 @@ TEST(ClipPlayer, RigidPartsMayStandInGroupsBelowTheirBones) {
     const auto& rigid = dynamic_cast<osg::MatrixTransform&>(*copy.node->getChild(1));
     for (int i = 0; i < 16; ++i)
         EXPECT_NEAR(rigid.getMatrix().ptr()[i], expected.ptr()[i], 1e-6) << i;
-    // One that moves it away from its bone is not followed.
+    // A transform that moves it away from its bone is not followed.
     const osg::ref_ptr<osg::MatrixTransform> aside =
         new osg::MatrixTransform(osg::Matrixd::translate(1, 0, 0));
     aside->addChild(character.rigid);
@@ -63,7 +63,7 @@ TEST(ClipPlayer, BakedBoundsHoldTheSkinBetweenSamples) {
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     std::mt19937_64 random(17);
     std::uniform_real_distribution<double> at(-1.0, 3.0);
-    for (const double speed : {0.3, 0.8, 2.6, 3.5}) { // the last ones turn joints half around
+    for (const double speed : {0.3, 0.8, 2.6, 3.5}) { // the last ones rotate joints halfway around
         const auto clip = SampledClip::create(someClip(12, speed), character.rig);
         copies->bake(clip);
         const auto copy = copies->makeInstance();
@@ -120,7 +120,7 @@ TEST(ClipCharacter, InstancesLookAsTheCharacterDoes) {
     }
 }
 
-/// Neither keeps the other, where nothing else does.
+/// Neither keeps the other alive.
 TEST(SkinBones, ASkinMayStandBelowABone) {
     osg::observer_ptr<osgSkin::DeformableSkin> skin;
     {
@@ -193,7 +193,7 @@ TEST(ClipPlayer, BlendsBetweenBakedClipsAreBoundedToo) {
 
 namespace {
 
-/// A channel of three numbers that stand still.
+/// A constant channel of three numbers.
 osgAnimation::Vec3LinearChannel* channelOf(const std::string& target, const std::string& name) {
     auto* channel = new osgAnimation::Vec3LinearChannel;
     channel->setTargetName(target);
@@ -203,7 +203,7 @@ osgAnimation::Vec3LinearChannel* channelOf(const std::string& target, const std:
     return channel;
 }
 
-/// A callback that moves, named and with a place of its own.
+/// A named callback with its own position.
 template <class Update>
 Update* callbackOf(const std::string& name) {
     auto* update = new Update;
@@ -213,7 +213,7 @@ Update* callbackOf(const std::string& name) {
     return update;
 }
 
-/// Links as others do, and says that it did.
+/// Links like other callbacks, and records that it did.
 class OwnUpdate : public osgAnimation::UpdateMatrixTransform {
 public:
     int asked = 0;
@@ -226,7 +226,7 @@ public:
     }
 };
 
-/// Two clips that move everything below, and what is elsewhere.
+/// Two clips that animate everything below, and targets elsewhere.
 osgAnimation::AnimationList clips() {
     osgAnimation::AnimationList result = {new osgAnimation::Animation, new osgAnimation::Animation};
     for (const auto& clip : result)
@@ -297,7 +297,7 @@ TEST(AutoPlayManager, PlaysTheFirstClipUnlessAnotherPlays) {
         EXPECT_EQ(manager->isPlaying("first"), !chosen);
         EXPECT_EQ(manager->isPlaying("second"), chosen);
         manager->stopAll();
-        manager->update(1.0); // begins by itself once
+        manager->update(1.0); // starts by itself once
         EXPECT_FALSE(manager->isPlaying("first"));
     }
 }
@@ -318,7 +318,7 @@ TEST(AutoPlayManager, PlaysPosesInEveryMode) {
     }
 }
 
-/// Who comes into the scene late plays from the start, and a clip that is played once is.
+/// A manager that is added late plays from the start, and a clip that plays once plays completely.
 TEST(AutoPlayManager, PlaysFromItsFirstUpdateOn) {
     const osgAnimation::AnimationList some = clips();
     some[0]->setName("first");
@@ -364,7 +364,7 @@ TEST(AutoPlayManager, LeavesACharacterBelowTheSkeletonToItsOwnManager) {
     }
 }
 
-/// A visitor that an application gave links, as with OSG's managers.
+/// An application's own visitor does the linking, as with OSG's managers.
 TEST(AutoPlayManager, LeavesLinkingToVisitorsOfTheApplication) {
     const osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
     node->setUpdateCallback(callbackOf<osgAnimation::UpdateMatrixTransform>("a"));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Clips played without bones, beside the same clips on an osgAnimation skeleton.
+// Clips played without bones, compared with the same clips on an osgAnimation skeleton.
 //
-// What a player of clips is given may change, or be none.
+// The inputs of a clip player may change, or be missing.
 #include "Notices.h"
 #include "PlayedFigure.h"
 #include "TubeSkin.h"
@@ -86,7 +86,7 @@ TEST(SampledClip, BlendsByTheShortestWayAtAnEvenSpeed) {
     for (int i = 0; i < 20000; ++i) {
         osgSkin::JointSample a, b;
         a.rotation = test::randomRotation(random);
-        // Near ones and far ones, on both sides of where a series stands for the sines.
+        // Small and large angles, on both sides of the switch from the sines to a series.
         const double angle = i % 2 == 0 ? 1.2 * share(random) : 1e-6 * share(random);
         b.rotation = a.rotation * glm::angleAxis(angle, test::randomUnit(random));
         if (i % 3 == 0) b.rotation = -b.rotation;
@@ -139,7 +139,7 @@ TEST(ClipPlayer, PosesAsTheSkeletonDoes) {
                     ASSERT_TRUE(skin.getBoundingBox().contains(p, 1e-5f)) << interpolated;
             }
         }
-        // The rigid part is where it is below its bone.
+        // The rigid part is at its bone's position.
         auto* rigid = dynamic_cast<osg::MatrixTransform*>(copy.node->getChild(1));
         ASSERT_TRUE(rigid);
         osg::NodePath path = character.rigid->getParentalNodePaths(character.scene).front();
@@ -169,7 +169,7 @@ TEST(ClipPlayer, PosesWhatItIsGiven) {
 TEST(ClipPlayer, AJointThatTheClipHasNotGoesWithItsParent) {
     osgSkin::Clip whole = someClip(12, 0.8);
     for (std::size_t f = 0; f < whole.frames; ++f)
-        whole.rotations[3 * f + 1] = glm::dquat(1.0, 0.0, 0.0, 0.0); // the middle one stands still
+        whole.rotations[3 * f + 1] = glm::dquat(1.0, 0.0, 0.0, 0.0); // the middle one does not move
     const osgSkin::Clip without = withoutMiddle(whole);
     const osgSkin::RestSkeleton sparse = sparseRig();
     const Character character(whole);
@@ -304,8 +304,8 @@ TEST(ClipPlayer, TellsTheRootsWay) {
     const float start = middle();
     copy.player->setLayer(0, {clip, 11.0 * kFrame});
     copy.player->pose();
-    EXPECT_NEAR(middle() - start, 1.1, 0.6); // its turns move its middle, too
-    // 0.1 a frame, over the seam, too; steps up and down stay in the pose.
+    EXPECT_NEAR(middle() - start, 1.1, 0.6); // its rotations move its middle, too
+    // 0.1 per frame, also across the seam; steps up and down stay in the pose.
     copy.player->setRoot(ClipPlayer::Root::Extracted);
     copy.player->setLayer(0, {clip, 0.0});
     for (int i = 0; i < 36; ++i) {
@@ -335,7 +335,7 @@ TEST(ClipPlayer, IsAnUpdateCallback) {
         copy.node->accept(visitor);
     }
     EXPECT_NEAR(copy.player->getLayer(0).time, 0.2, 1e-9);
-    EXPECT_EQ(skinOf(*copy.node).getDeformCount(), 0u); // nobody has seen it yet
+    EXPECT_EQ(skinOf(*copy.node).getDeformCount(), 0u); // it has not been in view yet
 }
 
 using osgSkin::ClipPlayer;
@@ -344,7 +344,7 @@ using osgSkin::SampledClip;
 
 namespace {
 
-/// The tube's joints; with `swapped` names of the last two.
+/// The tube's joints; `swapped` exchanges the names of the last two.
 osgSkin::RestSkeleton namedRig(bool swapped) {
     osgSkin::RestSkeleton rig;
     rig.add("root", -1, glm::dvec3(0, 0, 0));
@@ -353,7 +353,7 @@ osgSkin::RestSkeleton namedRig(bool swapped) {
     return rig;
 }
 
-/// Each joint bends by another angle.
+/// Each joint bends by a different angle.
 osgSkin::Clip bentMotion() {
     osgSkin::Clip clip;
     clip.frameTime = 0.1;
@@ -377,7 +377,7 @@ std::vector<osg::Vec3> skinPosedBy(ClipPlayer& player, const DeformableSkin& ski
         .asVector();
 }
 
-/// What a player shows that has never played anything else.
+/// The vertices of a player that has not played anything else.
 std::vector<osg::Vec3> posedAfresh(const osg::ref_ptr<const osgSkin::SkinModel>& model,
                                    const osg::ref_ptr<const SampledClip>& clip) {
     const auto skin = test::makeSkin();
@@ -401,7 +401,7 @@ TEST(ClipTrust, JointsAreFoundByNameAndTheRootByItsMoves) {
     EXPECT_EQ(still->find("root"), 0);
     EXPECT_EQ(still->find("end"), 2);
     EXPECT_EQ(still->find("nobody"), -1);
-    EXPECT_EQ(still->rootJoint(), 0u); // none is translated
+    EXPECT_EQ(still->rootJoint(), 0u); // no joint is translated
     osgSkin::Clip motion = bentMotion();
     motion.rootPositions[1].x = 3.0;
     const osg::ref_ptr<const SampledClip> going = SampledClip::create(motion, namedRig(false));
@@ -410,7 +410,7 @@ TEST(ClipTrust, JointsAreFoundByNameAndTheRootByItsMoves) {
                 1e-12);
 }
 
-/// Memory is given out again: a new clip may stand where another one stood.
+/// Memory is reused: a new clip may have the address of an old one.
 TEST(ClipTrust, AClipIsNotItsAddress) {
     const auto skin = test::makeSkin();
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
@@ -443,7 +443,7 @@ TEST(ClipTrust, ASkinMayGetItsModelLater) {
     EXPECT_EQ(skinPosedBy(*player, *skin), posedAfresh(skin->getModel(), bentClip(false)));
 }
 
-/// What was baked is of the model that the character had then.
+/// Baked data are for the model that the character had then.
 TEST(ClipTrust, ABakedSkinMayGetAnotherModel) {
     const auto skeleton = test::makeBones();
     skeleton->addChild(test::makeSkin());
@@ -508,7 +508,7 @@ TEST(ClipTrust, ABakeThatFailsLeavesAllAsItWas) {
     EXPECT_TRUE(character->bakedBounds().valid());
 }
 
-/// A key that stands at the end of all times must not fill the memory.
+/// A key at the end of all times must not fill the memory.
 TEST(ClipTrust, EndlessClipsAreNotSampled) {
     osgSkin::Clip slow = bentMotion();
     slow.frameTime = 1e12;
@@ -521,10 +521,10 @@ TEST(ClipTrust, EndlessClipsAreNotSampled) {
     EXPECT_EQ(SampledClip::create(*good, *skeleton, 10.0)->sampleCount(), 2u);
 }
 
-/// osgAnimation stretches keys to the duration that an animation was given.
+/// osgAnimation stretches keys to the animation's duration.
 TEST(ClipTrust, SamplesAreTakenAsFastAsTheAnimationPlays) {
     osgSkin::Clip motion = bentMotion();
-    motion.rotations[4] = glm::angleAxis(1.4, glm::dvec3(1, 0, 0)); // the middle one turns by 1
+    motion.rotations[4] = glm::angleAxis(1.4, glm::dvec3(1, 0, 0)); // the middle one rotates by 1
     const auto animation = osgSkin::makeAnimation(motion, namedRig(false));
     const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
     const auto own = SampledClip::create(*animation, *skeleton, 40.0);
@@ -539,7 +539,7 @@ TEST(ClipTrust, SamplesAreTakenAsFastAsTheAnimationPlays) {
               glm::angle(own->sample(0)[1].rotation) + 0.3);
 }
 
-/// Clips that move other bones: none shows in the next one, nor in the scene.
+/// Clips that move other bones: none affects the next one, nor the scene.
 TEST(ClipTrust, SamplingLeavesTheSkeletonAsItIs) {
     const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
     const auto whole = osgSkin::makeAnimation(bentMotion(), namedRig(false));
@@ -560,7 +560,7 @@ TEST(ClipTrust, SamplingLeavesTheSkeletonAsItIs) {
     EXPECT_NEAR(angleIn(*end, "middle"), 0.0, 1e-6);
 }
 
-/// A callback of the application's own may come before the one that moves the bone.
+/// The application's own callback may come before the one that moves the bone.
 TEST(ClipTrust, BonesMayHaveOtherCallbacksFirst) {
     const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
     osg::Node& root = *skeleton->getChild(0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Correctives on every instruction set that this machine has, and in the scalar reference, against
-// the formula worked out in double precision.
+// Correctives with every instruction set of this machine, and with the scalar reference, compared
+// with the formula in double precision.
 #include "EachTarget.h"
 #include "SomeCorrectives.h"
 #include "Tube.h"
@@ -20,7 +20,8 @@
 
 namespace {
 
-/// A tube with correctives, its vertices where the deformation writes them straight or not.
+/// A tube with correctives; its vertices may be sorted so that the deformation writes its results
+/// in order.
 struct CorrectedTube : test::Tube {
     CorrectedTube(int rings, int sides, bool inBestOrder) : test::Tube(rings, sides) {
         const std::size_t modes = sides % 2 == 0 ? 14 : 1; // several vectors of them, or less
@@ -43,7 +44,7 @@ osgSkin::Pose tubePose(const osgSkin::Binding& binding, std::mt19937_64& random)
     const auto skinning = test::skinningFrom(binding.joints, turns);
     osgSkin::Pose pose(binding.joints, binding.correctives.inputs.size());
     EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
-    std::uniform_real_distribution<float> input(-0.5f, 1.5f); // beyond its range, too
+    std::uniform_real_distribution<float> input(-0.5f, 1.5f); // also out of range
     for (std::size_t i = 0; i < binding.correctives.inputs.size(); ++i)
         EXPECT_TRUE(pose.setInput(i, input(random)));
     return pose;
@@ -99,7 +100,7 @@ TEST_P(CorrectedKernel, AgreesWithDoublePrecision) {
 }
 
 TEST_P(CorrectedKernel, PartsInAnyOrderMakeTheWhole) {
-    if (!GetParam().target) return; // the reference has no parts
+    if (!GetParam().target) return; // the reference is not divided into parts
     std::mt19937_64 random(6);
     for (const bool inBestOrder : {false, true}) {
         const CorrectedTube skin(25, 777, inBestOrder);
@@ -168,7 +169,7 @@ TEST(CorrectedBounds, ContainEveryVertex) {
                 anyNearby = anyNearby || p[axis] < bounds.low[axis] + 0.5f;
             }
     }
-    EXPECT_TRUE(anyNearby); // they are no larger than they need to be
+    EXPECT_TRUE(anyNearby); // they are no larger than necessary
 }
 
 using osgSkin::CorrectiveJoint;
@@ -201,7 +202,7 @@ TEST(CorrectiveJoint, ClampIsTheIdentityAroundRestAndEndsAtTheRange) {
         EXPECT_EQ(joint.clamped({0.3, -0.2}), glm::dvec2(0.3, -0.2));
         EXPECT_NEAR(joint.clamped({0.9, 0.0}).x, 0.9 * (0.9 + 0.1 * std::tanh(1.0)), 1e-14);
         EXPECT_NEAR(joint.clamped({0.0, -50.0}).y, -0.8, 1e-12);
-        // No step and no corner anywhere.
+        // No step and no kink anywhere.
         glm::dvec2 last = joint.clamped({-1.0, 0.1}), lastSlope(0.0);
         for (double x = -0.999; x < 1.0; x += 0.001) {
             const glm::dvec2 now = joint.clamped({x, 0.1});
@@ -227,7 +228,7 @@ TEST(CorrectiveJoint, EveryFunctionIsNothingAtRestAndSmooth) {
             joint.evaluate({x, 0.2}, phi);
             joint.evaluate({x - h, 0.2}, before);
             joint.evaluate({x + h, 0.2}, behind);
-            for (std::size_t i = 0; i < joint.functionCount(); ++i) // a corner would be of order 1
+            for (std::size_t i = 0; i < joint.functionCount(); ++i) // a kink would be of order 1
                 EXPECT_NEAR((behind[i] - phi[i]) / h, (phi[i] - before[i]) / h, 2e-3)
                     << i << " at " << x;
         }
@@ -235,7 +236,7 @@ TEST(CorrectiveJoint, EveryFunctionIsNothingAtRestAndSmooth) {
 }
 
 TEST(CorrectiveJoint, HingesSplinesSpanEveryQuadraticFunction) {
-    // Greville's points reproduce x; with the constant taken off, x itself.
+    // Greville's points reproduce x; without the constant function, too.
     const CorrectiveJoint joint = functionsOf(Basis::Hinge);
     const std::vector<double>& t = joint.knots;
     std::vector<double> points = {t[0]};

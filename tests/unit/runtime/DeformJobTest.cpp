@@ -22,8 +22,8 @@ using osgSkin::Pose;
 
 namespace {
 
-/// The deformation in double precision, vertex by vertex and joint by joint, as DESIGN's formula
-/// has it: no groups, no folding.
+/// The deformation in double precision, vertex by vertex and joint by joint, by DESIGN's formula:
+/// no groups, no folding.
 glm::dvec3 reference(const osgSkin::Binding& binding, std::uint32_t vertex, glm::dvec3 x,
                      const std::vector<glm::dmat4>& skinning) {
     for (std::uint32_t i = binding.firstInfluence[vertex + 1];
@@ -63,7 +63,7 @@ struct Deformed {
     osg::ref_ptr<const osgSkin::SkinTangents> restTangents;
     DeformJob job;
 
-    /// Asks for tangents along the tube, of either handedness.
+    /// Adds tangents along the tube, of both handednesses.
     void addTangents() {
         for (std::size_t v = 0; v < positions.size(); ++v)
             tangents.emplace_back(0, 1, 0, v % 2 == 0 ? 1 : -1);
@@ -74,7 +74,7 @@ struct Deformed {
     }
 };
 
-/// What validate() throws; empty where it throws nothing.
+/// The message of the error that validate() throws; empty if none.
 std::string reasonAgainst(const DeformJob& job) {
     try {
         job.validate();
@@ -190,8 +190,8 @@ TEST(DeformJob, AgreesWithTheReferenceInDoublePrecision) {
     }
 }
 
-// Motions are full of joints that do not move but for rounding errors: the powers of such angles
-// are denormal numbers, which processors are many times slower with.
+// Motions are full of joints that move only by rounding errors: the powers of such angles are
+// denormal numbers, which are many times slower on CPUs.
 TEST(DeformJob, TinyAnglesMakeNoDenormalNumbers) {
     const test::Tube tube;
     Deformed f(tube);
@@ -285,7 +285,7 @@ TEST(Pose, GivesTheMatricesBackThatItWasMadeFrom) {
     EXPECT_TRUE(Pose().skinning().empty());
 }
 
-/// What follows the joints fully goes where their matrices put it, as linear blending has it.
+/// Skin that follows the joints fully is transformed by their matrices, as in linear blending.
 TEST(DeformJob, ScaledJointsTakeFullFollowersAlong) {
     const test::Tube tube;
     Deformed deformed(tube);
@@ -371,7 +371,7 @@ using osgSkin::DeformPool;
 
 namespace {
 
-/// Some skins, each in a pose of its own.
+/// Some skins, each in its own pose.
 struct Crowd {
     Crowd(std::size_t count, int rings) : model(test::Tube(rings).model()) {
         std::mt19937_64 random(1);
@@ -417,7 +417,7 @@ struct Crowd {
     std::vector<DeformJob> jobs;
 };
 
-/// Most threads that were in forEach() at the same time.
+/// Largest number of threads in forEach() at the same time.
 unsigned int mostAtOnce(const DeformPool& pool) {
     std::atomic<unsigned int> now{0}, most{0};
     pool.forEach(60, [&](std::size_t) {
@@ -450,7 +450,8 @@ TEST(DeformPool, OfAnyNumberOfThreadsTakesRoomForAThousand) {
     EXPECT_EQ(calls, 100u);
 }
 
-/// As where one deforms a skin, whose lock it holds, that the pool's threads come to deform.
+/// For example, a thread deforms a skin and holds its lock while the pool's threads are about to
+/// deform it.
 TEST(DeformPool, ThreadsThatCallAtOnceDoNotWaitForEachOther) {
     using Clock = std::chrono::steady_clock;
     const osg::ref_ptr<DeformPool> pool = new DeformPool(2);

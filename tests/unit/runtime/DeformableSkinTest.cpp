@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What is drawn of a skin: two buffers, filled in turn, with all that the rest geometry has.
+// A skin's drawn geometry: two buffers, filled alternately, with everything that the rest geometry
+// has.
 #include "Notices.h"
 #include "SomeCorrectives.h"
 #include "TubeSkin.h"
@@ -56,14 +57,14 @@ TEST(DeformableSkin, RefusesGeometryThatDoesNotFit) {
     EXPECT_THROW(skin->setSkin(nullptr, test::Tube().model()), osgSkin::Error);
     EXPECT_THROW(skin->setSkin(makeGeometry(test::Tube()), nullptr), osgSkin::Error);
     EXPECT_THROW(skin->setSkin(makeGeometry(test::Tube(9)), test::Tube().model()), osgSkin::Error);
-    // Picking would read beyond the vertices, or beyond the indices.
+    // Picking would read out of bounds of the vertices, or of the indices.
     for (const std::vector<GLuint>& corners : {std::vector<GLuint>{0, 1, 1000000}, {0, 1, 2, 3}}) {
         const osg::ref_ptr<osg::Geometry> broken = makeGeometry(test::Tube());
         broken->addPrimitiveSet(
             new osg::DrawElementsUInt(GL_TRIANGLES, corners.begin(), corners.end()));
         EXPECT_THROW(skin->setSkin(broken, test::Tube().model()), osgSkin::Error);
     }
-    // A driver would read beyond an array, and what is saved would be refused.
+    // A driver would read out of bounds of an array, and a saved skin would be refused.
     for (const auto binding : {osg::Array::BIND_PER_VERTEX, osg::Array::BIND_OVERALL}) {
         const osg::ref_ptr<osg::Geometry> lacking = makeGeometry(test::Tube());
         lacking->setTexCoordArray(0, new osg::Vec2Array(3), binding);
@@ -120,7 +121,7 @@ TEST(DeformableSkin, BoundsFollowThePose) {
     EXPECT_TRUE(skin->getBoundingBox().contains({0, 2, 3.9f}));
 }
 
-/// Or cull threads that begin at once would work it out at once.
+/// Otherwise cull threads that start together would compute it at the same time.
 TEST(DeformableSkin, KnowsItsBoundAsSoonAsItIsPosed) {
     const osg::ref_ptr<osgSkin::DeformableSkin> of = makeSkin();
     const osg::ref_ptr<OpenSkin> skin = new OpenSkin;
@@ -202,7 +203,7 @@ TEST(UpdateDeformableSkin, AJointWithoutABoneMovesWithItsParent) {
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
 }
 
-/// As one that readSkeleton() adds over several.
+/// Such as the one that readSkeleton() adds above several roots.
 TEST(UpdateDeformableSkin, ARootWithoutABoneIsNoNews) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
     skeleton->getChild(0)->setName("another");
@@ -229,7 +230,7 @@ double bendOf(const osgSkin::DeformableSkin& skin) {
 
 } // namespace
 
-/// As of a rider, whose bones are called as the horse's.
+/// Such as a rider's, whose bones have the same names as the horse's.
 TEST(UpdateDeformableSkin, LeavesTheBonesOfASkeletonBelowToIt) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones(), rider = makeBones();
     middleOf(*skeleton).addChild(rider);
@@ -255,7 +256,7 @@ TEST(UpdateDeformableSkin, FollowsABoneThatTakesAnothersPlace) {
     EXPECT_NEAR(bendOf(*skin), 0.5, 1e-9);
 }
 
-/// It can show one pose; copies would show two.
+/// A skin has a single pose; under several skeletons it would need several.
 TEST(UpdateDeformableSkin, SeveralSkeletonsOfOneSkinAreToldOf) {
     const osg::ref_ptr<osgAnimation::Skeleton> first = makeBones(), second = makeBones();
     const auto skin = makeSkin();
@@ -267,7 +268,7 @@ TEST(UpdateDeformableSkin, SeveralSkeletonsOfOneSkinAreToldOf) {
     const test::Notices notices;
     first->addChild(skin);
     scene->accept(update);
-    first->removeChild(skin); // moved: no news
+    first->removeChild(skin); // moved: no warning
     second->addChild(skin);
     scene->accept(update);
     EXPECT_EQ(notices.text(), "");
@@ -313,16 +314,16 @@ TEST(DeformableSkin, FollowsAnActivation) {
     EXPECT_EQ(skin->getActivation("breath"), 0.5f);
     EXPECT_TRUE(skin->needsDeform());
     EXPECT_NE(vertices(*skin), atRest);
-    EXPECT_TRUE(skin->setActivation("breath", 0.5f)); // the same again is no work
+    EXPECT_TRUE(skin->setActivation("breath", 0.5f)); // the same value causes no work
     EXPECT_FALSE(skin->needsDeform());
-    // The pose comes and goes beside it, and copies take it along.
+    // The pose changes independently, and copies keep it.
     bend(*skin, 0.3);
     EXPECT_EQ(skin->getActivation("breath"), 0.5f);
     const osg::ref_ptr<osgSkin::DeformableSkin> copy = new osgSkin::DeformableSkin(*skin);
     EXPECT_EQ(vertices(*copy), vertices(*skin));
     EXPECT_TRUE(copy->setActivation("breath", 0.0f));
     EXPECT_EQ(skin->getActivation("breath"), 0.5f);
-    // Another geometry of the same skin is as tense.
+    // Another geometry of the same skin has the same activation.
     skin->setSkin(makeGeometry(tube), tube.model());
     EXPECT_EQ(skin->getActivation("breath"), 0.5f);
     EXPECT_NE(vertices(*skin), atRest);
@@ -372,7 +373,7 @@ TEST(SkinBuffers, AlternateWhenOneHasBeenHandedOut) {
               drawn[1]->getVertexArray()->getVertexBufferObject());
 }
 
-// A pose that is read and replaced within a frame must not reach the buffer that a draw thread is
+// A pose that is read and replaced within a frame must not change the buffer that a draw thread is
 // still reading.
 TEST(SkinBuffers, WhatIsBeingDrawnIsNotWritten) {
     const auto skin = test::makeSkin();
@@ -418,7 +419,7 @@ TEST(SkinBuffers, FollowTheVertexBufferSetting) {
     EXPECT_TRUE(skin->getDeformedGeometry()->getUseVertexArrayObject());
 }
 
-/// What one skin lets go, others may be drawing with, in this very moment.
+/// Other skins may be drawing right now with buffers that one skin releases.
 TEST(SkinBuffers, LeaveAloneWhatOthersDrawWith) {
     static int releases;
     releases = 0;
@@ -439,7 +440,7 @@ TEST(SkinBuffers, LeaveAloneWhatOthersDrawWith) {
     copy->setSkin(rest, test::Tube().model());
     copy = nullptr;
     EXPECT_EQ(releases, 0);
-    skin->releaseGLObjects(nullptr); // by order
+    skin->releaseGLObjects(nullptr); // explicitly
     EXPECT_GT(releases, 0);
 }
 
@@ -454,7 +455,7 @@ TEST(SkinBuffers, FollowTheDrawCallback) {
     EXPECT_EQ(skin->getDeformedGeometry()->getDrawCallback(), callback);
     skin->setDrawCallback(nullptr);
     EXPECT_EQ(skin->getDeformedGeometry()->getDrawCallback(), ofRest);
-    skin->setDrawCallback(callback); // and where no pose follows
+    skin->setDrawCallback(callback); // and without a later pose
     EXPECT_EQ(skin->getDeformedGeometry()->getDrawCallback(), callback);
 }
 
@@ -472,7 +473,7 @@ TEST(SkinBuffers, KeepEverythingElse) {
         EXPECT_EQ(posed.getPrimitiveSet(i), rest.getPrimitiveSet(i));
 }
 
-/// The model has the vertices, so an application may drop the geometry's.
+/// The model has the vertices, so an application may remove the geometry's.
 TEST(SkinBuffers, NeedNoArraysOfTheRestGeometry) {
     const auto array = [](const osg::Array* of) {
         return static_cast<const osg::Vec3Array&>(*of).asVector();
@@ -517,7 +518,7 @@ TEST(SkinBuffers, TangentsTurnWithTheNormals) {
             ASSERT_NEAR(t * normals[v], 0.0f, 1e-5f);
             ASSERT_EQ(tangents[v].w(), v % 2 == 0 ? 1.0f : -1.0f);
         }
-        // The tube's top, beyond the bend about x: what pointed up points along z.
+        // The tube's top, above the bend about x: a vector along y now points along z.
         const osg::Vec4 top = tangents.back();
         EXPECT_NEAR(top.y(), std::cos(angle), 1e-5);
         EXPECT_NEAR(top.z(), std::sin(angle), 1e-5);

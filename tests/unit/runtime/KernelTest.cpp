@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The fast path on every instruction set that this machine has, and the scalar reference, against
-// the formula worked out in double precision.
+// The fast path with every instruction set of this machine, and the scalar reference, compared with
+// the formula in double precision.
 //
-// The product's order is the tree's, whatever the order in the file.
+// The order of the product follows the tree, whatever the order in the file.
 #include "EachTarget.h"
 #include "Tube.h"
 #include "Turns.h"
@@ -30,7 +30,7 @@ namespace {
 constexpr float kHeight = 10.0f;
 constexpr float kGuard = 12345.0f;
 
-/// Vertices in a ball that all follow the joints 1.. of a chain in one given manner.
+/// Vertices in a ball that all follow the joints 1.. of a chain in the same way.
 struct Manner {
     const char* name;
     std::vector<char> joints; ///< f: fully, p: partly, b: bend only, t: twist only, -: not at all
@@ -68,7 +68,7 @@ osgSkin::Binding chainOf(std::size_t joints, std::mt19937_64& random) {
     return binding;
 }
 
-/// `count` vertices of each manner after one another: groups of that many.
+/// `count` consecutive vertices of each kind: groups of that size.
 struct Skin {
     osgSkin::Binding binding;
     std::vector<glm::vec3> positions, normals;
@@ -118,7 +118,7 @@ private:
     }
 };
 
-/// The same skin with its vertices where the deformation writes them straight.
+/// The same skin sorted so that the deformation writes its results in order.
 Skin inBestOrder(Skin skin) {
     const auto order = osgSkin::SkinModel::bestOrder(skin.binding, skin.source);
     const Skin old = skin;
@@ -157,7 +157,7 @@ Model modelOf(const Skin& skin) {
     return osgSkin::SkinModel::create(skin.binding, skin.positions, skin.normals, skin.source);
 }
 
-/// Which outputs are asked for beside positions.
+/// The requested outputs besides positions.
 enum class Streams { None, Normals, NormalsAndTangents };
 
 class Kernel : public test::EachTarget {
@@ -171,7 +171,7 @@ void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const Model& mo
     const bool withNormals = streams != Streams::None;
     const bool withTangents = streams == Streams::NormalsAndTangents;
     const std::size_t count = skin.positions.size();
-    // One vertex before and several behind, which must stay as they are.
+    // One vertex before and several after them, which must not change.
     std::vector<glm::vec3> positions(count + 20, glm::vec3(kGuard)), normals = positions;
     std::vector<glm::vec4> tangents(count + 20, glm::vec4(kGuard));
     const auto restTangents = osgSkin::SkinTangents::create(model, skin.tangents);
@@ -205,9 +205,9 @@ void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const Model& mo
     }
 }
 
-/// Poses that stay within the body's height: turns of any angle about joints inside the body.
-/// Each joint scales by up to `grows` more or less, evenly.
-/// Any turns, or by `angle` each.
+/// Poses that stay within the body's height: rotations about joints inside the body. Each joint
+/// scales uniformly by a factor of up to `grows` up or down. The angles are random, or `angle`
+/// each.
 osgSkin::Pose randomPose(const osgSkin::Binding& binding, double moves, std::mt19937_64& random,
                          double grows = 0.0, double angle = 0.0) {
     std::uniform_real_distribution<double> growth(1.0 - grows, 1.0 + grows);
@@ -231,7 +231,7 @@ osgSkin::Pose randomPose(const osgSkin::Binding& binding, double moves, std::mt1
 
 TEST_P(Kernel, AgreesWithDoublePrecisionForEveryGroupSize) {
     std::mt19937_64 random(11);
-    // Five joints are what a long limb has; more turns, each about a far centre, leave the body.
+    // A long limb has five joints; more rotations, each about a distant centre, leave the body.
     const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
     for (std::size_t size = 1; size <= 33; ++size) {
         SCOPED_TRACE("groups of " + std::to_string(size));
@@ -277,7 +277,7 @@ TEST_P(Kernel, TakesLongChainsAndManyPartialJoints) {
     const Model model = modelOf(skin);
     osgSkin::Pose pose(skin.binding.joints);
     deform(skin, pose, model, Streams::NormalsAndTangents);
-    // Small turns, so that sixty of them stay within the body.
+    // Small rotations, so that sixty of them stay within the body.
     std::vector<glm::dmat4> skinning;
     std::vector<glm::dquat> turns;
     for (std::size_t j = 0; j < skin.binding.joints.size(); ++j)
@@ -287,8 +287,8 @@ TEST_P(Kernel, TakesLongChainsAndManyPartialJoints) {
     deform(skin, pose, model, Streams::NormalsAndTangents);
 }
 
-/// Some hundred joints, and chains with more full joints between the partial ones than are kept at
-/// a time.
+/// Some hundred joints, and chains with more full joints between the partial ones than are
+/// processed at once.
 TEST_P(Kernel, TakesMoreJointsThanAreKeptAtATime) {
     std::mt19937_64 random(17);
     constexpr std::size_t kJoints = 300;
@@ -312,7 +312,7 @@ TEST_P(Kernel, TakesMoreJointsThanAreKeptAtATime) {
     ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
     deform(skin, pose, model, Streams::NormalsAndTangents);
     deform(skin, randomPose(skin.binding, 0.0, random, 1e-3, 0.003), model, Streams::Normals);
-    if (!GetParam().target) return; // the reference has no parts
+    if (!GetParam().target) return; // the reference is not divided into parts
     const std::size_t count = skin.positions.size();
     std::vector<glm::vec3> whole(count), parts(count);
     osgSkin::DeformJob job;
@@ -345,7 +345,7 @@ TEST_P(Kernel, TurnsByPiAndBack) {
 }
 
 TEST_P(Kernel, PartsInAnyOrderMakeTheWhole) {
-    if (!GetParam().target) return; // the reference has no parts
+    if (!GetParam().target) return; // the reference is not divided into parts
     std::mt19937_64 random(14);
     const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
     for (const Skin& skin : {Skin(5, upToFour, 1201, 9), inBestOrder(Skin(5, upToFour, 1201, 9))}) {
@@ -376,7 +376,7 @@ INSTANTIATE_TEST_SUITE_P(Targets, Kernel, testing::ValuesIn(test::ways()),
 
 namespace {
 
-/// A tube whose vertices come in the worst order: those of its rings far apart.
+/// A tube whose vertices are in the worst order: those of a ring are far apart.
 test::Tube shuffled() {
     test::Tube tube;
     const std::size_t count = tube.positions.size();
@@ -436,7 +436,7 @@ TEST(VertexOrder, SmallGroupsJoinOthersByRatiosOfNothingAndAll) {
         const SkinModel::Ratio* ratio = model->ratios().data() + group.firstRatio;
         for (std::uint32_t row = 0; row < group.vertexCount; ++row, ++seen) {
             const std::uint32_t bound = tube.source[model->order()[group.firstVertex + row]];
-            std::vector<Influence> has; // by the model
+            std::vector<Influence> has; // in the model
             for (std::uint32_t k = 0; k < group.linkCount; ++k) {
                 const SkinModel::Link& link = model->links()[group.firstLink + k];
                 const SkinModel::Ratio own = link.partial ? *ratio++ : SkinModel::Ratio{1.0f, 1.0f};
@@ -455,7 +455,7 @@ TEST(VertexOrder, SmallGroupsJoinOthersByRatiosOfNothingAndAll) {
     EXPECT_EQ(seen, tube.source.size());
 }
 
-/// As painted weights may be: hardly two of 30,000 vertices follow the same three of 60 joints.
+/// As painted weights may be: hardly any two of 30,000 vertices follow the same three of 60 joints.
 TEST(VertexOrder, ManySignaturesAreGroupedInNoTime) {
     constexpr std::uint32_t kJoints = 60;
     Binding binding;
@@ -517,7 +517,7 @@ TEST(Influence, IsFractionalOrPartial) {
 
 namespace {
 
-/// Joints by their names, each after its parent's: "Hips Spine<Hips ...".
+/// Joints from their names, each after its parent's: "Hips Spine<Hips ...".
 std::vector<BoundJoint> makeJoints(const std::string& tree) {
     std::vector<BoundJoint> joints;
     std::map<std::string, int> index;

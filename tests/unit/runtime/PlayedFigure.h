@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A tube that an osgAnimation skeleton moves, for tests of what plays clips without one.
+// A tube that an osgAnimation skeleton animates, for tests of players without one.
 #pragma once
 
 #include "FindNodes.h"
@@ -39,7 +39,7 @@ inline osgSkin::RestSkeleton tubeRig() {
     return rig;
 }
 
-/// Turns of all joints, and a walk along x with steps up and down.
+/// Rotations of all joints, and a walk along x with steps up and down.
 inline osgSkin::Clip someClip(std::size_t frames, double speed) {
     osgSkin::Clip clip;
     clip.name = "some";
@@ -57,7 +57,7 @@ inline osgSkin::Clip someClip(std::size_t frames, double speed) {
     return clip;
 }
 
-/// A character as binding makes them: a skin under a skeleton that a manager animates, and a rigid
+/// A character as binding makes it: a skin under a skeleton that a manager animates, and a rigid
 /// part.
 struct Character {
     osgSkin::RestSkeleton rig = tubeRig();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Poses that cannot be followed, and those that may not be told apart.
+// Invalid poses, and poses that must not be confused with each other.
 #include "Notices.h"
 #include "Tube.h"
 #include "TubeSkin.h"
@@ -183,7 +183,7 @@ TEST(BendTwist, RatiosTakeSharesOfTheAngles) {
 
 namespace {
 
-/// The message of the Error that validate() throws; empty where it throws none.
+/// The message of the Error that validate() throws; empty if none.
 template <typename T>
 std::string complaint(const T& value) {
     try {
@@ -364,7 +364,7 @@ TEST(PoseTrust, TheRestPoseIsTheRestToTheBit) {
               0);
 }
 
-/// What cannot be followed is refused, and the last good pose stays; what can is finite.
+/// Invalid poses are refused, and the last good pose stays; valid ones give finite results.
 TEST(PoseTrust, NothingThatIsDrawnIsNoNumber) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
@@ -414,7 +414,7 @@ TEST(PoseTrust, NothingThatIsDrawnIsNoNumber) {
         }
 }
 
-/// The same where a pose comes without matrices, joint by joint.
+/// The same for poses without matrices, joint by joint.
 TEST(PoseTrust, JointMapsBeyondAllNumbersAreRefused) {
     const auto map = [](double offset, double scale) {
         osgSkin::JointMap made;
@@ -430,7 +430,8 @@ TEST(PoseTrust, JointMapsBeyondAllNumbersAreRefused) {
         {{map(0.0, 1.0), map(0.0, 1.0), map(1e300, 1.0)}, false},
         {{map(0.0, 1e38), map(0.0, 1.0), map(0.0, 1.0)}, false},
         {{map(0.0, 1e-38), map(0.0, 1.0), map(0.0, 1.0)}, false},
-        {{map(0.0, 1e7), map(0.0, 1e7), map(0.0, 1e7)}, false}, // together only, as the next
+        {{map(0.0, 1e7), map(0.0, 1e7), map(0.0, 1e7)}, false}, // only together, as in the next
+                                                                // case
         {{map(0.0, 1e-7), map(0.0, 1e-7), map(0.0, 1e-7)}, false},
         {{map(0.0, 1e6), map(0.0, 1.0), map(1e17, 1.0)}, false},
     };
@@ -445,7 +446,7 @@ TEST(PoseTrust, JointMapsBeyondAllNumbersAreRefused) {
     }
 }
 
-/// A vertex follows several joints by shares: what each of them may do, all may not together.
+/// A vertex follows several joints by shares: scales that each may have can be too large together.
 TEST(PoseTrust, JointsTogetherKeepVerticesInRange) {
     std::mt19937 random(31);
     std::uniform_real_distribution<double> exponent(-8.9, 8.9);
@@ -489,7 +490,7 @@ TEST(PoseTrust, ABoneThatCannotBeFollowedIsWarnedOfOnce) {
     EXPECT_EQ(positionsOf(*skin), before);
 }
 
-/// Memory is given out again: a new model may stand where another one stood.
+/// Memory is reused: a new model may have the address of an old one.
 TEST(PoseTrust, AModelIsNotItsAddress) {
     const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
     const auto bones = makeBones();

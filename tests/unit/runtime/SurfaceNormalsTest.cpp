@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Normals and tangents on every instruction set that this machine has, and in the scalar reference,
-// against differences between posed points of the surface.
+// Normals and tangents with every instruction set of this machine, and with the scalar reference,
+// compared with differences between posed points of the surface.
 #include "EachTarget.h"
 #include "SlopedTube.h"
 #include "SomeCorrectives.h"
@@ -24,7 +24,7 @@
 
 namespace {
 
-/// What is left out where nobody can see it, and what rounding gradients costs; radians.
+/// The error of invisible approximations and of rounding gradients; radians.
 constexpr double kTolerance = 5e-3;
 
 glm::dvec4 restTangentAt(const test::SlopedTube& tube, std::size_t v) {
@@ -32,7 +32,7 @@ glm::dvec4 restTangentAt(const test::SlopedTube& tube, std::size_t v) {
     return {1.5 * glm::normalize(around + glm::dvec3(0, 0.7, 0)), v % 3 == 0 ? -1.0 : 1.0};
 }
 
-/// A posed skin with all that comes out of a job.
+/// A posed skin with all outputs of a job.
 struct Posed {
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec4> tangents;
@@ -60,7 +60,7 @@ osg::ref_ptr<const osgSkin::SkinTangents> tangentsOf(const test::SlopedTube& tub
                                          std::move(tangents));
 }
 
-/// Turns of up to a right angle; where `moved`, with joints moved and scaled, too.
+/// Rotations of up to a right angle; with `moved`, also translated and scaled joints.
 osgSkin::Pose poseOf(const osgSkin::Binding& binding, std::mt19937_64& random, bool moved) {
     std::uniform_real_distribution<double> number(-1.0, 1.0);
     std::vector<glm::dmat4> skinning;
@@ -125,7 +125,7 @@ TEST_P(SurfaceNormals, AreThoseOfThePosedSurface) {
         }
 }
 
-/// Squares of what bones' limits of scale make of a direction's length are no floats.
+/// At the limits of bone scale the squared length of a direction is beyond single precision.
 TEST_P(SurfaceNormals, AreUnitWhateverTheScale) {
     const test::SlopedTube tube;
     const auto model = tube.model();
@@ -273,7 +273,7 @@ TEST_P(SurfaceNormals, OfCorrectivesAloneAreTiltedAndTurned) {
 }
 
 TEST_P(SurfaceNormals, PartsInAnyOrderMakeTheWhole) {
-    if (!GetParam().target) return; // the reference has no parts
+    if (!GetParam().target) return; // the reference is not divided into parts
     std::mt19937_64 random(15);
     for (const bool inOrder : {false, true}) {
         test::SlopedTube tube(25, 777);
@@ -296,8 +296,8 @@ INSTANTIATE_TEST_SUITE_P(Targets, SurfaceNormals, testing::ValuesIn(test::ways()
 
 namespace {
 
-/// \param grown by how much the joints scale at most, up or down
-/// \return the largest volume against the tight box's, in an animal's poses
+/// \param grown largest scale of the joints, up or down
+/// \return the largest volume relative to the tight box's, over natural poses
 double checkBounds(double grown) {
     const test::Tube tube(61, 24);
     const auto model = tube.model();
@@ -310,9 +310,10 @@ double checkBounds(double grown) {
     job.positionCount = positions.size();
 
     std::mt19937_64 random(6);
-    double worst = 0.0; // volume against the tight box's
+    double worst = 0.0; // volume relative to the tight box's
     for (int i = 0; i < 300; ++i) {
-        // Every other pose is of an animal's joints (90 degrees at most), the others are any.
+        // Every other pose is natural (joint angles of at most 90 degrees), the others are
+        // arbitrary.
         const bool natural = i % 2 == 0;
         std::vector<glm::dquat> turns(3);
         for (glm::dquat& turn : turns)
@@ -350,8 +351,8 @@ double checkBounds(double grown) {
     return worst;
 }
 
-/// Legs that part from a trunk: vertices follow both in part, in front of a knee and a moved,
-/// scaled foot.
+/// Legs that branch from a trunk: vertices follow both in part, above a knee and a moved, scaled
+/// foot.
 osgSkin::Binding forkedBinding(const std::vector<glm::vec3>& positions, const char* rightName) {
     const glm::dvec3 down(0, -1, 0);
     osgSkin::Binding binding;
@@ -425,7 +426,7 @@ TEST(PoseBounds, ContainVerticesOfTwoBranches) {
     checkTwoBranches("right");
 }
 
-/// The branch that is the last of the file is the first of the product.
+/// The last branch of the file is the first one in the product.
 TEST(PoseBounds, ContainVerticesOfBranchesInAnotherOrder) {
     checkTwoBranches("first");
 }
@@ -449,8 +450,8 @@ TEST(PoseBounds, ContainEveryVertexOfScaledJoints) {
     checkBounds(4.0);
 }
 
-/// Thousands of joints below a long chain, one a vertex: pieces are cut by what their vertices
-/// follow differently, which must not be looked for in all that they follow, again and again.
+/// Thousands of joints below a long chain, one per vertex: pieces are split by the joints in which
+/// their vertices differ, and finding these must not search all joints again and again.
 TEST(PoseBounds, AreMadeOfManyJointsInSeconds) {
     constexpr std::uint32_t kChain = 900, kLeaves = 4'000;
     osgSkin::Binding binding;
@@ -477,7 +478,7 @@ TEST(PoseBounds, AreMadeOfManyJointsInSeconds) {
     const auto model = osgSkin::SkinModel::create(binding, positions, normals, source);
     const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
     EXPECT_EQ(model->vertexCount(), kLeaves);
-#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG) // which counting lines is, too
+#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG) // also slow at counting lines
     constexpr double kMaxSeconds = 40.0;
 #else
     constexpr double kMaxSeconds = 8.0;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A twist that runs through 180 degrees: UpdateDeformableSkin lets it run on, unless told
-// otherwise.
+// A twist that passes through 180 degrees: UpdateDeformableSkin unwraps it by default.
 //
-// What takes OSG's types does what it does with GLM's.
+// Functions with OSG's types equal those with GLM's.
 #include "PlayedFigure.h"
 #include "TubeSkin.h"
 
@@ -33,7 +32,7 @@ protected:
         skeleton->addChild(skin);
     }
 
-    /// The middle joint's twist, in degrees, after an update at `time` with its bone turned.
+    /// The middle joint's twist, in degrees, after an update at `time` with its bone rotated.
     double twistAt(double time, double degrees) {
         auto& root = static_cast<osgAnimation::Bone&>(*skeleton->getChild(0));
         auto& middle = static_cast<osgAnimation::Bone&>(*root.getChild(0));
@@ -86,7 +85,7 @@ TEST_F(TwistUnwrap, DoesNotWindUp) {
     }
 }
 
-/// A clip whose end is far from its beginning, played over and over.
+/// A looping clip whose end is far from its beginning.
 TEST_F(TwistUnwrap, EachRoundOfALoopIsLikeTheFirst) {
     const double clip[] = {-30.0, 30.0, 100.0, 170.0, 220.0, 250.0};
     double time = 0.0;
@@ -95,7 +94,7 @@ TEST_F(TwistUnwrap, EachRoundOfALoopIsLikeTheFirst) {
             ASSERT_NEAR(twistAt(time += 0.05, degrees), degrees, 1e-9) << round;
 }
 
-/// Whoever poses frames of a motion in any order, as baking does, gets the same ones.
+/// Posing a motion's frames in any order, as baking does, gives the same results.
 TEST_F(TwistUnwrap, PoseWithoutAnUpdateDependsOnTheBonesAlone) {
     twistAt(0.0, 170.0);
     EXPECT_NEAR(twistAt(0.1, 190.0), 190.0, 1e-9);
@@ -109,8 +108,8 @@ TEST_F(TwistUnwrap, SkinRunsOnToo) {
     double time = 0.0;
     for (double degrees = 0.0; degrees < 270.0; degrees += 10.0) {
         twistAt(time += 0.05, degrees);
-        // Halfway up the middle joint's region half of the twist is taken, of what is left over
-        // 2 pi too. The ring of vertices at the joint has ratio one half.
+        // Halfway up the middle joint's region, half of the twist is applied, including any excess
+        // over 2 pi. The ring of vertices at the joint has ratio one half.
         const auto& vertices =
             static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
         const osg::Vec3 at = vertices[std::size_t(8) * 12]; // height 2, at angle 0
@@ -135,7 +134,7 @@ TEST_F(TwistUnwrap, StartsAfreshOnASeek) {
     callback->startTwistAfresh();
     EXPECT_NEAR(twistAt(time += 0.01, 200.0), -160.0, 1e-9);
     wind();
-    EXPECT_NEAR(twistAt(time += 0.05, 20.0), 20.0, 1e-9); // too far to be one motion
+    EXPECT_NEAR(twistAt(time += 0.05, 20.0), 20.0, 1e-9); // too far for a continuous motion
     wind();
     callback->setUnwrapTwist(false);
     twistAt(time += 0.05, 200.0);
@@ -144,7 +143,7 @@ TEST_F(TwistUnwrap, StartsAfreshOnASeek) {
 
 namespace {
 
-/// The middle joint twists by these degrees about the tube, sample by sample.
+/// The middle joint twists by these degrees about the tube, one per sample.
 osgSkin::Clip twistingClip(const std::vector<double>& degrees) {
     osgSkin::Clip clip = played::someClip(degrees.size(), 0.0);
     for (std::size_t f = 0; f < degrees.size(); ++f)
@@ -201,7 +200,7 @@ TEST(ClipTwist, StartsAfreshWhereTheTimeJumps) {
     EXPECT_NEAR(poseAt(copy, 5.0), 200.0, 1e-6);
     poseAt(copy, 30.0);
     EXPECT_NEAR(poseAt(copy, 5.0), -160.0, 1e-6); // by more than kSeekSeconds
-    // What was baked depends on the clip's time alone.
+    // Baked data depend on the clip's time alone.
     copies->bake(sampled);
     const auto baked = copies->makeInstance();
     for (const double samples : {5.0, 30.0, 5.0, 5.25}) {
@@ -215,7 +214,7 @@ using osgSkin::ParallelDeformCallback;
 
 namespace {
 
-/// Some skins below a group; bones are not needed, poses are set by hand.
+/// Some skins below a group; bones are not needed, because the test sets the poses.
 struct SkinsBelow {
     explicit SkinsBelow(unsigned int count) {
         for (unsigned int i = 0; i < count; ++i) {
@@ -249,7 +248,7 @@ TEST(ParallelDeformCallback, DeformsInTheUpdateWhatWasSeen) {
     SkinsBelow crowd(5);
     crowd.bendAll(0.1);
     crowd.update();
-    for (const auto& skin : crowd.skins) EXPECT_EQ(skin->getDeformCount(), 0u); // not seen yet
+    for (const auto& skin : crowd.skins) EXPECT_EQ(skin->getDeformCount(), 0u); // not in view yet
     test::cull(*crowd.skins[1], true);
     test::cull(*crowd.skins[3], true);
     EXPECT_EQ(crowd.skins[1]->getDeformCount(), 1u);
@@ -260,7 +259,7 @@ TEST(ParallelDeformCallback, DeformsInTheUpdateWhatWasSeen) {
         EXPECT_EQ(crowd.skins[i]->needsDeform(), i != 1 && i != 3) << i;
         EXPECT_EQ(crowd.skins[i]->getDeformCount(), i == 1 || i == 3 ? 2u : 0u) << i;
     }
-    // Out of view now: nobody looks at what was deformed, and so the next pose is left alone.
+    // Out of view now: the deformed vertices are not used, so the next pose is not deformed.
     crowd.bendAll(0.3);
     crowd.update();
     EXPECT_EQ(crowd.skins[1]->getDeformCount(), 2u);
@@ -268,7 +267,7 @@ TEST(ParallelDeformCallback, DeformsInTheUpdateWhatWasSeen) {
     EXPECT_EQ(crowd.skins[1]->getDeformCount(), 3u);
 }
 
-/// Scenes may have thousands of nodes: skins are looked for when the scene changes.
+/// Scenes may have thousands of nodes: the search for skins runs only when the scene changes.
 TEST(ParallelDeformCallback, LooksForSkinsOnce) {
     struct Counted : osg::Group {
         void traverse(osg::NodeVisitor& nv) override {
@@ -400,7 +399,8 @@ TEST(OsgTypes, SkinIsPosedByMatrices) {
     EXPECT_FALSE(b->setPose(tooFew));
 }
 
-// A bone's matrix and inverse bind matrix as OSG multiplies them: a rotation about the joint.
+// A bone's matrix and inverse bind matrix in OSG's multiplication order: a rotation about the
+// joint.
 TEST(OsgTypes, MatricesAreOsgs) {
     const osg::ref_ptr<osgSkin::DeformableSkin> a = test::makeSkin(), b = test::makeSkin();
     test::bend(*a, 0.7);

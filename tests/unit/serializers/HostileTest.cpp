@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a skin model's block says is not to be believed: refused with a reason, never a crash.
+// A skin model's block is untrusted: refused with a reason, never a crash.
 //
-// Files cut short or altered where our own classes stand in them: no crash, and no half character.
+// Files truncated or altered within our own classes: no crash, and no incomplete character.
 #include "SavedScene.h"
 #include "SlopedTube.h"
 #include "SomeCorrectives.h"
@@ -23,7 +23,7 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-// Where things stand in the tube's block: joint 0 is "root", one word of name.
+// Offsets in the tube's block: joint 0 is "root", whose name takes one word.
 constexpr std::size_t kJoints = 1, kParent = 2, kNameSize = 3, kCentre = 5, kBoneAxis = 11;
 constexpr std::uint32_t kNan = 0x7fc00000u;
 constexpr std::uint32_t kTwo = 0x40000000u;  // 2.0f
@@ -119,14 +119,14 @@ TEST(HostileBlockAtRandom, NeverCrashes) {
         if (round % 5 == 0) words.resize(random() % words.size());
         try {
             osgSkin::unpackSkinModel(words);
-        } catch (const osgSkin::Error&) { // as it should be
+        } catch (const osgSkin::Error&) { // the expected exception
         }
     }
 }
 
 namespace {
 
-/// Other than our reasons, OSG says of a bad file what it makes of each word in it.
+/// Besides our own messages, OSG prints its reading of each word of a bad file.
 template <typename Case>
 class Quietly : public testing::TestWithParam<Case> {
 protected:
@@ -136,7 +136,7 @@ protected:
 
 class HostileFile : public Quietly<const char*> {};
 
-/// Where the model's block starts: far enough back to be in our classes from there on.
+/// The offset of the model's block; everything from there on is in our classes.
 std::size_t ourPart(const std::string& file) {
     for (const char* name : {"osgSkin::SkinModel", "osgSkin--SkinModel"})
         if (file.find(name) != std::string::npos) return file.find(name);
@@ -159,7 +159,7 @@ TEST_P(HostileFile, CutShortInTheModelIsRefused) {
     const std::string good = test::save(*test::makeScene(), GetParam());
     const std::size_t start = ourPart(good);
     ASSERT_NE(start, std::string::npos);
-    // Further on, OSG's XML parser makes do with what is there.
+    // After that, OSG's XML parser accepts anything.
     const std::size_t end = good.find("</osgSkin--SkinModel", start);
     for (std::size_t size = start; size + 1000 < std::min(end, good.size()); size += 211)
         EXPECT_EQ(test::load(good.substr(0, size), GetParam()), nullptr) << size;
@@ -215,7 +215,7 @@ osg::ref_ptr<osg::PrimitiveSet> runs(const std::vector<int>& firsts,
 }
 
 constexpr int kMost = 0x7fffffff;
-// OSG's own sums of the first are 2 and 3.
+// OSG's own sums of the first case are 2 and 3.
 const std::vector<BadPrimitives> kBadPrimitives = {
     {"LengthsThatWrap", "names vertex", runs({kMost, kMost, 4})},
     {"LengthsOfBothSigns", "of -3 corners", runs({3, -3, 3})},

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A scene saved and read again, field by field. osgDB says nothing where a wrapper is missing: only
-// what comes back counts.
+// A scene saved and read again, field by field. osgDB is silent about missing wrappers, so only the
+// result counts.
 //
-// tests/data/saved holds makeScene(Tube(9, 6)) as it was written when files called a model
-// osgSkin::SharedSkinModel. Such files are read as ever, and written with today's names.
+// tests/data/saved holds makeScene(Tube(9, 6)) as written when files called a model
+// osgSkin::SharedSkinModel. Such files can still be read, and are written with today's names.
 #include "SavedScene.h"
 #include "TextFile.h"
 #include "UpdateAt.h"
@@ -75,7 +75,7 @@ TEST_P(RoundTrip, StateSetsStayWhereTheyWere) {
         dynamic_cast<const osg::Material*>(state->getAttribute(osg::StateAttribute::MATERIAL));
     ASSERT_NE(material, nullptr);
     EXPECT_EQ(material->getDiffuse(osg::Material::FRONT), osg::Vec4(0.25f, 0.5f, 0.75f, 1));
-    ASSERT_NE(is[1]->getStateSet(), nullptr); // its own, empty one
+    ASSERT_NE(is[1]->getStateSet(), nullptr); // its own, empty
     EXPECT_TRUE(is[1]->getStateSet()->getAttributeList().empty());
 }
 
@@ -108,7 +108,7 @@ TEST_P(RoundTrip, DeformedVerticesToTheBit) {
         EXPECT_EQ(test::posed(*is[0], pose), test::posed(*was[0], pose));
 }
 
-/// OSG calls text for older versions today's, in which a skin's fields are elsewhere.
+/// OSG labels text for older versions with today's version, in which a skin's fields differ.
 TEST_P(RoundTrip, FilesOfOlderVersions) {
     for (const int version : {91, 130, 155, 156, 161}) {
         const std::string file = test::save(*before, GetParam(), version);
@@ -192,7 +192,7 @@ TEST_P(OlderFile, HoldsTheModelThatItWasWrittenWith) {
     const std::vector<std::uint32_t> b = osgSkin::packSkinModel(*is[0]->getModel());
     EXPECT_EQ(is[0]->getModel()->joints()[1].name, "middle");
     ASSERT_EQ(b.size(), a.size());
-    // Normals come from sines and cosines, which are not the same to the bit everywhere.
+    // Normals are computed with sines and cosines, which differ in the last bit between machines.
     const auto& positions = is[0]->getModel()->positions();
     const auto& normals = is[0]->getModel()->normals();
     ASSERT_EQ(positions.size(), 54u);
@@ -213,7 +213,7 @@ TEST_P(OlderFile, HoldsTheRestOfTheSkins) {
         const auto* callback =
             dynamic_cast<osgSkin::UpdateDeformableSkin*>(is[i]->getUpdateCallback());
         ASSERT_NE(callback, nullptr);
-        // False was the default, and is left out of text files.
+        // False was the default, and is omitted from text files.
         EXPECT_EQ(callback->getUnwrapTwist(), i == 0);
     }
     EXPECT_NE(dynamic_cast<osgSkin::AutoPlayManager*>(scene->getUpdateCallback()), nullptr);

@@ -16,21 +16,23 @@
 namespace test {
 
 /// A tube's skin and a copy of it under a skeleton of three bones, a rigid part on the last bone,
-/// an animation of the middle one, and a value other than the default in each field that is saved.
+/// an animation of the middle one, and a non-default value in each saved field.
 osg::ref_ptr<osg::Group> makeScene(const Tube& tube = Tube());
 
 /// All skins below `root`.
 std::vector<osgSkin::DeformableSkin*> skinsOf(osg::Node& root);
 
-/// Writes in the format of this extension, to memory. Text has all digits of a number.
-/// \param version of OSG's files; 0: today's
+/// Writes to memory, in the format of this extension. Text has all digits of a number.
+/// \param scene to save
+/// \param extension of the format
+/// \param version of OSG's files; 0: the current one
 std::string save(const osg::Node& scene, const std::string& extension, int version = 0);
 
-/// Reads what save() wrote; null where osgDB refuses it, for the reason that it would print.
+/// Reads the output of save(); null, with the message that it would print, if osgDB refuses it.
 osg::ref_ptr<osg::Node> load(const std::string& file, const std::string& extension,
                              std::string* reason = nullptr);
 
-/// Skinning matrices of a few poses of the tube, all joints turned.
+/// Skinning matrices of a few poses of the tube, with all joints rotated.
 std::vector<std::vector<glm::dmat4>> somePoses(const osgSkin::DeformableSkin& skin);
 
 /// The vertices, then the normals, of the skin in this pose.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The pose that a skin was saved in: what is seen before the bones move it again.
+// The pose in which a skin was saved: it is visible until the bones move.
 #include "serialize/SkinModelBlock.h"
 #include "SavedScene.h"
 #include "SlopedTube.h"
@@ -51,7 +51,7 @@ void expectEqual(const SkinModel& a, const SkinModel& b) {
 
 TEST(SkinModelBlock, ModelComesBackExactly) {
     test::Tube tube;
-    tube.binding.joints[1].centre.x = 0.1; // no float
+    tube.binding.joints[1].centre.x = 0.1; // not exact in single precision
     tube.binding.joints[1].name = "a name, 17 bytes";
     tube.binding.joints[2].name = "";
     const auto model = tube.model();
@@ -87,7 +87,7 @@ TEST(SkinModelBlock, GradientsOfAnySteepnessComeBackExactly) {
     std::normal_distribution<float> number;
     for (int i = 0; i < 200; ++i) {
         test::SlopedTube tube(9, 7);
-        const float spread = 0.02f * static_cast<float>(i); // from all alike to 1e7 times as steep
+        const float spread = 0.02f * static_cast<float>(i); // from all equal to 1e7 times as steep
         for (osgSkin::RatioGradient& gradient : tube.binding.gradients)
             for (glm::vec3* of : {&gradient.bend, &gradient.twist})
                 *of = std::exp(spread * number(random)) *
@@ -161,9 +161,9 @@ namespace {
 
 using osgSkin::DeformableSkin;
 
-constexpr double kScales[] = {1.5, 0.8, 2.0}; ///< of root, middle and end, against the parent
+constexpr double kScales[] = {1.5, 0.8, 2.0}; ///< of root, middle and end, relative to the parent
 
-/// Every joint rotated about its centre, and scaled there.
+/// Every joint rotated and scaled about its centre.
 std::vector<glm::dmat4> scaledPose(const osgSkin::SkinModel& model) {
     std::mt19937_64 random(11);
     std::vector<glm::dmat4> skinning;
@@ -210,7 +210,7 @@ TEST_P(SavedPose, KeepsScale) {
     for (std::size_t v = 0; v < a.size(); ++v) ASSERT_LE((a[v] - b[v]).length(), 2e-5f) << v;
 }
 
-/// Whatever a skin can be posed by comes back: a bone may be made so small that it is not seen.
+/// Every pose that a skin accepts is restored: a bone may be scaled down until it is invisible.
 TEST_P(SavedPose, KeepsTheLargestAndTheSmallestScales) {
     for (const double scale : {2e-9, 1e-7, 1e7, 5e8}) {
         const std::vector<glm::dmat4> skinning = {
@@ -245,7 +245,7 @@ std::string bytesOf(const glm::dmat4& matrix) {
     return {reinterpret_cast<const char*>(&matrix), sizeof matrix};
 }
 
-/// The file, in binary, of a skin whose middle joint's skinning matrix is this one.
+/// A binary file of a skin whose middle joint has this skinning matrix.
 std::string fileWith(const glm::dmat4& middle) {
     const osg::ref_ptr<osg::Group> scene = test::makeScene();
     DeformableSkin& skin = *test::skinsOf(*scene)[0];

@@ -5,7 +5,7 @@
 
 namespace test {
 
-/// packSkinModel() of Tube(2, 3), as the first version of the format had it.
+/// packSkinModel() of Tube(2, 3) in the format's first version.
 constexpr std::uint32_t kVersion1Block[] = {
     0x1u,        0x3u,        0xffffffffu, 0x4u,        0x746f6f72u, 0x0u,        0x0u,
     0x0u,        0x0u,        0x0u,        0x0u,        0x0u,        0x0u,        0x0u,
