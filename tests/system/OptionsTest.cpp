@@ -86,13 +86,8 @@ TEST(Options, OfFilesAreOptionsOfPrograms) {
     for (const std::string program : {OSGSKIN_BAKE, OSGSKIN_VIEWER}) {
         const std::string help = test::runCommand(program + " --help", ".").out;
         for (const CharacterOption& option : osgSkin::characterOptions()) {
-<<<<<<< HEAD
-            // Programs have meanings of their own for these.
-            if (option.word == "motion" || option.word == "formats") continue;
-=======
             // Programs have other meanings for these.
-            if (option.word == "motion") continue;
->>>>>>> h-enC
+            if (option.word == "motion" || option.word == "formats") continue;
             EXPECT_EQ(help.find("\n  " + option.flag() + " ") != std::string::npos, option.isMember)
                 << program << " " << option.flag();
         }
