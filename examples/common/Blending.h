@@ -50,6 +50,7 @@ std::vector<glm::dvec3> transformPoints(const std::vector<glm::dmat4>& matrices,
 /// half weight between two joints that differ by a rotation of theta, a cross-section keeps
 /// cos^2(theta / 2) of its area under a twist, and cos(theta / 2) under a bend.
 ///
+/// \param weights of the vertices
 /// \param skinning G_j = bone matrix * inverse bind matrix, in rest space, one per joint
 /// \return one matrix per vertex
 /// \throw std::invalid_argument in the cases of SkinWeights::validate()
@@ -78,6 +79,7 @@ DualQuaternion toDualQuaternion(const glm::dmat4& rigid);
 /// are the same rotation. The sign closer to the joint of largest weight is used, so that blending
 /// takes the shorter path.
 ///
+/// \param weights of the vertices
 /// \param skinning G_j = bone matrix * inverse bind matrix, in rest space, one per joint; rigid
 /// \return one rigid matrix per vertex
 /// \throw std::invalid_argument in the cases of SkinWeights::validate() and toDualQuaternion()
@@ -92,6 +94,7 @@ std::vector<glm::dvec3> dualQuaternionBlend(const std::vector<glm::dvec3>& rest,
 using Points = std::vector<glm::dvec3>;
 
 /// Volume of a closed mesh whose faces point outward; inverted folds are subtracted.
+/// \param points positions of the vertices
 /// \param triangles three vertex indices each
 double enclosedVolume(const Points& points, const std::vector<std::uint32_t>& triangles);
 

@@ -141,7 +141,8 @@ class FigureMaker {
 public:
     explicit FigureMaker(const Cylinder& cylinder);
 
-    /// \param posed the cylinder's vertices under `pose`
+    /// \param posed the cylinder's vertices in `pose`
+    /// \param pose the pose
     Figures measure(const std::vector<glm::dvec3>& posed, const TwistPose& pose) const;
 
 private:
