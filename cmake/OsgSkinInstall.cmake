@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: MIT
-# What `cmake --install` and `cpack -G DEB` give: three components, and with them three packages.
-#   runtime  libosgSkin, libosgSkinRig, libosgSkinGpu and the serializers: all that a saved character needs (MIT)
+# Install rules for `cmake --install` and packages for `cpack -G DEB`: three components, one package
+# each.
+#   runtime  libosgSkin, libosgSkinRig, libosgSkinGpu and the serializers: everything that a saved
+#            character needs (MIT)
 #   plugin   osgSkinBind, osgSkinImport, osgSkinCharacter, the .skin plug-in, osgskinbake
 #            (GPL-3.0-or-later)
-#   dev      headers, CMake and pkg-config files of whatever kits were built
-# Every path in them is relative, so the installed tree can be moved.
+#   dev      headers, CMake and pkg-config files of the kits that were built
+# All paths are relative, so the installed tree can be moved.
 include(CMakePackageConfigHelpers)
 
 set(osgskin_cmake_dir "${CMAKE_INSTALL_LIBDIR}/cmake/osgSkin")
 set(osgskin_plugin_dir "${CMAKE_INSTALL_LIBDIR}/${OSGSKIN_OSG_PLUGINS}")
 
-# osgskin_install_kit(NAME COMPONENT DESCRIPTION REQUIRES): a node kit and what finds it. REQUIRES
-# are names of other pkg-config files.
+# osgskin_install_kit(NAME COMPONENT DESCRIPTION REQUIRES): installs a node kit with its CMake and
+# pkg-config files. REQUIRES are names of other pkg-config files.
 function(osgskin_install_kit name component description requires)
   install(TARGETS ${name} EXPORT ${name}Targets
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
@@ -25,7 +27,7 @@ function(osgskin_install_kit name component description requires)
     DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 endfunction()
 
-# The .pc files find the tree that they stand in.
+# The .pc files find the installed tree relative to themselves.
 file(RELATIVE_PATH osgskin_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 
 osgskin_install_kit(osgSkin runtime "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation")
@@ -84,7 +86,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libopenscenegraph-dev, libglm-dev")
-# What the libraries link, by dpkg-shlibdeps; our own are found in the build folder.
+# dpkg-shlibdeps finds the libraries that ours link; our own are in the build folder.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 set(CPACK_STRIP_FILES ON)

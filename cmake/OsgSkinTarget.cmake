@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Settings shared by our own targets; never global, so third-party code is left alone.
+# Settings shared by our own targets. They are never global, so they do not affect third-party code.
 
 # osgskin_settings(TARGET): language level, warnings, hidden symbols, sanitizers, coverage.
 function(osgskin_settings target)
@@ -12,7 +12,7 @@ function(osgskin_settings target)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE})
     if(OSGSKIN_SANITIZE MATCHES undefined)
-      target_compile_options(${target} PRIVATE -fno-sanitize-recover=undefined) # which tests would pass with
+      target_compile_options(${target} PRIVATE -fno-sanitize-recover=undefined) # otherwise tests would still pass
       target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
     endif()
     get_target_property(type ${target} TYPE)
@@ -33,7 +33,7 @@ function(osgskin_settings target)
     POSITION_INDEPENDENT_CODE ON)
 endfunction()
 
-# osgskin_nodekit(NAME HEADERS... ): a shared library nodekits/NAME with include/NAME headers.
+# osgskin_nodekit(NAME): settings of the shared library nodekits/NAME with the headers include/NAME.
 function(osgskin_nodekit name)
   string(TOUPPER ${name} upper)
   osgskin_settings(${name})
@@ -41,27 +41,27 @@ function(osgskin_nodekit name)
   target_include_directories(${name} PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
     "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
-  # Sources name each other by room: "pose/PoseKernel.h".
+  # Sources include each other by folder: "pose/PoseKernel.h".
   target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/src")
   set_target_properties(${name} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${OSGSKIN_SOVERSION} INSTALL_RPATH "$ORIGIN")
   osgskin_kit_build(${name})
   add_library(osgSkin::${name} ALIAS ${name})
-  # The same objects for tests of what the library does not export.
+  # The same objects, for tests of symbols that the library does not export.
   add_library(${name}Internals STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${name}>)
   set_target_properties(${name}Internals PROPERTIES LINKER_LANGUAGE CXX)
   target_include_directories(${name}Internals INTERFACE "${CMAKE_CURRENT_SOURCE_DIR}/src")
 endfunction()
 
-# The number that libraries' names end with: layouts that differ never meet. Before 1.0.0 they may
-# change with the second number of the version.
+# The number at the end of the libraries' names, so that programs never load an incompatible
+# version. Before 1.0.0 a minor version may change class layouts.
 set(OSGSKIN_SOVERSION ${PROJECT_VERSION_MAJOR})
 if(PROJECT_VERSION_MAJOR EQUAL 0)
   set(OSGSKIN_SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
 endif()
 
-# osgskin_kit_build(NAME): puts the kit's build into its library, and into NAMEBuild.h for plug-ins,
-# which refuse a library of another build (osgPlugin/common/KitCheck.h).
+# osgskin_kit_build(NAME): adds the kit's build to its library, and to NAMEBuild.h for plug-ins,
+# which reject a library of another build (osgPlugin/common/KitCheck.h).
 set(OSGSKIN_BUILD_HEADERS "${PROJECT_BINARY_DIR}/kit-build")
 function(osgskin_kit_build name)
   set(script "${PROJECT_SOURCE_DIR}/cmake/KitBuild.cmake")
@@ -75,7 +75,8 @@ function(osgskin_kit_build name)
   target_sources(${name} PRIVATE ${made})
 endfunction()
 
-# osgskin_plugin(TARGET): an OSG plug-in in lib/osgPlugins-x.y.z, found through OSG_LIBRARY_PATH.
+# osgskin_plugin(TARGET): an OSG plug-in in lib/osgPlugins-x.y.z, which OSG finds by
+# OSG_LIBRARY_PATH.
 function(osgskin_plugin target)
   osgskin_settings(${target})
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
@@ -86,8 +87,8 @@ function(osgskin_plugin target)
     LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGSKIN_OSG_PLUGINS}")
 endfunction()
 
-# osgskin_quickly_built(TARGET): a program whose time goes into our kits: GCC spends ten seconds to inline
-# CLI11 at its best.
+# osgskin_quickly_built(TARGET): builds a program with -O1. Its run time is spent in our kits, and
+# GCC would need ten seconds to optimise CLI11.
 function(osgskin_quickly_built target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()

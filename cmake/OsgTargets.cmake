@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# OpenSceneGraph's Debian package has no CMake configuration: wrap what FindOpenSceneGraph's parts
-# find as imported targets OSG::osg, OSG::osgDB, ... so that no link line holds an absolute path.
+# OpenSceneGraph's Debian package has no CMake configuration. Wrap the results of its find modules
+# in imported targets OSG::osg, OSG::osgDB, ... so that link lines contain no absolute paths.
 
 find_package(OpenThreads REQUIRED)
 if(NOT TARGET OSG::OpenThreads)
@@ -37,7 +37,7 @@ osgskin_osg_target(osgShadow osgUtil)
 
 osgskin_osg_target(osgAnimation osgDB osgText osgGA osgViewer)
 
-# What a plug-in's folder must be called for this OSG to find it.
+# The name of the folder in which this version of OSG finds plug-ins.
 file(STRINGS "${OSG_INCLUDE_DIR}/osg/Version" osgskin_version_lines
      REGEX "#define OPENSCENEGRAPH_(MAJOR|MINOR|PATCH)_VERSION")
 foreach(part MAJOR MINOR PATCH)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# coverage.sh [TEST PROGRAM...]: which lines of the kits and plug-ins the tests reach, by gcovr: a table, and
-# build/coverage/report/index.html. All tests, or only these programs (bindTests importTests ...).
+# coverage.sh [TEST PROGRAM...]: measures which lines of the kits and plug-ins the tests reach, with
+# gcovr. Prints a table and writes build/coverage/report/index.html. Runs all tests, or only the
+# given programs (bindTests importTests ...).
 set -euo pipefail
 osgskin_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$osgskin_root"
@@ -12,7 +13,7 @@ build=build/coverage
 failed=false
 cmake --preset coverage >build-coverage.log
 rm build-coverage.log
-# Counts of an earlier run would add up.
+# Counts of an earlier run would be added.
 find "$build" -name '*.gcda' -delete
 if [ $# -gt 0 ]; then
   cmake --build --preset coverage --target "$@"
@@ -22,7 +23,7 @@ if [ $# -gt 0 ]; then
 else
   osgskin_install $osgskin_show_packages
   osgskin_build coverage
-  ctest --test-dir "$build" --output-on-failure -j "$(nproc)" || failed=true # the table is of use anyway
+  ctest --test-dir "$build" --output-on-failure -j "$(nproc)" || failed=true # the table is still useful
 fi
 
 mkdir -p "$build/report"

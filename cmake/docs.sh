@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# docs.sh FOLDER: the reference as HTML in FOLDER/html, by Doxygen; a warning is a failure. Build target `docs`.
+# docs.sh FOLDER: writes the reference as HTML to FOLDER/html, with Doxygen. Fails on a warning. The
+# build target `docs` calls it.
 set -euo pipefail
 osgskin_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 folder=${1:?expected a folder}

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# cmake/format.sh [--fix]: fails with the names of our own sources that are not formatted, or formats them.
+# cmake/format.sh [--fix]: lists our own sources that are not formatted, and fails if there are any;
+# with --fix, formats them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -9,7 +10,7 @@ if [ "${1-}" = --fix ]; then
 else
   git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run -Werror
 fi
-# Public headers have no extension, so clang-format must be told what they are.
+# Public headers have no extension, so clang-format needs a file name to detect the language.
 wrong=0
 while read -r header; do
   formatted=$(clang-format --assume-filename=header.h <"$header")

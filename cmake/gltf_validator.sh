@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# gltf_validator.sh FOLDER: puts Khronos' glTF validator into FOLDER/node_modules, where the tests look
-# for it, unless it is there. Says why where it cannot, which is no failure: its test is then skipped.
+# gltf_validator.sh FOLDER: installs Khronos' glTF validator in FOLDER/node_modules, where the tests
+# find it, unless it is already there. If that is not possible, prints the reason and succeeds; the
+# test is then skipped.
 set -euo pipefail
 osgskin_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 . "$osgskin_root/cmake/setup.sh"
@@ -9,7 +10,7 @@ folder=$1
 version=2.0.0-dev.3.10
 
 grep -qs "\"version\": \"$version\"" "$folder/node_modules/gltf-validator/package.json" && exit 0
-# Some packages of Node.js bring npm along, and refuse Debian's own beside it.
+# Some Node.js packages include npm, and conflict with Debian's own.
 if ! command -v npm >/dev/null && ! osgskin_install nodejs npm; then
   echo "No npm: the glTF validator's test will be skipped" >&2
   exit 0

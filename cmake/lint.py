@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""lint.py BUILD [FILE...]: runs clang-tidy over the kits, plug-ins and examples, or over FILEs.
+"""lint.py BUILD [FILE...]: runs clang-tidy on the kits, plug-ins and examples, or on FILEs.
 
-clang-tidy spends its time in the headers, so the sources of a folder are read as one, except
-Highway's, which include themselves. A folder whose sources do not compile together is read source
-by source.
+clang-tidy spends most of its time in headers, so the sources of a folder are checked as one unit.
+Sources that use Highway are checked separately, because they include themselves, and so are the
+sources of a folder that do not compile together.
 """
 import collections
 import concurrent.futures
@@ -18,12 +18,12 @@ import sys
 
 ROOT = pathlib.Path(__file__).parents[1].resolve()
 FOLDERS = ("nodekits", "osgPlugin", "examples")
-# GCC's own warning options mean nothing to clang; OSG's macros leave parameters unused.
+# Clang does not know all of GCC's warning options; OSG's macros have unused parameters.
 FLAGS = ["-Wno-unknown-warning-option", "-Wno-unused-parameter", "-Wdocumentation", "-Wreserved-identifier"]
 
 
 def compiler_flags(command):
-    """A compile command without its compiler, source, output and optimisation."""
+    """Returns the flags of a compile command without compiler, source, output and optimisation."""
     words = iter(shlex.split(command)[1:])
     flags = []
     for word in words:
@@ -35,7 +35,7 @@ def compiler_flags(command):
 
 
 def tidy(folder, flags, sources):
-    """Returns clang-tidy's complaints about sources, read together."""
+    """Runs clang-tidy on sources as one unit and returns its findings."""
     folder.mkdir(parents=True, exist_ok=True)
     unit = folder / "unit.cpp"
     unit.write_text("".join(f'#include "{source}"\n' for source in sources))

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-# find_package(osgSkin COMPONENTS osgSkinCharacter): a target osgSkin::NAME for each component, of
-# osgSkin, osgSkinRig, osgSkinGpu, osgSkinBind, osgSkinImport and osgSkinCharacter, and for the kits that it
-# links. The runtime, osgSkin, osgSkinRig and osgSkinGpu, is always there.
+# find_package(osgSkin COMPONENTS osgSkinCharacter): a target osgSkin::NAME for each component and
+# for the kits that it links. Components are osgSkin, osgSkinRig, osgSkinGpu, osgSkinBind,
+# osgSkinImport and osgSkinCharacter. The runtime (osgSkin, osgSkinRig and osgSkinGpu) is always
+# included.
 include(CMakeFindDependencyMacro)
 find_dependency(glm)
-# OpenSceneGraph's targets first: ours name them.
+# OpenSceneGraph's targets come first, because ours link them.
 include("${CMAKE_CURRENT_LIST_DIR}/OsgTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinRigTargets.cmake")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Sourced by examples/run, tests/run and .ci/run: installs what is missing, then builds.
+# Sourced by examples/run, tests/run and .ci/run: functions that install missing packages and build.
 
 osgskin_build_packages="g++ cmake ninja-build pkg-config libopenscenegraph-dev openscenegraph
   libglm-dev libcgal-dev libeigen3-dev libassimp-dev nlohmann-json3-dev libstb-dev

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# with_display.sh WIDTHxHEIGHT COMMAND...: runs COMMAND on an X display of its own, and leaves with its
-# exit status. Xvfb picks the display's number itself and says when it is ready, so that any number of
-# these can start at the same moment.
+# with_display.sh WIDTHxHEIGHT COMMAND...: runs COMMAND on a separate X display, and exits with its
+# exit status. Xvfb chooses the display number and reports when it is ready, so several of these can
+# start at the same time.
 set -euo pipefail
 size=$1
 shift

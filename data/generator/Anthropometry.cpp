@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kStatureRatio = 1.80 / 1.756;
 
-/// Where a measure is taken. `across` is zero for a girth, else the direction of a breadth.
+/// The plane of a measurement. `across` is the direction of a breadth, or zero for a girth.
 struct Site {
     std::string name;
     double published; ///< metres, unscaled

@@ -7,8 +7,8 @@
 namespace mannequin {
 namespace {
 
-// Bone 0 is the upper arm, bone 1 the forearm. Front carries the biceps and the thumb, the inner
-// side faces the trunk.
+// Bone 0 is the upper arm, bone 1 the forearm. Biceps and thumb are in front; the inner side faces
+// the trunk.
 const std::vector<LimbSection> kSections = {
 
     {0, -0.05, 0, 0, 0.046, 0.048, 0.046, 0.040}, {0, 0.10, 0, 0, 0.050, 0.052, 0.049, 0.050},
@@ -27,7 +27,7 @@ Sculpture sculptArm() {
     const glm::dvec3 elbow = jointCentre("LeftForeArm");
     Sculpture arm;
     arm.add(limbLoft({shoulder, elbow, jointCentre("LeftHand")}, kSections), 0);
-    // Deltoid: front, side and back heads that meet on the outside of the upper arm.
+    // Deltoid: its front, side and back heads meet on the outside of the upper arm.
     const glm::dvec3 along = elbow - shoulder;
     const glm::dvec3 insertion = shoulder + along * 0.46 + glm::dvec3(0.003, 0.004, 0);
     arm.add(RoundCone{shoulder + glm::dvec3(0.008, 0.010, 0.020), insertion, 0.046, 0.030}, 0.040);

@@ -5,7 +5,7 @@
 
 namespace mannequin {
 
-/// The left arm with its hand, in the world's frame.
+/// The left arm and hand, in world space.
 Sculpture sculptArm();
 
 } // namespace mannequin

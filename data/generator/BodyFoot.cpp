@@ -8,8 +8,8 @@
 namespace mannequin {
 namespace {
 
-/// An upright section of the foot: distance from the heel, breadth to both sides of the foot's
-/// axis, height of the widest place and of the instep.
+/// A vertical cross-section of the foot: distance from the heel, breadth on both sides of the
+/// foot's axis, and the heights of the widest point and of the instep.
 struct Level {
     double t, inner, outer, widest, top;
 };
@@ -43,7 +43,7 @@ void sculptFoot(Sculpture& leg) {
         return heel + forward * t + frame.u * outward + up * y;
     };
     leg.add(Ellipsoid{at(0.032, 0, 0.034), {0.033, 0.042, 0.037}}, 0.025);
-    // Toes, the great one first.
+    // Toes, starting with the big toe.
     leg.add(RoundCone{at(0.205, -0.029, 0.019), at(0.262, -0.025, 0.0135), 0.0175, 0.0135}, 0.010);
     leg.add(RoundCone{at(0.210, -0.005, 0.017), at(0.262, -0.001, 0.0110), 0.0120, 0.0095}, 0.007);
     leg.add(RoundCone{at(0.206, 0.011, 0.016), at(0.253, 0.016, 0.0105), 0.0115, 0.0090}, 0.007);

@@ -12,7 +12,8 @@
 namespace mannequin {
 namespace {
 
-/// Frame of the hand: origin at the wrist, x to the fingers, y to the thumb, z out of the palm.
+/// Frame of the hand: origin at the wrist, x towards the fingers, y towards the thumb, z out of the
+/// palm.
 class HandFrame {
 public:
     HandFrame() : _wrist(jointCentre("LeftHand")) {
@@ -29,8 +30,8 @@ private:
     glm::dmat3 _axes;
 };
 
-/// A finger: its knuckle, how far it is spread toward the thumb and how its three joints are bent
-/// (degrees), lengths of its phalanges and its radii from knuckle to tip.
+/// A finger: its knuckle, its spread towards the thumb and the flexion of its three joints
+/// (degrees), the lengths of its phalanges, and its radii from knuckle to tip.
 struct Finger {
     glm::dvec3 knuckle;
     double spread;

@@ -6,7 +6,7 @@
 namespace mannequin {
 namespace {
 
-/// A level section of the jaw and the face: half its breadth, and its outline along z.
+/// A horizontal cross-section of the jaw and the face: half its breadth, and its outline along z.
 struct Level {
     double y, halfBreadth, back, widest, front;
 };
@@ -57,7 +57,7 @@ void sculptFace(Sculpture& head) {
     head.add(RoundCone{{0, 1.694, 0.090}, {0, 1.655, 0.1105}, 0.0075, 0.0085}, 0.012);
     head.add(Ellipsoid{{0, 1.6505, 0.114}, {0.0110, 0.0090, 0.0110}}, 0.006);
     head.addPair(Ellipsoid{{0.0110, 1.6470, 0.1035}, {0.0075, 0.0075, 0.0105}}, 0.009);
-    // Lips, with the mouth's line between them, and the hollow above the chin.
+    // Lips, the line between them, and the hollow above the chin.
     head.add(Ellipsoid{{0, 1.6185, 0.0930}, {0.0240, 0.0075, 0.0130}, rotation(-15, 0, 0)}, 0.008);
     head.add(Ellipsoid{{0, 1.6050, 0.0910}, {0.0205, 0.0075, 0.0130}, rotation(10, 0, 0)}, 0.008);
     head.carvePair(RoundCone{{0, 1.6118, 0.1090}, {0.024, 1.6118, 0.0945}, 0.0035, 0.0025}, 0.006);

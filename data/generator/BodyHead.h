@@ -5,7 +5,7 @@
 
 namespace mannequin {
 
-/// The head and neck in the world's frame.
+/// The head and neck, in world space.
 Sculpture sculptHead();
 
 } // namespace mannequin

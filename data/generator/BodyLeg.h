@@ -5,7 +5,7 @@
 
 namespace mannequin {
 
-/// The left leg with its foot, in the world's frame.
+/// The left leg and foot, in world space.
 Sculpture sculptLeg();
 
 } // namespace mannequin

@@ -6,7 +6,7 @@
 namespace mannequin {
 namespace {
 
-/// A level section of the trunk: half its breadth, and where its outline lies along z.
+/// A horizontal cross-section of the trunk: half its breadth, and its outline along z.
 struct Level {
     double y, halfBreadth, back, widest, front, power;
 };
@@ -41,13 +41,13 @@ Loft core() {
 }
 
 void sculptFront(Sculpture& trunk) {
-    // Pectorals: a plate, and the fan that runs to the upper arm.
+    // Pectorals: a plate, and a fan towards the upper arm.
     trunk.addPair(Ellipsoid{{0.080, 1.340, 0.077}, {0.078, 0.055, 0.035}, rotation(-8, 20, 10)},
                   0.030);
     trunk.addPair(RoundCone{{0.085, 1.355, 0.066}, {0.165, 1.410, 0.010}, 0.036, 0.034}, 0.040);
     trunk.addPair(RoundCone{{0.018, 1.462, 0.022}, {0.160, 1.480, -0.020}, 0.010, 0.016}, 0.025);
     trunk.carve(RoundCone{{0, 1.410, 0.110}, {0, 1.300, 0.141}, 0.012, 0.014}, 0.025); // sternum
-    // The front of the shoulder, which is no pit below the clavicle.
+    // The front of the shoulder: fills the pit below the clavicle.
     trunk.addPair(RoundCone{{0.085, 1.415, 0.034}, {0.150, 1.440, -0.004}, 0.036, 0.036}, 0.030);
     // Rectus abdominis, and the hollow between the two halves and below the ribs.
     trunk.addPair(RoundCone{{0.038, 1.240, 0.078}, {0.028, 0.960, 0.060}, 0.030, 0.026}, 0.030);

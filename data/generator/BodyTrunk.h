@@ -5,7 +5,7 @@
 
 namespace mannequin {
 
-/// The trunk in the world's frame.
+/// The trunk, in world space.
 Sculpture sculptTrunk();
 
 } // namespace mannequin

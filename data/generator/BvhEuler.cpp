@@ -25,7 +25,7 @@ EulerZyx eulerNear(const glm::dquat& rotation, const EulerZyx& previous) {
     const glm::dmat3 m = glm::mat3_cast(rotation); // m[column][row]
     const double y = degrees(std::asin(std::clamp(-m[0][2], -1.0, 1.0)));
     if (std::hypot(m[0][0], m[0][1]) < 1e-9) {
-        // Gimbal lock: only z -+ x is determined, so z stays as it was.
+        // Gimbal lock: only z -+ x is determined, so keep the previous z.
         const double z = previous.z;
         const double sum = degrees(std::atan2(-m[1][0], m[1][1]));
         return nearest({z, y, y > 0 ? z - sum : sum - z}, previous);

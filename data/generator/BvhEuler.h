@@ -12,16 +12,16 @@ struct EulerZyx {
     double z = 0, y = 0, x = 0;
 };
 
-/// The angles of a rotation nearest to `previous`, so that a curve of them is continuous.
+/// The Euler angles of a rotation that are closest to `previous`, to make continuous curves.
 EulerZyx eulerNear(const glm::dquat& rotation, const EulerZyx& previous);
 
-/// A motion as BVH writes it: one row a frame, the root's position and then the joints' angles.
+/// One frame of a BVH motion: the root's position, then the joints' angles.
 using BvhRow = std::vector<double>;
 
 /// The rows of a sequence of poses.
 std::vector<BvhRow> bvhRows(const std::vector<Pose>& poses);
 
-/// The pose of a row that bvhRows() made.
+/// The pose of a row made by bvhRows().
 Pose poseOfRow(const BvhRow& row);
 
 } // namespace mannequin

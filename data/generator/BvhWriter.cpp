@@ -13,7 +13,7 @@
 namespace mannequin {
 namespace {
 
-/// Six decimals, in any locale, and never "-0.000000".
+/// Formats a number with six decimals in any locale, never as "-0.000000".
 std::string number(double value) {
     const double rounded = std::round(value * 1e6) / 1e6;
     char text[40];

@@ -8,16 +8,16 @@
 namespace mannequin {
 namespace {
 
-/// Inside its bounds the edges have this length.
+/// Edges inside the bounds have this length.
 struct Region {
     RoundCone bounds;
     double edgeLength;
 };
 
 constexpr double kPlain = 0.0345;
-constexpr double kGrowth = 0.28; // of the edge length over the distance from a region
+constexpr double kGrowth = 0.28; // of the edge length per unit of distance from a region
 
-// For the left side and the middle.
+// The left side and the middle; the right side mirrors them.
 const Region kRegions[] = {
 
     {{{0.000, 1.612, 0.098}, {0.018, 1.612, 0.094}, 0.010, 0.009}, 0.0045},   // mouth

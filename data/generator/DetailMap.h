@@ -5,10 +5,10 @@
 
 namespace mannequin {
 
-/// Wanted length of the skin's edges: short at face, hands, toes and joints, long on plain flesh.
+/// Target edge length of the skin: short on face, hands, toes and joints, long elsewhere.
 class DetailMap {
 public:
-    /// Edge length in metres, before any scaling to a number of vertices.
+    /// Edge length in metres, before it is scaled to reach the number of vertices.
     double edgeLength(const glm::dvec3& point) const;
 };
 

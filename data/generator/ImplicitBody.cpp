@@ -14,10 +14,10 @@
 namespace mannequin {
 namespace {
 
-constexpr double kFar = 0.12; // metres from a part's bounds where its shape no longer matters
+constexpr double kFar = 0.12; // metres from a part's bounds beyond which its shape is ignored
 
-/// Distance to a part, or to its bounding ball where that is far: the field away from the skin
-/// serves only to be skipped.
+/// Distance to a part, or to its bounds if those are far away: there the field is only used to
+/// skip empty space.
 double bounded(const Sculpture& part, const glm::dvec3& point, const RoundCone& bounds) {
     const double d = bounds.distance(point);
     return d > kFar ? d : std::min(part.distance(point), 1.0);
@@ -62,7 +62,7 @@ glm::dvec3 ImplicitBody::normal(const glm::dvec3& point) const {
 
 glm::dvec3 ImplicitBody::projected(glm::dvec3 point) const {
     constexpr double kTolerance = 2e-6, kLongestStep = 0.01;
-    for (int i = 0; i < 8; ++i) { // Newton; the field is only nearly a distance
+    for (int i = 0; i < 8; ++i) { // Newton's method: the field only approximates a distance
         const double d = distance(point);
         if (std::abs(d) < kTolerance) break;
         const glm::dvec3 slope = gradient(point);

@@ -7,8 +7,8 @@
 
 namespace mannequin {
 
-/// The whole body as a smooth field: negative inside, about the distance to the skin in metres.
-/// Symmetric in x.
+/// The body as a smooth implicit surface: approximate signed distance to the skin in metres,
+/// negative inside. Symmetric in x.
 class ImplicitBody {
 public:
     ImplicitBody();
@@ -17,10 +17,10 @@ public:
 
     glm::dvec3 gradient(const glm::dvec3& point) const;
 
-    /// Unit gradient, which points out of the body.
+    /// Unit gradient, pointing out of the body.
     glm::dvec3 normal(const glm::dvec3& point) const;
 
-    /// Nearby point of the skin.
+    /// A nearby point on the skin.
     glm::dvec3 projected(glm::dvec3 point) const;
 
     glm::dvec3 lowerCorner() const;

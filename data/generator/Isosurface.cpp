@@ -15,12 +15,12 @@
 namespace mannequin {
 namespace {
 
-constexpr int kBlock = 8; // cells along a block's edge; blocks far from the skin are skipped
+constexpr int kBlock = 8; // cells per block edge; blocks far from the skin are skipped
 
 constexpr std::size_t kValues = (kBlock + 1UL) * (kBlock + 1UL) * (kBlock + 1UL);
 
-/// Marches through the grid. A cube's corner is a bit mask, one bit for each axis; the cube falls
-/// into the six tetrahedra 0, a, ab, abc of the orders of the axes, so that neighbours agree.
+/// Marching tetrahedra. A cube's corner is a bit mask with one bit per axis. Each order a, b, c of
+/// the axes gives a tetrahedron 0, a, ab, abc: six per cube, which match those of its neighbours.
 class Marcher {
 public:
     Marcher(const ImplicitBody& body, double spacing) : _body(body), _spacing(spacing) {
@@ -107,7 +107,7 @@ private:
         };
         const auto [entry, isNew] = _vertices.try_emplace(key(a) << 32 | key(b));
         if (isNew) {
-            // Keep off the corners, where triangles would collapse.
+            // Stay away from the corners, where triangles would degenerate.
             const double part = std::clamp(a.value / (a.value - b.value), 0.02, 0.98);
             entry->second =
                 _mesh.add_vertex(toCgal(glm::mix(position(a.cell), position(b.cell), part)));
@@ -127,7 +127,7 @@ private:
     double _spacing;
     glm::ivec3 _blocks{0};
     std::array<double, kValues> _values{};
-    std::unordered_map<std::uint64_t, SkinMesh::Vertex_index> _vertices; // by the grid's edge
+    std::unordered_map<std::uint64_t, SkinMesh::Vertex_index> _vertices; // by grid edge
     SkinMesh _mesh;
 };
 

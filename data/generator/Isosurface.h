@@ -6,8 +6,8 @@
 
 namespace mannequin {
 
-/// Skin of the body by marching tetrahedra on a grid of the given spacing: closed and manifold by
-/// construction, but fine and full of slivers.
+/// Triangulates the body's skin by marching tetrahedra on a grid of the given spacing in metres.
+/// The mesh is closed and manifold by construction, but dense and full of slivers.
 SkinMesh isosurface(const ImplicitBody& body, double spacing);
 
 } // namespace mannequin

@@ -21,7 +21,7 @@ Loft::Loft(const LoftFrame& frame, const std::vector<LoftSection>& sections) : _
         _t.push_back(s.t);
         _values.push_back({s.centreU, s.centreV, s.plusU, s.minusU, s.plusV, s.minusV, s.power});
     }
-    // Finite differences over the two neighbours: the surface has a continuous tangent plane.
+    // Central differences give the surface a continuous tangent plane.
     _slopes.resize(_t.size());
     for (std::size_t i = 0; i < _t.size(); ++i) {
         const std::size_t before = i == 0 ? 0 : i - 1;
@@ -55,7 +55,8 @@ double Loft::distance(const glm::dvec3& point) const {
     const double radiusU = u < 0 ? minusU : plusU, radiusV = v < 0 ? minusV : plusV;
     const double relative = std::pow(
         std::pow(std::abs(u) / radiusU, power) + std::pow(std::abs(v) / radiusV, power), 1 / power);
-    // Blend of the radial distance, right outside, and a continuous one near the centre.
+    // Blend the radial distance, which is accurate outside, with one that is continuous at the
+    // centre.
     const double radial = relative < 1e-9 ? 0 : std::hypot(u, v) / relative;
     const double inner = std::min({plusU, minusU, plusV, minusV});
     const double weight = std::min(relative * relative, 1.0);

@@ -8,30 +8,30 @@
 
 namespace mannequin {
 
-/// Directions in which a loft's sections are given.
+/// The coordinate frame of a loft's cross-sections.
 struct LoftFrame {
     glm::dvec3 origin;
     glm::dvec3 axis; ///< unit
     glm::dvec3 u;    ///< unit, orthogonal to the axis
     glm::dvec3 v;    ///< unit, orthogonal to both
 
-    /// Frame whose `u` is the part of `uHint` that is orthogonal to `axis`.
+    /// Makes a frame whose `u` is the component of `uHint` orthogonal to `axis`.
     static LoftFrame make(const glm::dvec3& origin, const glm::dvec3& axis,
                           const glm::dvec3& uHint);
 };
 
-/// A cross-section: four quarters of superellipses about a centre.
+/// A cross-section made of four quarter superellipses around a centre.
 struct LoftSection {
-    double t;                ///< place along the axis
-    double centreU, centreV; ///< centre, off the axis
+    double t;                ///< position along the axis
+    double centreU, centreV; ///< offset of the centre from the axis
     double plusU, minusU;    ///< radii toward +u and -u
     double plusV, minusV;    ///< radii toward +v and -v
-    double power;            ///< 2 gives an ellipse, more a squarer outline
+    double power;            ///< 2 is an ellipse, higher values are squarer
 };
 
-/// Solid through a row of cross-sections, cut off flat (its ends lie inside other solids).
+/// A solid through a series of cross-sections. Its ends are flat and lie inside other solids.
 ///
-/// Anatomical tables give breadths, depths and girths at heights, which is what sections state.
+/// Cross-sections match anatomical tables, which list breadths, depths and girths by height.
 class Loft {
 public:
     Loft(const LoftFrame& frame, const std::vector<LoftSection>& sections);

@@ -10,7 +10,7 @@ struct Row {
     const char* name;
     const char* parent;
     glm::dvec3 centre;
-    glm::dvec3 endSite; ///< zero where the joint has children
+    glm::dvec3 endSite; ///< zero if the joint has children
 };
 
 const Row kTrunk[] = {
@@ -23,9 +23,9 @@ const Row kTrunk[] = {
     {"Head", "Neck1", {0, 1.590, -0.015}, {0, 1.800, 0.005}},
 };
 
-// Given for the left side; the right side mirrors x.
+// The left side; the right side mirrors x.
 const Row kLimbs[] = {
-    {"LHipJoint", "Hips", {0, 0.970, 0.000}, {}}, // zero length, as in the CMU files
+    {"LHipJoint", "Hips", {0, 0.970, 0.000}, {}}, // zero length, like in the CMU files
     {"LeftUpLeg", "LHipJoint", {0.090, 0.930, 0.000}, {}},
     {"LeftLeg", "LeftUpLeg", {0.112, 0.513, 0.012}, {}},
     {"LeftFoot", "LeftLeg", {0.132, 0.078, -0.022}, {}},

@@ -22,7 +22,7 @@ namespace mannequin {
 namespace {
 
 constexpr double kSliver = 20;      // degrees
-constexpr double kFarthest = 0.009; // metres; a lost fingertip or ear is farther
+constexpr double kFarthest = 0.009; // metres; a missing fingertip or ear exceeds it
 
 double smallestAngle(const SkinMesh& mesh, SkinMesh::Face_index face) {
     double smallest = 180;

@@ -12,7 +12,7 @@ namespace mannequin {
 namespace {
 
 void writeRow(std::ostream& out, const char* keyword, const glm::dvec3& row) {
-    // Adding zero turns a negative zero into a plain one.
+    // Avoids "-0".
     const auto tidy = [](double x) { return std::abs(x) < 5e-7 ? 0.0 : x; };
     out << keyword << ' ' << tidy(row.x) << ' ' << tidy(row.y) << ' ' << tidy(row.z) << '\n';
 }

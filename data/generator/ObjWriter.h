@@ -8,7 +8,7 @@
 
 namespace mannequin {
 
-/// Writes a mesh as a Wavefront OBJ with smooth normals, weighted by the faces' areas.
+/// Writes a mesh as Wavefront OBJ with smooth, area-weighted normals.
 void writeObj(std::ostream& out, const SkinMesh& mesh, const std::string& name);
 
 } // namespace mannequin

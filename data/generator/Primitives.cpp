@@ -36,7 +36,7 @@ double RoundCone::distance(const glm::dvec3& point) const {
     const double across = glm::length(point - from - axis * (along / length));
     const double sine = narrowing / length;
     const double cosine = std::sqrt(1 - sine * sine);
-    // Foot of the perpendicular to the slanted side, along the axis.
+    // Position along the axis of the closest point on the slanted side.
     const double foot = along - across * sine / cosine;
     if (foot <= 0) return std::hypot(along, across) - fromRadius;
     if (foot >= length) return std::hypot(along - length, across) - toRadius;

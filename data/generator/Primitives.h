@@ -6,13 +6,13 @@
 
 namespace mannequin {
 
-/// Smallest of two distances, rounded off where they differ by less than `width`.
+/// Minimum of two distances, smoothed where they differ by less than `width`.
 double smoothMin(double a, double b, double width);
 
-/// Largest of two distances, rounded off where they differ by less than `width`.
+/// Maximum of two distances, smoothed where they differ by less than `width`.
 double smoothMax(double a, double b, double width);
 
-/// Mirror image of a point in the plane of symmetry, x = 0.
+/// A point mirrored in the plane of symmetry, x = 0.
 glm::dvec3 mirrored(const glm::dvec3& point);
 
 /// Convex hull of two balls.
@@ -23,7 +23,7 @@ struct RoundCone {
     double distance(const glm::dvec3& point) const;
 };
 
-/// Ellipsoid; `axes` holds its unit axes as columns.
+/// Ellipsoid; the columns of `axes` are its unit axes.
 struct Ellipsoid {
     glm::dvec3 centre, radii;
     glm::dmat3 axes = glm::dmat3(1);

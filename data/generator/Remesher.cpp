@@ -19,11 +19,11 @@ double angleAt(const glm::dvec3& apex, const glm::dvec3& a, const glm::dvec3& b)
     return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
 }
 
-/// How far the middle of an edge or a face may lie from the skin, in wanted edge lengths. Without
-/// this limit fingertips are eaten away.
+/// Maximum distance of an edge or face midpoint from the skin, in target edge lengths. Without this
+/// limit, fingertips erode.
 constexpr double kDeviation = 0.22;
 
-/// The elements as they are now: the loops below change the mesh as they go.
+/// A copy of the elements: the loops below change the mesh.
 template <class Range>
 auto listed(const Range& range) {
     return std::vector<std::decay_t<decltype(*range.begin())>>(range.begin(), range.end());
@@ -44,7 +44,7 @@ double Remesher::expectedVertices(double scale) const {
         const glm::dvec3 a = at(_mesh.source(h)), b = at(_mesh.target(h)),
                          c = at(_mesh.target(_mesh.next(h)));
         const double length = _detail.edgeLength((a + b + c) / 3.0) * scale;
-        // Of equilateral triangles, two to a vertex.
+        // Equilateral triangles have half a vertex each.
         count += glm::length(glm::cross(b - a, c - a)) / 2 / (std::sqrt(3.0) / 2 * length * length);
     }
     return count;
@@ -88,7 +88,7 @@ glm::dvec3 Remesher::faceNormal(Halfedge h) const {
 
 glm::dvec3 Remesher::lifted(glm::dvec3 point, const glm::dvec3& outward) const {
     const double length = glm::length(outward);
-    if (length < 0.5) return point; // a sharp fold has no outside
+    if (length < 0.5) return point; // a sharp fold has no outward direction
     for (int i = 0; i < 12; ++i) point -= outward * (_body.distance(point) / length);
     return point;
 }
@@ -223,7 +223,7 @@ void Remesher::relax() {
         move -= _normal[v] * glm::dot(move, _normal[v]);
         const glm::dvec3 normal = _normal[v];
         settle(v, place + move);
-        if (!maySit(v)) { // stay
+        if (!maySit(v)) {
             _mesh.point(v) = toCgal(place);
             _normal[v] = normal;
         }

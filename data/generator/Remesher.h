@@ -7,21 +7,21 @@
 
 namespace mannequin {
 
-/// Remeshes the skin in place to near-equilateral triangles of the wanted, varying edge length.
+/// Remeshes the skin in place to near-equilateral triangles of varying target edge length.
 ///
 /// Incremental remeshing after Botsch & Kobbelt, *A remeshing approach to multiresolution modeling*
-/// (SGP 2004): split long edges, collapse short ones, flip, relax along the surface, and project,
-/// here onto the implicit body itself. CGAL 5.5's own isotropic_remeshing knows one length only.
+/// (SGP 2004): split long edges, collapse short ones, flip, relax along the surface, and project
+/// onto the implicit body. CGAL 5.5's isotropic_remeshing supports only a uniform length.
 class Remesher {
 public:
     Remesher(const ImplicitBody& body, const DetailMap& detail, SkinMesh& mesh);
 
-    /// Number of vertices that the wanted lengths, times `scale`, would give.
+    /// Estimates the number of vertices for the target lengths times `scale`.
     double expectedVertices(double scale) const;
 
     void run(double scale, int rounds);
 
-    /// Without changing the number of vertices, raises the smallest angles.
+    /// Increases the smallest angles without changing the number of vertices.
     void polish(int rounds);
 
 private:
@@ -37,15 +37,15 @@ private:
 
     double wanted(const glm::dvec3& point) const { return _detail.edgeLength(point) * _scale; }
     glm::dvec3 at(Vertex v) const { return toGlm(_mesh.point(v)); }
-    void settle(Vertex v, const glm::dvec3& point); ///< moves to the skin near a point
+    void settle(Vertex v, const glm::dvec3& point); ///< moves `v` to the skin near `point`
     bool facesOutward(Vertex a, Vertex b, Vertex c) const;
     glm::dvec3 faceNormal(Halfedge h) const;
-    /// Moved across a cut-off tip to the skin, where the nearest skin is the side.
+    /// Moves a point outward to the skin of a cut-off tip, where the closest skin is the side.
     glm::dvec3 lifted(glm::dvec3 point, const glm::dvec3& outward) const;
     bool mustSplit(double length, const glm::dvec3& middle) const;
-    bool mayCollapse(Halfedge h) const; ///< source into target
+    bool mayCollapse(Halfedge h) const; ///< true if its source may merge into its target
     bool strays(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const;
-    bool maySit(Vertex v) const; ///< its faces lie well
+    bool maySit(Vertex v) const; ///< true if the faces around `v` are good
     bool mayFlip(Edge e) const;
     double smallestAngle(Vertex a, Vertex b, Vertex c) const;
 

@@ -26,7 +26,7 @@ void Sculpture::carvePair(Primitive primitive, double width) {
 }
 
 double Sculpture::distance(const glm::dvec3& point) const {
-    double result = 1; // a metre: far
+    double result = 1; // metres: far away
     for (const Step& step : _steps) {
         double d = distanceTo(step.primitive, point);
         if (step.paired)

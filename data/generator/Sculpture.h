@@ -14,14 +14,14 @@ using Primitive = std::variant<RoundCone, Ellipsoid, Loft>;
 /// Signed distance to any primitive, negative inside.
 double distanceTo(const Primitive& primitive, const glm::dvec3& point);
 
-/// Solid that is modelled by adding and carving primitives one after the other, each blended into
-/// what is there already over a given width.
+/// A solid made by adding and carving primitives in order. Each is blended over a given width into
+/// the result so far.
 class Sculpture {
 public:
     void add(Primitive primitive, double width);
     void carve(Primitive primitive, double width);
 
-    /// Adds a primitive and its mirror image, in one step so that the result is symmetric.
+    /// Adds a primitive and its mirror image in one step, which keeps the result symmetric.
     void addPair(Primitive primitive, double width);
     void carvePair(Primitive primitive, double width);
 

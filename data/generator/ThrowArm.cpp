@@ -29,15 +29,15 @@ struct RestArm {
     std::string prefix, thumbName;
     glm::dvec3 upper, fore, hand, thumb;
     glm::dvec3 hinge; ///< axis of the elbow's flexion
-    glm::dvec3 palm;  ///< out of the palm
+    glm::dvec3 palm;  ///< direction out of the palm
     double flexion;   ///< of the elbow at rest
 };
 
-/// Directions of the clinical angles in the trunk's frame.
+/// Axes of the clinical angles, in the trunk's frame.
 struct ArmAxes {
     glm::dvec3 upper; ///< along the upper arm
-    glm::dvec3 zero;  ///< where the flexed forearm points at 0 degrees of external rotation
-    glm::dvec3 right; ///< where it points at 90
+    glm::dvec3 zero;  ///< direction of the flexed forearm at 0 degrees of external rotation
+    glm::dvec3 right; ///< the same at 90 degrees
 };
 
 ArmAxes armAxes(Side side, double abduction, double horizontal) {
@@ -87,7 +87,7 @@ void poseArm(const Skeleton& skeleton, Side side, const ArmAngles& angles, Pose&
         glm::normalize(glm::inverse(girdle) * glm::normalize(glm::quat_cast(fromRest)));
 
     local(rest.prefix + "ForeArm") = turn(angles.elbow - rest.flexion, rest.hinge);
-    // CMU's convention: the forearm's pronation is a rotation of the hand's joint.
+    // In CMU's skeletons the hand joint performs the forearm's pronation.
     local(rest.prefix + "Hand") = turn(s * angles.pronation, rest.fore) *
                                   turn(angles.wrist, glm::cross(rest.hand, rest.palm));
     const glm::dquat curl = turn(angles.fingers, glm::cross(rest.hand, rest.palm));
@@ -117,7 +117,7 @@ ArmAngles measureArm(const Skeleton& skeleton, Side side, const WorldPose& world
 glm::dvec3 gripAtRest(const Skeleton& skeleton, Side side) {
     const RestArm rest(skeleton, side);
     const glm::dvec3 knuckle = skeleton.joint(rest.prefix + "FingerBase").centre;
-    constexpr double kHalfHand = 0.014; // the flesh between the bones and the palm's skin
+    constexpr double kHalfHand = 0.014; // metres from the bones to the palm's skin
     return knuckle + 0.022 * rest.hand + (kBallRadius + kHalfHand) * rest.palm;
 }
 

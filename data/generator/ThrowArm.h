@@ -8,39 +8,40 @@ namespace mannequin {
 
 enum class Side { Right, Left };
 
-/// +1 for the left, whose lateral direction is +X, -1 for the right.
+/// The direction of the side along X: +1 for left, -1 for right.
 constexpr double sign(Side side) {
     return side == Side::Left ? 1.0 : -1.0;
 }
 
-/// An arm in degrees. The shoulder's angles are those of Dillman et al. (1993), in the trunk's
-/// frame.
+/// Joint angles of an arm in degrees. The shoulder's angles follow Dillman et al. (1993), in the
+/// trunk's frame.
 struct ArmAngles {
     double protraction = 0; ///< shoulder girdle forward
     double elevation = 0;   ///< shoulder girdle up
-    double tilt = 0;        ///< shoulder girdle tipped back, a part of the external rotation
+    double tilt = 0;        ///< shoulder girdle tipped back; part of the external rotation
     double abduction = 0;   ///< upper arm away from straight down
-    double horizontal = 0;  ///< horizontal adduction: 0 sideways, 90 forward, below 0 behind
+    double horizontal = 0;  ///< horizontal adduction: 0 sideways, 90 forward, negative behind
     double external = 0;    ///< external rotation: forearm 0 forward, 90 up, 180 back (abducted 90)
     double elbow = 0;       ///< flexion, 0 straight
     double pronation = 0;   ///< 0 with the thumb in the plane of the elbow's flexion
-    double wrist = 0;       ///< flexion, below 0 extension
+    double wrist = 0;       ///< flexion; negative values extend
     double fingers = 0;     ///< curl of each of the two finger joints
     double thumb = 0;       ///< towards the palm
 };
 
 ArmAngles armAngles(const ArmKeys& keys, double time);
 
-/// Sets the rotations of one arm, from the girdle to the fingers. The trunk must be posed.
+/// Sets the rotations of one arm, from the girdle to the fingers.
+/// \pre the trunk is posed
 void poseArm(const Skeleton& skeleton, Side side, const ArmAngles& angles, Pose& pose);
 
 /// Measures abduction, horizontal adduction, external rotation and elbow flexion from the
-/// positions of the joints; the other angles stay 0. The elbow is below 0 where it bends backward.
+/// positions of the joints; the other angles are 0. The elbow is negative if it bends backward.
 ArmAngles measureArm(const Skeleton& skeleton, Side side, const WorldPose& world);
 
-/// Where a held ball's centre is in the rest pose.
+/// Centre of a ball in the hand, in the rest pose.
 glm::dvec3 gripAtRest(const Skeleton& skeleton, Side side);
 
-constexpr double kBallRadius = 0.037; ///< metres; a baseball's
+constexpr double kBallRadius = 0.037; ///< metres; a baseball
 
 } // namespace mannequin

@@ -6,8 +6,8 @@
 namespace mannequin {
 // At the contact: abduction 93 degrees, external rotation 67, horizontal adduction -17, elbow
 // flexion 98 (Dillman et al. 1993; Fleisig et al. 1999: 74 to 100). Greatest external rotation 173
-// to 178 (ibid.). At the release: abduction 91 to 96, elbow flexion 23 (Fleisig et al. 1999). What
-// lies between was posed by eye, and tuned until the ball leaves level and at its fastest.
+// to 178 (ibid.). At the release: abduction 91 to 96, elbow flexion 23 (Fleisig et al. 1999). The
+// keys in between were posed by eye, and tuned until the ball is released level and at its fastest.
 ArmKeys throwingArmKeys() {
     constexpr double kSlow = 0.04;
     constexpr double kFast = 0.016;
@@ -33,7 +33,7 @@ ArmKeys throwingArmKeys() {
                     {1.3, -4},
                     {1.7, 0},
                     {2.5, 0}}};
-    // The girdle's share of the external rotation: the joint LeftArm or RightArm turns that less.
+    // The girdle's share of the external rotation; the upper arm's joint has the rest.
     k.tilt = {kSlow,
               {{0, 0},
                {0.8, 0},
@@ -74,7 +74,7 @@ ArmKeys throwingArmKeys() {
                      {1.6, 74},
                      {1.9, 44},
                      {2.4, 52}}};
-    // Internal rotation is fastest just after the release, when the elbow is all but straight.
+    // Internal rotation is fastest just after the release, when the elbow is almost straight.
     k.external = {kFast,
                   {{0, 20},
                    {0.39, 26},
@@ -111,7 +111,7 @@ ArmKeys throwingArmKeys() {
                 {1.8, 58},
                 {2.3, 98},
                 {2.72, 108}}};
-    // Every overhand throw ends in pronation, fastball and curve alike.
+    // Every overhand throw ends in pronation, both fastballs and curves.
     k.pronation = {kFast,
                    {{0, 0},
                     {0.5, 0},
@@ -139,8 +139,8 @@ ArmKeys throwingArmKeys() {
     return k;
 }
 
-// Mirrors the throwing arm until the hands part, then points at the target and is tucked to the
-// chest as the trunk turns.
+// Mirrors the throwing arm until the hands separate, then points at the target and tucks against
+// the chest as the trunk rotates.
 ArmKeys gloveArmKeys() {
     constexpr double kSlow = 0.04;
     ArmKeys k;

@@ -7,9 +7,9 @@ namespace mannequin {
 namespace {
 
 constexpr double kGravity = 9.81;    // m/s^2
-constexpr double kRestitution = 0.5; // of the vertical speed at a bounce
-constexpr double kGrip = 0.7;        // of the horizontal speed at a bounce
-constexpr double kBackspin = 2160;   // degrees a second; a pitcher's 30 turns would alias
+constexpr double kRestitution = 0.5; // fraction of the vertical speed kept in a bounce
+constexpr double kGrip = 0.7;        // fraction of the horizontal speed kept in a bounce
+constexpr double kBackspin = 2160;   // degrees per second; a pitcher's 30 turns would alias
 
 struct Flight {
     glm::dvec3 position;
@@ -44,7 +44,7 @@ std::vector<BvhRow> ballRows(const Skeleton& skeleton, const ThrowMotion& motion
         if (frame > kReleaseFrame && frame + 1 < kFrameCount) {
             flight.advance(1.0 / kFrameRate);
             position = flight.position;
-            // Thrown towards +X, so backspin turns about +Z.
+            // The throw goes towards +X, so backspin rotates about +Z.
             rotation = turn(kBackspin * (time - release), {0, 0, 1}) * held;
         }
         last = eulerNear(rotation, last);

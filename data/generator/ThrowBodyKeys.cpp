@@ -4,10 +4,10 @@
 #include "ThrowTiming.h"
 
 namespace mannequin {
-// The pelvis opens first and the thorax follows it, which is what stretches the trunk: about 50
-// degrees apart at the contact, as Fleisig et al. (1999) time their peaks. At the release the trunk
-// tilts 33 degrees to the target (ibid.) and 23 to the glove side (Escamilla et al. 1998). The
-// thorax is arched back against the pelvis up to the greatest external rotation.
+// The pelvis opens first and the thorax follows, which stretches the trunk: they differ by about
+// 50 degrees at the contact, in line with the peaks of Fleisig et al. (1999). At the release the
+// trunk tilts 33 degrees to the target (ibid.) and 23 to the glove side (Escamilla et al. 1998).
+// The thorax is arched back relative to the pelvis up to the maximum external rotation.
 BodyKeys bodyKeys() {
     constexpr double kBody = 0.06;
     constexpr double kTrunk = 0.03;
@@ -52,7 +52,7 @@ BodyKeys bodyKeys() {
             {1.65, 0.09},
             {2.2, 0.04},
             {2.6, 0}}};
-    // Short of 90 degrees, where the BVH angles Z Y X of the root would lock.
+    // Less than 90 degrees, where the root's BVH angles Z Y X have a gimbal lock.
     k.pelvisYaw = {kTrunk,
                    {{0, 0},
                     {0.15, -1},

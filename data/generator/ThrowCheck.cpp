@@ -53,7 +53,7 @@ Range rangeOf(const std::vector<FrameMeasure>& frames, double FrameMeasure::*mea
     return range;
 }
 
-/// How far a joint strays in millimetres while its foot is planted.
+/// Maximum displacement of a joint in millimetres while its foot is planted.
 double slip(const std::vector<FrameMeasure>& frames, glm::dvec3 FrameMeasure::*joint, int first,
             int last) {
     double most = 0;
@@ -68,11 +68,10 @@ double apart(const glm::dquat& a, const glm::dquat& b) {
     return degrees(2 * std::acos(std::min(1.0, std::abs(glm::dot(a, b)))));
 }
 
-/// The largest turn of a joint between consecutive frames and the largest change of that turn's
-/// speed, over frames [first, last] and the given joints.
+/// Maximum angular speed and acceleration of the given joints over frames [first, last].
 struct Smoothness {
-    double speed = 0;        ///< degrees a second
-    double acceleration = 0; ///< degrees a second squared
+    double speed = 0;        ///< degrees per second
+    double acceleration = 0; ///< degrees per second squared
 };
 
 Smoothness smoothness(const std::vector<Pose>& poses, int first, int last,

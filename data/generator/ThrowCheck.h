@@ -8,8 +8,9 @@
 
 namespace mannequin {
 
-/// Checks a written throw and its ball for what the demo relies on, and prints each finding.
-/// \return whether all hold
+/// Checks the properties of a written throw and its ball that the demo relies on. Prints each
+/// result.
+/// \return true if every check passes
 bool checkThrow(std::ostream& out, const Skeleton& skeleton, const std::vector<BvhRow>& body,
                 const std::vector<BvhRow>& ball);
 

@@ -53,7 +53,7 @@ double limbClearance(const Skeleton& skeleton, const WorldPose& world) {
     const auto at = [&](const char* joint) { return world.position[skeleton.index(joint)]; };
     double least = std::numeric_limits<double>::max();
     for (const Pair& pair : kPairs) {
-        constexpr int kSteps = 16; // along one of the two; the other is exact
+        constexpr int kSteps = 16; // samples along one segment; the other is solved exactly
         for (int i = 0; i <= kSteps; ++i) {
             const glm::dvec3 p =
                 glm::mix(at(pair.a.from), at(pair.a.to), static_cast<double>(i) / kSteps);

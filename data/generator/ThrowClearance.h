@@ -5,9 +5,9 @@
 
 namespace mannequin {
 
-/// Least gap in metres between limbs that could run into each other: forearms and hands against
-/// thighs, shins and trunk, the forearms against each other, and the shins. The limbs are taken as
-/// capsules about as thick as the mannequin's skin; below 0 they overlap.
+/// Minimum gap in metres between limbs that could collide: forearms and hands with thighs, shins
+/// and trunk, forearm with forearm, and shin with shin. The limbs are capsules about as thick as
+/// the mannequin's skin; a negative gap is an overlap.
 double limbClearance(const Skeleton& skeleton, const WorldPose& world);
 
 } // namespace mannequin

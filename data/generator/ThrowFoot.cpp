@@ -7,7 +7,7 @@
 namespace mannequin {
 namespace {
 
-// The heel as a ball that touches the floor at rest, from the ankle.
+// Centre of the heel, a sphere that touches the floor at rest, relative to the ankle.
 const glm::dvec3 kHeel(0, -0.043, -0.030);
 constexpr double kHeelRadius = 0.035;
 constexpr double kBallHeight = 0.022; // of the joint ToeBase at rest
@@ -33,7 +33,7 @@ FootTarget footTarget(const Skeleton& skeleton, Side side, const FootKeys& keys,
     FootTarget target;
     target.rotation = turn(keys.yaw.at(time), {0, 1, 0}) * turn(heel, {1, 0, 0});
     target.kneeYaw = keys.yaw.at(time) + keys.kneeOut.at(time);
-    // Toes bend up to 55 degrees while they bear on the floor, and go slack in the air.
+    // Toes bend up to 55 degrees while they press on the floor, and relax in the air.
     const double grounded = smoothStep(1 - lift / 0.25);
     target.toeBend = std::min(std::max(heel, 0.0), 55.0) * grounded;
 

@@ -10,8 +10,8 @@ constexpr double kFoot = 0.03;
 
 } // namespace
 
-// Planted up to the contact, dragged on its toes up to the release, swung through to land beside
-// the lead foot, and stepped back to the set.
+// Planted up to the contact, dragged on its toes up to the release, swung forward to land beside
+// the lead foot, then stepped back to the set position.
 FootKeys pivotFootKeys() {
     FootKeys k;
     k.x = {kFoot,
@@ -72,7 +72,7 @@ FootKeys pivotFootKeys() {
 }
 
 // Lifted, set down on its heel about 65 % of the stature ahead of the pivot foot (a pitcher strides
-// 85 %, Fleisig et al. 1999; this is a throw on level ground), and stepped back after the pivot
+// 85 %, Fleisig et al. 1999; this is a throw on level ground), then stepped back after the pivot
 // foot.
 FootKeys leadFootKeys() {
     FootKeys k;

@@ -21,7 +21,7 @@ struct BodyKeys {
     Channel x, y, z; ///< of the joint Hips
     Channel pelvisYaw, pelvisLeanX, pelvisLeanZ;
     Channel thoraxYaw, thoraxLeanX, thoraxLeanZ; ///< of the joint Spine1
-    Channel headYaw, headNod, headRoll; ///< nod: chin down, roll: towards the right shoulder
+    Channel headYaw, headNod, headRoll; ///< nod is chin down, roll is towards the right shoulder
 };
 
 /// An arm in clinical angles, degrees. See ArmAngles.
@@ -31,7 +31,7 @@ struct ArmKeys {
     Channel elbow, pronation, wrist, fingers, thumb;
 };
 
-/// A foot in world space: where its ball is, and how it is turned. See FootTarget.
+/// A foot in world space: the position of its ball, and its orientation. See FootTarget.
 struct FootKeys {
     Channel x, z, lift, yaw, heel, kneeOut;
 };

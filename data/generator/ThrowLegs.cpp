@@ -24,7 +24,7 @@ struct RestLeg {
         flexion = std::acos(glm::dot(glm::normalize(thigh), glm::normalize(shank)));
     }
 
-    /// Distance from hip to ankle with the knee flexed by `angle` radians.
+    /// Distance from hip to ankle if the knee is flexed by `angle` radians.
     double reach(double angle) const {
         const double a = glm::length(thigh);
         const double b = glm::length(shank);
@@ -44,7 +44,7 @@ double smoothMinimum(double a, double b, double width) {
                : std::min(a, b) - (width - d) * (width - d) * (width - d) / (6 * width * width);
 }
 
-/// Height of the hip above the ankle at which the leg is as straight as it may be.
+/// Maximum height of the hip above the ankle: the height at the minimum knee flexion.
 double reachableHeight(const RestLeg& leg, const glm::dvec3& hip, const glm::dvec3& ankle) {
     const double most = leg.reach(radians(kMinKnee));
     const double across = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
@@ -78,13 +78,13 @@ void poseLeg(const Skeleton& skeleton, Side side, const FootTarget& foot, Pose& 
     const double cosine = (reach * reach - a * a - b * b) / (2 * a * b);
     const double flexion = std::acos(std::clamp(cosine, -1.0, 1.0));
 
-    // The knee points half where the foot does, half where the pelvis does.
+    // The knee points midway between the foot's direction and the pelvis's.
     const glm::dvec3 forward = world.rotation[skeleton.index("Hips")] * glm::dvec3(0, 0, 1);
     const glm::dvec3 footward = turn(foot.kneeYaw, {0, 1, 0}) * glm::dvec3(0, 0, 1);
     const glm::dvec3 pole = glm::normalize(forward) + footward;
 
-    // In the rest pose's frame of the flexed leg and in the world alike: first axis from the hip
-    // to the ankle, second towards the knee.
+    // Two frames of the flexed leg, at rest and in the world: the first axis points from the hip to
+    // the ankle, the second towards the knee.
     const glm::dquat bend = glm::angleAxis(flexion - leg.flexion, leg.hinge);
     const glm::dvec3 restSpan = leg.thigh + bend * leg.shank;
     const glm::dmat3 fromRest = frameOf(span, pole) * glm::transpose(frameOf(restSpan, leg.thigh));

@@ -6,19 +6,20 @@
 
 namespace mannequin {
 
-/// The least knee flexion, degrees: short of straight, where a small step of the hip needs a large
-/// one of the knee.
+/// Minimum knee flexion in degrees. Near a straight leg, a small hip movement would need a large
+/// knee movement.
 constexpr double kMinKnee = 7;
 
-/// Lowers the root, smoothly, as far as needed for both legs to reach their feet.
+/// Smoothly lowers the root until both legs reach their feet.
 void lowerPelvis(const Skeleton& skeleton, const FootTarget& right, const FootTarget& left,
                  Pose& pose);
 
-/// Sets the rotations of one leg by analytic two-bone inverse kinematics.
-/// The pelvis must be posed; a foot out of reach is approached as far as the leg goes.
+/// Sets the rotations of one leg by analytic two-bone inverse kinematics. The leg is stretched
+/// towards a foot that is out of reach.
+/// \pre the pelvis is posed
 void poseLeg(const Skeleton& skeleton, Side side, const FootTarget& foot, Pose& pose);
 
-/// Flexion of the knee in degrees, 0 straight; below 0 when it bends the wrong way.
+/// Flexion of the knee in degrees; 0 is straight, negative values bend the wrong way.
 double kneeFlexion(const Skeleton& skeleton, Side side, const WorldPose& world);
 
 } // namespace mannequin

@@ -12,8 +12,8 @@
 namespace mannequin {
 namespace {
 
-/// The heading of a segment from its left-to-right axis, which stays near the horizontal where its
-/// forward axis may not.
+/// The heading of a segment. Uses its left-right axis, which stays near the horizontal even if the
+/// forward axis does not.
 double yawOf(const glm::dquat& rotation) {
     const glm::dvec3 left = rotation * glm::dvec3(1, 0, 0);
     return degrees(std::atan2(-left.z, left.x));
@@ -24,8 +24,8 @@ struct Peak {
     double speed = 0;
 };
 
-/// The fastest rise (`direction` +1) or fall (-1) of an angle from the stride to a while after the
-/// release.
+/// The fastest increase (`direction` +1) or decrease (-1) of an angle, from the stride until
+/// shortly after the release.
 Peak fastest(const std::vector<FrameMeasure>& frames, double FrameMeasure::*angle,
              double direction) {
     Peak peak;

@@ -9,7 +9,7 @@
 
 namespace mannequin {
 
-/// What is measured of one frame, in degrees, from the posed joints alone.
+/// Measurements of one frame in degrees, taken from the posed joints alone.
 struct FrameMeasure {
     double abduction, horizontal, external, elbow; ///< of the throwing arm, see ArmAngles
     double rightKnee, leftKnee;                    ///< flexion
@@ -24,7 +24,7 @@ struct FrameMeasure {
 std::vector<FrameMeasure> measureFrames(const Skeleton& skeleton, const std::vector<Pose>& poses);
 
 /// Frames at which the rotation of each segment is fastest, in the order of the published
-/// kinematic sequence, and the speeds in degrees a second.
+/// kinematic sequence, and the speeds in degrees per second.
 struct Sequence {
     int pelvis, thorax, elbow, shoulder;
     double pelvisSpeed, thoraxSpeed, elbowSpeed, shoulderSpeed;
@@ -36,7 +36,7 @@ Sequence kinematicSequence(const std::vector<FrameMeasure>& frames);
 struct Launch {
     double speed;    ///< metres per second
     double up;       ///< degrees above the horizontal
-    double sideways; ///< degrees off the target, above 0 towards +Z
+    double sideways; ///< degrees off the target, positive towards +Z
 };
 
 Launch launchOf(const glm::dvec3& velocity);

@@ -14,7 +14,7 @@ public:
 
     Pose poseAt(double time) const;
 
-    /// Centre of a ball held in the throwing hand.
+    /// Centre of a ball in the throwing hand.
     glm::dvec3 gripAt(double time) const;
 
     /// Velocity of that centre, metres per second.
@@ -27,7 +27,7 @@ private:
     FootKeys pivot_, lead_;
 };
 
-/// Centre of a ball held in the throwing hand of a posed figure.
+/// Centre of a ball in the throwing hand of a posed figure.
 glm::dvec3 grip(const Skeleton& skeleton, const WorldPose& world);
 
 } // namespace mannequin

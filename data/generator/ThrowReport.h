@@ -8,7 +8,7 @@
 
 namespace mannequin {
 
-/// Prints the achieved angles beside the published ones.
+/// Prints the achieved angles and the published ones side by side.
 void printReport(std::ostream& out, const std::vector<FrameMeasure>& frames, const Launch& launch);
 
 } // namespace mannequin

@@ -5,24 +5,24 @@
 
 namespace mannequin {
 
-/// A value at a time: seconds; metres or degrees.
+/// A value (metres or degrees) at a time in seconds.
 struct Key {
     double time;
     double value;
 };
 
-/// A periodic curve through keys that neither overshoots nor jerks.
+/// A smooth periodic curve through keys that does not overshoot.
 ///
-/// A monotone piecewise cubic (Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980) 238-246) holds
-/// still between equal keys, so that a planted foot stays planted; it is then averaged with the
+/// A monotone piecewise cubic (Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980) 238-246) is
+/// constant between equal keys, so that a planted foot does not move. It is then convolved with the
 /// biweight kernel (1 - u^2)^2 of half-width `softness`, which makes the acceleration continuous.
-/// Averaging widens every movement by `softness` at both ends.
+/// This extends every movement by `softness` at both ends.
 class Channel {
 public:
     Channel() = default;
 
-    /// \param softness half-width of the averaging kernel in seconds; 0 for none
-    /// \param keys by rising time within [0, loopSeconds()); the curve repeats with that period
+    /// \param softness half-width of the smoothing kernel in seconds; 0 disables smoothing
+    /// \param keys in order of time, within [0, loopSeconds()); the curve repeats with that period
     Channel(double softness, std::vector<Key> keys);
 
     double at(double time) const;
@@ -31,7 +31,7 @@ private:
     double cubicAt(double time) const;
 
     double softness_ = 0;
-    std::vector<Key> keys_; ///< with one key more at each end than one period needs
+    std::vector<Key> keys_; ///< one period, plus one key at each end
     std::vector<double> slopes_;
 };
 

@@ -11,7 +11,7 @@ struct Share {
     double part;
 };
 
-// The thoracic joints turn more about the spine's axis than the lumbar ones do.
+// The thoracic joints rotate more about the spine's axis than the lumbar joints.
 constexpr Share kSpine[] = {{"LowerBack", 0.26}, {"Spine", 0.36}, {"Spine1", 0.38}};
 constexpr Share kNeck[] = {{"Neck", 0.30}, {"Neck1", 0.34}, {"Head", 0.36}};
 
@@ -49,7 +49,7 @@ glm::dmat3 trunkFrame(const Skeleton& skeleton, const WorldPose& world) {
         const glm::dmat3 m = frameOf(axis, side); // up, left, backward
         return glm::dmat3(m[1], m[0], -m[2]);
     };
-    // The spine leans a little back at rest; measured from there, the rest pose is upright.
+    // The spine leans slightly backward at rest; relative to that, the rest pose is upright.
     return columns(up, left) * glm::transpose(columns(rise, {1, 0, 0}));
 }
 

@@ -8,13 +8,13 @@ namespace mannequin {
 
 /// Sets the rotations from the pelvis to the head at `time`, and the keyed root position.
 ///
-/// The keys say how the pelvis, the thorax and the head stand in the world; the lumbar and neck
-/// joints share the difference between their two ends.
+/// The keys are the orientations of pelvis, thorax and head in the world. The lumbar joints share
+/// the rotation between pelvis and thorax, the neck joints that between thorax and head.
 void poseTrunk(const Skeleton& skeleton, const BodyKeys& keys, double time, Pose& pose);
 
-/// The frame that the shoulder's angles are measured in: columns left, up, forward. Up runs from
-/// the hips to the neck, so that an arched spine counts towards the shoulder's external rotation,
-/// as it does where markers on the hips and shoulders define the trunk (Dillman et al. 1993).
+/// The frame of the shoulder's angles; its columns are left, up and forward. Up points from the
+/// hips to the neck, so an arched spine adds to the shoulder's external rotation. That is also the
+/// case if markers on hips and shoulders define the trunk (Dillman et al. 1993).
 glm::dmat3 trunkFrame(const Skeleton& skeleton, const WorldPose& world);
 
 } // namespace mannequin

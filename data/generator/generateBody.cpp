@@ -20,17 +20,17 @@ using namespace mannequin;
 namespace {
 
 constexpr double kGridSpacing = 0.005;   // metres; the gaps between the fingers are wider
-constexpr double kTargetVertices = 4400; // of 3,500 to 4,500
+constexpr double kTargetVertices = 4400; // 3,500 to 4,500 are allowed
 constexpr int kCorrections = 6;
-constexpr double kBallRadius = 0.037; // a baseball's
+constexpr double kBallRadius = 0.037; // metres; a baseball
 
-/// `mesh` comes as a fine triangulation of the body's skin.
+/// Remeshes `mesh`, a fine triangulation of the body's skin, to the target number of vertices.
 void reduce(const ImplicitBody& body, SkinMesh& mesh) {
     const DetailMap detail;
     Remesher remesher(body, detail, mesh);
     double scale = std::sqrt(remesher.expectedVertices(1) / kTargetVertices);
     remesher.run(scale, 6);
-    for (int i = 0; i < kCorrections; ++i) { // the estimate is rough: correct it by what came out
+    for (int i = 0; i < kCorrections; ++i) { // corrects the rough estimate by the result
         scale *= std::sqrt(static_cast<double>(mesh.number_of_vertices()) / kTargetVertices);
         remesher.run(scale, 4);
     }

@@ -2,9 +2,9 @@
 
 // osgskin_generate_throw OUTDIR [--check]
 //
-// Writes thrower.bvh (the rig), throw.bvh and ball.bvh, and prints the angles reached beside the
-// published ones. With --check it reads the files again and exits with 1 when the throw has lost
-// one of the properties the demo relies on.
+// Writes thrower.bvh (the rig), throw.bvh and ball.bvh, and prints the achieved and the published
+// angles. With --check it reads the files back and exits with 1 if the throw lacks a property that
+// the demo relies on.
 
 #include "BvhWriter.h"
 #include "ThrowBall.h"

@@ -83,7 +83,7 @@ bool isRigid(const glm::dmat4& m) {
     return glm::determinant(r) > 0.0;
 }
 
-/// The vertex's joint of largest weight, the first one where several are equal.
+/// The vertex's joint of largest weight; the first one if several are equal.
 std::uint32_t heaviest(const SkinWeights& weights, std::size_t v) {
     std::uint32_t best = weights.first[v];
     for (std::uint32_t i = best; i < weights.first[v + 1]; ++i)
@@ -101,7 +101,7 @@ DualQuaternion blend(const SkinWeights& weights, std::size_t v,
         sum.real = sum.real + q.real * (sign * weights.entries[i].weight);
         sum.dual = sum.dual + q.dual * (sign * weights.entries[i].weight);
     }
-    // Never zero: the pivot has the largest weight, and no other part points against it.
+    // Never zero: the pivot has the largest weight, and no other term opposes it.
     const double length = glm::length(sum.real);
     return {sum.real * (1.0 / length), sum.dual * (1.0 / length)};
 }
@@ -170,7 +170,7 @@ double enclosedVolume(const Points& points, const std::vector<std::uint32_t>& tr
 
 double loopArea(const Points& points, const std::vector<std::uint32_t>& loop) {
     if (loop.empty()) return 0.0;
-    // Measured from a vertex of the loop, not from the origin, to keep the digits.
+    // Relative to a vertex of the loop instead of the origin, for precision.
     const glm::dvec3 origin = points[loop.front()];
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < loop.size(); ++i)

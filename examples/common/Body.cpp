@@ -26,14 +26,15 @@ void addNormalised(compare::SkinWeights& weights, VertexWeights vertex) {
     double sum = 0.0;
     for (const compare::JointWeight& entry : vertex) sum += entry.weight;
     if (sum <= 0.0)
-        vertex = {{0, 1.0}}; // nobody painted it: the root's
+        vertex = {{0, 1.0}}; // not painted: follows the root
     else
         for (compare::JointWeight& entry : vertex) entry.weight /= sum;
     weights.add(vertex);
 }
 
-/// What stays at a joint is its bend ratio less those of its children: the weights whose sums over
-/// subtrees are our ratios. Where two branches overlap (crotch), what would be negative is 0.
+/// Computes weights from bend ratios: a joint's weight is its ratio minus those of its children, so
+/// the sum of the weights in a subtree is the ratio. Negative weights, where two branches overlap
+/// (crotch), become 0.
 compare::SkinWeights weightsOf(const osgSkin::Binding& binding) {
     compare::SkinWeights weights;
     std::vector<double> left(binding.joints.size());
@@ -115,7 +116,7 @@ std::vector<glm::dmat4> Body::turned(std::size_t joint, const glm::dvec3& axis,
 
 namespace {
 
-/// Dual quaternions turn and move: of scale and shear there is left where they put joints.
+/// Removes scale and shear, which dual quaternions cannot represent; joint positions are unchanged.
 std::vector<glm::dmat4> turnsAndMoves(const std::vector<osgSkin::BoundJoint>& joints,
                                       const std::vector<glm::dmat4>& skinning) {
     std::vector<glm::dmat4> result;

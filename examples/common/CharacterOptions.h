@@ -10,10 +10,11 @@
 
 namespace example {
 
-/// Adds the options that a `.skin` file has as members (`--shapes`, `--avoid-body`, ...), each
-/// with its values, meaning and default from characterOptions().
+/// Adds the options that are also members of `.skin` files (`--shapes`, `--avoid-body`, ...). Their
+/// values, descriptions and defaults come from characterOptions().
 ///
-/// \param options set while `app` parses; must outlive that
+/// \param app receives the options
+/// \param options set while `app` parses; must outlive the parsing
 inline void addCharacterOptions(CLI::App& app, osgSkin::LoadOptions& options) {
     for (const osgSkin::CharacterOption& option : osgSkin::characterOptions()) {
         if (!option.isMember) continue;
@@ -31,7 +32,7 @@ inline void addCharacterOptions(CLI::App& app, osgSkin::LoadOptions& options) {
         if (option.formerWord.empty()) continue;
         osgSkin::CharacterOption former;
         former.word = option.formerWord;
-        app.add_option_function<std::string>(former.flag(), set)->group(""); // not in the help
+        app.add_option_function<std::string>(former.flag(), set)->group(""); // hidden from the help
     }
 }
 

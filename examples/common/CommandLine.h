@@ -7,10 +7,10 @@
 
 namespace example {
 
-/// What is wrong with a command line's words: a shell makes empty ones of variables that are not
-/// set, and options would do as if they were not there.
+/// Finds empty arguments, for example from unset shell variables. Without this check, options would
+/// ignore them.
 ///
-/// \return empty where there is none, else a line
+/// \return an error message, or an empty string
 inline std::string findEmptyWord(int argc, const char* const* argv) {
     bool hasOptions = true; // until "--"
     for (int i = 1; i < argc; ++i) {
@@ -25,21 +25,21 @@ inline std::string findEmptyWord(int argc, const char* const* argv) {
     return {};
 }
 
-/// The same for a program that ends with status 2 then.
+/// Prints the message of findEmptyWord() on standard error; the program should exit with 2.
 ///
-/// \param program name for the message
-/// \return whether there is no empty word; else a line on standard error says where
+/// \return true if there is no empty argument
 inline bool hasNoEmptyWord(const std::string& program, int argc, const char* const* argv) {
     const std::string wrong = findEmptyWord(argc, argv);
     if (!wrong.empty()) std::cerr << program << ": " << wrong << std::endl;
     return wrong.empty();
 }
 
-/// What a program ends with: what it printed may stand on a full disk.
+/// Returns a program's exit status after flushing standard output. Prints a message on standard
+/// error if that fails, for example because the disk is full.
 ///
-/// \param program name for the message
-/// \param status that it would end with
-/// \return 1 where standard output could not be written, which a line on standard error says
+/// \param program name of the program, for the message
+/// \param status exit status of the program so far
+/// \return `status`; 1 if it was 0 and standard output could not be written
 inline int finish(const std::string& program, int status) {
     std::cout.flush();
     if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;

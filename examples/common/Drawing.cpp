@@ -130,7 +130,7 @@ osg::ref_ptr<osg::Camera> makeOverlay(int width, int height) {
     overlay->setProjectionMatrixAsOrtho2D(0.0, width, 0.0, height);
     overlay->setViewMatrix(osg::Matrix::identity());
     overlay->setClearMask(GL_DEPTH_BUFFER_BIT);
-    // Nested in the main draw: what reads the picture back afterwards sees it.
+    // Nested in the main draw, so that reading the picture back includes the overlay.
     overlay->setRenderOrder(osg::Camera::NESTED_RENDER, 1);
     overlay->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
     overlay->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);

@@ -28,7 +28,7 @@ osg::ref_ptr<osg::Geometry> makeFlat(osg::Vec3Array* vertices, const osg::Vec4& 
     return geometry;
 }
 
-/// Projects along the light onto z = 0, row vectors.
+/// Projects along the light onto z = 0; for row vectors.
 osg::Matrix shadowMatrix() {
     osg::Matrix matrix;
     matrix(2, 0) = -kToLight.x() / kToLight.z();
@@ -54,7 +54,7 @@ osg::ref_ptr<osg::Node> makeFloor(float size, float spacing) {
         lines->push_back({size, at, 0.0f});
     }
     const osg::ref_ptr<osg::Geometry> plane = makeFlat(quad, kFloorColour, GL_QUADS);
-    // The lines and the shadow lie in the same plane: push the floor back behind both.
+    // The lines and the shadow lie in the same plane, so move the floor behind both.
     plane->getOrCreateStateSet()->setAttributeAndModes(new osg::PolygonOffset(2.0f, 2.0f));
     osg::ref_ptr<osg::Group> floor = new osg::Group;
     floor->addChild(plane);

@@ -10,7 +10,7 @@
 namespace example {
 namespace {
 
-constexpr std::chrono::seconds kSilence(1); ///< shorter work says nothing
+constexpr std::chrono::seconds kSilence(1); ///< shorter work prints nothing
 constexpr std::chrono::seconds kBetweenLines(5);
 
 } // namespace
@@ -58,7 +58,7 @@ void ProgressLine::run() {
         const std::string line = _text + ", " + std::to_string(passed.count()) + " s";
         if (line == shown) continue;
         shown = line;
-        // The rest of a longer line before is wiped.
+        // Clears the line first: the previous text may be longer.
         std::cerr << "\r\033[K" << line << std::flush;
     }
     if (!shown.empty()) std::cerr << "\r\033[K" << _text << std::endl;

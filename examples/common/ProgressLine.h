@@ -11,22 +11,22 @@
 
 namespace example {
 
-/// Says on standard error how far long work has come, while it lives: on a terminal one line that
-/// is rewritten while the work goes on, also where that says nothing new for long, and nothing
-/// within the first second; elsewhere a line every five seconds.
+/// Shows the progress of long work on standard error until it is destroyed. On a terminal it
+/// updates one line, starting after a second, even while no new progress is reported. Otherwise it
+/// prints a line every five seconds.
 class ProgressLine {
 public:
-    /// \param title of the work; stands first on the line
-    /// \param quiet nothing is shown
+    /// \param title of the work, at the start of the line
+    /// \param quiet true to show nothing
     explicit ProgressLine(std::string title, bool quiet = false);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// What the work is at now. Cheap: on a terminal a thread of the line's own shows it later.
+    /// Sets the current progress. Cheap: on a terminal, a separate thread prints it later.
     void show(const osgSkin::ProgressStep& step);
 
-    /// Calls show(). The line must outlive it.
+    /// A callback that calls show(). It must not outlive this object.
     osgSkin::Progress progress();
 
 private:
@@ -36,12 +36,12 @@ private:
     const std::string _title;
     const bool _quiet;
     const Clock::time_point _start = Clock::now();
-    Clock::time_point _next; ///< elsewhere than on a terminal: when the next line is due
+    Clock::time_point _next; ///< time of the next line if there is no terminal
     std::mutex _mutex;
     std::condition_variable _ended;
     std::string _text;
     bool _over = false;
-    std::thread _thread; ///< on a terminal
+    std::thread _thread; ///< runs only on a terminal
 };
 
 } // namespace example

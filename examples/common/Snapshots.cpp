@@ -20,10 +20,10 @@ namespace example {
 
 namespace {
 
-/// Pictures are drawn this many times larger and averaged down: smooth edges on every driver.
+/// Supersampling factor: gives smooth edges on every driver.
 constexpr unsigned int kFiner = 2;
 
-/// Reads the picture back at the end of a draw, while the context is current.
+/// Reads the picture back at the end of a draw, when the context is current.
 struct ReadBack : osg::Camera::DrawCallback {
     osg::ref_ptr<osg::Image> image = new osg::Image;
     void operator()(osg::RenderInfo& info) const override {
@@ -33,7 +33,7 @@ struct ReadBack : osg::Camera::DrawCallback {
     }
 };
 
-/// The means of `image`'s blocks of kFiner x kFiner pixels.
+/// Averages each block of kFiner x kFiner pixels.
 osg::ref_ptr<osg::Image> averaged(const osg::Image& image) {
     osg::ref_ptr<osg::Image> result = new osg::Image;
     result->allocateImage(image.s() / int(kFiner), image.t() / int(kFiner), 1, GL_RGB,
@@ -93,7 +93,7 @@ Snapshots::Snapshots(osg::Node* scene, const View& view, int width, int height)
 Snapshots::~Snapshots() = default;
 
 osg::ref_ptr<osg::Image> Snapshots::take(double time) {
-    // The second frame of the same time shows what the first one set going, on every driver.
+    // Draws twice, so that changes made during the first frame are visible on every driver.
     _impl->viewer.frame(time);
     _impl->viewer.frame(time);
     return averaged(*_impl->readBack->image);
@@ -105,7 +105,7 @@ void Snapshots::write(double time, const std::string& file) {
 
 void writePicture(const osg::Image& image, const std::string& file) {
     osgDB::makeDirectoryForFile(file);
-    // OSG's writers of pictures tell of no full disk: encoded first, then written.
+    // OSG's image writers do not report a full disk, so encode first and then write the bytes.
     osgDB::ReaderWriter* const writer = osgDB::Registry::instance()->getReaderWriterForExtension(
         osgDB::getLowerCaseFileExtension(file));
     std::ostringstream encoded;

@@ -15,29 +15,29 @@
 
 namespace example {
 
-/// Where the camera of a picture stands.
+/// The camera of a picture.
 struct View {
     osg::Vec3d eye;
     osg::Vec3d centre;
     osg::Vec3d up{0, 0, 1};
-    double fieldOfView = 30.0; ///< degrees, of the picture's height
+    double fieldOfView = 30.0; ///< vertical, degrees
 };
 
-/// Takes pictures of a scene at given times of its own clock, so that they do not depend on how
-/// fast the machine draws. Needs an X display (Xvfb will do).
+/// Takes pictures of a scene at given simulation times, so they do not depend on the speed of
+/// rendering. Needs an X display; Xvfb works.
 class Snapshots {
 public:
-    /// \throw std::runtime_error where no picture can be drawn
+    /// \throw std::runtime_error if no graphics context can be created
     Snapshots(osg::Node* scene, const View& view, int width, int height);
     ~Snapshots();
     Snapshots(const Snapshots&) = delete;
     Snapshots& operator=(const Snapshots&) = delete;
 
-    /// The scene at `time`, in seconds; times must not go back.
+    /// Takes a picture at `time`, in seconds. Times must not decrease.
     osg::ref_ptr<osg::Image> take(double time);
 
-    /// The same, written to a file.
-    /// \throw std::runtime_error where it cannot be written
+    /// Takes a picture and writes it to a file.
+    /// \throw std::runtime_error if the file cannot be written
     void write(double time, const std::string& file);
 
 private:
@@ -45,19 +45,19 @@ private:
     std::unique_ptr<Impl> _impl;
 };
 
-/// Writes a picture whole or not at all; its folder is made if need be.
-/// \throw std::runtime_error where it cannot be written, or where no writer knows its extension
+/// Writes a picture. Creates its folder if necessary, and leaves no partial file.
+/// \throw std::runtime_error if the file cannot be written, or its extension is not supported
 void writePicture(const osg::Image& image, const std::string& file);
 
-/// PREFIX_00.png, PREFIX_01.png, ... in `folder`, which is made if need be.
+/// PREFIX_00.png, PREFIX_01.png, ... in `folder`, which is created if necessary.
 std::string pictureName(const std::string& folder, const std::string& prefix, unsigned int index);
 
-/// The nearest view from a side that shows all of a box, with a margin of a tenth around it. Up is
-/// z.
+/// The closest view from a given direction that shows a whole box, with a margin of a tenth. Z is
+/// up.
 ///
 /// \param box not empty
-/// \param side where the camera stands, from the box; any length, not straight up
-/// \param aspect the picture's width to its height
+/// \param side direction from the box to the camera; any length, not vertical
+/// \param aspect width / height of the picture
 View framed(const osg::BoundingBoxd& box, const osg::Vec3d& side, double aspect);
 
 } // namespace example
@@ -66,20 +66,21 @@ namespace figures {
 
 using Tile = osg::ref_ptr<osg::Image>;
 
-/// Pictures of one size as one: rows of `columns`, the first at the upper left.
+/// Joins pictures of equal size into a grid with `columns` columns, starting at the upper left.
 Tile tiled(const std::vector<Tile>& tiles, std::size_t columns);
 
 Tile photograph(osg::Node* scene, const example::View& view, int width, int height);
 
-/// \throw std::runtime_error where it cannot be written
+/// \throw std::runtime_error if the file cannot be written
 void writePicture(const osg::Image& image, const std::string& file);
 
 } // namespace figures
 
 namespace example {
 
-/// Opens a viewer's window. OpenSceneGraph's own run() takes none for one that has been closed.
-/// \throw std::runtime_error where none can be opened
+/// Opens a viewer's window. Without a window, osgViewer's run() would return as if the user had
+/// closed it.
+/// \throw std::runtime_error if no window can be opened
 void openWindow(osgViewer::Viewer& viewer);
 
 } // namespace example

@@ -32,7 +32,7 @@ const char kFooter[] =
     "pose to --out in place of the frames.\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage.";
 
-/// The one place for a number in a frame pattern; a pattern is never handed to printf as it is.
+/// Matches the placeholder of the frame number. A pattern is never passed to printf itself.
 const std::regex& numberPattern() {
     static const std::regex pattern("%(0?)([0-9]?)d");
     return pattern;
@@ -65,12 +65,12 @@ FrameRange parseRange(const std::string& text) {
     return range;
 }
 
-/// The file's name in a path: folders may have a % in theirs.
+/// The file name in a path. Folder names may contain a %.
 std::string nameOf(const std::string& path) {
-    return path.substr(path.rfind('/') + 1); // all of it without one
+    return path.substr(path.rfind('/') + 1); // without a slash, the whole path
 }
 
-/// A frame pattern, taken apart at its number.
+/// A frame pattern, split at its placeholder.
 struct NumberedName {
     std::string before, after;
     std::size_t width = 0;
@@ -108,8 +108,8 @@ std::pair<std::string, float> parseActivation(const std::string& word) {
     return {word.substr(0, sign), value};
 }
 
-/// `--rest` may stand alone, and then takes the place of the frames in --out; and a file name that
-/// follows it may turn out to be the character.
+/// Handles `--rest` without a file, which writes the bind pose to --out instead of the frames. The
+/// word after it may also be the character.
 void settleRest(const CLI::Option& rest, Arguments& arguments) {
     if (rest.count() == 0) return;
     if (arguments.character.empty()) std::swap(arguments.character, arguments.rest);
@@ -127,14 +127,14 @@ std::string extensionOf(const std::string& file) {
     return osgDB::getLowerCaseFileExtension(file);
 }
 
-/// The library that is written beside an OBJ file or sequence.
+/// The material library written next to an OBJ file or sequence.
 std::string libraryOf(const std::string& file) {
     if (extensionOf(file) != "obj") return {};
     const std::string folder = osgDB::getFilePath(file), name = libraryName(file);
     return folder.empty() ? name : osgDB::concatPaths(folder, name);
 }
 
-/// Whether a sequence of this name has a frame called `file`.
+/// True if a frame of the sequence `pattern` could have the name `file`.
 bool isFrameOf(const std::string& pattern, const std::string& file) {
     const std::optional<NumberedName> numbered = NumberedName::of(pattern);
     if (!numbered) return false;
@@ -147,11 +147,11 @@ bool isFrameOf(const std::string& pattern, const std::string& file) {
            number.find_first_not_of("0123456789 ") == std::string::npos;
 }
 
-/// What is written first would be written over.
+/// Two outputs with the same file name would overwrite each other.
 void requireDifferentFiles(const Arguments& arguments) {
     std::set<std::filesystem::path> files;
     const std::string& out = arguments.out;
-    // The rest pose and the frames may share a library: it is the same.
+    // The rest pose and the frames may share a library: its contents are the same.
     const std::string ofOut = libraryOf(out), ofRest = libraryOf(arguments.rest);
     for (const std::string& file : {out, arguments.rest, arguments.binding, arguments.pose, ofOut,
                                     ofRest == ofOut ? std::string() : ofRest}) {
@@ -213,7 +213,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         throw UsageError{error.what()};
     }
-    if (arguments.rate && !std::isfinite(*arguments.rate)) // passes for being in any range
+    if (arguments.rate && !std::isfinite(*arguments.rate)) // CLI::Range accepts NaN
         throw UsageError{"--rate: expected a number from 0.001 to 1000000"};
     if (!frames.empty()) arguments.frames = parseRange(frames);
     for (const std::string& word : tensed) arguments.activations.push_back(parseActivation(word));

@@ -18,35 +18,35 @@ struct FrameRange {
     std::size_t step = 1;
 };
 
-/// What the command line asks for.
+/// The parsed command line.
 struct Arguments {
     std::string character;
-    std::string motion; ///< empty: the first one
+    std::string motion; ///< if empty, the first one
     std::optional<FrameRange> frames;
-    std::optional<double> rate;   ///< samples a second of a rigged model's clips
-    osgSkin::LoadOptions options; ///< that go before what the file says
+    std::optional<double> rate;   ///< samples per second of a rigged model's clips
+    osgSkin::LoadOptions options; ///< override the character file's
     std::vector<std::pair<std::string, float>> activations; ///< of inputs, by name
-    std::string out;     ///< pattern of the frames' files; empty: no frames wanted
-    std::string rest;    ///< file for the bind pose; empty: not wanted
-    std::string binding; ///< JSON files; empty: not wanted
-    std::string pose;
-    std::string formats; ///< value of the option `formats`; empty: not given
+    std::string out;     ///< file name pattern of the frames; empty for no frames
+    std::string rest;    ///< file for the bind pose; empty for none
+    std::string binding; ///< JSON file for the binding; empty for none
+    std::string pose;    ///< JSON file for the poses; empty for none
+    std::string formats; ///< value of the option `formats`; empty if not given
     bool quiet = false;
 };
 
-/// Bad usage: the message for the user, and exit status 2.
+/// Bad usage: the program prints the message and exits with 2.
 struct UsageError {
     std::string message;
 };
 
-/// Reads the command line. Nothing where help was asked for and has been printed.
-/// \throw UsageError
+/// Reads the command line. Returns nothing if the user asked for the help, after printing it.
+/// \throw UsageError for bad usage
 std::optional<Arguments> parseArguments(int argc, char** argv);
 
 /// The file name of one frame: `pattern` with its %d (or %04d) replaced.
 std::string frameName(const std::string& pattern, std::size_t frame);
 
-/// True where `pattern` has a place for the frame's number.
+/// True if `pattern` has a placeholder for the frame number.
 bool hasNumber(const std::string& pattern);
 
 } // namespace bake

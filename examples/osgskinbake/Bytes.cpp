@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The one file that is being written, for the handler: no more than one is at a time, and a handler
-// may not take memory.
+// Path of the temporary file, for the signal handler, which must not allocate. Only one file is
+// written at a time.
 constexpr std::size_t kLongestPath = 4096;
 char unfinished[kLongestPath];
 volatile std::sig_atomic_t hasUnfinished = 0;
@@ -50,8 +50,8 @@ bool isKept(const std::string& file) {
     });
 }
 
-/// A file of its own, whatever stands there: in a folder of all users' that may be a link of
-/// others.
+/// Creates a new file and removes an existing one: in a folder shared with other users, that could
+/// be a link to another file.
 std::FILE* openNew(const std::string& file) {
     ::unlink(file.c_str());
     const int number = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -61,9 +61,9 @@ std::FILE* openNew(const std::string& file) {
     return stream;
 }
 
-/// A name beside a file, for what is not finished; no longer than names may be.
+/// Name of the temporary file, limited to the maximum length of file names.
 std::string besides(const std::string& file) {
-    constexpr std::size_t kMost = 230; // of 255 bytes
+    constexpr std::size_t kMost = 230; // out of 255 bytes
     const fs::path path(file);
     const std::string name = path.filename().string().substr(0, kMost);
     return (path.parent_path() / (name + ".part" + std::to_string(::getpid()))).string();
@@ -72,7 +72,7 @@ std::string besides(const std::string& file) {
 extern "C" void removeAndGo(int signal) {
     if (hasUnfinished != 0) ::unlink(unfinished);
     std::signal(signal, SIG_DFL);
-    std::raise(signal); // the shell sees what ended the program
+    std::raise(signal); // so that the shell sees the signal
 }
 
 } // namespace
@@ -82,10 +82,10 @@ void keepFiles(const std::vector<std::string>& files) {
 }
 
 void removeUnfinishedOnSignals() {
-    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is one that cannot be written
+    std::signal(SIGXFSZ, SIG_IGN); // a file size limit then appears as a write error
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         const auto before = std::signal(signal, removeAndGo);
-        if (before == SIG_IGN) std::signal(signal, SIG_IGN); // as under nohup
+        if (before == SIG_IGN) std::signal(signal, SIG_IGN); // for example under nohup
     }
 }
 
@@ -97,9 +97,9 @@ WholeFile::WholeFile(const std::string& file) : _file(file), _target(file) {
         _written = besides(_target);
     if (isKept(_target))
         throw osgSkin::Error(_file + ": a part of the character, expected another file");
-    // A file that may not be written is not replaced either.
+    // A read-only file must not be replaced either.
     if (fs::exists(_target, failure) && ::access(_target.c_str(), W_OK) != 0) fail();
-    setUnfinished(_written); // first: a signal may come while it is opened
+    setUnfinished(_written); // before opening, when a signal may already arrive
     _stream = _written.empty() ? std::fopen(_target.c_str(), "wb") : openNew(_written);
     if (_stream != nullptr) return;
     setUnfinished({});
@@ -150,7 +150,7 @@ std::optional<ImageBytes> readBytes(const osg::Image& image, const std::string& 
     options->getDatabasePathList().push_front(folder);
     ImageBytes result;
     result.file = osgDB::findDataFile(image.getFileName(), options);
-    // A scene may call a picture that stands in it as it likes, as a pipe or a device, too.
+    // A scene's embedded image can have any file name, also that of a pipe or a device.
     std::error_code failure;
     if (!std::filesystem::is_regular_file(result.file, failure)) return std::nullopt;
     std::ifstream in(result.file, std::ios::binary);
@@ -160,8 +160,7 @@ std::optional<ImageBytes> readBytes(const osg::Image& image, const std::string& 
     return result;
 }
 
-/// The image as rows of RGBA bytes from the lower left, which the PNG writer takes whatever the
-/// image was.
+/// Converts any image to RGBA bytes from the lower left, which the PNG writer supports.
 osg::ref_ptr<osg::Image> plain(const osg::Image& image) {
     osg::ref_ptr<osg::Image> result = new osg::Image;
     result->allocateImage(image.s(), image.t(), 1, GL_RGBA, GL_UNSIGNED_BYTE);

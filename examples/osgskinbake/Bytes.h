@@ -14,43 +14,42 @@
 
 namespace bake {
 
-/// A file that is there whole or not at all: written beside its name, and renamed once finished.
-/// What is no regular file, as a pipe, is written directly.
+/// Writes a file atomically: to a temporary file in the same folder, which finish() renames. Writes
+/// directly to targets that are not regular files, such as pipes.
 class WholeFile {
 public:
-    /// \throw osgSkin::Error where it cannot be written
+    /// \throw osgSkin::Error if the file cannot be written
     explicit WholeFile(const std::string& file);
-    /// Removes what has not been finished.
+    /// Removes the temporary file if finish() was not called.
     ~WholeFile();
     WholeFile(const WholeFile&) = delete;
     WholeFile& operator=(const WholeFile&) = delete;
 
     std::FILE* stream() { return _stream; }
 
-    /// \throw osgSkin::Error where it cannot be written
+    /// \throw osgSkin::Error if the file cannot be written
     void write(const std::string& data);
 
-    /// Gives the file its name.
-    /// \throw osgSkin::Error where not all has been written
+    /// Renames the temporary file to its final name.
+    /// \throw osgSkin::Error if some data could not be written
     void finish();
 
 private:
     [[noreturn]] void fail() const;
 
-    std::string _file;    ///< as it was asked for
-    std::string _target;  ///< where links lead to
-    std::string _written; ///< where it is until it is finished; empty: there already
+    std::string _file;    ///< path given by the caller
+    std::string _target;  ///< the same with links resolved
+    std::string _written; ///< path of the temporary file; empty if written directly
     std::FILE* _stream = nullptr;
 };
 
-/// Files that are never written over, however they are called: those that a character was read
-/// from.
+/// Sets the files that are never overwritten under any name: those a character was read from.
 void keepFiles(const std::vector<std::string>& files);
 
-/// Lets a signal that ends the program remove what has not been finished.
+/// Removes the temporary file if a signal ends the program.
 void removeUnfinishedOnSignals();
 
-/// Numbers in little-endian order, whatever the machine's is.
+/// Numbers in little-endian order on any machine.
 class Bytes {
 public:
     void add(std::uint8_t value) { data += static_cast<char>(value); }
@@ -72,20 +71,21 @@ public:
     std::string data;
 };
 
-/// \throw osgSkin::Error where the file cannot be written
+/// \throw osgSkin::Error if the file cannot be written
 void writeBytes(const std::string& file, const std::string& data);
 
 /// An image as the bytes of a PNG or JPEG file.
 struct ImageBytes {
     std::string data;
     bool isJpeg = false;
-    std::string file; ///< that they were read from; empty where they were made
+    std::string file; ///< source of the bytes; empty if encoded from the image
 };
 
-/// The file that the image was read from where that is PNG or JPEG, else a PNG file made of it.
-/// Nothing, with a notice, where it cannot be made.
+/// The bytes of the image's own file if that is PNG or JPEG, otherwise the image encoded as PNG.
+/// Returns nothing, and logs a notice, if it cannot be encoded.
 ///
-/// \param folder where its file name is relative to
+/// \param image the image
+/// \param folder base of the image's relative file name
 std::optional<ImageBytes> bytesOf(const osg::Image& image, const std::string& folder);
 
 } // namespace bake

@@ -24,19 +24,19 @@ namespace bake {
 
 namespace {
 
-/// Writes PLY files of one body in its poses, as bytes: vertices, normals, colours where the body
-/// has them, and the mesh's own faces.
+/// Writes binary PLY files of a body's poses: vertices, normals, colours if the body has them, and
+/// the mesh's own faces.
 class PlyWriter {
 public:
     explicit PlyWriter(const osgSkin::Character& character);
 
-    /// Writes the posed vertices.
-    /// \throw osgSkin::Error where it cannot
+    /// Writes a file.
+    /// \throw osgSkin::Error if it cannot be written
     void write(const std::string& file, const PosedMesh& posed) const;
 
 private:
     const osgSkin::SkinMesh& _mesh;
-    std::vector<osg::Vec4> _colours; ///< one a vertex of the mesh, or none
+    std::vector<osg::Vec4> _colours; ///< one per vertex of the mesh, or empty
 };
 PlyWriter::PlyWriter(const osgSkin::Character& character)
     : _mesh(character.body.mesh), _colours(vertexColoursOf(surfacesOf(character), _mesh)) {}
@@ -66,8 +66,9 @@ void PlyWriter::write(const std::string& file, const PosedMesh& posed) const {
     writeBytes(file, bytes.data);
 }
 
-/// A point cache (PC2): the places of all vertices, frame by frame. Blender's Mesh Cache modifier
-/// and others play it on a mesh of the same vertices in the same order, such as that of --rest.
+/// A point cache (PC2): the positions of all vertices, frame by frame. Blender's Mesh Cache
+/// modifier, for example, plays it on a mesh with the same vertices in the same order, such as that
+/// of --rest.
 class PointCache : public FrameWriter {
 public:
     PointCache(const std::string& file, const FrameSeries& series);
@@ -85,7 +86,7 @@ PointCache::PointCache(const std::string& file, const FrameSeries& series) : _ou
     header.add(std::int32_t(1)); // version
     header.add(static_cast<std::int32_t>(series.character->body.mesh.positions.size()));
     header.add(static_cast<float>(series.first));
-    header.add(1.0f); // frames from one sample to the next
+    header.add(1.0f); // frames per sample
     header.add(static_cast<std::int32_t>(series.count));
     _out.write(header.data);
 }
@@ -100,7 +101,7 @@ void PointCache::finish() {
     _out.finish();
 }
 
-/// An OBJ file for each frame.
+/// One OBJ file per frame.
 class ObjSequence : public FrameWriter {
 public:
     ObjSequence(std::string pattern, const osgSkin::Character& character)
@@ -115,7 +116,7 @@ private:
     ObjWriter _writer;
 };
 
-/// A PLY file for each frame.
+/// One PLY file per frame.
 class PlySequence : public FrameWriter {
 public:
     PlySequence(std::string pattern, const osgSkin::Character& character)

@@ -12,34 +12,36 @@
 
 namespace bake {
 
-/// What the frames have in common.
+/// Properties of a sequence of frames.
 struct FrameSeries {
     const osgSkin::Character* character = nullptr;
     std::string name;      ///< of the motion
     std::size_t first = 0; ///< number of the first frame
-    std::size_t count = 0; ///< how many frames are to come
-    double seconds = 0.0;  ///< from one of them to the next
+    std::size_t count = 0; ///< number of frames
+    double seconds = 0.0;  ///< time between two frames
 };
 
-/// Takes a motion's posed meshes, one after the other, and writes them.
+/// Writes the posed meshes of a motion, frame by frame.
 class FrameWriter {
 public:
     virtual ~FrameWriter() = default;
 
-    /// While the character is in the pose of `posed`.
+    /// Adds a frame.
     ///
-    /// \throw osgSkin::Error where it cannot be written
+    /// \pre the character is in the pose of `posed`
+    /// \throw osgSkin::Error if it cannot be written
     virtual void add(std::size_t frame, const PosedMesh& posed) = 0;
 
-    /// After the last frame.
-    /// \throw osgSkin::Error where it cannot be written
+    /// Called after the last frame.
+    /// \throw osgSkin::Error if it cannot be written
     virtual void finish() {}
 
-    /// By the extension of `out`: .obj and .ply, a file a frame; .pc2 and .glb, one for all.
+    /// Makes a writer by the extension of `out`: one file per frame for .obj and .ply, one file for
+    /// all frames for .pc2 and .glb.
     /// \throw UsageError for other extensions
     static std::unique_ptr<FrameWriter> make(const std::string& out, const FrameSeries& series);
 
-    /// True where each frame has a file of its own, so that `out` needs a place for its number.
+    /// True if each frame has its own file, so that `out` needs a placeholder for the number.
     static bool isSequence(const std::string& out);
 };
 

@@ -48,7 +48,7 @@ std::size_t GlbBuffer::addAccessor(std::size_t begin, std::size_t count, const c
 
 std::size_t GlbBuffer::addVectors(const std::vector<glm::dvec3>& vectors, bool withRange) {
     const std::size_t begin = size();
-    // As floats, so that the range is that of what is stored.
+    // In float, so that the range matches the stored values.
     std::array<float, 3> low, high;
     low.fill(std::numeric_limits<float>::max());
     high.fill(std::numeric_limits<float>::lowest());
@@ -72,7 +72,7 @@ std::size_t GlbBuffer::addTexCoords(const std::vector<osg::Vec2>& texCoords) {
     const std::size_t begin = size();
     for (const osg::Vec2& t : texCoords) {
         _bytes.add(t.x());
-        _bytes.add(1.0f - t.y()); // glTF counts from the upper left
+        _bytes.add(1.0f - t.y()); // glTF's origin is the upper left
     }
     return addAccessor(begin, texCoords.size(), "VEC2", kFloat, Use::Vertices);
 }
@@ -107,7 +107,7 @@ std::size_t GlbBuffer::addFile(const std::string& data) {
     const std::size_t begin = size();
     _bytes.data += data;
     const std::size_t view = addView(begin, Use::Data);
-    pad(_bytes.data, '\0'); // numbers that follow are aligned
+    pad(_bytes.data, '\0'); // aligns the numbers that follow
     return view;
 }
 
@@ -141,10 +141,10 @@ constexpr int kLinearMipmapLinear = 9987;
 
 int wrapOf(osg::Texture::WrapMode mode) {
     if (mode == osg::Texture::REPEAT) return 10497;
-    return mode == osg::Texture::MIRROR ? 33648 : 33071; // else the edge goes on
+    return mode == osg::Texture::MIRROR ? 33648 : 33071; // MIRRORED_REPEAT, CLAMP_TO_EDGE
 }
 
-/// The roughness of a highlight as wide as Blinn's.
+/// The roughness whose highlight is as wide as Blinn's.
 float roughnessOf(const SurfaceMaterial& material) {
     const osg::Vec4& s = material.specular;
     if (std::max({s.r(), s.g(), s.b()}) <= 0.0f) return 1.0f;
@@ -162,7 +162,7 @@ std::optional<std::size_t> GlbMaterials::image(const osg::Image& image) {
     const std::optional<ImageBytes> bytes = bytesOf(image, _folder);
     std::optional<std::size_t> index;
     if (bytes) {
-        // Materials may have read one file each for themselves.
+        // Several materials may have loaded the same file separately.
         const auto file = _files.find(bytes->file);
         if (file != _files.end() && !bytes->file.empty()) {
             index = file->second;
@@ -230,7 +230,7 @@ void GlbMaterials::finish(nlohmann::json& root) const {
 
 namespace {
 
-constexpr std::size_t kMaxFrames = 4096; ///< a weight of each in each: 64 MB
+constexpr std::size_t kMaxFrames = 4096; ///< every frame stores a weight per frame: 64 MB
 
 std::vector<glm::dvec3> gather(const std::vector<glm::dvec3>& of,
                                const std::vector<std::uint32_t>& indices) {

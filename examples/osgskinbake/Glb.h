@@ -20,8 +20,8 @@
 
 namespace bake {
 
-/// The binary buffer of a glTF file, with its views and accessors. Each add() returns the index of
-/// an accessor, or of a view where it says so.
+/// The binary buffer of a glTF file, with its views and accessors. The add functions return the
+/// index of the new accessor, except addFile().
 class GlbBuffer {
 public:
     std::size_t addVectors(const std::vector<glm::dvec3>& vectors, bool withRange);
@@ -30,12 +30,12 @@ public:
     std::size_t addIndices(const std::vector<std::uint32_t>& indices);
     std::size_t addTimes(const std::vector<float>& ascending);
     std::size_t addNumbers(const std::vector<float>& numbers);
-    std::size_t addFile(const std::string& data); ///< returns the view's index
+    std::size_t addFile(const std::string& data); ///< returns the index of the view
 
     std::size_t size() const { return _bytes.data.size(); }
 
-    /// Writes `root`, completed by the buffer's parts, and the buffer as a .glb file.
-    /// \throw osgSkin::Error where the file cannot be written
+    /// Adds the buffer's description to `root`, and writes both as a .glb file.
+    /// \throw osgSkin::Error if the file cannot be written
     void write(const std::string& file, nlohmann::json root) const;
 
 private:
@@ -49,16 +49,17 @@ private:
     nlohmann::json _accessors = nlohmann::json::array();
 };
 
-/// The materials of a glTF file, with the textures and the embedded images that they need.
+/// The materials of a glTF file, with their textures and embedded images.
 class GlbMaterials {
 public:
-    /// \param folder where file names of images are relative to
+    /// \param buffer receives the images; must outlive this object
+    /// \param folder base of the images' relative file names
     GlbMaterials(GlbBuffer& buffer, std::string folder);
 
-    /// Adds a material. Returns its index.
+    /// Adds a material and returns its index.
     std::size_t add(const SurfaceMaterial& material, const std::string& name);
 
-    /// Puts what was added into the file's description.
+    /// Adds the materials, textures and images to the file's JSON.
     void finish(nlohmann::json& root) const;
 
 private:
@@ -76,10 +77,9 @@ private:
     std::map<std::string, std::size_t> _files;
 };
 
-/// A binary glTF file whose mesh is the first frame, with a morph target for each further one, and
-/// an animation that goes from one to the next: between two frames vertices go straight. Anything
-/// that plays glTF plays it, without a skin model and without a skeleton. A primitive for each
-/// material, with its texture.
+/// Writes a binary glTF file. Its mesh is the first frame, each further frame is a morph target,
+/// and an animation interpolates linearly between them. Any glTF player can play it, without a skin
+/// model or a skeleton. Each material has one primitive, with its texture.
 class GlbMorphs : public FrameWriter {
 public:
     GlbMorphs(std::string file, const FrameSeries& series);
@@ -87,7 +87,7 @@ public:
     void finish() override;
 
 private:
-    /// A surface while its frames come in.
+    /// A surface and the frames added so far.
     struct Primitive {
         Surface surface;
         SurfaceMaterial material;

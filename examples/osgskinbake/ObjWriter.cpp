@@ -26,7 +26,7 @@ ObjWriter::ObjWriter(const osgSkin::Character& character, const std::string& nam
 void ObjWriter::addSurface(const Surface& surface, std::uint32_t material) {
     const std::size_t first = _texCoords.size();
     _texCoords.insert(_texCoords.end(), surface.texCoords.begin(), surface.texCoords.end());
-    std::multimap<std::uint32_t, std::size_t> corners; // of a face that have none yet, by vertex
+    std::multimap<std::uint32_t, std::size_t> corners; // of the face, not yet assigned, by vertex
     std::uint32_t current = kNone;
     for (std::size_t t = 0; t < surface.sourceFace.size(); ++t) {
         const std::uint32_t face = surface.sourceFace[t];

@@ -17,17 +17,18 @@
 
 namespace bake {
 
-/// Writes OBJ files of one body in its poses, with the mesh's own vertices and faces; texture
-/// coordinates stand at the faces' corners. All share one material library.
+/// Writes OBJ files of a body's poses, with the mesh's own vertices and faces, and texture
+/// coordinates per corner. All files share one material library.
 class ObjWriter {
 public:
-    /// \param name of the OBJ files, with or without a place for a number: without it and with
-    ///        .mtl at its end it is the library's, beside them
+    /// \param character the body; must outlive the writer
+    /// \param name of the OBJ files, with or without a placeholder for a number; the library's name
+    ///        is derived from it, see libraryName()
     ObjWriter(const osgSkin::Character& character, const std::string& name);
 
-    /// Writes the posed vertices, and after the first ones of a folder the library, with textures
-    /// beside it that are in no file of their own.
-    /// \throw osgSkin::Error where it cannot
+    /// Writes a file. After the first file in a folder, also writes the library, and the textures
+    /// that have no file of their own.
+    /// \throw osgSkin::Error if a file cannot be written
     void write(const std::string& file, const PosedMesh& posed);
 
 private:
@@ -39,13 +40,13 @@ private:
     const osgSkin::Character& _character;
     const osgSkin::SkinMesh& _mesh;
     std::string _library;
-    std::set<std::string> _libraries; ///< that are written
+    std::set<std::string> _libraries; ///< already written
     std::vector<Surface> _surfaces;
-    std::vector<std::uint32_t> _materials; ///< one a face
+    std::vector<std::uint32_t> _materials; ///< one per face
     std::vector<osg::Vec2> _texCoords;
-    std::vector<std::uint32_t> _texCoordOf; ///< one a corner: index in _texCoords, or kNone
-    std::vector<std::size_t> _firstCorner;  ///< one a face
-    std::vector<osg::Vec4> _colours;        ///< one a vertex of the mesh, or none
+    std::vector<std::uint32_t> _texCoordOf; ///< one per corner: index in _texCoords, or kNone
+    std::vector<std::size_t> _firstCorner;  ///< one per face
+    std::vector<osg::Vec4> _colours;        ///< one per vertex of the mesh, or empty
 };
 
 } // namespace bake

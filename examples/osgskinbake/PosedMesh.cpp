@@ -12,7 +12,7 @@ namespace {
 
 using osgSkin::toGlm;
 
-/// Gathers the drawn copies of each vertex.
+/// Merges the drawn copies of each vertex.
 class Collector {
 public:
     explicit Collector(std::size_t vertices)
@@ -38,7 +38,8 @@ public:
                 toGlm(osg::Matrixd::transform3x3(osg::Vec3d(normals[i]), matrix)));
     }
 
-    /// Vertices that no face uses are drawn by nobody, but belong to the mesh all the same.
+    /// Adds vertices that no face uses, in the current pose. They are part of the mesh but not
+    /// drawn.
     void addUndrawn(const osgSkin::Character& character) {
         std::vector<std::uint32_t> source;
         std::vector<glm::vec3> rest;
@@ -61,7 +62,7 @@ public:
             add(source[i], glm::dvec3(rest[i]), glm::dvec3(0.0, 1.0, 0.0));
     }
 
-    /// Vertices that no face uses, where the bind pose has them.
+    /// Adds vertices that no face uses, in the bind pose.
     void addUndrawn(const osgSkin::SkinMesh& mesh) {
         for (std::size_t v = 0; v < _seen.size(); ++v)
             if (!_seen[v]) add(v, mesh.positions[v], glm::dvec3(0.0, 1.0, 0.0));

@@ -10,21 +10,21 @@
 
 namespace bake {
 
-/// The posed body in the input mesh's own vertex order, put together from the drawables that a
-/// viewer would show: deformed skins and rigid parts.
+/// The posed body in the vertex order of the input mesh, assembled from the drawables that a viewer
+/// shows: deformed skins and rigid parts.
 struct PosedMesh {
     std::vector<glm::dvec3> positions; ///< rest space
     std::vector<glm::dvec3> normals;   ///< unit; the mean over a vertex's drawn copies
     double seamGap = 0.0;              ///< largest distance between two copies of a vertex
 
-    /// Reads the character's drawables in the pose that their bones are in now.
+    /// Reads the character's drawables in the current pose of the bones.
     static PosedMesh read(const osgSkin::Character& character);
 
-    /// The same in the bind pose, whatever pose the bones are in.
+    /// The same in the bind pose, regardless of the bones.
     static PosedMesh rest(const osgSkin::Character& character);
 };
 
-/// The joints' transforms in the pose that the character's bones are in now.
+/// The joints' transforms in the current pose of the character's bones.
 osgSkin::Pose currentPose(const osgSkin::Character& character);
 
 } // namespace bake

@@ -39,7 +39,7 @@ const Array* perVertex(const osg::Array* array, std::size_t vertices) {
     return typed != nullptr && typed->size() == vertices ? typed : nullptr;
 }
 
-/// Gathers the pieces that share a state set.
+/// Merges the drawables that share a state set.
 class Gatherer {
 public:
     void add(std::uint32_t piece, const MeshPart& part) {
@@ -224,7 +224,7 @@ osg::Vec4 linear(const osg::Vec4& srgb) {
 
 namespace {
 
-/// Names images as the library at `file` has to, and writes those that are nowhere.
+/// The images' names in the library at `file`. Writes images that have no file.
 class Images {
 public:
     Images(std::string file, std::string folder)
@@ -236,7 +236,7 @@ public:
         const std::optional<ImageBytes> bytes = bytesOf(image, _folder);
         if (!bytes) return entry->second;
         if (!bytes->file.empty()) {
-            // Without links: a name that leads upward goes by where folders are.
+            // Resolve links first: a relative path with ".." would follow their targets.
             const auto file = std::filesystem::weakly_canonical(bytes->file);
             const auto here = std::filesystem::weakly_canonical(_file).parent_path();
             return entry->second = file.lexically_proximate(here).string();

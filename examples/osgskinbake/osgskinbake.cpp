@@ -35,13 +35,13 @@ namespace {
 struct SampledMotion {
     std::string name;
     std::size_t frames = 0;
-    double frameTime = 0.0;                ///< seconds from one frame to the next
-    std::string notes;                     ///< on its feet, lines of text; may be empty
-    std::function<void(std::size_t)> pose; ///< puts bones and skins into that frame, exactly
+    double frameTime = 0.0;                ///< seconds per frame
+    std::string notes;                     ///< about its feet, lines of text; may be empty
+    std::function<void(std::size_t)> pose; ///< sets bones and skins to exactly that frame
 };
 
-/// The character's motions: those of motion files with the files' own samples, a rigged model's own
-/// animations with `rate` samples a second. They refer to `character`.
+/// The character's motions. Motion files have their own samples; a rigged model's animations are
+/// sampled `rate` times per second. The result refers to `character`.
 std::vector<SampledMotion> sampledMotions(osgSkin::Character& character, double rate);
 
 constexpr double kMaxSamples = 1e9;
@@ -55,7 +55,7 @@ SampledMotion ownSamples(Character& character, const CharacterMotion& motion) {
 }
 
 SampledMotion samplesAt(Character& character, const CharacterMotion& motion, double rate) {
-    // Files have times as floats, and those round.
+    // Files store times as rounded floats.
     const double frames = motion.animation->getDuration() * rate;
     const double last = std::floor(frames + std::min(0.01, 1e-6 * (1.0 + frames)));
     if (!(last < kMaxSamples))
@@ -124,7 +124,7 @@ nlohmann::json functionsJson(const osgSkin::Binding& binding) {
     return list;
 }
 
-/// A vertex's vectors, one for each mode of each joint that corrects it.
+/// A vertex's corrective vectors, one per mode of each joint that corrects it.
 nlohmann::json vectorsJson(const osgSkin::Binding& binding, std::size_t vertex) {
     const osgSkin::Correctives& from = binding.correctives;
     nlohmann::json list = nlohmann::json::array();
@@ -140,7 +140,7 @@ nlohmann::json vectorsJson(const osgSkin::Binding& binding, std::size_t vertex) 
     return list;
 }
 
-/// Joints in the product's order, and each vertex's region and ratios.
+/// The joints in the order of the product of transforms, and each vertex's region and ratios.
 nlohmann::json bindingJson(const osgSkin::Binding& binding) {
     nlohmann::json joints = nlohmann::json::array();
     const std::vector<std::uint32_t> order = osgSkin::productOrder(binding.joints);
@@ -197,9 +197,9 @@ nlohmann::json poseJson(std::size_t frame, const osgSkin::Binding& binding,
     return result;
 }
 
-/// \throw osgSkin::Error where it cannot be written
+/// \throw osgSkin::Error if it cannot be written
 void writeJson(const std::string& file, const nlohmann::json& json) {
-    // Joints' names may be in no UTF-8, which JSON is.
+    // Joint names may be invalid UTF-8, which JSON does not allow.
     writeBytes(file, json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
 
@@ -278,7 +278,7 @@ void bakeFrames(const Arguments& arguments, Character& character) {
                   << motion.notes << std::flush;
 }
 
-/// Finds what a character's scene shows beside its body: props, scenery, things that no rig moves.
+/// Finds nodes of a character's scene that are not its body: props, scenery, objects without a rig.
 class OtherThings : public osg::NodeVisitor {
 public:
     std::size_t count = 0;
@@ -306,7 +306,7 @@ void tellOtherThings(const Character& character) {
                   << (others.count == 1 ? "\"\n" : "\", ...\n") << std::flush;
 }
 
-/// Reads a `.skin` file, or a rigged model, with or without `.skin` after its name.
+/// Reads a `.skin` file or a rigged model, with or without `.skin` appended to its name.
 Character load(const Arguments& arguments) {
     const std::string& file = arguments.character;
     example::ProgressLine line(file, arguments.quiet);
@@ -334,7 +334,7 @@ int run(const Arguments& arguments) {
     Character character = load(arguments);
     bake::keepFiles(character.files);
     tense(character, arguments);
-    if (!arguments.motion.empty()) chooseMotion(character, arguments); // before anything is written
+    if (!arguments.motion.empty()) chooseMotion(character, arguments); // before writing any file
     if (!arguments.binding.empty())
         bake::writeJson(arguments.binding, bake::bindingJson(character.binding));
     if (!arguments.rest.empty())

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kSamplesASecond = 60.0;
 
-/// What a crowd draws of a scene, with the path to it.
+/// Finds the skins and rigid parts of a scene, with their node paths.
 class FindDrawn : public osg::NodeVisitor {
 public:
     FindDrawn() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
@@ -51,11 +51,12 @@ Node* nearest(const osg::NodePath& path) {
     return nullptr;
 }
 
-/// Reads a character and bakes its first clip for a crowd on the graphics card, with three levels
-/// of detail below its own.
+/// Reads a character, bakes its first clip for the graphics card, and adds three coarser levels of
+/// detail.
 ///
+/// \param file a character's file
 /// \param seconds set to the clip's length
-/// \throw std::runtime_error where the file cannot be read, or has no skin
+/// \throw std::runtime_error if the file cannot be read, or has no skin
 osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file, double& seconds) {
     const osg::ref_ptr<osg::Node> scene =
         osgSkin::readScene(file, osgDB::Registry::instance()->getOptions());
@@ -78,7 +79,7 @@ osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file,
             character->addRigid(geometry, state, 0, bone->getName());
         }
 
-    // The scene's own skins follow a player in place of their bones.
+    // A player poses the scene's own skins instead of their bones.
     const auto source = osgSkin::ClipCharacter::create(*scene);
     osg::ref_ptr<const osgSkin::SampledClip> clip;
     if (!source->animations().empty())
@@ -95,7 +96,7 @@ osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file,
     }
     seconds = clip ? clip->duration() : 0.0;
     character->addClip(samples, clip ? 1.0 / clip->step() : kSamplesASecond, true);
-    // Of the picture's height a figure has 1/4, 1/10 and 1/25 there.
+    // For figures of 1/4, 1/10 and 1/25 of the picture's height.
     character->addLevel(0.4, 0.25);
     character->addLevel(0.15, 0.1);
     character->addLevel(0.05, 0.04);
@@ -110,10 +111,10 @@ double millisecondsSince(Clock::time_point start) {
 
 } // namespace
 
-/// Holds the crowd by reference: the crowd holds the scene that holds this.
+/// Measures a traversal. Stores a reference, because the crowd owns the scene that owns this.
 class CardCrowd::Timed : public osg::NodeCallback {
 public:
-    using Step = std::function<void(double)>; ///< with the simulation time in seconds
+    using Step = std::function<void(double)>; ///< argument: simulation time in seconds
 
     Timed(double& milliseconds, Step first)
         : _milliseconds(milliseconds), _first(std::move(first)) {}
@@ -139,7 +140,7 @@ CardCrowd::CardCrowd(const std::vector<std::string>& files, std::size_t count)
         const osg::BoundingBox& box = _characters.back()->bounds();
         width = std::max({width, box.xMax() - box.xMin(), box.yMax() - box.yMin()});
     }
-    width *= 0.7f; // they may reach between each other
+    width *= 0.7f; // their arms may overlap
     const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
     _radius = 0.5f * width * static_cast<float>(side);
     std::vector<std::vector<osgSkin::CrowdInstance>> members(files.size());

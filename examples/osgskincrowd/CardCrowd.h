@@ -11,25 +11,24 @@
 #include <string>
 #include <vector>
 
-/// Characters side by side on the graphics card, each in its own phase of its clip, in a colour and
-/// at a speed of its own.
+/// A crowd on the graphics card. Each character has its own phase in its clip, colour and speed.
 ///
-/// Callbacks of its scene tell the crowds the time, which is all that the processor does for them
-/// but culling each as a whole, and note how long both take. The scene stands still once this is
-/// gone.
+/// The processor only passes the time to each osgSkin::GpuCrowd and culls it as a whole. Callbacks
+/// of the scene do that and measure it; the scene stops moving when this object is deleted.
 class CardCrowd : public osg::Referenced {
 public:
-    /// \param files of characters, which take turns
-    /// \throw std::runtime_error where one cannot be read
+    /// \param files of characters, used in turn
+    /// \param count number of members
+    /// \throw std::runtime_error if a file cannot be read
     CardCrowd(const std::vector<std::string>& files, std::size_t count);
 
     osg::Group* getScene() const { return _scene.get(); }
-    float getRadius() const { return _radius; } ///< of the ground that it covers
+    float getRadius() const { return _radius; } ///< of the ground that the crowd covers
 
-    /// Vertices, triangles in each level of detail, bytes.
+    /// Describes the crowd: vertices, triangles of each level of detail, bytes per member.
     std::string summary() const;
 
-    /// Milliseconds that the last update and cull took the processor.
+    /// Processor time of the last update and cull in milliseconds.
     double getProcessorTime() const { return _updateTime + _cullTime; }
 
 protected:

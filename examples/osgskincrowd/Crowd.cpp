@@ -29,7 +29,7 @@ public:
     std::size_t vertices = 0;
 };
 
-/// By osgDB, which also reads characters that were saved.
+/// Reads a scene by osgDB, which also supports saved characters.
 osg::ref_ptr<osg::Node> readScene(const std::string& file) {
     example::ProgressLine line(file);
     const osgDB::Options* shared = osgDB::Registry::instance()->getOptions();
@@ -48,7 +48,7 @@ CrowdCharacter::CrowdCharacter(const std::string& file) {
     if (count.vertices == 0)
         throw std::runtime_error(file + " has no deformable skin; expected a character");
     character = osgSkin::ClipCharacter::create(*scene);
-    // One without a clip stands as it does.
+    // A character without a clip keeps its pose.
     osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
     if (!character->animations().empty()) animation = character->animations().front();
     clip = character->sample(*animation);
@@ -58,7 +58,7 @@ CrowdCharacter::CrowdCharacter(const std::string& file) {
 
 namespace {
 
-/// Holds the crowd by reference: the crowd holds the scene that holds this.
+/// Updates the crowd. Stores a reference, because the crowd owns the scene that owns this.
 class UpdateCrowd : public osg::NodeCallback {
 public:
     explicit UpdateCrowd(Crowd& crowd) : _crowd(crowd) {}
@@ -82,12 +82,12 @@ Crowd::Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
         const osg::BoundingBox& box = c.character->bakedBounds();
         width = std::max({width, box.xMax() - box.xMin(), box.yMax() - box.yMin()});
     }
-    width *= 0.7f; // they may reach between each other
+    width *= 0.7f; // their arms may overlap
     const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
     _radius = 0.5f * width * static_cast<float>(side);
     std::size_t phase = 0; // in samples
     for (std::size_t i = 0; i < count; ++i) {
-        // Rows stand half a place apart, and phases differ from one neighbour to the next.
+        // Every other row is shifted by half a position, and neighbours differ in phase.
         const std::size_t line = i / side;
         const double row = static_cast<double>(line);
         const double column = static_cast<double>(i % side) + (line % 2 == 0 ? 0.0 : 0.5);
@@ -106,7 +106,7 @@ Crowd::Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
         phase += 37;
     }
     _scene->setUpdateCallback(new UpdateCrowd(*this));
-    // Nested in ours, which it therefore follows.
+    // Nested in our callback, so it runs after it.
     _scene->addUpdateCallback(new osgSkin::ParallelDeformCallback(pool));
 }
 
@@ -117,8 +117,7 @@ Crowd::~Crowd() {
 void Crowd::update(double time, const std::function<void()>& deform) {
     const double passed = _time < 0.0 ? 0.0 : time - _time;
     const osg::Timer_t start = osg::Timer::instance()->tick();
-    // What the members have in common is marked here; each thread then marks only what is its
-    // member's own.
+    // Marks the members' common ancestors here, so that each thread only changes its own members.
     _scene->dirtyBound();
     _pool->forEach(_players.size(), [&](std::size_t i) {
         _players[i]->advance(passed);

@@ -14,11 +14,10 @@
 #include <string>
 #include <vector>
 
-/// A character read from a file, with the first of its clips sampled 60 times a second and baked: a
-/// member of the crowd copies poses and asks no animation manager and no bone.
+/// A character from a file. Its first clip is sampled 60 times per second and baked, so a member of
+/// the crowd copies poses and needs no animation manager and no bones.
 struct CrowdCharacter {
-    /// \throw std::runtime_error where the file cannot be read, osgSkin::Error where it has no
-    ///        skin
+    /// \throw std::runtime_error if the file cannot be read or has no skin
     explicit CrowdCharacter(const std::string& file);
 
     osg::ref_ptr<osgSkin::ClipCharacter> character;
@@ -26,30 +25,32 @@ struct CrowdCharacter {
     std::size_t vertices = 0; ///< of its skins
 };
 
-/// Characters side by side, each in its own phase of its clip; all that come from one file share
-/// its skin models.
+/// A crowd of characters, each in its own phase of its clip. Characters from the same file share
+/// their skin models.
 ///
-/// A callback of its scene has the players pose on the pool's threads, and with the same threads an
-/// osgSkin::ParallelDeformCallback deforms the skins that are in view. The scene stands still once
-/// the crowd is gone.
+/// A callback of the scene poses the members on the pool's threads. Then an
+/// osgSkin::ParallelDeformCallback deforms the visible skins on the same threads. The scene stops
+/// moving when the crowd is deleted.
 class Crowd : public osg::Referenced {
 public:
-    /// \param characters at least one; they take turns
+    /// \param characters at least one; used in turn
+    /// \param count number of members
+    /// \param pool threads for posing and deforming
     Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
           osgSkin::DeformPool* pool);
 
     osg::Group* getScene() const { return _scene.get(); }
-    float getRadius() const { return _radius; } ///< of the ground that it covers
+    float getRadius() const { return _radius; } ///< of the ground that the crowd covers
     std::size_t getVertexCount() const { return _vertices; }
 
-    /// Milliseconds that updates to the present simulation time took for poses, and for skins.
+    /// Milliseconds for posing, and for deforming, in all updates with the current simulation time.
     double getPoseTime() const { return _poseTime; }
     double getDeformTime() const { return _deformTime; }
 
-    /// One update of the scene.
+    /// Updates the scene.
     ///
     /// \param time simulation time in seconds
-    /// \param deform deforms what has been posed
+    /// \param deform deforms the skins after they have been posed
     void update(double time, const std::function<void()>& deform);
 
 protected:

@@ -127,7 +127,7 @@ void benchFrames(const Crowd& crowd, osg::Node* scene, unsigned int frames, unsi
     Cull cull(scene->getBound());
     std::vector<double> whole, pose, deform, culled;
     std::size_t before = 0;
-    constexpr unsigned int kFirst = 3; // frames that still make things
+    constexpr unsigned int kFirst = 3; // warm-up frames, which still allocate
     for (unsigned int i = 0; i < frames + kFirst; ++i) {
         if (i == kFirst) before = CountDeformed(*scene).count;
         stamp->setFrameNumber(i + 1);

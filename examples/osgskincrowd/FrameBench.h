@@ -8,12 +8,12 @@
 #include <osg/Node>
 #include <osg/ref_ptr>
 
-/// A line of text at the window's lower edge: how long frames take, and what the crowd's part of
-/// that is; means over half a second.
+/// A line of text at the lower edge of the window: frame time and the crowd's share of it, averaged
+/// over half a second.
 osg::ref_ptr<osg::Camera> makeFrameTime(const Crowd& crowd, unsigned int threads);
 
-/// Runs frames without a window, one 60th of a second apart, with all of the scene in view, and
-/// prints what update and cull traversals took: everything of a frame but the drawing.
+/// Runs frames at 60 Hz without a window, with the whole scene in view. Prints the times of the
+/// update and cull traversals, which are everything in a frame except drawing.
 void benchFrames(const Crowd& crowd, osg::Node* scene, unsigned int frames, unsigned int threads);
 
 #endif

@@ -27,7 +27,7 @@ example::View viewOf(const AnyCrowd& crowd) {
     return {{0.15 * r, -1.5 * r - 4.0, 0.45 * r + 1.5}, {0.0, -0.15 * r, 0.5}};
 }
 
-/// Pictures at the scene's 60 frames a second, and what the updates took.
+/// Takes pictures at 60 frames per second, and prints the mean times of the updates.
 void takePictures(const Crowd& crowd, osg::Node* scene, unsigned int frames,
                   const std::string& folder) {
     example::Snapshots snapshots(scene, viewOf(crowd), 1000, 800);
@@ -53,7 +53,7 @@ int show(osg::Group* scene, const example::View& view) {
     return viewer.run();
 }
 
-/// Everything on the graphics card.
+/// Runs the crowd on the graphics card.
 int runOnCard(const std::vector<std::string>& files, std::size_t count, unsigned int frames,
               const std::string& folder) {
     const osg::ref_ptr<CardCrowd> crowd = new CardCrowd(files, count);
@@ -80,7 +80,7 @@ int runOnCard(const std::vector<std::string>& files, std::size_t count, unsigned
 int main(int argc, char** argv) {
     CLI::App app("Many characters, each in its own phase of its own clip.", "osgskincrowd");
     std::vector<std::string> files = {std::string(OSGSKIN_DATA) + "/thrower.skin"};
-    // From where one sees a crowd neither shows, and both take time.
+    // Shapes and surface normals cost time, and are not visible at a crowd's distance.
     std::string options = "shapes=none normals=rotated";
     std::string pictures;
     std::size_t count = 1000;

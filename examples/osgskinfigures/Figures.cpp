@@ -33,22 +33,22 @@ namespace figures {
 
 namespace {
 
-/// A ratio over the position along a bone, as the lower half of a picture.
+/// A plot of a ratio over the position along a bone, in the lower half of a picture.
 struct RatioPlot {
     struct Dots {
         std::string name;
         osg::Vec4 colour;
-        std::vector<double> positions; ///< along the bone, in its lengths
-        std::vector<double> ratios;    ///< as many
+        std::vector<double> positions; ///< along the bone, in bone lengths
+        std::vector<double> ratios;    ///< one per position
     };
-    double low = 0.0, high = 1.0;       ///< of the positions shown
-    std::optional<double> upper, lower; ///< boundaries that eq. 5 runs between, if there are any
-    std::vector<Dots> dots;             ///< later ones over earlier ones
-    std::string axis;                   ///< what position 0 is, and the unit
+    double low = 0.0, high = 1.0;       ///< range of the positions
+    std::optional<double> upper, lower; ///< boundaries of eq. 5, if any
+    std::vector<Dots> dots;             ///< drawn in this order
+    std::string axis;                   ///< label: meaning of position 0, and the unit
 };
 
-constexpr double kFloor = 150.0; ///< of ratio 0, in pixels
-constexpr double kRise = 190.0;  ///< from ratio 0 to 1
+constexpr double kFloor = 150.0; ///< height of ratio 0, in pixels
+constexpr double kRise = 190.0;  ///< height from ratio 0 to 1, in pixels
 
 const osg::Vec4 kFrame(0.55f, 0.57f, 0.60f, 1.0f);
 const osg::Vec4 kCurve(1.0f, 0.75f, 0.25f, 1.0f);
@@ -64,7 +64,10 @@ osg::ref_ptr<osg::Geometry> makePanel(float width, float height) {
                      osg::Vec4(0.09f, 0.10f, 0.11f, 1.0f), GL_QUADS);
 }
 
-/// \param height of the picture; the plot fills the lower part of it
+/// Draws a plot.
+/// \param plot the plot
+/// \param width of the picture, in pixels
+/// \param height of the picture, in pixels; the plot fills its lower part
 osg::ref_ptr<osg::Camera> drawPlot(const RatioPlot& plot, int width, int height) {
     const auto at = [&](double position, double ratio) {
         const double share = (position - plot.low) / (plot.high - plot.low);
@@ -116,7 +119,7 @@ constexpr int kRatioHeight = 900;
 const osg::Vec4 kPaper(0.95f, 0.45f, 0.40f, 1.0f);
 const osg::Vec4 kSmooth(0.45f, 0.75f, 0.95f, 1.0f);
 
-/// The left arm: where a vertex lies along it, and whether it belongs to it.
+/// The left arm: its vertices, and their positions along it.
 class Arm {
 public:
     explicit Arm(const Body& body)
@@ -133,8 +136,8 @@ public:
         return _body.character.rest.isInSubtree(region, int(_shoulder));
     }
 
-    /// From the elbow, in forearms: down the forearm, or else up the upper arm (an elbow rests a
-    /// little bent).
+    /// Position relative to the elbow in forearm lengths, along the forearm or else along the upper
+    /// arm, because the elbow is slightly bent at rest.
     double position(std::size_t vertex) const {
         const glm::dvec3 d = _body.rest()[vertex] - _centre;
         const double below = glm::dot(d, _along);
@@ -185,7 +188,7 @@ Tile picture(const Body& body, const Arm& arm, const RatioPlot& plot,
     return photograph(scene, {centre + toCamera * size, centre}, kRatioWidth, kRatioHeight);
 }
 
-/// Fig. 3a: only the method `paper` bends between boundaries; `smooth` is drawn beside it.
+/// Fig. 3a. Only the binding method `paper` has boundaries; `smooth` is drawn for comparison.
 Tile bendPicture(const Body& body, const Arm& arm) {
     const osgSkin::Character& character = body.character;
     osgSkin::BindOptions options = character.bindOptions;
@@ -216,7 +219,7 @@ Tile twistPicture(const Body& body, const Arm& arm) {
     plot.low = -0.3;
     plot.high = 1.3;
     plot.axis = "0: elbow; 1: wrist; unit: the forearm's length";
-    // The hand's boundaries are told from the wrist.
+    // The hand's boundaries are relative to the wrist.
     if (!character.bindReport.boundaries.empty()) {
         const auto& boundaries = character.bindReport.boundaries[arm.hand];
         if (boundaries.twistUpper && boundaries.twistLower) {
@@ -243,16 +246,16 @@ namespace {
 
 constexpr int kCompareSize = 400;
 
-/// A joint turned alone, seen from close by. Directions are the scene's: Z up, facing -Y.
+/// A close-up of a single rotated joint. Directions are in the scene's frame: Z up, facing -Y.
 struct Shot {
     const char* name;
     const char* joint;
     double degrees;
-    glm::dvec3 axis;  ///< zero: the fold between the bone above and the bone; see axisOf()
+    glm::dvec3 axis;  ///< if zero, perpendicular to the bone and the one above; see axisOf()
     bool twist;       ///< about the bone above
     glm::dvec3 eye;   ///< direction from the joint to the camera
     double distance;  ///< in body sizes
-    glm::dvec3 aside; ///< from the joint to the picture's middle, in body sizes
+    glm::dvec3 aside; ///< from the joint to the picture's centre, in body sizes
 };
 
 const Shot kShots[] = {
@@ -269,7 +272,7 @@ glm::dvec3 axisOf(const Body& body, const Shot& shot, std::size_t joint) {
     const glm::dvec3 above = glm::normalize(bone.centre - body.joint(parent).centre);
     if (shot.twist) return above;
     if (shot.axis != glm::dvec3(0.0)) return body.fromWorld(shot.axis);
-    // An elbow rests a little bent; it bends on the same way.
+    // An elbow is slightly bent at rest; bend it further in the same direction.
     const glm::dvec3 fold = glm::cross(above, bone.boneAxis);
     return glm::length(fold) > 1e-3 ? glm::normalize(fold) : body.fromWorld({0, 0, -1});
 }
@@ -320,7 +323,7 @@ constexpr int kRegionWidth = 760;
 const osg::Vec4 kBare(0.62f, 0.60f, 0.58f, 1.0f);
 constexpr int kRegionHeight = 860;
 
-/// The seed's joint, or the rigid joint above it, whose region takes the seed in.
+/// The seed's joint, or the rigid joint above it whose region contains the seed.
 std::size_t rigidOf(const Body& body, std::size_t vertex) {
     const auto& report = body.character.bindReport;
     int joint = report.seeds[vertex];
@@ -333,7 +336,7 @@ std::size_t rigidOf(const Body& body, std::size_t vertex) {
     return std::size_t(std::max(joint, 0));
 }
 
-/// The seeds as points a little above the skin.
+/// The seeds as points on the skin.
 osg::ref_ptr<osg::Node> makeSeeds(const Body& body) {
     osg::ref_ptr<osg::Group> group = new osg::Group;
     std::map<std::size_t, std::vector<osg::Vec3>> points;
@@ -345,7 +348,7 @@ osg::ref_ptr<osg::Node> makeSeeds(const Body& body) {
     return group;
 }
 
-/// The joints lie inside: they are drawn over the skin.
+/// The joints, drawn over the skin that they lie in.
 osg::ref_ptr<osg::Node> makeJoints(const Body& body, float radius) {
     osg::ref_ptr<osg::Group> joints = new osg::Group;
     joints->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
@@ -358,13 +361,13 @@ osg::ref_ptr<osg::Node> makeJoints(const Body& body, float radius) {
     return joints;
 }
 
-/// A picture of the figure in its own colours, with its joints.
+/// A picture of the coloured figure with its joints.
 Tile picture(const Body& body, const std::function<osg::Vec4(std::size_t)>& colour,
              const std::string& caption, bool dots) {
     const osg::Vec3d toCamera(0.35, -2.25, 0.25);
     const osg::ref_ptr<osg::Group> scene = makeLit(toCamera);
     const auto skin = makeSkin(body, body.rest(), colour);
-    // Set back a little, so that points on it are seen whole.
+    // Offset the skin, so that it does not cut off the points on it.
     skin->getOrCreateStateSet()->setAttributeAndModes(new osg::PolygonOffset(4.0f, 8.0f));
     scene->addChild(skin);
     const osg::BoundingBox box = skin->getBoundingBox();
@@ -425,7 +428,7 @@ osg::ref_ptr<osg::Node> makeLimb(const osg::Vec3& along, const osg::Vec4& colour
     return limb;
 }
 
-/// `from` carried about `axis` through `degrees`, around `centre`, with a head at its end.
+/// An arc with a ball at its end: rotates `from` about `axis` by `degrees`, around `centre`.
 osg::ref_ptr<osg::Node> makeArc(const osg::Vec3& centre, const osg::Vec3& from,
                                 const osg::Vec3& axis, double degrees, const osg::Vec4& colour) {
     std::vector<osg::Vec3> points;
@@ -441,7 +444,7 @@ osg::ref_ptr<osg::Node> makeArc(const osg::Vec3& centre, const osg::Vec3& from,
 void addArrow(osg::Group& group, const osg::Vec3& to, const osg::Vec4& colour, const char* name) {
     group.addChild(makeLines({osg::Vec3(), to}, colour, GL_LINES, 3.0f));
     group.addChild(makeBall(to, 0.03f, colour));
-    const osg::Vec3 besideBall(0.06f, 0.0f, 0.0f); // where an axis points at the camera too
+    const osg::Vec3 besideBall(0.06f, 0.0f, 0.0f); // for an axis that points at the camera
     const auto label = makeText(name, to * 1.03f + besideBall, 0.10f, colour);
     label->setAxisAlignment(osgText::Text::SCREEN);
     group.addChild(label);
@@ -464,7 +467,7 @@ Tile splitFigure() {
     const osg::ref_ptr<osg::Group> scene = makeLit();
     scene->addChild(makeLimb(-w, osg::Vec4(0.45f, 0.47f, 0.50f, 1.0f)));
     scene->addChild(makeLimb(bent, kSkin));
-    // Axes and arcs run inside the limbs too.
+    // Axes and arcs are also visible inside the limbs.
     const osg::ref_ptr<osg::Group> marks = new osg::Group;
     marks->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     marks->getOrCreateStateSet()->setRenderBinDetails(5, "RenderBin");
@@ -487,7 +490,7 @@ namespace {
 
 constexpr int kThrowSize = 400;
 constexpr int kFrames = 8;
-// The action: after the first steps, and up to the follow-through.
+// The part of the motion from the first steps to the follow-through.
 constexpr double kFrom = 0.15;
 constexpr double kTo = 0.6;
 
@@ -504,7 +507,7 @@ Tile throwFigure(Body& body) {
     const osg::ref_ptr<osg::Camera> overlay = makeCaption("", kThrowSize, kThrowSize, 18.0f);
     auto& caption = static_cast<osgText::Text&>(*overlay->getChild(0));
     scene->addChild(overlay);
-    // Midway between the ends of the way that the figure's root goes.
+    // The centre of the root's path.
     glm::dvec3 low = clip.rootPositions.front();
     glm::dvec3 high = low;
     for (const glm::dvec3& place : clip.rootPositions) {

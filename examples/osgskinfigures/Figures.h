@@ -15,15 +15,16 @@ Tile ratioFigure(const Body& body);
 
 class Body;
 
-/// One pose of a joint by each method.
+/// A pose of one joint, deformed by each method.
 struct Comparison {
     const char* name;
-    /// Linear blending, dual quaternions, the paper's model where the body has shapes, ours, and
-    /// the elastic body.
+    /// Linear blending, dual quaternions, the paper's model (if the body has shapes), osgSkin, and
+    /// the elastic body (if given).
     std::vector<Tile> tiles;
 };
-/// Shoulder, elbow, wrist, hip and knee.
-/// \param painted whether the peers' weights are
+/// Compares the methods at shoulder, elbow, wrist, hip and knee.
+/// \param body the body
+/// \param painted true if the weights for the other methods are painted
 /// \param elastic the same body with elastic shapes; may be null
 std::vector<Comparison> comparisons(const Body& body, bool painted, const Body* elastic);
 

@@ -6,14 +6,15 @@
 
 #include <string>
 
-/// What there is to tell about a throw.
+/// Facts about a throw.
 struct ThrowFacts {
-    double seconds = 0.0; ///< its length
-    std::string feet;     ///< how far they slide: a line a foot
+    double seconds = 0.0; ///< length of the motion
+    std::string feet;     ///< how far the feet slide, one line per foot
 };
 
-/// Builds the thrower from its files with the public API alone: what the `.skin` plug-in does for
-/// `data/thrower.skin`, step by step. Z up, metres, throwing towards +X.
-/// \param facts of the throw; may be null
-/// \throw osgSkin::Error where a file in `folder` cannot be used
+/// Builds the thrower from its files with the public API alone. These are the steps that the
+/// `.skin` plug-in takes for `data/thrower.skin`. Metres, Z up; the throw goes towards +X.
+/// \param folder contains the files
+/// \param facts set if not null
+/// \throw osgSkin::Error if a file in `folder` cannot be used
 osg::ref_ptr<osg::Group> makeThrowScene(const std::string& folder, ThrowFacts* facts = nullptr);

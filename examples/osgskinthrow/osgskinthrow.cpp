@@ -19,7 +19,7 @@ namespace {
 
 const example::View kView{{0.75, -5.1, 1.35}, {0.62, 0.0, 0.9}};
 
-/// Pictures of the throw from second `from` to second `to`.
+/// Takes pictures of the throw from second `from` to second `to`.
 void takePictures(osg::Node* scene, double from, double to, unsigned int count,
                   const std::string& folder) {
     example::Snapshots snapshots(scene, kView, 800, 800);
@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    if (!std::isfinite(from) || !std::isfinite(to)) { // passes for being in any range
+    if (!std::isfinite(from) || !std::isfinite(to)) { // CLI::Range accepts NaN
         std::cerr << "osgskinthrow: --from and --to: expected finite numbers" << std::endl;
         return 2;
     }

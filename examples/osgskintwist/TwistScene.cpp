@@ -36,16 +36,16 @@ namespace twist {
 
 namespace {
 
-/// A row of drawn vertices: a circle of the surface of revolution.
+/// A row of drawn vertices: one circle of the surface of revolution.
 struct Row {
     double radius, z;
     double along;       ///< length of the outline up to here
-    glm::dvec2 normal;  ///< outwards and along z
-    std::uint32_t ring; ///< of the mesh; a cap's rim and the side's end are one ring
-    bool startsSurface; ///< a new surface: not joined to the row before
+    glm::dvec2 normal;  ///< radial component, and along z
+    std::uint32_t ring; ///< index in the mesh; a cap's rim and the end of the side share a ring
+    bool startsSurface; ///< not connected to the previous row
 };
 
-/// The outline from the middle of the lower cap over the side to the middle of the upper one.
+/// The outline from the centre of the lower cap along the side to the centre of the upper cap.
 std::vector<Row> outline() {
     constexpr double half = Cylinder::kHalfLength;
     constexpr std::uint32_t caps = Cylinder::kCapRings;
@@ -68,7 +68,8 @@ std::vector<Row> outline() {
 
 constexpr std::uint32_t kRings = 2 * Cylinder::kCapRings + Cylinder::kSteps + 1;
 
-/// The mesh has one vertex in the middle of each cap and kSegments on every ring between.
+/// Index of a mesh vertex: one vertex at the centre of each cap, kSegments on every ring in
+/// between.
 std::uint32_t meshVertex(std::uint32_t ring, std::uint32_t column) {
     if (ring == 0) return 0;
     if (ring == kRings - 1) return 1 + (kRings - 2) * Cylinder::kSegments;
@@ -100,7 +101,7 @@ Cylinder::Cylinder() {
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const Row& row = rows[r];
         const auto start = static_cast<std::uint32_t>(vertices->size());
-        // The first column stands twice: the texture's two ends meet there.
+        // The first column is duplicated, because the texture wraps around there.
         for (std::uint32_t i = 0; i <= kSegments; ++i) {
             const double angle = glm::two_pi<double>() * (i % kSegments) / kSegments;
             const glm::dvec2 way(std::cos(angle), std::sin(angle));
@@ -140,8 +141,8 @@ Cylinder::Cylinder() {
 
 namespace {
 
-/// Normals go by the inverse transpose. The cofactors are that up to a positive factor, and are
-/// there too where linear blending has flattened the skin.
+/// Transforms a normal by the cofactor matrix. It equals the inverse transpose up to a factor, and
+/// also exists if linear blending has flattened the skin.
 glm::dvec3 turnNormal(const glm::dmat4& matrix, const glm::dvec3& normal) {
     const glm::dvec3 x(matrix[0]);
     const glm::dvec3 y(matrix[1]);
@@ -161,7 +162,7 @@ PeerSkin::PeerSkin(const osgSkin::MeshPart& part, std::vector<glm::dvec3> rest,
       _geometry(new osg::Geometry(*part.geometry, osg::CopyOp::DEEP_COPY_ARRAYS)) {
     _geometry->setUseDisplayList(false);
     _geometry->setUseVertexBufferObjects(true);
-    // Written in place, so an update has to wait until it is drawn.
+    // Updates write the arrays in place, so they must wait for the draw to finish.
     _geometry->setDataVariance(osg::Object::DYNAMIC);
 }
 
@@ -185,8 +186,8 @@ namespace {
 
 constexpr char kUpperBone[] = "upper";
 
-/// Two bones, the upper one turning about the origin. The chain's two ends lie inside the skin, as
-/// a body's hips and wrists do: the end joint never turns, but shows how long the upper bone is.
+/// Two bones; the upper one rotates about the origin. Both ends of the chain lie inside the skin,
+/// like a body's hips and wrists. The end joint never rotates, but defines the upper bone's length.
 osgSkin::RestSkeleton twoBones() {
     constexpr double end = Cylinder::kHalfLength - 0.5;
     osgSkin::RestSkeleton bones;
@@ -196,7 +197,7 @@ osgSkin::RestSkeleton twoBones() {
     return bones;
 }
 
-/// Weights of the two bones that change over one radius to either side of the joint.
+/// Weights of the two bones, which change within one radius on both sides of the joint.
 compare::SkinWeights smoothWeights(const std::vector<glm::dvec3>& rest) {
     compare::SkinWeights weights;
     for (const glm::dvec3& position : rest) {
@@ -207,7 +208,8 @@ compare::SkinWeights smoothWeights(const std::vector<glm::dvec3>& rest) {
     return weights;
 }
 
-/// The part of the bone's update callback that an animation, or a key press here, turns it by.
+/// The stacked element of the bone's update callback that rotates it; an animation would change it,
+/// here a key press does.
 osg::ref_ptr<osgAnimation::StackedQuaternionElement> turnOf(osgAnimation::Skeleton& skeleton) {
     osgAnimation::BoneMapVisitor visitor;
     skeleton.accept(visitor);
@@ -216,7 +218,7 @@ osg::ref_ptr<osgAnimation::StackedQuaternionElement> turnOf(osgAnimation::Skelet
     for (const auto& element : update.getStackedTransforms())
         if (auto* turn = dynamic_cast<osgAnimation::StackedQuaternionElement*>(element.get()))
             return turn;
-    return nullptr; // never: makeSkeleton() gives every bone one
+    return nullptr; // never happens: makeSkeleton() adds one to every bone
 }
 
 } // namespace
@@ -242,7 +244,7 @@ Comparison::Comparison()
     const osgSkin::RestSkeleton bones = twoBones();
     _skeleton = osgSkin::makeSkeleton(bones);
     osgSkin::BindOptions
-        options; // the paper's model alone: a fold that is pressed flat loses volume
+        options; // the paper's model alone, because shapes flatten the fold and lose volume
     options.shapes = osgSkin::BindOptions::Shapes::None;
     const osgSkin::AttachedSkin attached =
         osgSkin::attachSkin(*_skeleton, _cylinder.mesh, {_cylinder.part},
@@ -256,7 +258,7 @@ Comparison::Comparison()
 void Comparison::setPose(const TwistPose& pose) {
     const glm::dquat rotation = pose.rotation();
     _turn->setQuaternion(osgSkin::toOsg(rotation));
-    // The joint is the origin, so its skinning matrix is the turn alone.
+    // The joint is at the origin, so its skinning matrix is a pure rotation.
     const std::vector<glm::dmat4> skinning{glm::dmat4(1.0), glm::mat4_cast(rotation)};
     _linear.setPose(skinning);
     _dualQuaternion.setPose(skinning);
@@ -305,8 +307,8 @@ Figures FigureMaker::measure(const std::vector<glm::dvec3>& posed, const TwistPo
 }
 
 double linearBlendJointArea(const TwistPose& pose) {
-    // (1 + R) / 2 turns by theta / 2 and shrinks by c = cos(theta / 2) perpendicular to R's axis.
-    // An area's normal goes by the cofactors: c across the axis, c^2 along it.
+    // (1 + R) / 2 rotates by theta / 2 and scales by c = cos(theta / 2) perpendicular to R's axis.
+    // Vector areas are transformed by the cofactors: c perpendicular to the axis, c^2 along it.
     const glm::dquat q = pose.rotation();
     const double c = std::abs(q.w);
     const double sine = glm::length(glm::dvec3(q.x, q.y, q.z));
@@ -316,7 +318,7 @@ double linearBlendJointArea(const TwistPose& pose) {
 
 namespace {
 
-// The overlay's own units: pixels of a window of the size that the program opens.
+// Units of the overlay: pixels at the initial size of the window.
 constexpr double kWidth = 1280.0;
 constexpr double kHeight = 640.0;
 
@@ -329,30 +331,30 @@ void paint(osg::Image& image, int column, int row, const osg::Vec3& colour) {
                            static_cast<unsigned int>(row * kTexels + y));
 }
 
-/// Text in OSG's built-in font, which is there without any font file.
+/// Text in OSG's built-in font, which needs no font file.
 osg::ref_ptr<osgText::Text> makeText(float size, osgText::Text::AlignmentType alignment) {
     osg::ref_ptr<osgText::Text> text = new osgText::Text;
     text->setCharacterSize(size);
     text->setAlignment(alignment);
     text->setColor(osg::Vec4(0.93f, 0.94f, 0.95f, 1.0f));
-    text->setDataVariance(osg::Object::DYNAMIC); // its figures change with every pose
+    text->setDataVariance(osg::Object::DYNAMIC); // its numbers change with every pose
     text->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
     return text;
 }
 
-/// Text in the scene that always faces the camera, hung from `position`.
+/// Text in the scene that always faces the camera, centred below `position`.
 osg::ref_ptr<osgText::Text> makeLabel(const osg::Vec3& position) {
     osg::ref_ptr<osgText::Text> label = makeText(0.37f, osgText::Text::CENTER_TOP);
     label->setAxisAlignment(osgText::Text::SCREEN);
     label->setPosition(position);
-    // It hangs below the floor: drawn last, over everything.
+    // The text extends below the floor, so it is drawn last, over everything.
     osg::StateSet& state = *label->getOrCreateStateSet();
     state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     state.setRenderBinDetails(10, "RenderBin");
     return label;
 }
 
-/// Text over the scene at the upper left corner; `lines` below it.
+/// Draws `title` at the upper left corner and `lines` below it, over the scene.
 osg::ref_ptr<osg::Camera> makeOverlay(osgText::Text* title, osgText::Text* lines) {
     osg::ref_ptr<osg::Camera> overlay = new osg::Camera;
     overlay->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
@@ -371,7 +373,7 @@ osg::ref_ptr<osg::Camera> makeOverlay(osgText::Text* title, osgText::Text* lines
     return overlay;
 }
 
-/// Chequers in white and `colour`, with one dark stripe along the limb that shows the twist.
+/// Chequers in white and `colour`, with one dark stripe along the limb to show the twist.
 osg::ref_ptr<osg::Texture2D> makeChequers(unsigned int around, const osg::Vec3& colour) {
     const osg::Vec3 white(0.93f, 0.92f, 0.89f);
     const int columns = static_cast<int>(around);
@@ -399,7 +401,7 @@ float placeOf(std::size_t copy) {
     return kSpacing * (static_cast<float>(copy) - 1.0f);
 }
 
-/// From the camera's side, so that what the sun leaves in its own shade still shows its chequers.
+/// A light from the camera's side, so that chequers in the shade are visible.
 osg::ref_ptr<osg::Node> makeFillLight() {
     osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
     osg::Light& light = *source->getLight();
@@ -482,10 +484,10 @@ void TwistScene::setHelp(const std::string& lines) {
 
 namespace {
 
-constexpr double kStep = 5.0; ///< degrees a key press
+constexpr double kStep = 5.0; ///< degrees per key press
 constexpr double kMaxBend = 150.0;
 constexpr double kMaxTwist = 330.0;
-constexpr double kSwing = 170.0;     ///< of the twist's animation: short of the half turn's jump
+constexpr double kSwing = 170.0;     ///< amplitude of the twist; it would jump at 180 degrees
 constexpr double kBendSeconds = 5.0; ///< there and back
 constexpr double kTwistSeconds = 7.0;
 
@@ -511,12 +513,12 @@ bool TwistKeys::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdap
     if (event.getEventType() == osgGA::GUIEventAdapter::FRAME) {
         if (_lastFrame >= 0.0) advance(event.getTime() - _lastFrame);
         _lastFrame = event.getTime();
-        return false; // others want to see the frame too
+        return false; // other handlers also need the event
     }
     if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN || !press(event.getKey()))
         return false;
     action.requestRedraw();
-    return true; // so that b, t and space do not also mean what they mean to OSG's own handlers
+    return true; // OSG's own handlers must not receive b, t and space
 }
 
 bool TwistKeys::press(int key) {

@@ -34,14 +34,14 @@ namespace twist {
 struct Cylinder {
     static constexpr double kHalfLength = 4.0;
     static constexpr std::uint32_t kSegments = 48; ///< around
-    static constexpr std::uint32_t kSteps = 64;    ///< along; even, so one ring lies at z = 0
-    static constexpr std::uint32_t kCapRings = 4;  ///< from the middle of a cap to its rim
+    static constexpr std::uint32_t kSteps = 64;    ///< along; even, so that a ring lies at z = 0
+    static constexpr std::uint32_t kCapRings = 4;  ///< from the centre of a cap to its rim
     static constexpr std::uint32_t kChequersAround = 16;
     static constexpr double kChequerLength = 0.4;
 
-    osgSkin::SkinMesh mesh;                        ///< quads; triangles in the middle of the caps
-    osgSkin::MeshPart part;                        ///< with normals, and texture coordinates 0..1
-                                                   ///< around and in pairs of chequers along
+    osgSkin::SkinMesh mesh;                        ///< quads; triangles at the cap centres
+    osgSkin::MeshPart part;                        ///< with normals, and texture coordinates: 0..1
+                                                   ///< around, pairs of chequers along
     std::vector<std::vector<std::uint32_t>> rings; ///< cross-sections of the side, z increasing
 
     Cylinder();
@@ -50,14 +50,17 @@ struct Cylinder {
     const std::vector<std::uint32_t>& jointRing() const { return rings[kSteps / 2]; }
 };
 
-/// A mesh part skinned by one of osgSkin's peers, deformed when its pose is set.
+/// A mesh part skinned by linear blending or dual quaternions. Setting the pose deforms it.
 class PeerSkin {
 public:
     /// One matrix per vertex of the mesh (see Blending.h).
     using Blend = std::function<std::vector<glm::dmat4>(const compare::SkinWeights&,
                                                         const std::vector<glm::dmat4>&)>;
 
-    /// \param weights of the mesh's vertices, not of the part's copies of them
+    /// \param part drawn geometry
+    /// \param rest positions of the mesh's vertices
+    /// \param weights one per vertex of the mesh, not of the part
+    /// \param blend the skinning method
     PeerSkin(const osgSkin::MeshPart& part, std::vector<glm::dvec3> rest,
              compare::SkinWeights weights, Blend blend);
 
@@ -77,7 +80,7 @@ private:
     osg::ref_ptr<osg::Geometry> _geometry;
 };
 
-/// How the upper half of the cylinder is turned against the lower one; degrees.
+/// Rotation of the upper half of the cylinder relative to the lower half, in degrees.
 struct TwistPose {
     double bend = 0.0;  ///< about y: the upper half leans towards +x
     double twist = 0.0; ///< about the bone
@@ -93,19 +96,19 @@ enum class Method { Ours, Linear, DualQuaternion };
 constexpr std::array<Method, 3> kMethods{Method::Ours, Method::Linear, Method::DualQuaternion};
 const char* nameOf(Method method);
 
-/// One cylinder over two bones, skinned in three ways.
+/// A cylinder over two bones, skinned by three methods.
 ///
-/// Ours is bound with osgSkin's defaults. The peers get
-/// smooth weights (paper, eq. 5) over one radius to either side of the joint.
+/// osgSkin's copy is bound without shapes. The others have smooth weights (paper, eq. 5) over one
+/// radius on both sides of the joint.
 class Comparison {
 public:
     Comparison();
 
-    /// Poses all three. Ours follows its skeleton, so it is drawn so after the next update
-    /// traversal.
+    /// Poses all three copies. osgSkin's copy follows its skeleton, so its drawing changes with the
+    /// next update traversal.
     void setPose(const TwistPose& pose);
 
-    /// What to draw: a skeleton with its skin, or a geometry.
+    /// The node to draw: a skeleton with its skin, or a geometry.
     osg::Node* node(Method method) const;
 
     /// The cylinder's vertices in the current pose, in the order of cylinder().mesh.
@@ -118,18 +121,18 @@ private:
     osg::ref_ptr<osgAnimation::Skeleton> _skeleton;
     osg::ref_ptr<osgAnimation::StackedQuaternionElement> _turn; ///< of the upper bone
     osg::ref_ptr<osgSkin::DeformableSkin> _skin;
-    std::vector<std::uint32_t> _skinSource; ///< the mesh's vertex for each of the skin's
+    std::vector<std::uint32_t> _skinSource; ///< the mesh's vertex for each vertex of the skin
     osg::ref_ptr<osgUtil::UpdateVisitor> _update;
     PeerSkin _linear;
     PeerSkin _dualQuaternion;
 };
 
-/// What a pose does to the cylinder, each against the rest pose.
+/// Measurements of a posed cylinder relative to the rest pose.
 struct Figures {
     double volume = 1.0;    ///< V'/V
     double leastArea = 1.0; ///< smallest A'/A of the cross-sections along the limb
-    double jointArea = 1.0; ///< A'/A at the joint, where the peers' weights are a half each
-    double bulge = 1.0;     ///< largest distance to the posed bones over that to the rest bones
+    double jointArea = 1.0; ///< A'/A at the joint, where both weights of the other methods are 0.5
+    double bulge = 1.0;     ///< largest distance to the bones, posed divided by rest
     compare::EdgeStrain strain;
 };
 
@@ -138,25 +141,26 @@ class FigureMaker {
 public:
     explicit FigureMaker(const Cylinder& cylinder);
 
-    /// \param posed the cylinder's vertices under `pose`
+    /// \param posed the cylinder's vertices in `pose`
+    /// \param pose the pose
     Figures measure(const std::vector<glm::dvec3>& posed, const TwistPose& pose) const;
 
 private:
     const Cylinder& _cylinder;
     std::vector<std::uint32_t> _triangles;
     std::vector<compare::Edge> _edges;
-    std::vector<std::uint32_t> _side; ///< every vertex of a ring
+    std::vector<std::uint32_t> _side; ///< the vertices of all rings
 };
 
-/// What linear blending leaves of a cross-section at half weight under `pose`, in closed form:
-/// cos^2(theta / 2) for a twist by theta, cos(theta / 2) for a bend.
+/// A'/A of a cross-section at half weight with linear blending, in closed form: cos^2(theta / 2)
+/// for a twist by theta, cos(theta / 2) for a bend.
 double linearBlendJointArea(const TwistPose& pose);
 
-/// Where the camera stands; sees all three copies in every pose. For pictures twice as wide as
-/// high.
+/// A view that shows all three copies in every pose, for pictures twice as wide as high.
 example::View sceneView();
 
-/// The three copies side by side on a floor, each with its name and figures, and the angles on top.
+/// The three copies side by side on a floor, with their names and measurements, and the angles
+/// above.
 class TwistScene {
 public:
     TwistScene();
@@ -164,13 +168,13 @@ public:
     osg::Group* root() const { return _root.get(); }
 
     const TwistPose& pose() const { return _pose; }
-    /// Also measures every copy anew.
+    /// Poses all copies and measures them.
     void setPose(const TwistPose& pose);
 
-    /// Shows or hides a copy: 0, 1 or 2, from the left.
+    /// Shows or hides a copy; 0 is the left one.
     void toggle(std::size_t copy);
 
-    /// Lines of text below the angles; empty for none.
+    /// Sets the lines of text below the angles; may be empty.
     void setHelp(const std::string& lines);
 
 private:
@@ -186,7 +190,7 @@ private:
     osg::ref_ptr<osgText::Text> _help;
 };
 
-/// The keyboard of the interactive window, and the clock of its animations.
+/// Handles the keys of the interactive window, and runs its animations.
 class TwistKeys : public osgGA::GUIEventHandler {
 public:
     /// \param scene must outlive the handler
@@ -204,7 +208,7 @@ private:
     bool _twisting = false;
     bool _paused = false;
     bool _help = false;
-    double _bendTime = 0.0; ///< seconds into the animations
+    double _bendTime = 0.0; ///< seconds since the animation's start
     double _twistTime = 0.0;
     double _lastFrame = -1.0;
 };

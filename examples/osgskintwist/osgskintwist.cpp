@@ -35,8 +35,8 @@ std::string row(const TwistPose& pose, Method method, const Figures& figures) {
     return line;
 }
 
-/// Prints the three methods' figures over a set of poses as a table, and how near linear blending
-/// comes to its closed form at the joint.
+/// Prints a table of the three methods' measurements over a set of poses, and the deviation of
+/// linear blending from its closed form at the joint.
 void printReport(std::ostream& out) {
     Comparison comparison;
     const FigureMaker maker(comparison.cylinder());
@@ -96,11 +96,11 @@ void takePictures(twist::TwistScene& scene, const std::string& folder) {
 int show(twist::TwistScene& scene) {
     const example::View view = twist::sceneView();
     osgViewer::Viewer viewer;
-    // The copies are measured between frames, when no thread may still be drawing them.
+    // The copies are measured between frames, when no thread may be drawing them.
     viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
     viewer.setUpViewInWindow(60, 60, kWidth, kHeight);
     viewer.setSceneData(scene.root());
-    viewer.addEventHandler(new twist::TwistKeys(scene)); // before those that know b, t and space
+    viewer.addEventHandler(new twist::TwistKeys(scene)); // before handlers that use b, t or space
     viewer.addEventHandler(new osgViewer::StatsHandler);
     viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getStateSet()));
     osg::Camera& camera = *viewer.getCamera();
@@ -147,7 +147,7 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     if (!std::isfinite(arguments.pose.bend) ||
-        !std::isfinite(arguments.pose.twist)) { // passes for being in any range
+        !std::isfinite(arguments.pose.twist)) { // CLI::Range accepts NaN
         std::cerr << "osgskintwist: --bend and --twist: expected finite numbers" << std::endl;
         return 2;
     }

@@ -22,7 +22,7 @@ namespace viewer {
 
 namespace {
 
-/// Finds the skins of a scene and what plays it.
+/// Finds the skins and the animation manager of a scene.
 class Finder : public osg::NodeVisitor {
 public:
     explicit Finder(Figure& figure) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _figure(figure) {}
@@ -46,7 +46,7 @@ private:
     Figure& _figure;
 };
 
-/// Whether the file says what its body is made of; other files are scenes.
+/// True if the file describes a body; other files are scenes.
 bool hasBody(const std::string& file) {
     const bool isSkin = osgDB::getLowerCaseFileExtension(file) == "skin";
     if (isSkin && osgDB::fileExists(file)) return true;
@@ -76,7 +76,7 @@ Figure::Figure(const std::string& file, const std::string& weights,
     Finder finder(*this);
     root->accept(finder);
     if (!skins.empty()) return;
-    // A scene of rigs, which a load makes skins of.
+    // Loading as a character converts the rigs of a scene to skins.
     manager = nullptr;
     managed = nullptr;
     root = loadScene(file);
@@ -97,7 +97,7 @@ struct Corners {
     }
 };
 
-/// Around the triangles of skins and of what hangs from bones: bounds are too generous for that.
+/// The box of the triangles of skins and of objects attached to bones. Their bounds are too large.
 class FigureBox : public osg::NodeVisitor {
 public:
     FigureBox() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
@@ -135,7 +135,7 @@ PlayedExtent playedExtent(const Figure& figure, std::size_t motion) {
         const osg::BoundingBoxd box = boxAt(*figure.root, 0.0);
         return {box, box.zMin()};
     }
-    // Played by a manager of its own: the figure's has a time that is not to be touched.
+    // Plays with a separate manager, to keep the time of the figure's own.
     const osg::ref_ptr<osg::Callback> playing = figure.managed->getUpdateCallback();
     const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
         new osgAnimation::BasicAnimationManager;

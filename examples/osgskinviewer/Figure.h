@@ -18,23 +18,23 @@
 
 namespace viewer {
 
-/// What is shown: the scene of a file, and what is known of the body in it.
+/// The scene of a file, and its body if known.
 struct Figure {
     /// \param file a `.skin` file, a rigged model (with or without `.skin` after its name), or a
     ///        scene with skins in it (`.osgb`)
-    /// \param weights painted weights (JSON), empty for none
-    /// \param options of the load; a scene's skins are bound already, for it they do not count
+    /// \param weights file of painted weights (JSON); empty for none
+    /// \param options of the load; ignored for a scene, whose skins are already bound
     /// \throw std::exception with the file and the reason
     Figure(const std::string& file, const std::string& weights,
            const osgSkin::LoadOptions& options);
 
-    /// Empty where the file is a scene: its skins are bound and its mesh is gone.
+    /// Null if the file is a scene: its skins are bound, and the mesh is not stored.
     std::unique_ptr<figures::Body> body;
     osg::ref_ptr<osg::Group> root;
     std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins; ///< below `root`
 
-    osg::ref_ptr<osgAnimation::BasicAnimationManager> manager; ///< null where nothing moves
-    osg::ref_ptr<osg::Node> managed;                           ///< whose callback `manager` is
+    osg::ref_ptr<osgAnimation::BasicAnimationManager> manager; ///< null without animations
+    osg::ref_ptr<osg::Node> managed;                           ///< node with the callback `manager`
 
     std::size_t motionCount() const { return manager ? manager->getAnimationList().size() : 0; }
     osgAnimation::Animation& motion(std::size_t index) const {
@@ -42,18 +42,19 @@ struct Figure {
     }
 };
 
-/// Where a figure gets to while a motion plays: its skins and what its bones carry. Props have ways
-/// of their own, and count for nothing: a ball flies off. In the space of the figure's root.
+/// The extent of a figure while a motion plays, in the space of its root. It includes skins and
+/// objects attached to bones, but not props, such as a ball that flies away.
 struct PlayedExtent {
-    osg::BoundingBoxd box; ///< around its triangles in all samples
-    /// z of its floor: where its feet are when they stand. That is the lowest point in a tenth of
-    /// the samples: a jump does not lift the floor, and a foot that dips into it for a moment does
-    /// not lower it. At rest, the lowest point.
+    osg::BoundingBoxd box; ///< of the triangles in all samples
+    /// z of the floor: the 10th percentile of the lowest points of the samples. A jump does not
+    /// raise it, and a foot that briefly dips through the floor does not lower it. Without a
+    /// motion, the lowest point.
     double floor;
 };
 
-/// \param figure is left in some pose of the motion
-/// \param motion index of one of its motions; passed over where it has none
+/// Measures the extent of a figure.
+/// \param figure is left in an arbitrary pose of the motion
+/// \param motion index of the motion; ignored if the figure has none
 PlayedExtent playedExtent(const Figure& figure, std::size_t motion);
 
 } // namespace viewer

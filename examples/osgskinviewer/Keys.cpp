@@ -29,7 +29,7 @@ void changeSpeed(Clock& clock, double factor) {
         std::copysign(std::clamp(std::abs(clock.speed) * factor, 0.125, 8.0), clock.speed);
 }
 
-/// Whether a key shows what only a character with its mesh and binding has.
+/// True if a key needs a character with its mesh and binding.
 bool needsBody(int key) {
     return key > 0 && key < 128 && std::strchr("1234gbtjJn", key) != nullptr;
 }

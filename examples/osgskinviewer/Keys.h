@@ -7,13 +7,13 @@
 
 namespace viewer {
 
-/// What the keys do, a line each.
+/// A list of the keys, as lines of text.
 const char* keysHelp();
 
-/// Does what the key is for. False where it is for nothing.
+/// Handles a key. Returns false if the key has no function.
 bool press(Stage& stage, int key);
 
-/// Passes a window's keys on to press().
+/// Passes a window's keys to press().
 class Keys : public osgGA::GUIEventHandler {
 public:
     explicit Keys(Stage& stage) : _stage(stage) {}

@@ -74,7 +74,7 @@ const char* nameOf(Method method) {
                                       : "dual quaternions";
 }
 
-/// Keeps a node out of sight where another figure stands in for it; it is updated still.
+/// Hides a node that is replaced by another figure, but keeps updating it.
 class Hide : public osg::NodeCallback {
 public:
     explicit Hide(const bool& shown) : _shown(shown) {}
@@ -128,7 +128,7 @@ private:
     std::vector<osg::Vec3> _above;
 };
 
-/// The length of a figure, about: what its path takes is no part of it.
+/// The approximate size of a figure, not including its path.
 double sizeOf(const Figure& figure) {
     double result = 0.0;
     for (const auto& skin : figure.skins)
@@ -136,8 +136,8 @@ double sizeOf(const Figure& figure) {
     return result > 0.0 ? result : 1.0;
 }
 
-/// How far apart a floor's lines are: the power of ten next to half a figure's size, a metre for a
-/// person in any unit.
+/// Distance of the floor's lines: the power of ten closest to half the figure's size. For a person
+/// in any metric unit, that is a metre.
 float lineSpacing(double size) {
     return static_cast<float>(std::pow(10.0, std::round(std::log10(0.5 * size))));
 }
@@ -148,7 +148,7 @@ double millisecondsSince(Timer::time_point start) {
 
 } // namespace
 
-/// Runs after the character's own updates: it stands behind it in the scene.
+/// Runs after the character's own updates, because it follows the character in the scene.
 class Stage::Update : public osg::NodeCallback {
 public:
     explicit Update(Stage& stage) : _stage(stage) {}
@@ -199,7 +199,7 @@ Stage::Stage(const std::string& character, const std::string& weights,
     _help = help;
     overlay->addChild(help);
     _root->addChild(overlay);
-    // The joints lie inside the skin: they are drawn over it.
+    // The joints lie inside the skin, so they are drawn over it.
     _lines->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     _lines->getOrCreateStateSet()->setRenderBinDetails(5, "RenderBin");
     changeJoint(1);
@@ -211,7 +211,7 @@ void Stage::placeFloor() {
     _extent = playedExtent(_figure, _motion);
     const osg::Vec3d centre = _extent.box.center();
     const auto spacing = static_cast<double>(lineSpacing(sizeOf(_figure)));
-    // Moved along by whole squares: the origin stays where two lines cross.
+    // Moves by whole squares, so that two lines cross at the origin.
     _floor->setMatrix(osg::Matrix::translate(spacing * std::round(centre.x() / spacing),
                                              spacing * std::round(centre.y() / spacing),
                                              _extent.floor));
@@ -223,7 +223,7 @@ void Stage::setMotion(std::size_t index) {
     osgAnimation::BasicAnimationManager& manager = *_figure.manager;
     manager.stopAll();
     manager.playAnimation(&_figure.motion(_motion));
-    _start = _given; // it starts at the time of the manager's last update
+    _start = _given; // the manager starts it at the time of its last update
     const Clock before = clock;
     clock = Clock(_figure.motion(_motion).getDuration());
     clock.playing = before.playing;

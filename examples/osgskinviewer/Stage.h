@@ -24,13 +24,13 @@
 
 namespace viewer {
 
-/// Where a motion stands: plays, pauses, runs at any speed either way, begins again at its end.
+/// The time of a looping motion; can pause, and run at any speed forwards or backwards.
 class Clock {
 public:
     explicit Clock(double seconds = 0.0) : _length(seconds) {}
 
-    void advance(double seconds); ///< of real time
-    void seek(double seconds);    ///< to a place in the motion, wrapped into it
+    void advance(double seconds); ///< by real time
+    void seek(double seconds);    ///< wraps to the length of the motion
     double time() const { return _time; }
     double length() const { return _length; }
 
@@ -38,18 +38,18 @@ public:
     double speed = 1.0; ///< negative: backwards
 
 private:
-    double _length; ///< 0: nothing moves
+    double _length; ///< 0 without a motion
     double _time = 0.0;
 };
 
-/// Lets a character's skins show the normals of their surface, or those that turn with vertices.
+/// Switches a character's skins between surface normals and normals rotated with the vertices.
 class NormalsSwitch {
 public:
-    /// \param character whose skins' parts and binding are known; else it can't be switched
+    /// \param character needs its skins' parts and its binding; otherwise canSwitch() is false
     explicit NormalsSwitch(const osgSkin::Character& character);
 
     bool canSwitch() const { return !_skins.empty(); }
-    /// The skins come to their rest pose; the next update traversal poses them.
+    /// Resets the skins to the rest pose; the next update traversal poses them.
     void showTurned(bool turned);
 
 private:
@@ -63,13 +63,13 @@ private:
 
 enum class Colours { Own, Regions, Bend, Twist };
 
-/// What a person may turn on and off.
+/// Settings that the user can change.
 struct Settings {
     figures::Method method = figures::Method::Ours;
     Colours colours = Colours::Own;
-    std::size_t joint = 0;      ///< whose ratios are shown
+    std::size_t joint = 0;      ///< the joint for Bend and Twist
     bool tensed = false;        ///< all muscles
-    bool turnedNormals = false; ///< instead of the surface's
+    bool turnedNormals = false; ///< instead of surface normals
     bool skeleton = false;
     bool wireframe = false;
     bool bounds = false;
@@ -77,12 +77,12 @@ struct Settings {
     bool status = true;
 };
 
-/// The scene: a character as loaded, or in its place the same body deformed by a peer or coloured
-/// by what binding found; its skeleton, its bounds, the floor under its feet, and a line that says
-/// what is shown. One update traversal brings all of it to the simulation time that it is given.
+/// The scene: the loaded character, or the same body deformed by another method or coloured by its
+/// binding. Also skeleton, bounds, floor and status line. An update traversal sets all of it to the
+/// given simulation time.
 class Stage {
 public:
-    /// \throw std::exception where a file cannot be used
+    /// \throw std::exception if a file cannot be used
     Stage(const std::string& character, const std::string& weights,
           const osgSkin::LoadOptions& options, int width, int height);
 
@@ -90,31 +90,31 @@ public:
     Clock clock;
 
     osg::Group* root() const { return _root.get(); }
-    example::View view() const; ///< that shows the figure in all of the motion
+    example::View view() const; ///< shows the figure during the whole motion
 
     std::size_t motionCount() const { return _figure.motionCount(); }
     std::size_t motion() const { return _motion; }
     void setMotion(std::size_t index);
-    /// \throw std::runtime_error where there is none of that name
+    /// \throw std::runtime_error if there is no motion of that name
     void setMotion(const std::string& name);
-    /// \throw std::runtime_error where there is none of that name
+    /// \throw std::runtime_error if there is no joint of that name, or the file is a scene
     void setJoint(const std::string& name);
-    /// Whether regions, ratios and the peers can be shown: not of a scene whose skins were bound
-    /// before.
+    /// True if regions, ratios and other methods can be shown. False for a scene, whose skins are
+    /// already bound.
     bool hasBody() const { return _figure.body != nullptr; }
-    /// Lets normals turn with their vertices instead of following the surface, where the character
-    /// has both.
+    /// Rotates normals with their vertices instead of using surface normals, if the character has
+    /// both.
     void turnNormals(bool on);
-    /// Tenses all muscles, or lets them go.
+    /// Tenses or relaxes all muscles.
     void tense(bool on);
-    /// Goes on to the next joint that skin follows in part, or to the one before.
+    /// Selects the next (+1) or previous (-1) joint that has partial ratios.
     void changeJoint(int step);
 
-    /// What the viewer's frame() is to be given, so that the motion is where the clock says.
+    /// The argument for the viewer's frame() at the clock's current time.
     double simulationTime() const { return _start + clock.time(); }
-    /// The status line, without the times that differ from run to run.
+    /// The status line without times, which differ between runs.
     std::string summary() const;
-    /// How long the last frame and its skin took, milliseconds.
+    /// The frame time and the time to deform the skin, in milliseconds, as text.
     std::string times() const;
 
 private:
@@ -129,19 +129,19 @@ private:
     std::string _file;
     Figure _figure;
     std::optional<osgSkin::BoneReader> _bones; ///< of the body
-    std::optional<NormalsSwitch> _normals;     ///< of the body, once it was asked for
+    std::optional<NormalsSwitch> _normals;     ///< created on first use
     std::size_t _motion = 0;
-    double _start = 0.0;       ///< simulation time of the motion's beginning
-    double _given = 0.0;       ///< the last simulation time that was given
-    bool _productShown = true; ///< and not the body in its place
-    double _skinTime = 0.0;    ///< milliseconds that this frame's skin took
-    double _frameTime = 0.0;   ///< milliseconds from frame to frame, a mean of late
+    double _start = 0.0;       ///< simulation time of the motion's start
+    double _given = 0.0;       ///< simulation time of the last update
+    bool _productShown = true; ///< the character itself, not a substitute
+    double _skinTime = 0.0;    ///< milliseconds to deform the skin in this frame
+    double _frameTime = 0.0;   ///< milliseconds per frame, a running mean
     std::chrono::steady_clock::time_point _lastFrame;
 
     osg::ref_ptr<osg::Group> _root, _study, _lines, _boxes;
     osg::ref_ptr<osg::MatrixTransform> _floor;
-    PlayedExtent _extent;               ///< of the motion that is shown
-    double _aspect;                     ///< the picture's width to its height
+    PlayedExtent _extent;               ///< of the current motion
+    double _aspect;                     ///< width / height of the picture
     osg::ref_ptr<osg::StateSet> _state; ///< of the figure
     osg::ref_ptr<osg::Node> _help;
     osg::ref_ptr<osgText::Text> _status;

@@ -45,7 +45,7 @@ int show(viewer::Stage& stage, const Size& size) {
     return 0;
 }
 
-/// A picture of the start, then one after each of `keys`, with what each shows on stdout.
+/// Takes a picture of the start, then one after each of `keys`, and prints a summary of each.
 void takePictures(viewer::Stage& stage, const std::string& keys, const std::string& folder,
                   const Size& size, bool times) {
     example::Snapshots snapshots(stage.root(), stage.view(), size.width, size.height);
@@ -62,7 +62,7 @@ void takePictures(viewer::Stage& stage, const std::string& keys, const std::stri
     }
 }
 
-constexpr double kLatest = 1e6; ///< seconds; where frames can still be told apart
+constexpr double kLatest = 1e6; ///< seconds; frames are still distinct at this time
 
 } // namespace
 
@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    if (!(std::abs(at) <= kLatest)) { // not a number passes for being in any range
+    if (!(std::abs(at) <= kLatest)) { // also rejects NaN
         std::cerr << "osgskinviewer: --at: expected at most a million seconds" << std::endl;
         return 2;
     }

@@ -5,24 +5,24 @@
 
 namespace plugin {
 
-/// One of our libraries as a plug-in was compiled with it and as the process has it.
+/// The build of a kit that a plug-in was compiled with, and the one loaded in the process.
 struct KitBuild {
-    const char* kit;         ///< its name
-    const char* compiled;    ///< the build of its headers, like "0.2.0 (1a2b3c4d)"
-    const char* (*loaded)(); ///< gives that of the library; null: it is too old to tell
+    const char* kit;         ///< name of the kit
+    const char* compiled;    ///< the build of the headers, for example "0.2.0 (1a2b3c4d)"
+    const char* (*loaded)(); ///< returns the build of the library; null if it is too old
 };
 
-/// Whether a plug-in may use the libraries that it meets: where a build folder or an installation
-/// holds leftovers of another version, classes are laid out differently and calls crash.
+/// Checks that a plug-in can use the loaded libraries. If a build folder or an installation
+/// contains libraries of another version, class layouts differ and calls crash.
 ///
-/// \param plugin its name, for the warning
-/// \param kits that it links
-/// \return false, after one OSG_WARN that names both builds, where one is of another build
+/// \param plugin name of the plug-in, for the warning
+/// \param kits the kits that it links
+/// \return false if a kit is of another build, after one OSG_WARN with both builds
 bool mayUse(const char* plugin, std::initializer_list<KitBuild> kits);
 
 } // namespace plugin
 
-/// The entry for a kit whose generated header (osgSkinBuild.h) is included.
+/// The KitBuild of a kit. Needs the kit's generated header, for example osgSkinBuild.h.
 #define OSGSKIN_KIT_BUILD(KIT)                                                                     \
     plugin::KitBuild {                                                                             \
 #KIT, k##KIT##Build, KIT##_build                                                           \

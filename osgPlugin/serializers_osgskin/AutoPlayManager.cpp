@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A callback's bases are virtual: the wrapper's default cast does not compile for it.
+// Callbacks have virtual bases, for which the wrapper's default cast does not compile.
 #undef OBJECT_CAST
 #define OBJECT_CAST dynamic_cast
 

@@ -15,7 +15,7 @@
 namespace {
 
 bool fail(osgDB::InputStream& is, const osgSkin::DeformableSkin& skin, const std::string& what) {
-    // Refuses the whole file; osgDB prints the reason. What went wrong first is the cause.
+    // The exception rejects the whole file, and osgDB prints the reason. Keep the first one.
     if (!is.getException())
         is.throwException("osgSkin: skin \"" + skin.getName() + "\" has " + what);
     return false;
@@ -25,11 +25,11 @@ bool checkSkin(const osgSkin::DeformableSkin& skin) {
     return skin.getModel() != nullptr;
 }
 
-/// From then on OSG's nodes write what its drawables wrote before.
+/// From this file version on, osg::Node writes properties that osg::Drawable wrote before.
 constexpr int kNodesWriteCallbacks = 156;
 
 bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
-    // OSG writes today's version into text, whatever it writes behind it.
+    // OSG marks text files with its current version, even if their contents have an older one.
     if (!os.isBinary() && os.getFileVersion() < kNodesWriteCallbacks)
         os.throwException("skin \"" + skin.getName() + "\": text for version " +
                           std::to_string(os.getFileVersion()) +
@@ -50,7 +50,7 @@ bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     if (is.getException()) return false;
     if (!rest) return fail(is, skin, "no rest geometry");
     if (!model) return fail(is, skin, "no skin model");
-    // osg::Node's part of the file has it already, and it need not be the geometry's.
+    // The state set was read with osg::Node's properties, and may differ from the geometry's.
     const osg::ref_ptr<osg::StateSet> stateSet = skin.getStateSet();
     try {
         skin.setSkin(rest, model);
@@ -86,13 +86,13 @@ bool checkPose(const osgSkin::DeformableSkin& skin) {
     return skin.getModel() != nullptr;
 }
 
-/// Skinning matrices: what is seen before the first update moves the bones.
+/// Writes the skinning matrices: the pose shown before the first update traversal.
 bool writePose(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
     const std::vector<glm::dmat4> skinning = skin.getPose().skinning();
     os.writeSize(static_cast<unsigned int>(skinning.size()));
     os << os.BEGIN_BRACKET << std::endl;
     for (const glm::dmat4& matrix : skinning) {
-        // Number by number: brackets around a matrix in a list are more than .osgx can nest.
+        // As single numbers, because .osgx cannot nest a matrix's brackets in a list.
         for (int i = 0; i < 16; ++i) os << glm::value_ptr(matrix)[i];
         os << std::endl;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For programs that link the wrappers statically: USE_SERIALIZER_WRAPPER_LIBRARY(osgSkin).
+// For programs that link the wrappers statically, by USE_SERIALIZER_WRAPPER_LIBRARY(osgSkin).
 #include <osgDB/Registry>
 
 USE_SERIALIZER_WRAPPER(osgSkin_AutoPlayManager)

@@ -6,13 +6,13 @@
 #include <memory>
 #include <string>
 
-/// Registers a wrapper, unless the runtime that is loaded is of another build: then nothing is
-/// registered, and the first call has warned. Lives as long as the result.
+/// Registers a wrapper for the lifetime of the result. Registers nothing if the loaded runtime is
+/// of another build; the first call then warns.
 std::unique_ptr<osgDB::RegisterWrapperProxy>
 registerWrapper(osgDB::ObjectWrapper::CreateInstanceFunc* create, const std::string& name,
                 const std::string& bases, osgDB::RegisterWrapperProxy::AddPropFunc add);
 
-/// osgDB's REGISTER_OBJECT_WRAPPER, by registerWrapper().
+/// Like osgDB's REGISTER_OBJECT_WRAPPER, but uses registerWrapper().
 #define REGISTER_OSGSKIN_WRAPPER(NAME, CREATE, CLASS, BASES)                                       \
     extern "C" void wrapper_serializer_##NAME(void) {}                                             \
     namespace {                                                                                    \

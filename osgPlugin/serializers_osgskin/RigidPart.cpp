@@ -6,7 +6,7 @@
 #include <osgDB/InputStream>
 #include <osgDB/OutputStream>
 
-// Its matrix and children are osg::MatrixTransform's.
+// osg::MatrixTransform saves the matrix and the children.
 REGISTER_OSGSKIN_WRAPPER(osgSkin_RigidPart, new osgSkin::RigidPart, osgSkin::RigidPart,
                          "osg::Object osg::Node osg::Group osg::Transform osg::MatrixTransform "
                          "osgSkin::RigidPart") {}

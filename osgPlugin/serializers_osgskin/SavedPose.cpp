@@ -9,8 +9,8 @@
 
 namespace {
 
-constexpr double kLargestScale = 1e9;   ///< its inverse is the smallest, as in Pose::set()
-constexpr double kLargestNumber = 1e18; ///< its square is a float still
+constexpr double kLargestScale = 1e9;   ///< the smallest is its inverse, like in Pose::set()
+constexpr double kLargestNumber = 1e18; ///< its square still fits a float
 
 } // namespace
 

@@ -5,6 +5,6 @@
 
 #include <string>
 
-/// Why a file's skinning matrix cannot be a joint's, or would put vertices where single precision
-/// has no numbers. Empty: it can.
+/// Describes why a skinning matrix from a file is invalid for a joint, or would move vertices out
+/// of the range of single precision. Empty if the matrix is valid.
 std::string whatIsWrongWith(const glm::dmat4& skinning);

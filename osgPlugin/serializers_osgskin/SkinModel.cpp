@@ -12,8 +12,8 @@
 
 namespace {
 
-// Words come in rows of at most this many, each after its length; a row of none ends the block. A
-// length for the whole would be one that a bad file could make us believe.
+// Maximum number of words in a row. Each row starts with its length; an empty row ends the block.
+// There is no total length, because a damaged file could make us allocate any amount of memory.
 constexpr unsigned int kRow = 16;
 
 bool checkModel(const osgSkin::SkinModel& model) {
@@ -61,7 +61,7 @@ bool readModel(osgDB::InputStream& is, osgSkin::SkinModel& model) {
     try {
         osgSkin::unpackSkinModel(words, model);
     } catch (const std::exception& error) {
-        // Refuses the whole file; osgDB prints the reason.
+        // The exception rejects the whole file, and osgDB prints the reason.
         is.throwException(std::string("osgSkin: ") + error.what());
         return false;
     }
@@ -76,7 +76,7 @@ REGISTER_OSGSKIN_WRAPPER(osgSkin_SkinModel, new osgSkin::SkinModel, osgSkin::Ski
 }
 
 namespace osgSkin {
-/// What files called the class until it became an osg::Object itself; read, never written.
+/// Former name of the class in files, before it became an osg::Object; only read, never written.
 using SharedSkinModel = SkinModel;
 } // namespace osgSkin
 

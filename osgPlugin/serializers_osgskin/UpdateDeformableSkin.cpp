@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A callback's bases are virtual: the wrapper's default cast does not compile for it.
+// Callbacks have virtual bases, for which the wrapper's default cast does not compile.
 #undef OBJECT_CAST
 #define OBJECT_CAST dynamic_cast
 
@@ -12,8 +12,8 @@
 
 namespace {
 
-/// Text files leave out what is false, which was the default of the class when the first of them
-/// were written. It is true now, so reading sets the value of a file that leaves it out.
+/// Text files omit the value false, which used to be the default of the class. The default is now
+/// true, so reading sets false if a file omits the value.
 class UnwrapTwistSerializer
     : public osgDB::PropByValSerializer<osgSkin::UpdateDeformableSkin, bool> {
 public:
@@ -29,7 +29,7 @@ public:
 
 } // namespace
 
-// The bones are found again by their names.
+// The bones are not saved: they are found by name.
 REGISTER_OSGSKIN_WRAPPER(osgSkin_UpdateDeformableSkin, new osgSkin::UpdateDeformableSkin,
                          osgSkin::UpdateDeformableSkin,
                          "osg::Object osg::Callback osgSkin::UpdateDeformableSkin") {

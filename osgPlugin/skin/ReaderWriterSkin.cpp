@@ -24,11 +24,11 @@
 
 namespace {
 
-/// Shorter loads say nothing, and longer ones a line so often.
+/// Interval between progress lines. Shorter loads print none.
 constexpr std::chrono::seconds kBetweenLines(3);
 
-/// Progress as OSG's notices, for hosts without any of their own, such as osgconv: elastic shapes
-/// take a while.
+/// Logs progress as OSG notices, for hosts such as osgconv that set no progress callback: elastic
+/// shapes take a while.
 osgSkin::Progress noticesOf(const std::string& file) {
     using Clock = std::chrono::steady_clock;
     const std::string name = osgDB::getSimpleFileName(file);
@@ -43,7 +43,7 @@ osgSkin::Progress noticesOf(const std::string& file) {
 } // namespace
 
 /// Reads `.skin` files: a body, its skeleton and its motions, bound and playing. As a pseudo-loader
-/// it re-skins any rigged model: `model.glb.skin`. All of it is osgSkin::loadCharacter().
+/// (`model.glb.skin`), re-skins any rigged model. Both call osgSkin::loadCharacter().
 class ReaderWriterSkin : public osgDB::ReaderWriter {
 public:
     ReaderWriterSkin() {
@@ -76,7 +76,7 @@ public:
     }
 };
 
-// As REGISTER_OSGPLUGIN, but only beside the libraries that it was built with.
+// Like REGISTER_OSGPLUGIN, but only with the libraries that the plug-in was built with.
 extern "C" void osgdb_skin(void) {}
 static const auto g_proxy =
     plugin::mayUse("osgdb_skin",
