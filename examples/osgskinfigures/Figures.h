@@ -13,8 +13,6 @@ class Body;
 /// The paper's Fig. 3 with its caption: ratios along a limb.
 Tile ratioFigure(const Body& body);
 
-class Body;
-
 /// A pose of one joint, deformed by each method.
 struct Comparison {
     const char* name;
@@ -22,21 +20,18 @@ struct Comparison {
     /// the elastic body (if given).
     std::vector<Tile> tiles;
 };
+
 /// Compares the methods at shoulder, elbow, wrist, hip and knee.
 /// \param body the body
 /// \param painted true if the weights for the other methods are painted
 /// \param elastic the same body with elastic shapes; may be null
 std::vector<Comparison> comparisons(const Body& body, bool painted, const Body* elastic);
 
-class Body;
-
 /// The paper's Fig. 1 with its caption: the regions of the skin.
 Tile regionFigure(const Body& body);
 
 /// The paper's Fig. 2 with its caption: a rotation split into bend and twist.
 Tile splitFigure();
-
-class Body;
 
 /// The paper's Fig. 4 with its caption: the thrower.
 Tile throwFigure(Body& body);

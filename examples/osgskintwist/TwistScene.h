@@ -8,7 +8,6 @@
 #include <osgSkinRig/MeshPart>
 #include <osgSkinRig/SkinMesh>
 
-#include <Blending.h>
 #include <Snapshots.h>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
