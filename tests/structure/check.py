@@ -6,6 +6,7 @@ Prints each breach as PATH: what is wrong, and exits with 1 if there is any. roo
 own format; the other rules:
   - at most 1000 lines in any source, an SPDX line in all;
   - \\param, \\return and \\throw begin a line of their comment;
+  - a source includes the public header of its name first;
   - an internal header of a kit has two users or a test; with one user it belongs in that user's file
     (except for Highway's -inl.h parts of a kernel);
   - links and backquoted paths in Markdown exist; if a line of nodekits/README.md names a function(),
@@ -158,6 +159,16 @@ def check_includes(house):
     return arrows
 
 
+def check_own_headers(house):
+    """A source includes the public header of its name first, so that the header compiles alone."""
+    for path in house.files("nodekits"):
+        kit = path.relative_to(house.root / "nodekits").parts[0]
+        own = f"{kit}/{path.stem}"
+        if path.suffix == ".cpp" and (house.root / "nodekits" / kit / "include" / own).is_file():
+            if includes(path)[:1] != [f"<{own}>"]:
+                house.breach(path, f"does not include <{own}> first")
+
+
 def check_users(house):
     """Checks that an internal header has two users, or a test."""
     users = collections.defaultdict(set)  # header -> files that include it, except its own source
@@ -238,6 +249,7 @@ def main():
     house = House(root.resolve())
     check_sizes(house)
     arrows = check_includes(house)
+    check_own_headers(house)
     check_users(house)
     check_pages(house)
     check_example(house)

@@ -44,6 +44,8 @@ BROKEN = [
      "nodekits/low/src/ground/Base.h: includes <low/Up>: an arrow upward, ground -> first"),
     ({"nodekits/low/src/ground/Low.cpp": MIT + '#include "first/Late.h"\n'},
      'nodekits/low/src/ground/Low.cpp: includes "first/Late.h": an arrow upward'),
+    ({"nodekits/low/src/first/Up.cpp": MIT + '#include "ground/Base.h"\n#include <low/Up>\n'},
+     "nodekits/low/src/first/Up.cpp: does not include <low/Up> first"),
     ({"nodekits/low/src/first/Later.cpp": MIT},
      "nodekits/low/src/first/Late.h: only nodekits/low/src/first/Down.cpp uses it"),
     ({"nodekits/low/src/first/Late.h": MIT + "#include <high/Thing>\n"},

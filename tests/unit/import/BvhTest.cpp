@@ -389,8 +389,10 @@ TEST(MotionErrors, DeepNestingIsRefusedAndDoesNotCrash) {
 
 TEST(MotionErrors, OtherFormatsFailWithTheFile) {
     const std::string path = testData("mesh/square.ply");
-    expectError([&] { osgSkin::importSkeleton(path); }, path + ": no skeleton");
-    expectError([&] { osgSkin::importMotion(path); }, path + ": no animation");
+    expectError([&] { osgSkin::importSkeleton(path); },
+                path + ": files of this format have no skeleton");
+    expectError([&] { osgSkin::importMotion(path); },
+                path + ": files of this format have no animation");
 }
 
 const glm::dvec3 kX(1, 0, 0);

@@ -12,7 +12,6 @@
 #include <hwy/cache_control.h>
 
 #include "deform/KernelCorrect-inl.h"
-#include "deform/KernelPasses-inl.h"
 #include "deform/KernelRotations-inl.h"
 #include "deform/KernelStore-inl.h"
 #include "deform/KernelSurface-inl.h"
@@ -350,27 +349,11 @@ void deformGroups(const KernelRun& run) {
     }
 }
 
-/// The same link by link.
-void deformGroupsByLinks(const KernelRun& run) {
-    KernelCall call;
-    startRun(run, call);
-    for (std::size_t i = 0; i < run.groupCount; ++i) {
-        startGroup(run, i, call);
-        if (!run.gradients || !startSlopes(run, i, call)) call.gradients = nullptr;
-        deformByLinks(call);
-    }
-}
-
 Kernel kernelFor(bool normals, bool tangents, bool surface) {
-#if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
-    (void)normals, (void)tangents, (void)surface; // the run tells
-    return deformGroupsByLinks;
-#else
     if (tangents) return surface ? deformGroups<true, true, true> : deformGroups<true, true, false>;
     if (normals)
         return surface ? deformGroups<true, false, true> : deformGroups<true, false, false>;
     return deformGroups<false, false, false>;
-#endif
 }
 
 } // namespace HWY_NAMESPACE

@@ -54,12 +54,6 @@ const json* sourceOf(const json& texture) {
     return nullptr;
 }
 
-/// Converts a linear colour to sRGB.
-float toSrgb(double linear) {
-    const auto value = static_cast<float>(linear);
-    return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
-}
-
 osg::Texture::WrapMode wrapOf(std::size_t mode) {
     constexpr std::size_t kClamp = 33071, kMirror = 33648;
     if (mode == kClamp) return osg::Texture::CLAMP_TO_EDGE;
@@ -223,10 +217,11 @@ private:
         GltfMaterial result;
         Material& look = result.source.look;
         result.source.isLinear = true;
-        look.diffuse = {toSrgb(base[0]), toSrgb(base[1]), toSrgb(base[2]),
+        look.diffuse = {toSrgb(float(base[0])), toSrgb(float(base[1])), toSrgb(float(base[2])),
                         static_cast<float>(base[3])};
         if (!glows && !emissive.empty())
-            look.emission = {toSrgb(emissive[0]), toSrgb(emissive[1]), toSrgb(emissive[2]), 1.0f};
+            look.emission = {toSrgb(float(emissive[0])), toSrgb(float(emissive[1])),
+                             toSrgb(float(emissive[2])), 1.0f};
         setRoughness(static_cast<float>(roughness), look);
         look.alpha = Material::Alpha::Opaque;
         if (from.contains("alphaMode")) {

@@ -16,6 +16,7 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace osgSkin {
@@ -108,6 +109,10 @@ osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::strin
 }
 
 } // namespace
+
+float toSrgb(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
 
 osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material) {
     osg::ref_ptr<osg::StateSet> result = new osg::StateSet;

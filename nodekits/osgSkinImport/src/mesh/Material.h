@@ -64,6 +64,9 @@ struct Material {
     bool vertexColours = false; ///< vertex colours replace `diffuse`
 };
 
+/// A component of a linear colour in sRGB.
+float toSrgb(float linear);
+
 /// Makes a state set with an osg::Material, the texture on unit 0, and blending or an alpha test if
 /// it is transparent. Back faces are culled if the material is single-sided.
 osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material);

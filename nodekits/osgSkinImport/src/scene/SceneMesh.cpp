@@ -23,15 +23,10 @@ namespace {
 
 // --- materials ---
 
-/// Converts a linear colour to sRGB; alpha is unchanged.
+/// A linear colour in sRGB; alpha is kept.
 glm::vec4 toSrgb(const glm::vec4& linear) {
-    glm::vec4 result = linear;
-    for (int k = 0; k < 3; ++k) {
-        const float value = linear[k];
-        result[k] =
-            value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
-    }
-    return result;
+    return {osgSkin::toSrgb(linear.x), osgSkin::toSrgb(linear.y), osgSkin::toSrgb(linear.z),
+            linear.w};
 }
 
 /// An image embedded in the file; null if it cannot be decoded.
