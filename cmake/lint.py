@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""lint.py BUILD [FILE...]: runs clang-tidy on the kits, plug-ins and examples, or on FILEs.
+"""lint.py BUILD [FILE...]: runs clang-tidy on the kits and plug-ins, or on FILEs.
 
 clang-tidy spends most of its time in headers, so the sources of a folder are checked as one unit.
-Sources that use Highway are checked separately, because they include themselves, and so are the
-sources of a folder that do not compile together.
+Sources that use Highway are checked separately, because they include themselves, and so are
+sources whose names clash with others of their folder.
 """
 import collections
 import concurrent.futures
@@ -17,7 +17,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).parents[1].resolve()
-FOLDERS = ("nodekits", "osgPlugin", "examples")
+FOLDERS = ("nodekits", "osgPlugin")
 # Clang does not know all of GCC's warning options; OSG's macros have unused parameters.
 FLAGS = ["-Wno-unknown-warning-option", "-Wno-unused-parameter", "-Wdocumentation", "-Wreserved-identifier"]
 
@@ -44,8 +44,12 @@ def tidy(folder, flags, sources):
     done = subprocess.run(["clang-tidy", "-p", str(folder), "--quiet", "--checks=-bugprone-suspicious-include",
                            str(unit)], capture_output=True, text=True)
     if done.returncode and len(sources) > 1 and re.search(r"\[clang-diagnostic-(error|shadow)\]", done.stdout):
-        print("by themselves: " + " ".join(pathlib.Path(source).name for source in sources), flush=True)
-        return "".join(tidy(folder / pathlib.Path(source).stem, flags, [source]) for source in sources)
+        clash = r":\d+:\d+: error: .*\[clang-diagnostic-(error|shadow)\]"
+        blamed = [source for source in sources if re.search(re.escape(source) + clash, done.stdout)] or sources
+        print("by themselves: " + " ".join(pathlib.Path(source).name for source in blamed), flush=True)
+        found = [tidy(folder / pathlib.Path(source).stem, flags, [source]) for source in blamed]
+        rest = [source for source in sources if source not in blamed]
+        return "".join(found) + (tidy(folder, flags, rest) if rest else "")
     return (done.stdout or done.stderr) if done.returncode else ""
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# lint.sh BUILD [FILE...]: checks the formatting, and runs clang-tidy on the kits, plug-ins and
-# examples, or on FILEs.
+# lint.sh BUILD [FILE...]: checks the formatting, and runs clang-tidy on the kits and plug-ins, or
+# on FILEs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=${1:?expected a build folder with compile_commands.json}

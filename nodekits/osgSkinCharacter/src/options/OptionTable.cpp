@@ -308,6 +308,7 @@ const std::vector<std::pair<const char*, const char*>>& optionWords() {
     }();
     static const std::vector<std::pair<const char*, const char*>> words = [] {
         std::vector<std::pair<const char*, const char*>> made;
+        made.reserve(texts.size());
         for (const auto& [word, meaning] : texts) made.emplace_back(word.c_str(), meaning.c_str());
         return made;
     }();

@@ -45,7 +45,7 @@ void convert(const char* from, std::size_t bytes, std::size_t width, std::size_t
         for (std::size_t k = 0; k < width; ++k) {
             Number value;
             std::memcpy(&value, from + k * sizeof value, sizeof value);
-            *to++ = static_cast<Result>(value);
+            *to++ = static_cast<Result>(+value);
         }
 }
 

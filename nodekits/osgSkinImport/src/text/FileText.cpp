@@ -99,7 +99,7 @@ std::string osgSceneFormat(const std::string& path) {
     const bool isWrapped = isPseudoLoader(path); // its arguments precede it, and may contain dots
     std::string name = osgDB::getSimpleFileName(path);
     for (std::size_t dot = name.rfind('.'); dot != std::string::npos; dot = name.rfind('.')) {
-        const std::string extension = osgDB::convertToLowerCase(name.substr(dot + 1));
+        std::string extension = osgDB::convertToLowerCase(name.substr(dot + 1));
         if (isOsgScene(extension)) return extension;
         if (!isWrapped) break;
         name.resize(dot);

@@ -56,7 +56,9 @@ struct Fork {
 /// Finds the fork of two limbs by moving a plane from between them into the fork, until the plane's
 /// sections around both medial curves are one.
 ///
-/// \param a, b the limbs' medial curves
+/// \param surface the body's surface
+/// \param a the medial curve of one limb
+/// \param b that of the other
 /// \param outside a point between the limbs, away from the fork
 /// \param direction the plane's normal, unit, out of the fork
 /// \param reach how far to move, in heights
