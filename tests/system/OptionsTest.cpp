@@ -9,6 +9,7 @@
 #include <osgSkinCharacter/CharacterOption>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -83,8 +84,9 @@ TEST(Options, OfTheCallerGoBeforeTheFiles) {
 }
 
 TEST(Options, OfFilesAreOptionsOfPrograms) {
+    std::filesystem::create_directories(OSGSKIN_TEST_OUTPUT);
     for (const std::string program : {OSGSKIN_BAKE, OSGSKIN_VIEWER}) {
-        const std::string help = test::runCommand(program + " --help", ".").out;
+        const std::string help = test::runCommand(program + " --help", OSGSKIN_TEST_OUTPUT).out;
         for (const CharacterOption& option : osgSkin::characterOptions()) {
             // Programs have other meanings for these.
             if (option.word == "motion" || option.word == "formats") continue;
