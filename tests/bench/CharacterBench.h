@@ -11,7 +11,7 @@ namespace bench {
 /// One frame of a thousand characters on a number of threads; wall-clock time.
 void crowd(benchmark::State& state, unsigned int threads);
 
-/// What animates and skins a character.
+/// The ways to animate and skin a character.
 enum class Player {
     Baked,       ///< a ClipPlayer with a baked clip
     Between,     ///< the same between samples: an interpolating ClipPlayer

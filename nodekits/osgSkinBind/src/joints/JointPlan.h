@@ -18,7 +18,7 @@ namespace osgSkin {
 /// Joint centres closer than this fraction of the mesh's size are one point.
 constexpr double kCentreTolerance = 1e-6;
 
-/// What binding knows about a joint before it finds regions.
+/// A joint's role and bone, as binding plans them before it finds regions.
 struct PlannedJoint {
     glm::dvec3 centre{0.0};
     glm::dvec3 boneEnd{0.0};    ///< the child's centre or the tip; the centre if there is neither

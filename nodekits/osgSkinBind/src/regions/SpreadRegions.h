@@ -16,7 +16,7 @@ namespace osgSkin {
 void floodRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf);
 
 /// Labels each kNone vertex like the labelled vertex that is nearest along the edges of the mesh.
-/// What is added to a region is connected to it.
+/// Vertices are only added to a region that they are connected to.
 void spreadRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf);
 
 /// Joins each region's islands to the regions around them. Of a region's connected patches on one

@@ -37,7 +37,7 @@ struct FoldShape {
 /// How much a vertex belongs to the child's side of the joint, 0 to 1.
 double childShare(const FoldShape& fold, const glm::dvec3& rest);
 
-/// What is left of a bulge, in radii.
+/// The remaining bulge, in limb radii.
 constexpr double kBulgeLeft = 0.005;
 
 /// Distance along the bone, in radii, beyond which sections are restored wholly.

@@ -14,7 +14,7 @@ namespace osgSkin {
 
 enum class Side { None, Left, Right };
 
-/// What nearly all names of one skeleton have in common.
+/// The suffix and numbering that nearly all names of one skeleton share.
 struct NameHabits {
     std::string suffix;   ///< last word of nearly all names; empty: none
     bool counted = false; ///< nearly all names end with a number of their own ("Hips_01")
