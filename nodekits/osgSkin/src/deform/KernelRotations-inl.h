@@ -24,34 +24,6 @@ HWY_INLINE V constant(const float& x) {
     return hn::Set(D(), x);
 }
 
-/// A map with its numbers repeated in every lane, which instructions can read as operands: for
-/// processors with few registers.
-struct MapRows {
-    HWY_INLINE explicit MapRows(const KernelMap& map) {
-        const D d;
-        for (std::size_t row = 0; row < 3; ++row)
-            for (std::size_t column = 0; column < 4; ++column)
-                hn::Store(hn::Set(d, map.column[column][row]), d, rows[row][column]);
-    }
-    HWY_INLINE V turn(std::size_t row, std::size_t column) const {
-        return hn::Load(D(), rows[row][column]);
-    }
-    HWY_INLINE V move(std::size_t row) const { return hn::Load(D(), rows[row][3]); }
-
-    alignas(64) float rows[3][4][hn::MaxLanes(D())];
-};
-
-/// A map with its numbers broadcast when used.
-struct MapNumbers {
-    HWY_INLINE explicit MapNumbers(const KernelMap& from) : map(from) {}
-    HWY_INLINE V turn(std::size_t row, std::size_t column) const {
-        return constant(map.turn(row, column));
-    }
-    HWY_INLINE V move(std::size_t row) const { return constant(map.move(row)); }
-
-    const KernelMap& map;
-};
-
 /// c[0] + c[1] t + c[2] t^2 + ...
 template <std::size_t kTerms>
 HWY_INLINE V polynomial(V t, const float (&c)[kTerms]) {
@@ -119,14 +91,13 @@ HWY_INLINE void rotate2D(V sine, V cosine, V& a, V& b) {
     b = hn::MulAdd(sine, old, hn::Mul(cosine, b));
 }
 
-template <typename Map>
-HWY_INLINE V turnedRow(const Map& map, std::size_t row, V x, V y, V z) {
-    return hn::MulAdd(map.turn(row, 2), z,
-                      hn::MulAdd(map.turn(row, 1), y, hn::Mul(map.turn(row, 0), x)));
+HWY_INLINE V turnedRow(const KernelMap& map, std::size_t row, V x, V y, V z) {
+    return hn::MulAdd(
+        constant(map.turn(row, 2)), z,
+        hn::MulAdd(constant(map.turn(row, 1)), y, hn::Mul(constant(map.turn(row, 0)), x)));
 }
 
-template <typename Map>
-HWY_INLINE void turnBy(const Map& map, V& x, V& y, V& z) {
+HWY_INLINE void turn(const KernelMap& map, V& x, V& y, V& z) {
     const V a = turnedRow(map, 0, x, y, z);
     const V b = turnedRow(map, 1, x, y, z);
     z = turnedRow(map, 2, x, y, z);
@@ -134,28 +105,19 @@ HWY_INLINE void turnBy(const Map& map, V& x, V& y, V& z) {
     y = b;
 }
 
-HWY_INLINE void turn(const KernelMap& map, V& x, V& y, V& z) {
-    turnBy(MapNumbers(map), x, y, z);
-}
-
-template <typename Map>
-HWY_INLINE V movedRow(const Map& map, std::size_t row, V x, V y, V z) {
+HWY_INLINE V movedRow(const KernelMap& map, std::size_t row, V x, V y, V z) {
     return hn::MulAdd(
-        map.turn(row, 2), z,
-        hn::MulAdd(map.turn(row, 1), y, hn::MulAdd(map.turn(row, 0), x, map.move(row))));
+        constant(map.turn(row, 2)), z,
+        hn::MulAdd(constant(map.turn(row, 1)), y,
+                   hn::MulAdd(constant(map.turn(row, 0)), x, constant(map.move(row)))));
 }
 
-template <typename Map>
-HWY_INLINE void applyTo(const Map& map, V& x, V& y, V& z) {
+HWY_INLINE void apply(const KernelMap& map, V& x, V& y, V& z) {
     const V a = movedRow(map, 0, x, y, z);
     const V b = movedRow(map, 1, x, y, z);
     z = movedRow(map, 2, x, y, z);
     x = a;
     y = b;
-}
-
-HWY_INLINE void apply(const KernelMap& map, V& x, V& y, V& z) {
-    applyTo(MapNumbers(map), x, y, z);
 }
 
 HWY_INLINE void scaleBy(V factor, V& x, V& y, V& z) {
