@@ -181,7 +181,7 @@ private:
     bool readMaterial(const json& from, const std::string& where) {
         std::vector<double> base{1.0, 1.0, 1.0, 1.0};
         double roughness = 1.0;
-        std::optional<TextureInfo> texture;
+        const json* texture = nullptr;
         const auto colour = [&](const json& part, const char* key) {
             const std::vector<double> own = _file.numbers(part, key, 4, where);
             if (!own.empty()) base = own;
@@ -191,35 +191,29 @@ private:
             colour(*pbr, "baseColorFactor");
             _file.number(*pbr, "metallicFactor", 1.0, where);
             roughness = _file.number(*pbr, "roughnessFactor", 1.0, where);
-            if (pbr->contains("baseColorTexture"))
-                texture = textureInfo(pbr->at("baseColorTexture"), where);
+            texture = memberOf(*pbr, "baseColorTexture");
         }
-        const bool hadTexture = texture.has_value();
         // Draw a surface that is black except for its emission texture with that texture.
         const std::vector<double> emissive = _file.numbers(from, "emissiveFactor", 3, where);
-        const bool glows = from.contains("emissiveTexture");
-        std::optional<TextureInfo> glow;
-        if (glows) glow = textureInfo(from.at("emissiveTexture"), where);
+        const json* glow = memberOf(from, "emissiveTexture");
         const bool isBlack = base[0] == 0.0 && base[1] == 0.0 && base[2] == 0.0;
-        if (glows && pbr != from.end() && isBlack && !texture && !emissive.empty()) {
+        if (glow && pbr != from.end() && isBlack && !texture && !emissive.empty()) {
             texture = glow;
             std::copy(emissive.begin(), emissive.end(), base.begin());
         }
         // This older extension has priority if a material has both models.
         if (const json* glossy = extensionOf(from, "KHR_materials_pbrSpecularGlossiness")) {
             base = {1.0, 1.0, 1.0, 1.0};
-            texture.reset();
             colour(*glossy, "diffuseFactor");
             roughness = 1.0 - _file.number(*glossy, "glossinessFactor", 1.0, where);
-            if (glossy->contains("diffuseTexture"))
-                texture = textureInfo(glossy->at("diffuseTexture"), where);
+            texture = memberOf(*glossy, "diffuseTexture");
         }
         GltfMaterial result;
         Material& look = result.source.look;
         result.source.isLinear = true;
         look.diffuse = {toSrgb(float(base[0])), toSrgb(float(base[1])), toSrgb(float(base[2])),
                         static_cast<float>(base[3])};
-        if (!glows && !emissive.empty())
+        if (!glow && !emissive.empty())
             look.emission = {toSrgb(float(emissive[0])), toSrgb(float(emissive[1])),
                              toSrgb(float(emissive[2])), 1.0f};
         setRoughness(static_cast<float>(roughness), look);
@@ -231,17 +225,19 @@ private:
         }
         look.alphaCutOff = static_cast<float>(_file.number(from, "alphaCutoff", 0.5, where));
         look.twoSided = from.contains("doubleSided") && from.at("doubleSided").get<bool>();
-        if (texture) setTexture(*texture, result);
-        const bool isColour = texture.has_value() && !hadTexture;
+        if (texture) setTexture(textureInfo(*texture, where), result);
         _document.materials.push_back(std::move(result));
-        return glows && !isColour;
+        return glow && texture != glow;
+    }
+
+    static const json* memberOf(const json& from, const char* name) {
+        const auto found = from.find(name);
+        return found == from.end() ? nullptr : &*found;
     }
 
     static const json* extensionOf(const json& from, const char* name) {
-        const auto extensions = from.find("extensions");
-        if (extensions == from.end()) return nullptr;
-        const auto found = extensions->find(name);
-        return found == extensions->end() ? nullptr : &*found;
+        const json* extensions = memberOf(from, "extensions");
+        return extensions ? memberOf(*extensions, name) : nullptr;
     }
 
     void setTexture(const TextureInfo& info, GltfMaterial& material) const {
