@@ -87,7 +87,11 @@ KernelRun runOf(const DeformJob& job, std::size_t endVertex) noexcept {
     const SkinBlocks& blocks = SkinModelAccess::blocks(*job.model);
     KernelRun run{};
     run.blocks = &blocks;
-    run.tangentRows = job.tangents ? SkinModelAccess::blocks(*job.restTangents) : nullptr;
+    run.rows = job.morphed ? job.morphed->rows() : blocks.rows.data();
+    if (job.tangents) {
+        const BlockRow* const morphed = job.morphed ? job.morphed->tangentRows() : nullptr;
+        run.tangentRows = morphed ? morphed : SkinModelAccess::blocks(*job.restTangents);
+    }
     run.corrections = SkinModelAccess::correctives(*job.model);
     run.gradients = job.normals ? SkinModelAccess::gradients(*job.model) : nullptr;
     run.positions = &job.positions->x;
@@ -133,7 +137,7 @@ std::size_t runGroups(Kernel kernel, std::size_t g, std::size_t endGroup, std::s
 void runBlocks(const DeformJob& job, std::size_t first, std::size_t end) noexcept {
     if (first >= end) return;
     const SkinModel& model = *job.model;
-    if (isAtRest(model, *job.pose))
+    if (!job.morphed && isAtRest(model, *job.pose))
         return copyRest(job, firstVertexOf(model, first), firstVertexOf(model, end));
     const SkinBlocks& blocks = SkinModelAccess::blocks(model);
     PosedChains chains;
@@ -167,6 +171,8 @@ const char* reasonAgainst(const DeformJob& job) noexcept {
     if (!job.pose) return "no pose";
     if (job.pose->size() != job.model->joints().size())
         return "the pose is not one of the model's joints";
+    if (job.morphed && job.morphed->model() != job.model)
+        return "the morphed rest vertices are another model's";
     if (!job.positions) return "no output for positions";
     if (job.positionCount != vertices) return "as many positions as vertices are needed";
     if (job.normals && job.normalCount != vertices) return "as many normals as vertices are needed";

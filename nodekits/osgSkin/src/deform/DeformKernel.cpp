@@ -301,7 +301,7 @@ HWY_INLINE void startGroup(const KernelRun& run, std::size_t i, KernelCall& call
     call.linkCount = group.linkCount;
     call.links = run.blocks->plan.links.data() + group.firstLink;
     call.lead = group.lead == ChainPlan::kNoLead ? nullptr : run.outs + group.lead;
-    call.rows = run.blocks->rows.data() + group.firstRow;
+    call.rows = run.rows + group.firstRow;
     call.vertexCount = group.vertexCount;
     call.room = run.endVertex - group.firstVertex;
     call.scatter = run.scatter ? run.scatter + group.firstVertex : nullptr;

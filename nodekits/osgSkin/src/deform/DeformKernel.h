@@ -38,6 +38,7 @@ using KernelLink = ChainPlan::Link;
 /// Groups to deform, and their common arguments.
 struct KernelRun {
     const SkinBlocks* blocks;
+    const BlockRow* rows;            ///< the blocks', or these with morphed vertices
     const SkinBlocks::Group* groups; ///< the first one; for a part of a group, a copy
     std::size_t groupCount;
     std::size_t firstGroup;      ///< the index of the first one

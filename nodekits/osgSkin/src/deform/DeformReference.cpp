@@ -287,11 +287,48 @@ private:
     CorrectiveWeights _weights;
 };
 
+/// Three rows of a block's vertex, in rest space without its translation.
+glm::dvec3 vectorOf(const BlockRow* rows, std::size_t lane, const glm::dmat3& frame) {
+    return frame * glm::dvec3(rows[0].lane[lane], rows[1].lane[lane], rows[2].lane[lane]);
+}
+
+/// A group's rest vertices as morph targets move them.
+class MorphedGroup {
+public:
+    MorphedGroup(const DeformJob& job, std::size_t group) noexcept
+        : _group(SkinModelAccess::blocks(*job.model).groups[group]),
+          _frame(restFrame(*job.model, job.model->groups()[group])),
+          _rows(job.morphed->rows() + _group.firstRow), _tangents(job.morphed->tangentRows()) {
+        if (_tangents) _tangents += _group.firstBlock * SkinBlocks::kTangentRows;
+        const SkinModel::Group& of = job.model->groups()[group];
+        if (isInJointFrame(*job.model, of))
+            _origin = job.model->joints()[job.model->links()[of.firstLink + of.linkCount - 1].joint]
+                          .centre;
+    }
+
+    void read(std::uint32_t row, glm::dvec3& position, glm::vec3& normal,
+              glm::vec3& tangent) const noexcept {
+        const std::size_t block = row / kBlock, lane = row % kBlock;
+        const BlockRow* const rows = _rows + block * SkinBlocks::rowsPerBlock(_group.linkCount);
+        position = _origin + vectorOf(rows, lane, _frame);
+        normal = vectorOf(rows + 3, lane, _frame);
+        if (_tangents)
+            tangent = vectorOf(_tangents + block * SkinBlocks::kTangentRows, lane, _frame);
+    }
+
+private:
+    const SkinBlocks::Group& _group;
+    glm::dmat3 _frame;
+    glm::dvec3 _origin{0.0};
+    const BlockRow* _rows;
+    const BlockRow* _tangents;
+};
+
 } // namespace
 
 bool DeformJob::runReference() const noexcept {
     if (!isValid()) return false;
-    if (isAtRest(*model, *pose)) {
+    if (!morphed && isAtRest(*model, *pose)) {
         copyRest(*this, 0, model->vertexCount());
         return true;
     }
@@ -303,17 +340,20 @@ bool DeformJob::runReference() const noexcept {
         std::optional<SurfaceChain> surface;
         if (SkinModelAccess::gradients(*model)) surface.emplace(*model, g, *pose);
         if (surface && !surface->tilts()) surface.reset();
+        std::optional<MorphedGroup> moved;
+        if (morphed) moved.emplace(*this, g);
         const SkinModel::Ratio* ratios = model->ratios().data() + group.firstRatio;
         const std::uint32_t* order = model->order().data() + group.firstVertex;
         for (std::uint32_t i = 0; i < group.vertexCount; ++i, ratios += group.partialCount) {
             const std::uint32_t v = order[i];
             glm::dvec3 rest = model->positions()[v];
-            glm::dvec3 tilt(0.0); // of the rest normal
-            if (corrections) corrections->apply(g, i, rest, tilt);
-            glm::vec3 position = rest;
             glm::vec3 normal = model->normals()[v];
             const glm::vec4 restTangent = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
             glm::vec3 tangent(restTangent);
+            if (moved) moved->read(i, rest, normal, tangent);
+            glm::dvec3 tilt(0.0); // of the rest normal
+            if (corrections) corrections->apply(g, i, rest, tilt);
+            glm::vec3 position = rest;
             if (normals && surface) {
                 surface->apply(i, ratios, rest, normal, tilt, tangents ? &tangent : nullptr);
                 chain.apply(ratios, position, nullptr);

@@ -10,6 +10,7 @@
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -138,7 +139,8 @@ DeformableSkin::DeformableSkin() {
 
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
-      _pool(other._pool), _tangents(other._tangents),
+      _pool(other._pool), _tangents(other._tangents), _morphs(other._morphs),
+      _morphWeights(other._morphWeights), _isMorphOld(true), _isMorphed(other._isMorphed),
       _backend(other._backend ? other._backend->clone() : nullptr), _eager(other._eager),
       _tangentAttribute(other._tangentAttribute) {
     makeBuffers();
@@ -165,6 +167,13 @@ void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinM
     const std::vector<std::string> inputs = _model ? _model->inputs() : std::vector<std::string>();
     _rest = rest;
     _model = model;
+    _morphed.reset();
+    if (_morphs && _morphs->vertexCount() != model->vertexCount()) {
+        _morphs = nullptr;
+        _morphWeights.clear();
+        _isMorphed = false;
+    }
+    _isMorphOld = true;
     _pose = Pose(_model->joints(), _model->inputs().size());
     setStateSet(rest->getStateSet());
     makeBuffers();
@@ -191,6 +200,8 @@ osg::ref_ptr<const SkinTangents> DeformableSkin::tangentsOf(const osg::Geometry&
 void DeformableSkin::setTangentAttribute(int index) {
     if (_model) _tangents = tangentsOf(*_rest, index, *_model);
     _tangentAttribute = index;
+    _morphed.reset();
+    _isMorphOld = true;
     if (!_model) return;
     makeBuffers();
     poseChanged();
@@ -292,6 +303,50 @@ float DeformableSkin::getActivation(const std::string& input) const {
     return _model ? _pose.input(indexOf(input, _model->inputs())) : 0.0f;
 }
 
+void DeformableSkin::setMorphTargets(const osg::ref_ptr<const MorphTargets>& targets) {
+    if (targets && !_model) throw Error("deformable skin: expected a skin before morph targets");
+    if (targets && targets->vertexCount() != _model->vertexCount())
+        throw Error("deformable skin: morph targets of " + std::to_string(targets->vertexCount()) +
+                    " vertices, expected the skin's " + std::to_string(_model->vertexCount()));
+    _morphs = targets;
+    _morphWeights = targets ? targets->initialWeights() : std::vector<float>();
+    _morphed.reset();
+    if (_backend && _model) _backend->skinChanged(*this);
+    shapeChanged();
+}
+
+bool DeformableSkin::setMorph(const std::string& name, float weight) {
+    const std::size_t index = _morphs ? _morphs->find(name) : 0;
+    if (index >= _morphWeights.size() || !std::isfinite(weight)) return false;
+    if (_morphWeights[index] == weight) return true;
+    _morphWeights[index] = weight;
+    shapeChanged();
+    return true;
+}
+
+float DeformableSkin::getMorph(const std::string& name) const {
+    const std::size_t index = _morphs ? _morphs->find(name) : 0;
+    return index < _morphWeights.size() ? _morphWeights[index] : 0.0f;
+}
+
+bool DeformableSkin::setMorphWeights(const std::vector<float>& weights) {
+    if (weights.size() != _morphWeights.size() ||
+        !std::all_of(weights.begin(), weights.end(), [](float w) { return std::isfinite(w); }))
+        return false;
+    if (weights == _morphWeights) return true;
+    _morphWeights = weights;
+    shapeChanged();
+    return true;
+}
+
+void DeformableSkin::shapeChanged() {
+    _isMorphOld = true;
+    _isMorphed = false;
+    for (std::size_t i = 0; i < _morphWeights.size(); ++i)
+        _isMorphed = _isMorphed || _morphWeights[i] != _morphs->targets()[i].initial;
+    if (_model) poseChanged(_poseBounds);
+}
+
 /// Copies the skin's draw settings to its buffers.
 void DeformableSkin::applyDrawSettings() {
     if (!_rest) return;
@@ -313,10 +368,20 @@ void DeformableSkin::poseChanged() {
     poseChanged(_model ? toOsg(computePoseBounds(*_model, _pose)) : osg::BoundingBox());
 }
 
-void DeformableSkin::poseChanged(const osg::BoundingBox& bounds) {
+void DeformableSkin::poseChanged(const osg::BoundingBox& poseBounds) {
     _dirty = true;
+    _poseBounds = poseBounds;
     if (!_model) return;
     applyDrawSettings();
+    osg::BoundingBox bounds = poseBounds;
+    if (_isMorphed && bounds.valid()) {
+        double reach = _morphs->reach(_morphWeights);
+        for (std::size_t j = 0; j < _pose.size(); ++j)
+            reach *= std::max(1.0, _pose.transform(j).scale);
+        const auto room = static_cast<float>(reach);
+        bounds._min -= osg::Vec3(room, room, room);
+        bounds._max += osg::Vec3(room, room, room);
+    }
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
         buffer->setInitialBound(bounds);
         buffer->getBound(); // now: several cull threads may ask for it at once
@@ -340,6 +405,12 @@ void DeformableSkin::deform() const {
     DeformJob job;
     job.model = _model.get();
     job.pose = &_pose;
+    if (_isMorphed) {
+        if (!_morphed) _morphed = std::make_unique<MorphedRest>(_model, _morphs, _tangents);
+        if (_isMorphOld) _morphed->set(_morphWeights);
+        _isMorphOld = false;
+        job.morphed = _morphed.get();
+    }
     job.positions = asGlm(vertices.asVector().data());
     job.positionCount = vertices.size();
     job.normals = asGlm(normals.asVector().data());
