@@ -23,13 +23,13 @@ FLAGS = ["-Wno-unknown-warning-option", "-Wno-unused-parameter", "-Wdocumentatio
 
 
 def compiler_flags(command):
-    """Returns the flags of a compile command without compiler, source, output and optimisation."""
+    """Returns the flags of a compile command without compiler, source, output, optimisation and precompiled headers."""
     words = iter(shlex.split(command)[1:])
     flags = []
     for word in words:
-        if word in ("-o", "-c"):
+        if word in ("-o", "-c", "-include"):
             next(words)
-        elif not word.startswith("-O") and not word.endswith("ccache") and "/c++" not in word:
+        elif word != "-Winvalid-pch" and not word.startswith("-O") and not word.endswith("ccache") and "/c++" not in word:
             flags.append(word)
     return flags
 

@@ -45,6 +45,8 @@ const char* keysHelp() {
            "4      osgSkin without shapes\n"
            "n      normals of the surface, or turned with vertices\n"
            "u      tense all muscles\n"
+           "f F    next morph target, last one\n"
+           "[ ]    less, more of it     l    list of morph targets\n"
            "g      regions              b t  bend, twist ratios\n"
            "j J    next joint, last one\n"
            "k      skeleton             w    wireframe\n"
@@ -105,6 +107,21 @@ bool press(Stage& stage, int key) {
         return true;
     case 'u':
         stage.tense(!settings.tensed);
+        return true;
+    case 'f':
+        stage.changeMorph(1);
+        return true;
+    case 'F':
+        stage.changeMorph(-1);
+        return true;
+    case '[':
+        stage.weighMorph(-0.25f);
+        return true;
+    case ']':
+        stage.weighMorph(0.25f);
+        return true;
+    case 'l':
+        toggle(settings.morphs);
         return true;
     case 'g':
         show(settings, Colours::Regions);

@@ -6,6 +6,7 @@
 #include "Keys.h"
 #include "Snapshots.h"
 
+#include <osgSkin/SetMorph>
 #include <osgSkinBind/ShowRegions>
 
 #include <osg/Array>
@@ -198,6 +199,12 @@ Stage::Stage(const std::string& character, const std::string& weights,
         keysHelp(), osg::Vec3(14.0f, static_cast<float>(height) - 28.0f, 0), 16.0f);
     _help = help;
     overlay->addChild(help);
+    _morphList = figures::makeText(
+        "", osg::Vec3(static_cast<float>(width) * 0.6f, static_cast<float>(height) - 28.0f, 0),
+        16.0f);
+    overlay->addChild(_morphList);
+    for (const std::string& name : osgSkin::morphNames(*_figure.root))
+        _morphs.emplace_back(name, 0.0f);
     _root->addChild(overlay);
     // The joints lie inside the skin, so they are drawn over it.
     _lines->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
@@ -273,6 +280,32 @@ void Stage::tense(bool on) {
     if (_figure.body) _figure.body->tension = settings.tensed ? 1.0f : 0.0f;
 }
 
+void Stage::changeMorph(int step) {
+    if (_morphs.empty()) return;
+    _morph = (_morph + _morphs.size() + static_cast<std::size_t>(step + 1) - 1) % _morphs.size();
+}
+
+void Stage::weighMorph(float more) {
+    if (_morphs.empty()) return;
+    auto& [name, weight] = _morphs[_morph];
+    weight = std::clamp(weight + more, 0.0f, 1.0f);
+    osgSkin::setMorph(*_figure.root, name, weight);
+}
+
+/// The morph targets around the selected one, as many as a window has room for.
+std::string Stage::morphList() const {
+    constexpr std::size_t kLines = 30;
+    const std::size_t first = std::min(_morph - std::min(_morph, kLines / 2),
+                                       _morphs.size() - std::min(_morphs.size(), kLines));
+    std::string text = _morphs.empty() ? "no morph targets" : "";
+    for (std::size_t i = first; i < std::min(_morphs.size(), first + kLines); ++i) {
+        char weight[16];
+        std::snprintf(weight, sizeof weight, "%4.2f ", static_cast<double>(_morphs[i].second));
+        text += std::string(i == _morph ? "> " : "   ") + weight + _morphs[i].first + "\n";
+    }
+    return text;
+}
+
 example::View Stage::view() const {
     return example::framed(_extent.box, osg::Vec3d(0.35, -0.95, 0.2), _aspect);
 }
@@ -335,6 +368,7 @@ void Stage::update() {
     _state->setAttribute(mode, osg::StateAttribute::OVERRIDE | osg::StateAttribute::ON);
     _help->setNodeMask(settings.help ? ~0u : 0u);
     _status->setNodeMask(settings.status ? ~0u : 0u);
+    _morphList->setText(settings.morphs ? morphList() : "");
     std::string text = summary();
     text.replace(text.find("; "), 2, "\n");
     _status->setText(text + "\n" + times() + "; h: keys");
@@ -359,6 +393,11 @@ std::string Stage::summary() const {
                 " ratios of " + _figure.body->character.binding.joints[settings.joint].name;
     if (settings.turnedNormals) text += "; normals turned with vertices";
     if (settings.tensed) text += "; muscles tensed";
+    if (!_morphs.empty() && _morphs[_morph].second > 0.0f) {
+        char weight[16];
+        std::snprintf(weight, sizeof weight, " %g", static_cast<double>(_morphs[_morph].second));
+        text += "; " + _morphs[_morph].first + weight;
+    }
     if (settings.skeleton) text += "; skeleton";
     if (settings.wireframe) text += "; wireframe";
     if (settings.bounds) text += "; bounds";

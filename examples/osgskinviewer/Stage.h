@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace viewer {
@@ -74,6 +75,7 @@ struct Settings {
     bool wireframe = false;
     bool bounds = false;
     bool help = false;
+    bool morphs = false; ///< the list of morph targets
     bool status = true;
 };
 
@@ -110,6 +112,11 @@ public:
     /// Selects the next (+1) or previous (-1) joint that has partial ratios.
     void changeJoint(int step);
 
+    /// Selects the next (+1) or previous (-1) morph target.
+    void changeMorph(int step);
+    /// Adds to the weight of the selected morph target, within 0 and 1.
+    void weighMorph(float more);
+
     /// The argument for the viewer's frame() at the clock's current time.
     double simulationTime() const { return _start + clock.time(); }
     /// The status line without times, which differ between runs.
@@ -121,6 +128,7 @@ private:
     class Update;
     void update();
     void placeFloor();
+    std::string morphList() const;
     void updateFigure();
     void updateSkeleton();
     void updateBounds();
@@ -131,11 +139,13 @@ private:
     std::optional<osgSkin::BoneReader> _bones; ///< of the body
     std::optional<NormalsSwitch> _normals;     ///< created on first use
     std::size_t _motion = 0;
-    double _start = 0.0;       ///< simulation time of the motion's start
-    double _given = 0.0;       ///< simulation time of the last update
-    bool _productShown = true; ///< the character itself, not a substitute
-    double _skinTime = 0.0;    ///< milliseconds to deform the skin in this frame
-    double _frameTime = 0.0;   ///< milliseconds per frame, a running mean
+    std::vector<std::pair<std::string, float>> _morphs; ///< morph targets and their weights
+    std::size_t _morph = 0;                             ///< the selected one
+    double _start = 0.0;                                ///< simulation time of the motion's start
+    double _given = 0.0;                                ///< simulation time of the last update
+    bool _productShown = true;                          ///< the character itself, not a substitute
+    double _skinTime = 0.0;  ///< milliseconds to deform the skin in this frame
+    double _frameTime = 0.0; ///< milliseconds per frame, a running mean
     std::chrono::steady_clock::time_point _lastFrame;
 
     osg::ref_ptr<osg::Group> _root, _study, _lines, _boxes;
@@ -144,7 +154,7 @@ private:
     double _aspect;                     ///< width / height of the picture
     osg::ref_ptr<osg::StateSet> _state; ///< of the figure
     osg::ref_ptr<osg::Node> _help;
-    osg::ref_ptr<osgText::Text> _status;
+    osg::ref_ptr<osgText::Text> _status, _morphList;
 };
 
 } // namespace viewer

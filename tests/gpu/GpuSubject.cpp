@@ -3,6 +3,7 @@
 
 #include "FindNodes.h"
 #include "SomeCorrectives.h"
+#include "SomeMorphs.h"
 #include "TubeSkin.h"
 
 #include <osgSkin/DeformJob>
@@ -15,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 namespace test {
@@ -39,6 +41,8 @@ public:
         skinning.back() = glm::scale(skinning.back(), glm::dvec3(1.2));
         skin.setPose(skinning.data(), skinning.size());
         skin.setActivation("breath", 0.6f);
+        skin.setMorph("smile", static_cast<float>(std::sin(7.0 * time)));
+        skin.setMorph("open", static_cast<float>(std::cos(5.0 * time)));
     }
 
 private:
@@ -105,6 +109,12 @@ GpuSubject::GpuSubject(const std::string& name) {
     if (name == "tube") node = movingTube(1.0);
     if (name == "small") node = movingTube(1e-4);
     if (name == "large") node = movingTube(1e4);
+    if (name == "morphs") {
+        const osg::ref_ptr<osgSkin::DeformableSkin> skin = movingTube(1.0);
+        const std::size_t vertices = skin->getModel()->vertexCount();
+        skin->setMorphTargets(osgSkin::MorphTargets::create(someMorphs(vertices, 0.1), vertices));
+        node = skin;
+    }
     if (name == "thrower")
         node = osgDB::readRefNodeFile(std::string(OSGSKIN_DATA) + "/thrower.skin");
     const std::string data = OSGSKIN_DATA, human = std::string(OSGSKIN_SHARED_DATA) + "/makehuman";
@@ -147,6 +157,12 @@ std::vector<glm::vec3> referenceNormals(const osgSkin::DeformableSkin& skin) {
     osgSkin::DeformJob job;
     job.model = skin.getModel();
     job.pose = &skin.getPose();
+    std::optional<osgSkin::MorphedRest> morphed;
+    if (skin.isMorphed()) {
+        morphed.emplace(skin.getModel(), skin.getMorphTargets());
+        morphed->set(skin.getMorphWeights());
+        job.morphed = &*morphed;
+    }
     job.positions = positions.data();
     job.normals = normals.data();
     job.positionCount = job.normalCount = positions.size();

@@ -13,7 +13,8 @@ namespace test {
 /// A scene with skins that move with the simulation time.
 struct GpuSubject {
     /// \param name tube (random rotations, correctives, tangents, moved and scaled joints), small
-    /// or large (the same, 1e-4 and 1e4 times the size), thrower, climber (the thrower's body in a
+    /// or large (the same, 1e-4 and 1e4 times the size), morphs (the tube with morph targets),
+    /// thrower, climber (the thrower's body in a
     /// motion recorded on another body), body (MakeHuman's with shapes, in the same motion),
     /// painted (a rig with painted weights), or a file
     explicit GpuSubject(const std::string& name);

@@ -227,7 +227,7 @@ class GpuSkin : public testing::TestWithParam<std::string> {};
 /// The default subjects, or OSGSKIN_GPU_SUBJECTS, separated by commas.
 std::vector<std::string> subjects() {
     const char* named = std::getenv("OSGSKIN_GPU_SUBJECTS");
-    std::istringstream list(named ? named : "tube,small,large,thrower,climber");
+    std::istringstream list(named ? named : "tube,small,large,morphs,thrower,climber");
     std::vector<std::string> names;
     for (std::string name; std::getline(list, name, ',');) names.push_back(name);
     return names;

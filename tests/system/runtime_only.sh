@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# runtime_only.sh BUILD SOURCE FOLDER: builds the runtime, the rig and GPU kits and the serializers
-# with CGAL and Assimp hidden, and installs them alone. They must not link either library, and play
-# a character saved by BUILD's .skin plug-in. A game that links only the rig kit retargets a motion
-# and plays it.
+# runtime_only.sh BUILD SOURCE FOLDER: configures the runtime, the rig and GPU kits and the
+# serializers with CGAL and Assimp hidden, and installs those of BUILD alone. They must not link
+# either library, and play a character saved by BUILD's .skin plug-in. A game that links only the
+# rig kit retargets a motion and plays it.
 set -euo pipefail
 build=$1 source=$2 folder=$3
 fail() {
@@ -11,17 +11,12 @@ fail() {
   exit 1
 }
 
-rm -rf "$folder/installed" "$folder/play"
+rm -rf "$folder"
 mkdir -p "$folder"
-# The folder is kept between runs, so that only changes are rebuilt; without optimisation, because
-# dependencies matter here, not speed.
-cmake --preset runtime-only --no-warn-unused-cli -S "$source" -B "$folder/build" -DCMAKE_EXPORT_COMPILE_COMMANDS=OFF \
-  -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
+cmake --preset runtime-only --no-warn-unused-cli -S "$source" -B "$folder/build" \
   -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_assimp=ON \
   >"$folder/configure.txt"
-cmake --build "$folder/build" >"$folder/build.txt"
-cmake --install "$folder/build" --component runtime --prefix "$folder/installed" \
-  >"$folder/install.txt"
+cmake --install "$build" --component runtime --prefix "$folder/installed" >"$folder/install.txt"
 
 runtime=$(find "$folder/installed" -name 'libosgSkin.so.*' -type f)
 rig=$(find "$folder/installed" -name 'libosgSkinRig.so.*' -type f)
@@ -46,8 +41,9 @@ for extension in osgb osgt osgx; do
 done
 
 echo "A game that links osgSkinRig alone"
-rm -rf "$folder/development" "$folder/game"
-cmake --install "$folder/build" --prefix "$folder/development" >>"$folder/install.txt"
+for component in runtime dev; do
+  cmake --install "$build" --component $component --prefix "$folder/development" >>"$folder/install.txt"
+done
 cmake -S "$source/tests/downstream/game" -B "$folder/game" \
   -DCMAKE_PREFIX_PATH="$folder/development" -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_assimp=ON >"$folder/game.txt"

@@ -6,6 +6,7 @@
 // tests/data/saved holds makeScene(Tube(9, 6)) as written when files called a model
 // osgSkin::SharedSkinModel. Such files can still be read, and are written with today's names.
 #include "SavedScene.h"
+#include "SomeMorphs.h"
 #include "TextFile.h"
 #include "UpdateAt.h"
 #include "serialize/SkinModelBlock.h"
@@ -13,6 +14,7 @@
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/RigidPart>
 #include <osgSkin/UpdateDeformableSkin>
+#include <osgSkin/UpdateMorphs>
 
 #include <gtest/gtest.h>
 #include <osg/Material>
@@ -109,6 +111,39 @@ TEST_P(RoundTrip, DeformedVerticesToTheBit) {
 }
 
 /// OSG labels text for older versions with today's version, in which a skin's fields differ.
+TEST_P(RoundTrip, MorphTargetsWeightsAndTheirCallback) {
+    const osg::ref_ptr<const osgSkin::MorphTargets> targets =
+        osgSkin::MorphTargets::create(test::someMorphs(was[0]->getModel()->vertexCount(), 0.1),
+                                      was[0]->getModel()->vertexCount());
+    for (DeformableSkin* skin : was) skin->setMorphTargets(targets);
+    was[0]->setMorph("open", 0.6f);
+    before->addUpdateCallback(new osgSkin::UpdateMorphs("faces"));
+    const osg::ref_ptr<osg::Node> read = test::load(test::save(*before, GetParam()), GetParam());
+    ASSERT_NE(read, nullptr);
+    is = test::skinsOf(*read);
+    ASSERT_EQ(is.size(), 2u);
+    ASSERT_NE(is[0]->getMorphTargets(), nullptr);
+    EXPECT_EQ(is[0]->getMorphTargets(), is[1]->getMorphTargets()) << "shared again";
+    ASSERT_EQ(is[0]->getMorphTargets()->targets().size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const osgSkin::MorphTarget& a = is[0]->getMorphTargets()->targets()[i];
+        const osgSkin::MorphTarget& b = targets->targets()[i];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_EQ(a.vertices, b.vertices);
+        EXPECT_EQ(a.positions, b.positions);
+        EXPECT_EQ(a.normals, b.normals);
+        EXPECT_EQ(a.tangents, b.tangents);
+    }
+    EXPECT_EQ(is[0]->getMorphWeights(), was[0]->getMorphWeights());
+    EXPECT_FALSE(is[1]->isMorphed());
+    EXPECT_EQ(vertices(*is[0]->getDeformedGeometry()).asVector(),
+              vertices(*was[0]->getDeformedGeometry()).asVector());
+    bool found = false;
+    for (osg::Callback* each = read->getUpdateCallback(); each; each = each->getNestedCallback())
+        found = found || (dynamic_cast<osgSkin::UpdateMorphs*>(each) && each->getName() == "faces");
+    EXPECT_TRUE(found);
+}
+
 TEST_P(RoundTrip, FilesOfOlderVersions) {
     for (const int version : {91, 130, 155, 156, 161}) {
         const std::string file = test::save(*before, GetParam(), version);

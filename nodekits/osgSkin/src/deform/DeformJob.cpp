@@ -88,6 +88,7 @@ KernelRun runOf(const DeformJob& job, std::size_t endVertex) noexcept {
     KernelRun run{};
     run.blocks = &blocks;
     run.rows = job.morphed ? job.morphed->rows() : blocks.rows.data();
+    run.morphTilts = job.morphed ? job.morphed->tilts() : nullptr;
     if (job.tangents) {
         const BlockRow* const morphed = job.morphed ? job.morphed->tangentRows() : nullptr;
         run.tangentRows = morphed ? morphed : SkinModelAccess::blocks(*job.restTangents);

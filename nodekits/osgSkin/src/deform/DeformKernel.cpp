@@ -70,7 +70,7 @@ HWY_INLINE void deformVector(const KernelCall& call, const Outputs& out, std::si
         ty = hn::Load(d, tangentRows + kBlock);
         tz = hn::Load(d, tangentRows + 2 * kBlock);
     }
-    if (kNormals && HWY_UNLIKELY(call.correctionCount > 0))
+    if (kNormals && HWY_UNLIKELY(call.correctionCount > 0 || call.morphTilts))
         correctNormals<kTangents>(call, first, nx, ny, nz, tx, ty, tz);
     if (call.lead) {
         if (HWY_UNLIKELY(call.lead->scale() != 1.0f))
@@ -312,6 +312,7 @@ HWY_INLINE void startGroup(const KernelRun& run, std::size_t i, KernelCall& call
     call.tangentRows =
         run.tangents ? run.tangentRows + group.firstBlock * SkinBlocks::kTangentRows : nullptr;
     if (run.corrections) startCorrections(run, run.firstGroup + i, group, call);
+    call.morphTilts = run.morphTilts ? run.morphTilts + 3 * group.firstBlock : nullptr;
 }
 
 /// Sets a group's gradients, and which of its links tilt normals in this pose.

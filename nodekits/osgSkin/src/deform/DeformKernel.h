@@ -39,6 +39,7 @@ using KernelLink = ChainPlan::Link;
 struct KernelRun {
     const SkinBlocks* blocks;
     const BlockRow* rows;            ///< the blocks', or these with morphed vertices
+    const BlockRow* morphTilts;      ///< MorphedRest::tilts(); may be null
     const SkinBlocks::Group* groups; ///< the first one; for a part of a group, a copy
     std::size_t groupCount;
     std::size_t firstGroup;      ///< the index of the first one
@@ -91,6 +92,7 @@ struct KernelCall {
     std::size_t firstBlock;      ///< the index in the group of the call's first block
     const KernelMap* shareFrame; ///< rotates sums of shares to the blocks' frame; null: none needed
     const KernelMap* normalShareFrame; ///< the same for shares of normals
+    const BlockRow* morphTilts;        ///< of the call's first block; null: nothing
     /// GradientBlocks' rows; null: normals and tangents rotate as their vertices do.
     const std::int16_t* gradients;
     const BlockAcross* across;           ///< GradientBlocks'; where gradients is not null

@@ -298,7 +298,9 @@ public:
     MorphedGroup(const DeformJob& job, std::size_t group) noexcept
         : _group(SkinModelAccess::blocks(*job.model).groups[group]),
           _frame(restFrame(*job.model, job.model->groups()[group])),
-          _rows(job.morphed->rows() + _group.firstRow), _tangents(job.morphed->tangentRows()) {
+          _rows(job.morphed->rows() + _group.firstRow), _tilts(job.morphed->tilts()),
+          _tangents(job.morphed->tangentRows()) {
+        if (_tilts) _tilts += 3 * std::size_t(_group.firstBlock);
         if (_tangents) _tangents += _group.firstBlock * SkinBlocks::kTangentRows;
         const SkinModel::Group& of = job.model->groups()[group];
         if (isInJointFrame(*job.model, of))
@@ -306,12 +308,14 @@ public:
                           .centre;
     }
 
-    void read(std::uint32_t row, glm::dvec3& position, glm::vec3& normal,
+    /// \param tilt what is added to the normal; unchanged where that is nothing
+    /// \param tangent the same
+    void read(std::uint32_t row, glm::dvec3& position, glm::dvec3& tilt,
               glm::vec3& tangent) const noexcept {
         const std::size_t block = row / kBlock, lane = row % kBlock;
         const BlockRow* const rows = _rows + block * SkinBlocks::rowsPerBlock(_group.linkCount);
         position = _origin + vectorOf(rows, lane, _frame);
-        normal = vectorOf(rows + 3, lane, _frame);
+        if (_tilts) tilt = vectorOf(_tilts + 3 * block, lane, _frame);
         if (_tangents)
             tangent = vectorOf(_tangents + block * SkinBlocks::kTangentRows, lane, _frame);
     }
@@ -320,8 +324,7 @@ private:
     const SkinBlocks::Group& _group;
     glm::dmat3 _frame;
     glm::dvec3 _origin{0.0};
-    const BlockRow* _rows;
-    const BlockRow* _tangents;
+    const BlockRow *_rows, *_tilts, *_tangents;
 };
 
 } // namespace
@@ -350,8 +353,8 @@ bool DeformJob::runReference() const noexcept {
             glm::vec3 normal = model->normals()[v];
             const glm::vec4 restTangent = tangents ? restTangents->tangents()[v] : glm::vec4(0.0f);
             glm::vec3 tangent(restTangent);
-            if (moved) moved->read(i, rest, normal, tangent);
             glm::dvec3 tilt(0.0); // of the rest normal
+            if (moved) moved->read(i, rest, tilt, tangent);
             if (corrections) corrections->apply(g, i, rest, tilt);
             glm::vec3 position = rest;
             if (normals && surface) {

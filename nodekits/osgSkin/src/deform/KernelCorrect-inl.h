@@ -90,12 +90,31 @@ HWY_INLINE V inverseRoot(V square) {
     return hn::Mul(guess, hn::NegMulAdd(half, guess, hn::Set(d, 1.5f)));
 }
 
-/// Adds the correctives to rest normals, keeps them unit, and keeps tangents perpendicular.
+/// What morph targets add to normals.
+/// \pre call.morphTilts is not null
+HWY_INLINE void morphTilts(const KernelCall& call, std::size_t first, V& dx, V& dy, V& dz) {
+    const BlockRow* const rows = call.morphTilts + 3 * (first / kBlock);
+    dx = hn::Load(D(), rows[0].lane + first % kBlock);
+    dy = hn::Load(D(), rows[1].lane + first % kBlock);
+    dz = hn::Load(D(), rows[2].lane + first % kBlock);
+}
+
+/// Adds correctives and morph targets to rest normals, keeps them unit, and keeps tangents
+/// perpendicular.
 template <bool kTangents>
 HWY_INLINE void correctNormals(const KernelCall& call, std::size_t first, V& nx, V& ny, V& nz,
                                V& tx, V& ty, V& tz) {
     V dx, dy, dz;
-    if (!corrections<true>(call, first, dx, dy, dz)) return;
+    const bool any = corrections<true>(call, first, dx, dy, dz);
+    if (call.morphTilts) {
+        V mx, my, mz;
+        morphTilts(call, first, mx, my, mz);
+        dx = hn::Add(dx, mx);
+        dy = hn::Add(dy, my);
+        dz = hn::Add(dz, mz);
+    } else if (!any) {
+        return;
+    }
     nx = hn::Add(nx, dx);
     ny = hn::Add(ny, dy);
     nz = hn::Add(nz, dz);

@@ -95,8 +95,9 @@ HWY_INLINE bool tilts(const KernelCall& call, std::size_t first, V& alongU, V& a
     return any;
 }
 
-/// The directions u and v along the skin, tilted by correctives: u - (d . u) n and v - (d . v) n,
-/// with d their sum for the normal. Their cross product is along n + d, without d's part along n.
+/// The directions u and v along the skin, tilted by correctives and morph targets: u - (d . u) n
+/// and v - (d . v) n, with d their sum for the normal. Their cross product is along n + d, without
+/// d's part along n.
 HWY_INLINE void skinDirections(const KernelCall& call, std::size_t first, V nx, V ny, V nz, V& ux,
                                V& uy, V& uz, V& vx, V& vy, V& vz) {
     const D d;
@@ -113,9 +114,17 @@ HWY_INLINE void skinDirections(const KernelCall& call, std::size_t first, V nx, 
               vy, vz);
         cross(vx, vy, vz, nx, ny, nz, ux, uy, uz);
     }
-    if (HWY_LIKELY(call.correctionCount == 0)) return;
+    if (HWY_LIKELY(call.correctionCount == 0 && !call.morphTilts)) return;
     V alongU, alongV;
-    if (!tilts(call, first, alongU, alongV)) return;
+    const bool any = tilts(call, first, alongU, alongV);
+    if (call.morphTilts) {
+        V dx, dy, dz;
+        morphTilts(call, first, dx, dy, dz);
+        alongU = hn::Add(alongU, dot(dx, dy, dz, ux, uy, uz));
+        alongV = hn::Add(alongV, dot(dx, dy, dz, vx, vy, vz));
+    } else if (!any) {
+        return;
+    }
     ux = hn::NegMulAdd(alongU, nx, ux);
     uy = hn::NegMulAdd(alongU, ny, uy);
     uz = hn::NegMulAdd(alongU, nz, uz);

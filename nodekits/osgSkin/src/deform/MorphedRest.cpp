@@ -8,28 +8,29 @@
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 namespace osgSkin {
 namespace {
 
-/// Rows of positions and normals in a block.
-constexpr std::size_t kRestRows = 6;
+constexpr std::size_t kAxes = 3;
 
 void addTimes(float weight, const BlockRow& offset, BlockRow& to) {
     for (std::size_t lane = 0; lane < kBlock; ++lane) to.lane[lane] += weight * offset.lane[lane];
 }
 
-void normalise(BlockRow* n) {
+/// Turns what is to be added to normals into what is perpendicular to them, so that the sum keeps
+/// its direction.
+void makeTilts(const BlockRow* normals, BlockRow* d) {
+    constexpr float kLeast = 0.05f; // a normal may turn by nearly 90 degrees
     for (std::size_t lane = 0; lane < kBlock; ++lane) {
-        float &x = n[0].lane[lane], &y = n[1].lane[lane], &z = n[2].lane[lane];
-        // Padding has no normals.
-        const float scale = 1.0f / std::sqrt(std::max(x * x + y * y + z * z, 1e-30f));
-        x *= scale;
-        y *= scale;
-        z *= scale;
+        const float x = normals[0].lane[lane], y = normals[1].lane[lane], z = normals[2].lane[lane];
+        const float along = d[0].lane[lane] * x + d[1].lane[lane] * y + d[2].lane[lane] * z;
+        const float scale = 1.0f / std::max(1.0f + along, kLeast);
+        d[0].lane[lane] = scale * (d[0].lane[lane] - along * x);
+        d[1].lane[lane] = scale * (d[1].lane[lane] - along * y);
+        d[2].lane[lane] = scale * (d[2].lane[lane] - along * z);
     }
 }
 
@@ -38,7 +39,8 @@ void normalise(BlockRow* n) {
 /// Of a few arrays of blocks, 16 vertices each, so that adding them needs no index.
 struct MorphedRest::Target {
     std::vector<Block> blocks; ///< increasing
-    std::vector<BlockRow> positions, normals, tangents; ///< three rows a block; the last two may be empty
+    std::vector<BlockRow> positions, normals,
+        tangents; ///< three rows a block; the last two may be empty
 };
 
 MorphedRest::MorphedRest(const osg::ref_ptr<const SkinModel>& model,
@@ -49,17 +51,20 @@ MorphedRest::MorphedRest(const osg::ref_ptr<const SkinModel>& model,
     if (targets->vertexCount() != model->vertexCount())
         throw Error("morphed rest: the targets are of " + std::to_string(targets->vertexCount()) +
                     " vertices, expected the model's " + std::to_string(model->vertexCount()));
-    _rows = SkinModelAccess::blocks(*model).rows;
+    const SkinBlocks& blocks = SkinModelAccess::blocks(*model);
+    _rows = blocks.rows;
     _blocks.resize(targets->targets().size());
-    if (!tangents || std::all_of(targets->targets().begin(), targets->targets().end(),
-                                 [](const MorphTarget& t) { return t.tangents.empty(); }))
-        return;
-    if (tangents->model() != model)
-        throw Error("morphed rest: the tangents are another model's");
+    bool haveNormals = false, haveTangents = false;
+    for (const MorphTarget& target : targets->targets()) {
+        haveNormals = haveNormals || !target.normals.empty();
+        haveTangents = haveTangents || !target.tangents.empty();
+    }
+    if (haveNormals) _tilts.resize(kAxes * blocks.firstBlock.back(), BlockRow{});
+    if (!tangents || !haveTangents) return;
+    if (tangents->model() != model) throw Error("morphed rest: the tangents are another model's");
     _tangents = tangents;
     const BlockRow* const rows = SkinModelAccess::blocks(*tangents);
-    _tangentRows.assign(rows, rows + SkinModelAccess::blocks(*model).firstBlock.back() *
-                                         SkinBlocks::kTangentRows);
+    _tangentRows.assign(rows, rows + blocks.firstBlock.back() * SkinBlocks::kTangentRows);
 }
 
 MorphedRest::~MorphedRest() = default;
@@ -82,10 +87,10 @@ const MorphedRest::Target& MorphedRest::target(std::size_t index) {
     const auto put = [&](const std::vector<glm::vec3>& offsets, std::size_t i, std::size_t lane,
                          std::vector<BlockRow>& rows) {
         if (offsets.empty()) return;
-        rows.resize(3 * result->blocks.size(), BlockRow{});
+        rows.resize(kAxes * result->blocks.size(), BlockRow{});
         const glm::dvec3 offset = glm::dvec3(offsets[i]) * frame; // transposed: into the frame
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            rows[rows.size() - 3 + axis].lane[lane] =
+        for (std::size_t axis = 0; axis < kAxes; ++axis)
+            rows[rows.size() - kAxes + axis].lane[lane] =
                 static_cast<float>(offset[static_cast<int>(axis)]);
     };
     for (const auto& [place, i] : moved) {
@@ -108,15 +113,12 @@ const MorphedRest::Target& MorphedRest::target(std::size_t index) {
 /// Puts the blocks that were moved back to rest.
 void MorphedRest::restore() {
     const BlockRow* const rest = SkinModelAccess::blocks(*_model).rows.data();
-    for (const Block& block : _moved)
-        std::copy(rest + block.firstRow, rest + block.firstRow + kRestRows,
-                  _rows.begin() + static_cast<std::ptrdiff_t>(block.firstRow));
-    if (_tangentRows.empty()) return;
-    const BlockRow* const tangents = SkinModelAccess::blocks(*_tangents);
+    const BlockRow* const tangents = _tangents ? SkinModelAccess::blocks(*_tangents) : nullptr;
     for (const Block& block : _moved) {
+        std::copy_n(rest + block.firstRow, kAxes, _rows.data() + block.firstRow);
+        if (!_tilts.empty()) std::fill_n(_tilts.data() + kAxes * block.number, kAxes, BlockRow{});
         const std::size_t first = block.number * SkinBlocks::kTangentRows;
-        std::copy(tangents + first, tangents + first + SkinBlocks::kTangentRows,
-                  _tangentRows.begin() + static_cast<std::ptrdiff_t>(first));
+        if (tangents) std::copy_n(tangents + first, kAxes, _tangentRows.data() + first);
     }
 }
 
@@ -136,30 +138,35 @@ void MorphedRest::set(const std::vector<float>& weights) {
         _moved.erase(std::unique(_moved.begin(), _moved.end(), isSame), _moved.end());
         std::swap(_active, _next);
     }
-    bool turnsNormals = false;
     for (const std::size_t i : _active) {
         const Target& from = target(i);
         const float weight = weights[i] - targets[i].initial;
+        const auto add = [&](const std::vector<BlockRow>& offsets, std::size_t block,
+                             BlockRow* to) {
+            if (offsets.empty()) return;
+            for (std::size_t axis = 0; axis < kAxes; ++axis)
+                addTimes(weight, offsets[kAxes * block + axis], to[axis]);
+        };
         for (std::size_t b = 0; b < from.blocks.size(); ++b) {
             const Block& block = from.blocks[b];
-            BlockRow* const to = _rows.data() + block.firstRow;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                addTimes(weight, from.positions[3 * b + axis], to[axis]);
-                if (!from.normals.empty())
-                    addTimes(weight, from.normals[3 * b + axis], to[3 + axis]);
-                if (!from.tangents.empty() && !_tangentRows.empty())
-                    addTimes(weight, from.tangents[3 * b + axis],
-                             _tangentRows[block.number * SkinBlocks::kTangentRows + axis]);
-            }
+            add(from.positions, b, _rows.data() + block.firstRow);
+            add(from.normals, b, _tilts.data() + kAxes * block.number);
+            if (_tangents)
+                add(from.tangents, b,
+                    _tangentRows.data() + block.number * SkinBlocks::kTangentRows);
         }
-        turnsNormals = turnsNormals || !from.normals.empty();
     }
-    if (turnsNormals)
-        for (const Block& block : _moved) normalise(_rows.data() + block.firstRow + 3);
+    if (_tilts.empty()) return;
+    for (const Block& block : _moved)
+        makeTilts(_rows.data() + block.firstRow + kAxes, _tilts.data() + kAxes * block.number);
 }
 
 const BlockRow* MorphedRest::rows() const {
     return _rows.data();
+}
+
+const BlockRow* MorphedRest::tilts() const {
+    return _tilts.empty() ? nullptr : _tilts.data();
 }
 
 const BlockRow* MorphedRest::tangentRows() const {

@@ -109,12 +109,15 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
   vec3 x = uintBitsToFloat(a.xyz); // from the first link's centre
   vec3 n = uintBitsToFloat(b.xyz);
   vec3 t = tangent;
-  float tangentLength = length(t);
   vec3 correction = vec3(0.0), tilt = vec3(0.0);
   bool hasGradients = (chain.z & 2u) != 0u;
   if ((chain.z & 1u) != 0u)
     osgSkin_correct(int(b.w) + (hasGradients ? 2 * links : links), correction, tilt);
   x += correction;
+#ifdef OSGSKIN_MORPHS
+  osgSkin_morph(vertex, n, x, tilt, t);
+#endif
+  float tangentLength = length(t);
 
   bool tilts = false;
   if (hasGradients)
@@ -196,7 +199,8 @@ const std::string& deformText() {
         std::string(kFetch) + kTurns +
         "vec4 osgSkin_palette(int texel);\n"
         "vec4 osgSkin_rotation(int joint);\n"
-        "void osgSkin_anchor(int joint, inout vec3 x, inout vec3 n, inout vec3 t);\n" +
+        "void osgSkin_anchor(int joint, inout vec3 x, inout vec3 n, inout vec3 t);\n"
+        "void osgSkin_morph(int vertex, vec3 n, inout vec3 x, inout vec3 tilt, inout vec3 t);\n" +
         kDeform;
     return text;
 }

@@ -5,6 +5,7 @@
 #include "skin/DeformText.h"
 
 #include <osgSkin/DeformableSkin>
+#include <osgSkin/GlmOsg>
 #include <osgSkinGpu/GpuModel>
 #include <osgSkinGpu/GpuPalette>
 
@@ -23,6 +24,7 @@
 #include <osg/Uniform>
 #include <osg/ref_ptr>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <memory>
@@ -33,7 +35,7 @@ namespace osgSkin {
 namespace {
 
 /// The texture units and buffer indices of the compute shaders.
-enum ComputeUnit { kModelUnit, kPaletteUnit, kTangentUnit };
+enum ComputeUnit { kModelUnit, kPaletteUnit, kTangentUnit, kMorphUnit };
 enum ComputeBuffer { kPositionBuffer, kNormalBuffer, kTangentBuffer };
 
 constexpr unsigned int kComputeThreads = 64;
@@ -52,6 +54,20 @@ vec4 osgSkin_rotation(int joint) {
 void osgSkin_anchor(int joint, inout vec3 x, inout vec3 n, inout vec3 t) {
   osgSkin_follow(joint, x, n, t);
 }
+
+#ifdef OSGSKIN_MORPHS
+uniform bool osgSkinIsMorphed;
+uniform samplerBuffer osgSkinMorphs;
+
+void osgSkin_morph(int vertex, vec3 n, inout vec3 x, inout vec3 tilt, inout vec3 t) {
+  if (!osgSkinIsMorphed) return;
+  x += texelFetch(osgSkinMorphs, 3 * vertex).xyz;
+  vec3 d = texelFetch(osgSkinMorphs, 3 * vertex + 1).xyz;
+  float along = dot(d, n);
+  tilt += (d - along * n) / max(1.0 + along, 0.05);
+  t += texelFetch(osgSkinMorphs, 3 * vertex + 2).xyz;
+}
+#endif
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) writeonly buffer OsgSkinPositions { float osgSkinPositions[]; };
@@ -93,12 +109,15 @@ osg::ref_ptr<osg::Program> make(const char* name, const char* defines) {
 /// Deforms the vertices of a skin, one per thread; shared by all skins.
 ///
 /// \param withTangents reads osgSkinTangents and writes tangents, too
-osg::Program* computeProgram(bool withTangents) {
+/// \param withMorphs reads osgSkinMorphs, too
+osg::Program* computeProgram(bool withTangents, bool withMorphs) {
     // Never deleted: contexts may be gone when a process ends.
-    static const auto& plain = *new osg::ref_ptr<osg::Program>(make("osgSkin deform", ""));
-    static const auto& tangents = *new osg::ref_ptr<osg::Program>(
-        make("osgSkin deform with tangents", "#define OSGSKIN_TANGENTS\n"));
-    return withTangents ? tangents.get() : plain.get();
+    static const auto& programs = *new std::array<osg::ref_ptr<osg::Program>, 4>{
+        make("osgSkin deform", ""),
+        make("osgSkin deform with tangents", "#define OSGSKIN_TANGENTS\n"),
+        make("osgSkin deform with morphs", "#define OSGSKIN_MORPHS\n"),
+        make("osgSkin deform with both", "#define OSGSKIN_TANGENTS\n#define OSGSKIN_MORPHS\n")};
+    return programs[(withTangents ? 1u : 0u) + (withMorphs ? 2u : 0u)].get();
 }
 
 std::atomic<unsigned int>& dispatches() {
@@ -192,12 +211,20 @@ public:
           _palette(new osg::Vec4Array(static_cast<unsigned int>(model->paletteSize()))),
           _dispatch(new SkinDispatch(model)), _state(new osg::StateSet) {
         const int attribute = skin.getTangentAttribute();
+        const bool hasMorphs = skin.getMorphTargets() != nullptr;
         setUpBin(*_state, kComputeBin);
-        _state->setAttribute(computeProgram(attribute >= 0), kOurs);
+        _state->setAttribute(computeProgram(attribute >= 0, hasMorphs), kOurs);
         addInput(kModelUnit, "osgSkinModel", model->texture());
         addInput(kPaletteUnit, "osgSkinPalette", readable(*_palette, GL_STREAM_DRAW_ARB));
         addOutput(kPositionBuffer, *_geometry->getVertexArray());
         addOutput(kNormalBuffer, *_geometry->getNormalArray());
+        if (hasMorphs) {
+            _morphs = new osg::Vec4Array(kMorphTexels *
+                                         static_cast<unsigned int>(model->model().vertexCount()));
+            addInput(kMorphUnit, "osgSkinMorphs", readable(*_morphs, GL_DYNAMIC_DRAW_ARB));
+            _isMorphed = new osg::Uniform("osgSkinIsMorphed", false);
+            _state->addUniform(_isMorphed, kOurs);
+        }
         if (attribute < 0) return;
         const auto index = static_cast<unsigned int>(attribute);
         const osg::ref_ptr<osg::Vec4Array> rest =
@@ -206,10 +233,11 @@ public:
         addOutput(kTangentBuffer, *_geometry->getVertexAttribArray(index));
     }
 
-    /// Sets the pose that the next draw computes.
-    void setPose(const GpuModel& model, const Pose& pose, unsigned int number) {
-        writePalette(model, pose, _palette->asVector().data());
+    /// Sets the pose and the morph weights that the next draw computes.
+    void setPose(const GpuModel& model, const DeformableSkin& skin, unsigned int number) {
+        writePalette(model, skin.getPose(), _palette->asVector().data());
         _palette->dirty();
+        if (_morphs) setMorphs(skin);
         _dispatch->setPose(number);
     }
 
@@ -232,6 +260,32 @@ public:
     }
 
 private:
+    /// Of a vertex: the offset of its position, of its normal and of its tangent.
+    static constexpr unsigned int kMorphTexels = 3;
+
+    void setMorphs(const DeformableSkin& skin) {
+        _isMorphed->set(skin.isMorphed());
+        const std::vector<float>& weights = skin.getMorphWeights();
+        if (!skin.isMorphed() || weights == _weights) return;
+        _weights = weights;
+        std::vector<osg::Vec4>& texels = _morphs->asVector();
+        std::fill(texels.begin(), texels.end(), osg::Vec4());
+        const std::vector<MorphTarget>& targets = skin.getMorphTargets()->targets();
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const float weight = weights[i] - targets[i].initial;
+            if (weight == 0.0f) continue;
+            const auto add = [&](const std::vector<glm::vec3>& offsets, std::size_t texel) {
+                for (std::size_t k = 0; k < offsets.size(); ++k)
+                    texels[kMorphTexels * targets[i].vertices[k] + texel] +=
+                        osg::Vec4(toOsg(offsets[k]), 0.0f) * weight;
+            };
+            add(targets[i].positions, 0);
+            add(targets[i].normals, 1);
+            add(targets[i].tangents, 2);
+        }
+        _morphs->dirty();
+    }
+
     void addOutput(unsigned int index, osg::Array& array) {
         ownBuffer(array, GL_DYNAMIC_COPY_ARB);
         _state->setAttribute(new osg::ShaderStorageBufferBinding(index, &array), kOurs);
@@ -243,6 +297,9 @@ private:
 
     osg::ref_ptr<osg::Geometry> _geometry;
     osg::ref_ptr<osg::Vec4Array> _palette;
+    osg::ref_ptr<osg::Vec4Array> _morphs; ///< null for a skin without morph targets
+    osg::ref_ptr<osg::Uniform> _isMorphed;
+    std::vector<float> _weights; ///< that _morphs has
     osg::ref_ptr<SkinDispatch> _dispatch;
     osg::ref_ptr<osg::StateSet> _state;
 };
@@ -303,7 +360,7 @@ private:
         if (_isDirty) {
             // No update begins before the draw of the last frame but one has ended.
             if (_isHandedOut) _current = 1 - _current;
-            _slots[_current]->setPose(*_model, skin.getPose(), ++_pose);
+            _slots[_current]->setPose(*_model, skin, ++_pose);
             _isDirty = false;
         }
         _isHandedOut = true;
