@@ -98,13 +98,14 @@ void checkPattern(const std::string& out) {
         throw UsageError{"--out: expected one %d (or %04d) at most, found \"" + out + "\""};
 }
 
-std::pair<std::string, float> parseActivation(const std::string& word) {
+/// Reads NAME=NUMBER.
+std::pair<std::string, float> parseNamed(const std::string& option, const std::string& word) {
     const std::size_t sign = word.rfind('=');
     const std::string number = sign == std::string::npos ? "" : word.substr(sign + 1);
     std::istringstream in(number);
     float value = 0.0f;
     if (sign == 0 || !(in >> value) || !in.eof() || !std::isfinite(value))
-        throw UsageError{"--tense: expected NAME=A with a number, found \"" + word + "\""};
+        throw UsageError{option + ": expected NAME=A with a number, found \"" + word + "\""};
     return {word.substr(0, sign), value};
 }
 
@@ -184,7 +185,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     app.footer(kFooter);
     Arguments arguments;
     std::string frames;
-    std::vector<std::string> tensed;
+    std::vector<std::string> tensed, morphs;
     app.add_option("CHARACTER", arguments.character, "a .skin file, or a rigged model");
     app.add_option("--motion", arguments.motion, "a motion's name; the first one by default");
     app.add_option("--frames", frames, "A, A:B or A:B:STEP; all by default");
@@ -192,6 +193,8 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
         ->check(CLI::Range(1e-3, 1e6));
     example::addCharacterOptions(app, arguments.options);
     app.add_option("--tense", tensed, "NAME=A: tenses a muscle by A, 0 to 1, in all frames")
+        ->allow_extra_args(false);
+    app.add_option("--morph", morphs, "NAME=W: gives a morph target the weight W in all frames")
         ->allow_extra_args(false);
     app.add_option("--out", arguments.out,
                    "the frames' files, like frame_%04d.obj or .ply; or one for all: .pc2, .glb");
@@ -216,7 +219,9 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     if (arguments.rate && !std::isfinite(*arguments.rate)) // CLI::Range accepts NaN
         throw UsageError{"--rate: expected a number from 0.001 to 1000000"};
     if (!frames.empty()) arguments.frames = parseRange(frames);
-    for (const std::string& word : tensed) arguments.activations.push_back(parseActivation(word));
+    for (const std::string& word : tensed)
+        arguments.activations.push_back(parseNamed("--tense", word));
+    for (const std::string& word : morphs) arguments.morphs.push_back(parseNamed("--morph", word));
     checkPattern(arguments.out);
     settleRest(*rest, arguments);
     if (arguments.character.empty())

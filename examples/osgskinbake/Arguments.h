@@ -26,6 +26,7 @@ struct Arguments {
     std::optional<double> rate;   ///< samples per second of a rigged model's clips
     osgSkin::LoadOptions options; ///< override the character file's
     std::vector<std::pair<std::string, float>> activations; ///< of inputs, by name
+    std::vector<std::pair<std::string, float>> morphs;      ///< weights of morph targets, by name
     std::string out;     ///< file name pattern of the frames; empty for no frames
     std::string rest;    ///< file for the bind pose; empty for none
     std::string binding; ///< JSON file for the binding; empty for none

@@ -32,6 +32,16 @@ public:
     /// \throw osgSkin::Error if it cannot be written
     virtual void add(std::size_t frame, const PosedMesh& posed) = 0;
 
+    /// Adds a shape that the character can take in the only frame, as a facial expression; formats
+    /// without morph targets leave it out.
+    ///
+    /// \param name of the morph target
+    /// \param posed the frame with its weight 1
+    virtual void addMorph(const std::string& name, const PosedMesh& posed) {
+        (void)name;
+        (void)posed;
+    }
+
     /// Called after the last frame.
     /// \throw osgSkin::Error if it cannot be written
     virtual void finish() {}

@@ -299,6 +299,11 @@ void GlbMorphs::add(std::size_t, const PosedMesh& posed) {
         throw osgSkin::Error(_file + ": too large for a .glb file, expected fewer frames");
 }
 
+void GlbMorphs::addMorph(const std::string& name, const PosedMesh& posed) {
+    for (Primitive& primitive : _primitives) addTarget(primitive, posed);
+    _morphs.push_back(name);
+}
+
 nlohmann::json GlbMorphs::animation() {
     std::vector<float> times, weights;
     for (std::size_t f = 0; f < _frames; ++f) {
@@ -320,7 +325,7 @@ void GlbMorphs::finish() {
         nlohmann::json entry{{"attributes", primitive.attributes},
                              {"indices", _buffer.addIndices(primitive.surface.triangles)},
                              {"material", _materials.add(primitive.material, name)}};
-        if (_frames > 1) entry["targets"] = primitive.targets;
+        if (!primitive.targets.empty()) entry["targets"] = primitive.targets;
         primitives.push_back(entry);
     }
     mesh["primitives"] = primitives;
@@ -332,6 +337,10 @@ void GlbMorphs::finish() {
     if (_frames > 1) {
         mesh["weights"] = std::vector<double>(_frames - 1, 0.0);
         root["animations"] = {animation()};
+    }
+    if (!_morphs.empty()) {
+        mesh["weights"] = std::vector<double>(_morphs.size(), 0.0);
+        mesh["extras"]["targetNames"] = _morphs;
     }
     root["meshes"] = {mesh};
     root["nodes"] = {node};

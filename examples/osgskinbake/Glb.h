@@ -78,12 +78,14 @@ private:
 };
 
 /// Writes a binary glTF file. Its mesh is the first frame, each further frame is a morph target,
-/// and an animation interpolates linearly between them. Any glTF player can play it, without a skin
+/// and an animation interpolates linearly between them. A file of one frame has the character's own
+/// morph targets. Any glTF player can play it, without a skin
 /// model or a skeleton. Each material has one primitive, with its texture.
 class GlbMorphs : public FrameWriter {
 public:
     GlbMorphs(std::string file, const FrameSeries& series);
     void add(std::size_t frame, const PosedMesh& posed) override;
+    void addMorph(const std::string& name, const PosedMesh& posed) override;
     void finish() override;
 
 private:
@@ -104,6 +106,7 @@ private:
     GlbBuffer _buffer;
     GlbMaterials _materials;
     std::vector<Primitive> _primitives;
+    std::vector<std::string> _morphs; ///< names
     std::size_t _frames = 0;
 };
 

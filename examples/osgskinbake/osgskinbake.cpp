@@ -11,6 +11,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/Pose>
 #include <osgSkin/RigidPart>
+#include <osgSkin/SetMorph>
 #include <osgSkinCharacter/Character>
 #include <osgSkinCharacter/LoadCharacter>
 
@@ -243,6 +244,19 @@ bake::FrameRange chooseFrames(const Arguments& arguments, const SampledMotion& m
     return *arguments.frames;
 }
 
+/// Adds the character's morph targets to a file of one frame.
+void addMorphs(Character& character, bake::FrameWriter& writer) {
+    osg::Group& root = *character.root;
+    for (const std::string& name : osgSkin::morphNames(root)) {
+        float before = 0.0f;
+        for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins)
+            before = std::max(before, skin.drawable->getMorph(name));
+        osgSkin::setMorph(root, name, 1.0f);
+        writer.addMorph(name, bake::PosedMesh::read(character));
+        osgSkin::setMorph(root, name, before);
+    }
+}
+
 void bakeFrames(const Arguments& arguments, Character& character) {
     const SampledMotion motion = chooseMotion(character, arguments);
     const bake::FrameRange range = chooseFrames(arguments, motion);
@@ -269,6 +283,7 @@ void bakeFrames(const Arguments& arguments, Character& character) {
         if (!arguments.pose.empty())
             poses.push_back(bake::poseJson(frame, character.binding, bake::currentPose(character)));
     }
+    if (writer && total == 1) addMorphs(character, *writer);
     if (writer) writer->finish();
     if (!arguments.pose.empty()) bake::writeJson(arguments.pose, poses);
     if (!arguments.quiet)
@@ -320,6 +335,17 @@ Character load(const Arguments& arguments) {
     return character;
 }
 
+void morph(Character& character, const Arguments& arguments) {
+    for (const auto& [name, weight] : arguments.morphs) {
+        if (osgSkin::setMorph(*character.root, name, weight)) continue;
+        std::string known;
+        for (const std::string& each : osgSkin::morphNames(*character.root))
+            known += (known.empty() ? ", expected one of \"" : ", \"") + each + "\"";
+        throw UsageError{"--morph: " + arguments.character + " has no morph target \"" + name +
+                         "\"" + known};
+    }
+}
+
 void tense(Character& character, const Arguments& arguments) {
     for (const auto& [name, activation] : arguments.activations) {
         bool known = false;
@@ -334,6 +360,7 @@ int run(const Arguments& arguments) {
     Character character = load(arguments);
     bake::keepFiles(character.files);
     tense(character, arguments);
+    morph(character, arguments);
     if (!arguments.motion.empty()) chooseMotion(character, arguments); // before writing any file
     if (!arguments.binding.empty())
         bake::writeJson(arguments.binding, bake::bindingJson(character.binding));
