@@ -5,6 +5,7 @@
 #include "CharacterBench.h"
 
 #include <osgSkin/DeformPool>
+#include <osgSkin/MorphedRest>
 #include <osgSkin/PoseBounds>
 
 #include <benchmark/benchmark.h>
@@ -194,6 +195,52 @@ void shapes(benchmark::State& state, std::uint32_t parts, bench::Kind kind, bool
     count(state, positions.size());
 }
 
+/// A face of a twelfth of the vertices, as on characters, in front of all others: `targets` shapes,
+/// each of a third of it.
+osg::ref_ptr<const osgSkin::MorphTargets> faceTargets(const osgSkin::SkinModel& model,
+                                                      std::size_t targets) {
+    const std::size_t face = model.vertexCount() / 12;
+    std::vector<osgSkin::MorphTarget> result(targets);
+    for (std::size_t i = 0; i < targets; ++i) {
+        result[i].name = std::to_string(i);
+        for (std::size_t k = 0; k < face / 3; ++k) {
+            result[i].vertices.push_back(
+                static_cast<std::uint32_t>(i * (face - face / 3) / targets + k));
+            result[i].positions.emplace_back(0.01f, 0.02f, -0.01f);
+            result[i].normals.emplace_back(0.1f, -0.1f, 0.2f);
+        }
+    }
+    return osgSkin::MorphTargets::create(std::move(result), model.vertexCount());
+}
+
+/// Ours with five morph targets of a face, whose weights change in every frame or stay.
+void morphs(benchmark::State& state, std::uint32_t parts, bench::Kind kind, bool changing) {
+    const bench::Body& body = bench::body(parts, kind);
+    const auto model = body.model();
+    osgSkin::MorphedRest rest(model, faceTargets(*model, 5));
+    rest.set({0.1f, 0.2f, 0.3f, 0.4f, 0.5f});
+    osgSkin::Pose pose(model->joints());
+    std::vector<glm::vec3> positions(body.positions.size()), normals(body.normals.size());
+    osgSkin::DeformJob job;
+    job.model = model.get();
+    job.pose = &pose;
+    job.morphed = &rest;
+    job.positions = positions.data();
+    job.normals = normals.data();
+    job.positionCount = job.normalCount = positions.size();
+    std::size_t frame = 0;
+    std::vector<float> weights(5);
+    for ([[maybe_unused]] auto iteration : state) {
+        const auto& skinning = body.skinning[frame++ % body.skinning.size()];
+        pose.set(skinning.data(), skinning.size());
+        for (float& weight : weights) weight = static_cast<float>(frame % 100 + 1) / 101.0f;
+        if (changing) rest.set(weights);
+        job.run();
+        benchmark::ClobberMemory();
+    }
+    count(state, positions.size());
+}
+
 void osgAnimationRig(benchmark::State& state, std::uint32_t parts) {
     const bench::Body& body = bench::body(parts);
     bench::OsgRig rig(body);
@@ -321,6 +368,8 @@ int main(int argc, char** argv) {
             add("normals, turned", shapes, bench::Kind::Turned, true);
             add("normals of the surface", shapes, bench::Kind::Surface, true);
             add("normals, fast shapes", shapes, bench::Kind::Shaped, true);
+            add("morphs, fast shapes", morphs, bench::Kind::Shaped, false);
+            add("changing morphs, fast shapes", morphs, bench::Kind::Shaped, true);
         }
         add("ours, 1 thread", ours, std::int64_t{0}, one.get())->UseRealTime();
         add("ours, 2 threads", ours, std::int64_t{0}, two.get())->UseRealTime();
