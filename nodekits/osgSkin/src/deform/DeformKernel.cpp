@@ -312,7 +312,7 @@ HWY_INLINE void startGroup(const KernelRun& run, std::size_t i, KernelCall& call
     call.tangentRows =
         run.tangents ? run.tangentRows + group.firstBlock * SkinBlocks::kTangentRows : nullptr;
     if (run.corrections) startCorrections(run, run.firstGroup + i, group, call);
-    call.morphTilts = run.morphTilts ? run.morphTilts + 3 * group.firstBlock : nullptr;
+    call.morphTilts = run.morphTilts ? run.morphTilts + std::size_t{3} * group.firstBlock : nullptr;
 }
 
 /// Sets a group's gradients, and which of its links tilt normals in this pose.

@@ -261,7 +261,7 @@ public:
 
 private:
     /// Of a vertex: the offset of its position, of its normal and of its tangent.
-    static constexpr unsigned int kMorphTexels = 3;
+    static constexpr std::size_t kMorphTexels = 3;
 
     void setMorphs(const DeformableSkin& skin) {
         _isMorphed->set(skin.isMorphed());
