@@ -58,8 +58,8 @@ UpdateMorphs::UpdateMorphs(const UpdateMorphs& other, const osg::CopyOp& copyop)
       osgAnimation::AnimationUpdateCallback<osg::NodeCallback>(other, copyop) {}
 
 bool UpdateMorphs::link(osgAnimation::Channel* channel) {
-    osg::ref_ptr<osgAnimation::FloatTarget>& weight = _weights[channel->getName()];
-    if (!weight) weight = new osgAnimation::FloatTarget(0.0f);
+    osg::ref_ptr<Weight>& weight = _weights[channel->getName()];
+    if (!weight) weight = new Weight;
     _isFound = false;
     return channel->setTarget(weight);
 }
@@ -82,8 +82,7 @@ void UpdateMorphs::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         if (skin) _next = skin->getMorphWeights();
         for (const DeformableSkin* const same = skin;
              i < _driven.size() && _driven[i].skin.get() == same; ++i) {
-            // A weight of 0 means that no animation drives the target in this frame.
-            if (_driven[i].weight->getWeight() > 0.0f && _driven[i].target < _next.size())
+            if (_driven[i].weight->isDriven() && _driven[i].target < _next.size())
                 _next[_driven[i].target] = _driven[i].weight->getValue();
         }
         if (skin) skin->setMorphWeights(_next);
