@@ -6,7 +6,7 @@
 #include "Notices.h"
 #include "TextFile.h"
 
-#include <osgSkin/SetMorph>
+#include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
 
 #include <osg/Matrixd>
@@ -19,8 +19,8 @@
 namespace {
 
 using osgSkin::Character;
-using osgSkin::LoadOptions;
 using osgSkin::loadCharacter;
+using osgSkin::LoadOptions;
 using test::GltfColumn;
 
 constexpr double kSize = 3.0;
@@ -125,8 +125,9 @@ TEST(Morphs, ClipsOfTheFilePlayThem) {
 
 TEST(Morphs, AreListedInTheReport) {
     Face face;
-    EXPECT_NE(loadCharacter(face.save("report.gltf")).bindReport.text().find(
-                  "2 morph targets: \"wide\", \"tall\""),
+    EXPECT_NE(loadCharacter(face.save("report.gltf"))
+                  .bindReport.text()
+                  .find("2 morph targets: \"wide\", \"tall\""),
               std::string::npos);
 }
 
@@ -136,7 +137,8 @@ TEST(Morphs, SkinFilesHaveThoseOfTheirMesh) {
     for (const char* bind : {"weights", "smooth"}) {
         const std::string file = test::saveText(
             std::string("named_") + bind + ".skin",
-            R"({"mesh": "named.gltf", "skeleton": "named.gltf", "bind": ")" + std::string(bind) + "\"}");
+            R"({"osgskin": 1, "mesh": "named.gltf", "skeleton": "named.gltf", "bind": ")" +
+                std::string(bind) + "\"}");
         Character character = loadCharacter(file);
         EXPECT_EQ(character.morphs(), (std::vector<std::string>{"wide", "tall"})) << bind;
         EXPECT_TRUE(character.setMorph("tall", 0.5f));

@@ -670,8 +670,8 @@ TEST(PlaceSkins, RigidPartsWithMorphTargetsAreSkinsAtRest) {
     const std::vector<std::uint32_t>& source = placed.rigids[0].part.sourceVertex;
     for (const float weight : {0.5f, 0.75f}) {
         ASSERT_TRUE(skin->setMorph("odd", weight));
-        const auto& drawn = dynamic_cast<const osg::Vec3Array&>(
-            *skin->getDeformedGeometry()->getVertexArray());
+        const auto& drawn =
+            dynamic_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
         ASSERT_EQ(drawn.size(), source.size());
         for (std::size_t v = 0; v < source.size(); ++v) {
             glm::dvec3 expected = body.mesh.positions[source[v]];

@@ -75,8 +75,10 @@ std::map<std::uint32_t, glm::dvec3> offsetsOf(const ImportedMesh& mesh, const st
                 EXPECT_EQ(known->second, offset) << name << ", vertex " << vertex;
             }
             for (std::uint32_t v = 0; v < part.sourceVertex.size(); ++v) {
-                const bool isListed = std::binary_search(target.vertices.begin(), target.vertices.end(), v);
-                EXPECT_EQ(isListed, result.count(part.sourceVertex[v]) > 0) << name << ", copy " << v;
+                const bool isListed =
+                    std::binary_search(target.vertices.begin(), target.vertices.end(), v);
+                EXPECT_EQ(isListed, result.count(part.sourceVertex[v]) > 0)
+                    << name << ", copy " << v;
             }
         }
     return result;
@@ -128,7 +130,8 @@ float weightAt(const FloatKeys& keys, double time) {
     for (std::size_t k = 1; k < keys.size(); ++k)
         if (time <= keys[k].first) {
             const double share = (time - keys[k - 1].first) / (keys[k].first - keys[k - 1].first);
-            return float((1.0 - share) * double(keys[k - 1].second) + share * double(keys[k].second));
+            return float((1.0 - share) * double(keys[k - 1].second) +
+                         share * double(keys[k].second));
         }
     return keys.back().second;
 }
@@ -162,22 +165,24 @@ TEST(GltfMorphs, DefaultWeightsAreInTheRestVertices) {
 TEST(GltfMorphs, SparseTargetsMoveTheirVertices) {
     for (const bool isOrdered : {true, false}) {
         GltfColumn column;
-        const std::vector<double> places = isOrdered ? std::vector<double>{3, 20, 21} : std::vector<double>{20, 3, 21};
+        const std::vector<double> places =
+            isOrdered ? std::vector<double>{3, 20, 21} : std::vector<double>{20, 3, 21};
         const std::size_t indices = column.accessor("SCALAR", places, 5123);
         const std::size_t values = column.accessor("VEC3", {1, 0, 0, 0, 2, 0, 0, 0, 0});
         json& accessors = column.json["accessors"];
-        accessors.push_back({{"type", "VEC3"},
-                             {"componentType", 5126},
-                             {"count", kVertices},
-                             {"sparse",
-                              {{"count", 3},
-                               {"indices",
-                                {{"bufferView", accessors[indices]["bufferView"]},
-                                 {"componentType", 5123}}},
-                               {"values", {{"bufferView", accessors[values]["bufferView"]}}}}}});
+        accessors.push_back(
+            {{"type", "VEC3"},
+             {"componentType", 5126},
+             {"count", kVertices},
+             {"sparse",
+              {{"count", 3},
+               {"indices",
+                {{"bufferView", accessors[indices]["bufferView"]}, {"componentType", 5123}}},
+               {"values", {{"bufferView", accessors[values]["bufferView"]}}}}}});
         primitiveOf(column)["targets"] = json::array({{{"POSITION", accessors.size() - 1}}});
         const ImportedMesh mesh = osgSkin::importMesh(column.save("sparse.gltf"));
-        expectMoved(mesh, "column-0", {{isOrdered ? 3u : 20u, {1, 0, 0}}, {isOrdered ? 20u : 3u, {0, 2, 0}}});
+        expectMoved(mesh, "column-0",
+                    {{isOrdered ? 3u : 20u, {1, 0, 0}}, {isOrdered ? 20u : 3u, {0, 2, 0}}});
     }
 }
 
@@ -288,15 +293,24 @@ TEST(VrmExpressions, AreFurtherTargets) {
         tall.update({{"index", 1}, {"weight", whole}});
         if (isSecond)
             face.json["extensions"]["VRMC_vrm"]["expressions"] = {
-                {"preset", {{"happy", {{"morphTargetBinds", {wide, tall}}}}, {"neutral", {{"isBinary", false}}}}},
-                {"custom", {{"grin", {{"morphTargetBinds", json::array({wide})}, {"materialColorBinds", json::array({1})}}}}}};
+                {"preset",
+                 {{"happy", {{"morphTargetBinds", {wide, tall}}}},
+                  {"neutral", {{"isBinary", false}}}}},
+                {"custom",
+                 {{"grin",
+                   {{"morphTargetBinds", json::array({wide})},
+                    {"materialColorBinds", json::array({1})}}}}}};
         else
             face.json["extensions"]["VRM"]["blendShapeMaster"]["blendShapeGroups"] = {
                 {{"name", "Happy"}, {"presetName", "happy"}, {"binds", {wide, tall}}},
-                {{"name", "grin"}, {"presetName", "unknown"}, {"binds", json::array({wide})}, {"materialValues", json::array({1})}}};
+                {{"name", "grin"},
+                 {"presetName", "unknown"},
+                 {"binds", json::array({wide})},
+                 {"materialValues", json::array({1})}}};
         const test::Notices notices;
         const ImportedMesh mesh = osgSkin::importMesh(face.save("avatar.vrm"));
-        EXPECT_EQ(namesOf(mesh), (std::vector<std::string>{"wide", "tall", "happy.001", "happy", "grin"}));
+        EXPECT_EQ(namesOf(mesh),
+                  (std::vector<std::string>{"wide", "tall", "happy.001", "happy", "grin"}));
         expectMoved(mesh, "happy", {{3, {0.25, 0.0, 0.0}}, {20, {0.0, 0.25, 0.125}}});
         expectMoved(mesh, "grin", {{3, {0.25, 0.0, 0.0}}});
         expectMoved(mesh, "happy.001", {{8, {0.0, 0.0, 1.0}}});

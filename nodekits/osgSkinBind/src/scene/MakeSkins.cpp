@@ -100,10 +100,9 @@ std::vector<std::uint32_t> corners(const osg::Geometry& geometry) {
     return std::move(triangles.corners);
 }
 
-/// The vertices `oldIndex` of the part with their per-vertex arrays, without triangles.
-/// \param morphs of the part
-MeshPart vertexSubset(const MeshPart& part, const MorphsByVertex& morphs,
-                      const std::vector<std::uint32_t>& oldIndex) {
+/// The vertices `oldIndex` of the part with their per-vertex arrays, without triangles and morph
+/// targets.
+MeshPart vertexSubset(const MeshPart& part, const std::vector<std::uint32_t>& oldIndex) {
     const osg::Geometry& source = *part.geometry;
     const std::size_t vertices = part.sourceVertex.size();
     MeshPart result;
@@ -127,26 +126,27 @@ MeshPart vertexSubset(const MeshPart& part, const MorphsByVertex& morphs,
     for (unsigned int i = 0; i < source.getNumVertexAttribArrays(); ++i)
         geometry.setVertexAttribArray(i, take(source.getVertexAttribArray(i)));
     for (const std::uint32_t v : oldIndex) result.sourceVertex.push_back(part.sourceVertex[v]);
-    result.morphs = morphs.ofCopies(oldIndex);
     return result;
 }
 
 /// The triangles of a part for which `keep` is true (one entry a triangle), and the vertices that
-/// they use, in the part's order. All per-vertex arrays are copied, the state set is shared.
-MeshPart partSubset(const MeshPart& part, const MorphsByVertex& morphs,
-                    const std::vector<bool>& keep) {
+/// they use, in the part's order. All per-vertex arrays are copied, the state set is shared; morph
+/// targets are left out.
+/// \param[out] oldIndex the vertices' indices in the part
+MeshPart partSubset(const MeshPart& part, const std::vector<bool>& keep,
+                    std::vector<std::uint32_t>& oldIndex) {
     const std::vector<std::uint32_t> old = corners(*part.geometry);
     std::vector<std::uint32_t> newIndex(part.sourceVertex.size(), kUnused);
     for (std::size_t c = 0; c < old.size(); ++c)
         if (keep[c / 3]) newIndex[old[c]] = 0;
-    std::vector<std::uint32_t> oldIndex;
+    oldIndex.clear();
     for (std::uint32_t v = 0; v < newIndex.size(); ++v) {
         if (newIndex[v] == kUnused) continue;
         newIndex[v] = static_cast<std::uint32_t>(oldIndex.size());
         oldIndex.push_back(v);
     }
 
-    MeshPart result = vertexSubset(part, morphs, oldIndex);
+    MeshPart result = vertexSubset(part, oldIndex);
     const osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
     for (std::size_t c = 0; c < old.size(); ++c) {
         if (!keep[c / 3]) continue;
@@ -157,11 +157,12 @@ MeshPart partSubset(const MeshPart& part, const MorphsByVertex& morphs,
     return result;
 }
 
-/// Reorders the part's vertices: position i gets vertex order[i]. Triangles keep their order.
+/// Reorders the part's vertices: position i gets vertex order[i]. Triangles keep their order, morph
+/// targets are left out.
 MeshPart reorderedPart(const MeshPart& part, const std::vector<std::uint32_t>& order) {
     std::vector<std::uint32_t> newIndex(order.size());
     for (std::uint32_t v = 0; v < order.size(); ++v) newIndex[order[v]] = v;
-    MeshPart result = vertexSubset(part, MorphsByVertex(part.morphs), order);
+    MeshPart result = vertexSubset(part, order);
     result.sourceFace = part.sourceFace;
     const osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
     for (const std::uint32_t v : corners(*part.geometry)) elements->push_back(newIndex[v]);
@@ -206,18 +207,22 @@ void check(const MeshPart& part, const Binding& binding, const RigidSplit& split
     }
 }
 
-MeshPart facesOf(const MeshPart& part, const MorphsByVertex& morphs, const RigidSplit& split,
-                 std::uint32_t joint) {
+/// \param[out] oldIndex see partSubset()
+MeshPart facesOf(const MeshPart& part, const RigidSplit& split, std::uint32_t joint,
+                 std::vector<std::uint32_t>& oldIndex) {
     std::vector<bool> keep;
     keep.reserve(part.sourceFace.size());
     for (const std::uint32_t face : part.sourceFace) keep.push_back(split.faceJoint[face] == joint);
-    return partSubset(part, morphs, keep);
+    return partSubset(part, keep, oldIndex);
 }
 
 /// Puts the part's vertices into the deformation's order, so that it writes them sequentially.
 /// \param source for each vertex, the vertex of `binding` that it is a copy of
+/// \param morphs of other vertices
+/// \param oldIndex for each vertex, the one of `morphs`
 SkinParts::Skin makeSkin(const MeshPart& unordered, const Binding& binding,
-                         const std::vector<std::uint32_t>& source) {
+                         const std::vector<std::uint32_t>& source, const MorphsByVertex& morphs,
+                         const std::vector<std::uint32_t>& oldIndex) {
     const auto& vertices =
         static_cast<const osg::Vec3Array&>(*unordered.geometry->getVertexArray());
     const auto& normals = static_cast<const osg::Vec3Array&>(*unordered.geometry->getNormalArray());
@@ -226,13 +231,16 @@ SkinParts::Skin makeSkin(const MeshPart& unordered, const Binding& binding,
     const auto [model, order] =
         SkinModel::createInBestOrder(binding, {positions, positions + vertices.size()},
                                      {directions, directions + normals.size()}, source);
-    MeshPart part = reorderedPart(unordered, order);
+    const MeshPart part = reorderedPart(unordered, order);
     const osg::ref_ptr<DeformableSkin> skin = new DeformableSkin;
     skin->setName(part.geometry->getName());
     skin->setSkin(part.geometry, model);
-    if (!part.morphs.empty())
-        skin->setMorphTargets(MorphTargets::create(std::move(part.morphs), order.size()));
-    part.morphs.clear();
+    std::vector<std::uint32_t> morphed;
+    morphed.reserve(order.size());
+    for (const std::uint32_t v : order) morphed.push_back(oldIndex[v]);
+    std::vector<MorphTarget> targets = morphs.ofCopies(morphed);
+    if (!targets.empty())
+        skin->setMorphTargets(MorphTargets::create(std::move(targets), order.size()));
     return {skin, part};
 }
 
@@ -249,7 +257,7 @@ SkinParts::Skin makeStillSkin(const MeshPart& part, const std::string& joint) {
     std::iota(all.begin(), all.end(), 0u);
     binding.firstInfluence = all;
     binding.firstInfluence.push_back(vertices);
-    return makeSkin(part, binding, all);
+    return makeSkin(part, binding, all, MorphsByVertex(part.morphs), all);
 }
 
 } // namespace
@@ -292,12 +300,15 @@ SkinParts makeSkins(const SkinMesh& mesh, const std::vector<MeshPart>& parts,
         for (const std::uint32_t joint : joints) {
             if (joint != RigidSplit::kSkin && joint >= binding.joints.size())
                 throw Error("attach skin: a rigid face names a joint that does not exist");
-            const MeshPart piece = facesOf(part, morphs, split, joint);
+            std::vector<std::uint32_t> oldIndex;
+            MeshPart piece = facesOf(part, split, joint, oldIndex);
             if (piece.sourceFace.empty()) continue;
             if (joint == RigidSplit::kSkin) {
-                result.skins.push_back(makeSkin(piece, binding, piece.sourceVertex));
+                result.skins.push_back(
+                    makeSkin(piece, binding, piece.sourceVertex, morphs, oldIndex));
                 result.skins.back().drawable->setUpdateCallback(new UpdateDeformableSkin);
             } else {
+                piece.morphs = morphs.ofCopies(oldIndex);
                 result.rigids.push_back({binding.joints[joint].name, piece});
             }
         }

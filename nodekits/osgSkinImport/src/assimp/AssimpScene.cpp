@@ -172,8 +172,8 @@ SourceMesh readMesh(const aiScene& scene, const aiMesh& source) {
     return result;
 }
 
-/// Reads morph targets, which Assimp calls animation meshes. It does not say with which weights they
-/// begin, and reads none from Collada files.
+/// Reads morph targets, which Assimp calls animation meshes. It does not say with which weights
+/// they begin, and reads none from Collada files.
 class MorphReader {
 public:
     /// Adds a mesh's targets.

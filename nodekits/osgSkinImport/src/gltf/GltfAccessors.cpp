@@ -254,30 +254,31 @@ std::vector<float> GltfAccessors::floats(std::size_t index) const {
 
 VertexOffsets GltfAccessors::offsets(std::size_t index) const {
     const GltfAccessor& source = _accessors[index];
+    VertexOffsets result;
+    const auto add = [&result](std::size_t vertex, const float* v) {
+        if (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f) return;
+        result.vertices.push_back(static_cast<std::uint32_t>(vertex));
+        result.offsets.emplace_back(v[0], v[1], v[2]);
+    };
+    if (source.stored) {
+        const std::vector<float> all = floats(index);
+        for (std::size_t v = 0; v < source.count; ++v) add(v, &all[3 * v]);
+        return result;
+    }
+    if (!source.sparse) return result;
     std::vector<std::uint32_t> elements;
     std::vector<float> numbers;
-    if (source.stored) {
-        elements.resize(source.count);
-        std::iota(elements.begin(), elements.end(), 0u);
-        numbers = floats(index);
-    } else if (source.sparse) {
-        readChanges(index, elements, numbers);
-        if (source.normalised)
-            for (float& value : numbers) value = normalised(value, source.component);
-    }
+    readChanges(index, elements, numbers);
+    if (source.normalised)
+        for (float& value : numbers) value = normalised(value, source.component);
     std::vector<std::size_t> order(elements.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     const auto isBefore = [&](std::size_t a, std::size_t b) { return elements[a] < elements[b]; };
     if (!std::is_sorted(order.begin(), order.end(), isBefore))
         std::stable_sort(order.begin(), order.end(), isBefore);
-    VertexOffsets result;
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        if (k + 1 < order.size() && !isBefore(order[k], order[k + 1])) continue; // replaced again
-        const float* const v = &numbers[3 * order[k]];
-        if (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f) continue;
-        result.vertices.push_back(elements[order[k]]);
-        result.offsets.emplace_back(v[0], v[1], v[2]);
-    }
+    for (std::size_t k = 0; k < order.size(); ++k)
+        if (k + 1 == order.size() || isBefore(order[k], order[k + 1])) // else replaced again
+            add(elements[order[k]], &numbers[3 * order[k]]);
     return result;
 }
 

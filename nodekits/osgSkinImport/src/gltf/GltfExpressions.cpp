@@ -32,9 +32,8 @@ public:
 
     void run() {
         const json& extensions = memberOf(_document.file.json, "extensions");
-        for (const json& group :
-             memberOf(memberOf(memberOf(extensions, "VRM"), "blendShapeMaster"),
-                      "blendShapeGroups"))
+        for (const json& group : memberOf(memberOf(memberOf(extensions, "VRM"), "blendShapeMaster"),
+                                          "blendShapeGroups"))
             readFirst(group);
         const json& second = memberOf(memberOf(extensions, "VRMC_vrm"), "expressions");
         for (const char* kind : {"preset", "custom"})

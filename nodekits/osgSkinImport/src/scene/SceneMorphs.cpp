@@ -15,8 +15,16 @@ using Lists = std::vector<glm::vec3> MorphTarget::*;
 constexpr float kRounding = 2.5e-7f; ///< relative to the largest coordinate
 constexpr float kTurned = 1e-4f;     ///< a change of a normal or a tangent that counts
 
+/// Adds increasing vertices, from `middle` on, to increasing ones.
+void merge(std::vector<std::uint32_t>& vertices, std::size_t middle) {
+    if (middle == 0) return;
+    std::inplace_merge(vertices.begin(), vertices.begin() + std::ptrdiff_t(middle), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+}
+
 /// Adds the vertices that are moved farther than `least`.
 void addMoved(const VertexOffsets& from, float least, std::vector<std::uint32_t>& vertices) {
+    const std::size_t before = vertices.size();
     for (std::size_t i = 0; i < from.vertices.size(); ++i) {
         const glm::vec3& offset = from.offsets[i];
         for (int axis = 0; axis < 3; ++axis)
@@ -25,12 +33,7 @@ void addMoved(const VertexOffsets& from, float least, std::vector<std::uint32_t>
                 break;
             }
     }
-}
-
-void makeIncreasing(std::vector<std::uint32_t>& vertices) {
-    if (!std::is_sorted(vertices.begin(), vertices.end()))
-        std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    merge(vertices, before);
 }
 
 /// The offsets of `vertices`, zero where there is none; none at all if there are none.
@@ -87,7 +90,6 @@ void MorphFiller::fill(const VertexOffsets& positions, const VertexOffsets& norm
     addMoved(positions, _rounding, target.vertices);
     addMoved(normals, kTurned, target.vertices);
     addMoved(tangents, kTurned, target.vertices);
-    makeIncreasing(target.vertices);
     target.vertices.shrink_to_fit();
     target.positions = offsetsOf(positions, target.vertices);
     target.positions.resize(target.vertices.size());
@@ -97,9 +99,11 @@ void MorphFiller::fill(const VertexOffsets& positions, const VertexOffsets& norm
 
 MorphTarget sumOf(const std::vector<std::pair<const MorphTarget*, double>>& parts) {
     MorphTarget result;
-    for (const auto& [part, weight] : parts)
+    for (const auto& [part, weight] : parts) {
+        const std::size_t before = result.vertices.size();
         result.vertices.insert(result.vertices.end(), part->vertices.begin(), part->vertices.end());
-    makeIncreasing(result.vertices);
+        merge(result.vertices, before);
+    }
     for (const Lists lists :
          {&MorphTarget::positions, &MorphTarget::normals, &MorphTarget::tangents}) {
         std::vector<glm::dvec3> sums;
