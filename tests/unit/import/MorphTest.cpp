@@ -232,6 +232,34 @@ TEST(GltfMorphs, OffsetsAreTransformedLikeTheVertices) {
                 EXPECT_LT(glm::distance(glm::dvec3(change), glm::dvec3(0.0, 0.0, 2.0 / 3.0)), 1e-5);
 }
 
+/// Two meshes of one skeleton, one of them bound in another pose: all vertices are brought to one
+/// pose, and their offsets are the difference between the file's shapes in it.
+TEST(GltfMorphs, OffsetsGoToTheCommonBindPose) {
+    Face face;
+    face.json["meshes"].push_back(face.json["meshes"][0]);
+    std::vector<double> matrices;
+    for (std::size_t j = 0; j < 3; ++j) { // the top is turned by 30 degrees about x
+        const double angle = j == 2 ? std::acos(-1.0) / 6.0 : 0.0;
+        const double c = std::cos(angle), s = std::sin(angle), y = -double(j);
+        matrices.insert(matrices.end(), {1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, 0, c * y, s * y, 1});
+    }
+    face.json["skins"].push_back(face.json["skins"][0]);
+    face.json["skins"][1]["inverseBindMatrices"] = face.accessor("MAT4", matrices);
+    face.json["scenes"][0]["nodes"].push_back(face.node({{"mesh", 1}, {"skin", 1}}));
+    const ImportedMesh rest = osgSkin::importMesh(face.save("poses.gltf"));
+    for (json& mesh : face.json["meshes"]) mesh["weights"] = {1.0, 1.0};
+    const ImportedMesh whole = osgSkin::importMesh(face.save("poses_whole.gltf"));
+    ASSERT_EQ(whole.mesh.positions.size(), 2 * kVertices);
+    auto offsets = offsetsOf(rest, "wide");
+    offsets.merge(offsetsOf(rest, "tall"));
+    EXPECT_EQ(offsets.size(), 4u);
+    for (std::uint32_t v = 0; v < 2 * kVertices; ++v) {
+        const glm::dvec3 moved = whole.mesh.positions[v] - rest.mesh.positions[v];
+        EXPECT_LT(glm::distance(moved, offsets[v]), 1e-6) << v;
+    }
+    EXPECT_GT(glm::distance(offsets[20], offsets[kVertices + 20]), 0.05) << "turned";
+}
+
 /// Exporters split meshes by material, and faces have teeth and lashes of their own.
 TEST(GltfMorphs, TargetsOfOneNameAreOne) {
     Face face;

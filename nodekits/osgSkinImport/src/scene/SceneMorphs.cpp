@@ -15,14 +15,7 @@ using Lists = std::vector<glm::vec3> MorphTarget::*;
 constexpr float kRounding = 2.5e-7f; ///< relative to the largest coordinate
 constexpr float kTurned = 1e-4f;     ///< a change of a normal or a tangent that counts
 
-/// Adds increasing vertices, from `middle` on, to increasing ones.
-void merge(std::vector<std::uint32_t>& vertices, std::size_t middle) {
-    if (middle == 0) return;
-    std::inplace_merge(vertices.begin(), vertices.begin() + std::ptrdiff_t(middle), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-}
-
-/// Adds the vertices that are moved farther than `least`.
+/// Adds the vertices that are moved farther than `least`, in increasing order.
 void addMoved(const VertexOffsets& from, float least, std::vector<std::uint32_t>& vertices) {
     const std::size_t before = vertices.size();
     for (std::size_t i = 0; i < from.vertices.size(); ++i) {
@@ -33,7 +26,9 @@ void addMoved(const VertexOffsets& from, float least, std::vector<std::uint32_t>
                 break;
             }
     }
-    merge(vertices, before);
+    if (before == 0) return;
+    std::inplace_merge(vertices.begin(), vertices.begin() + std::ptrdiff_t(before), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
 /// The offsets of `vertices`, zero where there is none; none at all if there are none.
@@ -99,22 +94,22 @@ void MorphFiller::fill(const VertexOffsets& positions, const VertexOffsets& norm
 
 MorphTarget sumOf(const std::vector<std::pair<const MorphTarget*, double>>& parts) {
     MorphTarget result;
-    for (const auto& [part, weight] : parts) {
-        const std::size_t before = result.vertices.size();
-        result.vertices.insert(result.vertices.end(), part->vertices.begin(), part->vertices.end());
-        merge(result.vertices, before);
-    }
+    std::vector<std::uint32_t>& all = result.vertices;
+    for (const auto& [part, weight] : parts)
+        all.insert(all.end(), part->vertices.begin(), part->vertices.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     for (const Lists lists :
          {&MorphTarget::positions, &MorphTarget::normals, &MorphTarget::tangents}) {
         std::vector<glm::dvec3> sums;
         for (const auto& [part, weight] : parts) {
             const std::vector<glm::vec3>& offsets = part->*lists;
             if (offsets.empty()) continue;
-            sums.resize(result.vertices.size(), glm::dvec3(0.0));
-            std::size_t at = 0;
+            sums.resize(all.size(), glm::dvec3(0.0));
+            auto at = all.begin();
             for (std::size_t i = 0; i < offsets.size(); ++i) {
-                while (result.vertices[at] < part->vertices[i]) ++at;
-                sums[at] += weight * glm::dvec3(offsets[i]);
+                at = std::lower_bound(at, all.end(), part->vertices[i]);
+                sums[std::size_t(at - all.begin())] += weight * glm::dvec3(offsets[i]);
             }
         }
         (result.*lists).assign(sums.begin(), sums.end());
