@@ -30,15 +30,14 @@ constexpr double kSamplesASecond = 60.0;
 class FindDrawn : public osg::NodeVisitor {
 public:
     FindDrawn() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Geometry&) override {
-        const osg::NodePath& path = getNodePath();
-        if (std::any_of(path.begin(), path.end(), [](const osg::Node* node) {
-                return dynamic_cast<const osgSkin::RigidPart*>(node) != nullptr;
-            }))
-            rigids.push_back(path);
-    }
     void apply(osg::Drawable& drawable) override {
-        if (dynamic_cast<osgSkin::DeformableSkin*>(&drawable)) skins.push_back(getNodePath());
+        const osg::NodePath& path = getNodePath();
+        const bool isSkin = dynamic_cast<osgSkin::DeformableSkin*>(&drawable) != nullptr;
+        const bool isRigid = std::any_of(path.begin(), path.end(), [](const osg::Node* node) {
+            return dynamic_cast<const osgSkin::RigidPart*>(node) != nullptr;
+        });
+        if (isRigid && (isSkin || drawable.asGeometry() != nullptr)) rigids.push_back(path);
+        if (!isRigid && isSkin) skins.push_back(path);
     }
 
     std::vector<osg::NodePath> skins, rigids;
@@ -73,9 +72,12 @@ osg::ref_ptr<osgSkin::CrowdCharacter> readCardCharacter(const std::string& file,
     for (const osg::NodePath& path : found.rigids)
         if (const auto* bone = nearest<osgAnimation::Bone>(path)) {
             const osg::Node& above = *path[path.size() - 2];
-            auto& geometry = static_cast<osg::Geometry&>(*path.back());
-            osg::StateSet* state = geometry.getStateSet();
+            osg::StateSet* state = path.back()->getStateSet();
             if (!state) state = const_cast<osg::StateSet*>(above.getStateSet());
+            // One with morph targets is a skin.
+            const auto* skin = dynamic_cast<const osgSkin::DeformableSkin*>(path.back());
+            const osg::Geometry& geometry =
+                skin ? *skin->getRestGeometry() : *path.back()->asGeometry();
             character->addRigid(geometry, state, 0, bone->getName());
         }
 

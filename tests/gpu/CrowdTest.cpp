@@ -9,6 +9,7 @@
 // Crowds in scenes that show them more than once, for a long time, or with their own states.
 #include "CrowdPicture.h"
 #include "CrowdSubject.h"
+#include "Notices.h"
 #include "Pixels.h"
 #include "TubeSkin.h"
 #include "crowd/CrowdDraws.h"
@@ -308,6 +309,21 @@ TEST(CrowdCharacter, RefusesTrianglesOfVerticesThatAreNotThere) {
     EXPECT_EQ(character->parts().size(), 1u);
     EXPECT_THROW(character->addSkin(*test::makeSkin(), osg::Matrixd::scale(1, 0, 1)), Error);
     EXPECT_THROW(character->addSkin(*test::makeSkin(), osg::Matrixd::scale(1, kNaN, 1)), Error);
+}
+
+TEST(CrowdCharacter, TellsOnceThatMembersDoNotMorph) {
+    osgSkin::MorphTarget smile;
+    smile.name = "smile";
+    smile.vertices = {3};
+    smile.positions = {glm::vec3(0.5f, 0.0f, 0.0f)};
+    const osg::ref_ptr<osgSkin::DeformableSkin> face = test::makeSkin();
+    face->setMorphTargets(osgSkin::MorphTargets::create({smile}, face->getModel()->vertexCount()));
+    const osg::ref_ptr<CrowdCharacter> character = new CrowdCharacter;
+    const test::Notices notices;
+    character->addSkin(*face, osg::Matrixd());
+    character->addSkin(*face, osg::Matrixd());
+    EXPECT_TRUE(notices.say("has morph targets, which members are drawn without"));
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
 }
 
 TEST(CrowdCharacter, StaysAsItIsOnceACrowdIsMadeOfIt) {

@@ -65,8 +65,10 @@ public:
             found = &json["animations"].back();
         }
         const std::size_t input = accessor("SCALAR", times);
-        const std::size_t output =
-            accessor(path == "rotation" ? "VEC4" : "VEC3", values, component, component != 5126);
+        const std::size_t output = accessor(path == "rotation"  ? "VEC4"
+                                            : path == "weights" ? "SCALAR"
+                                                                : "VEC3",
+                                            values, component, component != 5126);
         (*found)["samplers"].push_back(
             {{"input", input}, {"output", output}, {"interpolation", interpolation}});
         (*found)["channels"].push_back({{"sampler", (*found)["samplers"].size() - 1},

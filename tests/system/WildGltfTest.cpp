@@ -398,7 +398,7 @@ TEST(WildGltf, MorphTargetsAreAppliedAsTheyRest) {
         {{"sampler", 2}, {"target", {{"node", column.meshNode}, {"path", "weights"}}}});
     column.json.erase("buffers");
     expectMoved(column.save("moving.gltf"), 0.2);
-    EXPECT_TRUE(notices.say("clips change the shape of 1 mesh")) << notices.text();
+    EXPECT_EQ(notices.lines(), 0u) << notices.text();
 }
 
 TEST(WildGltf, FilesMayHaveSpacesInTheirNames) {

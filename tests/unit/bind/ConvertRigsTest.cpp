@@ -582,6 +582,11 @@ TEST(MakeSkins, RefusesWhatDoesNotFit) {
     EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
     parts[1].geometry = nullptr;
     EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
+    parts[1] = body.parts[1];
+    parts[1].morphs = {{"smile", 0.0f, {1000000}, {glm::vec3(1.0f)}, {}, {}}};
+    EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
+    parts[1].morphs = {{"smile", 0.0f, {1, 2}, {glm::vec3(1.0f)}, {}, {}}};
+    EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
     Binding broken = body.binding;
     broken.influences[2].joint = 9;
     EXPECT_THROW(makeSkins(body.mesh, body.parts, broken, body.split), Error);
@@ -603,6 +608,77 @@ TEST(MakeSkins, RefusesPartsThatWouldBeReadBeyondTheirEnds) {
     refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.sourceFace.resize(3); });
     refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.geometry->setNormalArray(nullptr); });
     refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.geometry->setVertexArray(nullptr); });
+}
+
+namespace {
+
+/// Parts whose target "odd" moves every other vertex of the mesh by its index.
+PartedBody morphingBody() {
+    PartedBody body;
+    for (MeshPart& part : body.parts) {
+        MorphTarget& odd = part.morphs.emplace_back();
+        odd.name = "odd";
+        odd.initial = 0.5f;
+        for (std::uint32_t v = 1; v < part.sourceVertex.size(); v += 2) {
+            odd.vertices.push_back(v);
+            odd.positions.emplace_back(float(v), 0.0f, 0.0f);
+            odd.normals.emplace_back(0.0f, 0.0f, float(v));
+        }
+    }
+    return body;
+}
+
+void expectOdd(const MorphTarget& odd, const std::vector<std::uint32_t>& source) {
+    EXPECT_EQ(odd.name, "odd");
+    EXPECT_EQ(odd.initial, 0.5f);
+    EXPECT_EQ(odd.vertices.size(),
+              std::size_t(std::count_if(source.begin(), source.end(),
+                                        [](std::uint32_t v) { return v % 2 == 1; })));
+    for (std::size_t i = 0; i < odd.vertices.size(); ++i) {
+        const auto vertex = float(source.at(odd.vertices[i]));
+        EXPECT_EQ(odd.positions[i], glm::vec3(vertex, 0.0f, 0.0f));
+        EXPECT_EQ(odd.normals[i], glm::vec3(0.0f, 0.0f, vertex));
+    }
+}
+
+} // namespace
+
+TEST(MakeSkins, MorphTargetsGoWithTheirVertices) {
+    const PartedBody body = morphingBody();
+    const SkinParts made = makeSkins(body.mesh, body.parts, body.binding, body.split);
+    ASSERT_EQ(made.skins.size(), 2u);
+    for (const SkinParts::Skin& skin : made.skins) {
+        const osgSkin::MorphTargets* targets = skin.drawable->getMorphTargets();
+        ASSERT_NE(targets, nullptr);
+        ASSERT_EQ(targets->targets().size(), 1u);
+        expectOdd(targets->targets()[0], skin.part.sourceVertex);
+    }
+    ASSERT_EQ(made.rigids.size(), 1u);
+    ASSERT_EQ(made.rigids[0].part.morphs.size(), 1u);
+    expectOdd(made.rigids[0].part.morphs[0], made.rigids[0].part.sourceVertex);
+}
+
+TEST(PlaceSkins, RigidPartsWithMorphTargetsAreSkinsAtRest) {
+    const PartedBody body = morphingBody();
+    rigs::Scene scene;
+    const AttachedSkin placed =
+        placeSkins(*scene.skeleton, makeSkins(body.mesh, body.parts, body.binding, body.split));
+    ASSERT_EQ(placed.rigids.size(), 1u);
+    auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(placed.rigids[0].node->getChild(0));
+    ASSERT_NE(skin, nullptr);
+    EXPECT_EQ(skin->getUpdateCallback(), nullptr);
+    const std::vector<std::uint32_t>& source = placed.rigids[0].part.sourceVertex;
+    for (const float weight : {0.5f, 0.75f}) {
+        ASSERT_TRUE(skin->setMorph("odd", weight));
+        const auto& drawn =
+            dynamic_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
+        ASSERT_EQ(drawn.size(), source.size());
+        for (std::size_t v = 0; v < source.size(); ++v) {
+            glm::dvec3 expected = body.mesh.positions[source[v]];
+            if (source[v] % 2 == 1) expected.x += (double(weight) - 0.5) * source[v];
+            EXPECT_LT((osg::Vec3d(drawn[v]) - toOsg(expected)).length(), 1e-4) << source[v];
+        }
+    }
 }
 
 TEST(PlaceSkins, HangsSkinsUnderTheSkeletonAndRigidPartsUnderTheirBones) {

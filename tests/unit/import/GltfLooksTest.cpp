@@ -270,11 +270,13 @@ TEST(GltfLooks, MeshesMayBeCompressedByDraco) {
         << R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],
 "extensionsUsed":["KHR_draco_mesh_compression"],
 "extensionsRequired":["KHR_draco_mesh_compression"],
-"buffers":[{"byteLength":76,"uri":"data:;base64,RFJBQ08CAgEAAAACBAEAAQIAAgMBAQAJAwAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPw=="}],
-"bufferViews":[{"buffer":0,"byteLength":76}],
+"buffers":[{"byteLength":76,"uri":"data:;base64,RFJBQ08CAgEAAAACBAEAAQIAAgMBAQAJAwAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPw=="},
+    {"byteLength":48,"uri":"data:;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAABAAAAAAAAAAAAAAEBA"}],
+"bufferViews":[{"buffer":0,"byteLength":76},{"buffer":1,"byteLength":48}],
 "accessors":[{"componentType":5126,"type":"VEC3","count":4},
-             {"componentType":5123,"type":"SCALAR","count":6}],
-"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":{
+             {"componentType":5123,"type":"SCALAR","count":6},
+             {"bufferView":1,"componentType":5126,"type":"VEC3","count":4}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"targets":[{"POSITION":2}],"extensions":{
     "KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]}]})";
     try {
         const ImportedMesh mesh = osgSkin::importMesh(file);
@@ -283,6 +285,13 @@ TEST(GltfLooks, MeshesMayBeCompressedByDraco) {
         for (const glm::dvec3& place : mesh.mesh.positions)
             furthest = std::max(furthest, place.x + place.y + place.z);
         EXPECT_NEAR(furthest, 1.0, 1e-3);
+        // Morph targets are beside the compressed data, in its order of vertices.
+        ASSERT_EQ(mesh.parts.at(0).morphs.size(), 1u);
+        const osgSkin::MorphTarget& target = mesh.parts[0].morphs[0];
+        ASSERT_EQ(target.vertices.size(), 3u) << "the first vertex stays";
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_EQ(target.positions[i],
+                      glm::vec3(0, 0, mesh.parts[0].sourceVertex[target.vertices[i]]));
     } catch (const osgSkin::Error& error) {
         const std::string why = error.what();
         ASSERT_NE(why.find("raco"), std::string::npos) << why;

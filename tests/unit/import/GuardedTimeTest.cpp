@@ -193,6 +193,21 @@ TEST_F(GuardedTime, CopiesOfMorphTargetsCount) {
     expectError([&] { osgSkin::importRig(path); }, "nodes, bones, materials and channels");
 }
 
+TEST_F(GuardedTime, OffsetsOfMorphTargetsCount) {
+    GltfColumn column;
+    std::vector<double> places(9000, 1.0);
+    json& primitive = column.json["meshes"][0]["primitives"][0];
+    const std::size_t shared = column.accessor("VEC3", places);
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = double(i % 7);
+    primitive["attributes"] = {{"POSITION", column.accessor("VEC3", places)}};
+    primitive.erase("indices");
+    primitive["targets"] = json::array_t(1000, {{"POSITION", shared}});
+    for (json& node : column.json["nodes"]) node.erase("skin");
+    const std::string path = column.save("offsets.gltf");
+    expectError([&] { osgSkin::importMesh(path); },
+                "meshes[0].primitives[0]: expected no more vertices, corners and keys");
+}
+
 TEST_F(GuardedTime, MatricesThatASkinDoesNotNeedCount) {
     GltfColumn column;
     json accessor = {{"componentType", 5126}, {"type", "MAT4"}, {"count", 900'000}};

@@ -6,6 +6,8 @@
 
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/Error>
+#include <osgSkin/MorphTargets>
+#include <osgSkin/UpdateMorphs>
 #include <osgSkinRig/ClipCharacter>
 
 #include <gtest/gtest.h>
@@ -32,6 +34,44 @@ using namespace played;
 
 using osgSkin::ClipPlayer;
 using osgSkin::SampledClip;
+
+/// Such as a head with a face.
+TEST(ClipPlayer, RigidPartsThatMorphAreCopied) {
+    Character character(someClip(12, 0.8));
+    const osg::ref_ptr<osgSkin::DeformableSkin> face =
+        osg::clone(character.skin.get(), osg::CopyOp::SHALLOW_COPY);
+    face->setUpdateCallback(nullptr);
+    osgSkin::MorphTarget smile;
+    smile.name = "smile";
+    smile.vertices = {3};
+    smile.positions = {glm::vec3(0.5f, 0.0f, 0.0f)};
+    face->setMorphTargets(osgSkin::MorphTargets::create({smile}, face->getModel()->vertexCount()));
+    character.rigid->addChild(face);
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto first = copies->makeInstance(), second = copies->makeInstance();
+    const auto faceOf = [](const osgSkin::ClipCharacter::Instance& instance) {
+        osg::Group& rigid = *instance.node->getChild(1)->asGroup();
+        return dynamic_cast<osgSkin::DeformableSkin*>(rigid.getChild(1));
+    };
+    ASSERT_NE(faceOf(first), nullptr);
+    EXPECT_TRUE(faceOf(first)->setMorph("smile", 1.0f));
+    EXPECT_EQ(faceOf(second)->getMorph("smile"), 0.0f);
+    EXPECT_EQ(face->getMorph("smile"), 0.0f);
+
+    const osg::ref_ptr<osgAnimation::Animation> talk =
+        osg::clone(character.animation.get(), osg::CopyOp::DEEP_COPY_ALL);
+    const osg::ref_ptr<osgAnimation::FloatLinearChannel> weight =
+        new osgAnimation::FloatLinearChannel;
+    weight->setTargetName(osgSkin::UpdateMorphs::kName);
+    weight->setName("smile");
+    weight->getOrCreateSampler()->getOrCreateKeyframeContainer()->push_back(
+        osgAnimation::FloatKeyframe(0.0, 1.0f));
+    talk->addChannel(weight);
+    const test::Notices notices;
+    copies->sample(*talk, 30.0);
+    EXPECT_TRUE(notices.say("moves morph targets")) << notices.text();
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
+}
 
 TEST(ClipPlayer, RigidPartsMayStandInGroupsBelowTheirBones) {
     Character character(someClip(12, 0.8));

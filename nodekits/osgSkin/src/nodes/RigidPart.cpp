@@ -3,12 +3,12 @@
 
 namespace osgSkin {
 
-RigidPart::RigidPart(osg::Geometry* geometry, osgAnimation::Bone& bone)
+RigidPart::RigidPart(osg::Drawable* drawable, osgAnimation::Bone& bone)
     : osg::MatrixTransform(bone.getInvBindMatrixInSkeletonSpace()) {
     setName(bone.getName());
     // STATIC would invite the Optimizer to bake the matrix into geometry that other skins share.
     setDataVariance(osg::Object::DYNAMIC);
-    addChild(geometry);
+    addChild(drawable);
     bone.addChild(this);
 }
 

@@ -9,13 +9,17 @@
 #include <osgSkinBind/RigidJoints>
 #include <osgSkinBind/RigidSplit>
 #include <osgSkinRig/MeshPart>
+#include <osgSkinRig/MorphsByVertex>
 
 #include <osg/TriangleIndexFunctor>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -96,7 +100,8 @@ std::vector<std::uint32_t> corners(const osg::Geometry& geometry) {
     return std::move(triangles.corners);
 }
 
-/// The vertices `oldIndex` of the part with their per-vertex arrays, without triangles.
+/// The vertices `oldIndex` of the part with their per-vertex arrays, without triangles and morph
+/// targets.
 MeshPart vertexSubset(const MeshPart& part, const std::vector<std::uint32_t>& oldIndex) {
     const osg::Geometry& source = *part.geometry;
     const std::size_t vertices = part.sourceVertex.size();
@@ -125,13 +130,16 @@ MeshPart vertexSubset(const MeshPart& part, const std::vector<std::uint32_t>& ol
 }
 
 /// The triangles of a part for which `keep` is true (one entry a triangle), and the vertices that
-/// they use, in the part's order. All per-vertex arrays are copied, the state set is shared.
-MeshPart partSubset(const MeshPart& part, const std::vector<bool>& keep) {
+/// they use, in the part's order. All per-vertex arrays are copied, the state set is shared; morph
+/// targets are left out.
+/// \param[out] oldIndex the vertices' indices in the part
+MeshPart partSubset(const MeshPart& part, const std::vector<bool>& keep,
+                    std::vector<std::uint32_t>& oldIndex) {
     const std::vector<std::uint32_t> old = corners(*part.geometry);
     std::vector<std::uint32_t> newIndex(part.sourceVertex.size(), kUnused);
     for (std::size_t c = 0; c < old.size(); ++c)
         if (keep[c / 3]) newIndex[old[c]] = 0;
-    std::vector<std::uint32_t> oldIndex;
+    oldIndex.clear();
     for (std::uint32_t v = 0; v < newIndex.size(); ++v) {
         if (newIndex[v] == kUnused) continue;
         newIndex[v] = static_cast<std::uint32_t>(oldIndex.size());
@@ -149,7 +157,8 @@ MeshPart partSubset(const MeshPart& part, const std::vector<bool>& keep) {
     return result;
 }
 
-/// Reorders the part's vertices: position i gets vertex order[i]. Triangles keep their order.
+/// Reorders the part's vertices: position i gets vertex order[i]. Triangles keep their order, morph
+/// targets are left out.
 MeshPart reorderedPart(const MeshPart& part, const std::vector<std::uint32_t>& order) {
     std::vector<std::uint32_t> newIndex(order.size());
     for (std::uint32_t v = 0; v < order.size(); ++v) newIndex[order[v]] = v;
@@ -185,31 +194,70 @@ void check(const MeshPart& part, const Binding& binding, const RigidSplit& split
         if (v >= binding.vertexCount()) throw Error(where + " names a vertex that is not bound");
     for (const std::uint32_t f : part.sourceFace)
         if (f >= split.faceJoint.size()) throw Error(where + " names a face that does not exist");
+    for (const MorphTarget& target : part.morphs) {
+        const std::size_t moved = target.vertices.size();
+        const auto fits = [moved](const auto& offsets) {
+            return offsets.empty() || offsets.size() == moved;
+        };
+        if (target.positions.size() != moved || !fits(target.normals) || !fits(target.tangents) ||
+            std::any_of(target.vertices.begin(), target.vertices.end(),
+                        [&](std::uint32_t v) { return v >= vertices->size(); }))
+            throw Error(where + " has a morph target \"" + target.name +
+                        "\" that does not fit its vertices");
+    }
 }
 
-MeshPart facesOf(const MeshPart& part, const RigidSplit& split, std::uint32_t joint) {
+/// \param[out] oldIndex see partSubset()
+MeshPart facesOf(const MeshPart& part, const RigidSplit& split, std::uint32_t joint,
+                 std::vector<std::uint32_t>& oldIndex) {
     std::vector<bool> keep;
     keep.reserve(part.sourceFace.size());
     for (const std::uint32_t face : part.sourceFace) keep.push_back(split.faceJoint[face] == joint);
-    return partSubset(part, keep);
+    return partSubset(part, keep, oldIndex);
 }
 
 /// Puts the part's vertices into the deformation's order, so that it writes them sequentially.
-SkinParts::Skin makeSkin(const MeshPart& unordered, const Binding& binding) {
+/// \param source for each vertex, the vertex of `binding` that it is a copy of
+/// \param morphs of other vertices
+/// \param oldIndex for each vertex, the one of `morphs`
+SkinParts::Skin makeSkin(const MeshPart& unordered, const Binding& binding,
+                         const std::vector<std::uint32_t>& source, const MorphsByVertex& morphs,
+                         const std::vector<std::uint32_t>& oldIndex) {
     const auto& vertices =
         static_cast<const osg::Vec3Array&>(*unordered.geometry->getVertexArray());
     const auto& normals = static_cast<const osg::Vec3Array&>(*unordered.geometry->getNormalArray());
     const glm::vec3* positions = asGlm(vertices.asVector().data());
     const glm::vec3* directions = asGlm(normals.asVector().data());
-    const auto [model, order] = SkinModel::createInBestOrder(
-        binding, {positions, positions + vertices.size()},
-        {directions, directions + normals.size()}, unordered.sourceVertex);
+    const auto [model, order] =
+        SkinModel::createInBestOrder(binding, {positions, positions + vertices.size()},
+                                     {directions, directions + normals.size()}, source);
     const MeshPart part = reorderedPart(unordered, order);
     const osg::ref_ptr<DeformableSkin> skin = new DeformableSkin;
     skin->setName(part.geometry->getName());
     skin->setSkin(part.geometry, model);
-    skin->setUpdateCallback(new UpdateDeformableSkin);
+    std::vector<std::uint32_t> morphed;
+    morphed.reserve(order.size());
+    for (const std::uint32_t v : order) morphed.push_back(oldIndex[v]);
+    std::vector<MorphTarget> targets = morphs.ofCopies(morphed);
+    if (!targets.empty())
+        skin->setMorphTargets(MorphTargets::create(std::move(targets), order.size()));
     return {skin, part};
+}
+
+/// A skin for a rigid part with morph targets: it morphs, and stays in the rest pose below its
+/// bone.
+SkinParts::Skin makeStillSkin(const MeshPart& part, const std::string& joint) {
+    const auto vertices = static_cast<std::uint32_t>(part.sourceVertex.size());
+    const glm::dvec3 axis(0.0, 0.0, 1.0);
+    Binding binding;
+    binding.joints = {{joint, -1, glm::dvec3(0.0), axis, axis}};
+    binding.regions.assign(vertices, 0);
+    binding.influences.assign(vertices, {0, 1.0f, 1.0f});
+    std::vector<std::uint32_t> all(vertices);
+    std::iota(all.begin(), all.end(), 0u);
+    binding.firstInfluence = all;
+    binding.firstInfluence.push_back(vertices);
+    return makeSkin(part, binding, all, MorphsByVertex(part.morphs), all);
 }
 
 } // namespace
@@ -248,15 +296,21 @@ SkinParts makeSkins(const SkinMesh& mesh, const std::vector<MeshPart>& parts,
     SkinParts result;
     for (const MeshPart& part : parts) {
         check(part, binding, split);
+        const MorphsByVertex morphs(part.morphs);
         for (const std::uint32_t joint : joints) {
             if (joint != RigidSplit::kSkin && joint >= binding.joints.size())
                 throw Error("attach skin: a rigid face names a joint that does not exist");
-            const MeshPart piece = facesOf(part, split, joint);
+            std::vector<std::uint32_t> oldIndex;
+            MeshPart piece = facesOf(part, split, joint, oldIndex);
             if (piece.sourceFace.empty()) continue;
-            if (joint == RigidSplit::kSkin)
-                result.skins.push_back(makeSkin(piece, binding));
-            else
+            if (joint == RigidSplit::kSkin) {
+                result.skins.push_back(
+                    makeSkin(piece, binding, piece.sourceVertex, morphs, oldIndex));
+                result.skins.back().drawable->setUpdateCallback(new UpdateDeformableSkin);
+            } else {
+                piece.morphs = morphs.ofCopies(oldIndex);
                 result.rigids.push_back({binding.joints[joint].name, piece});
+            }
         }
     }
     return result;
@@ -277,7 +331,12 @@ AttachedSkin placeSkins(osgAnimation::Skeleton& skeleton, const SkinParts& parts
     for (const SkinParts::Skin& skin : parts.skins) skeleton.addChild(skin.drawable);
     for (std::size_t i = 0; i < bones.size(); ++i) {
         const MeshPart& part = parts.rigids[i].part;
-        result.rigids.push_back({new RigidPart(part.geometry, *bones[i]), bones[i], part});
+        if (part.morphs.empty()) {
+            result.rigids.push_back({new RigidPart(part.geometry, *bones[i]), bones[i], part});
+            continue;
+        }
+        const SkinParts::Skin still = makeStillSkin(part, parts.rigids[i].joint);
+        result.rigids.push_back({new RigidPart(still.drawable, *bones[i]), bones[i], still.part});
     }
     return result;
 }

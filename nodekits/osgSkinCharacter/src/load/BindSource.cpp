@@ -24,6 +24,7 @@
 #include <locale>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -398,6 +399,22 @@ void skipUnused(const RestSkeleton& rest, const VertexWeights& weights, BindOpti
     }
 }
 
+/// A line with the number of the body's morph targets and the names of the first; empty where there
+/// are none.
+std::string morphsNote(const ImportedMesh& body) {
+    constexpr std::size_t kNamed = 5;
+    std::set<std::string> known;
+    std::string names;
+    for (const MeshPart& part : body.parts)
+        for (const MorphTarget& target : part.morphs)
+            if (known.insert(target.name).second && known.size() <= kNamed)
+                names += (known.size() > 1 ? ", \"" : "\"") + target.name + '"';
+    if (known.empty()) return {};
+    if (known.size() > kNamed) names += " and " + std::to_string(known.size() - kNamed) + " more";
+    return std::to_string(known.size()) +
+           (known.size() == 1 ? " morph target: " : " morph targets: ") + names;
+}
+
 /// Throws osgSkin::Error where binding would take a minute.
 void checkSize(const CharacterSource& source) {
     const std::size_t joints = source.rest.joints.size();
@@ -430,6 +447,8 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
         takeNote(source.notes, source.file + ": no skin belongs to joint \"" + joint +
                                    "\", whose bone is as long as a limb's");
     if (!source.rigidNote.empty()) report.notes.push_back(source.rigidNote);
+    const std::string morphs = morphsNote(source.body);
+    if (!morphs.empty()) report.notes.push_back(morphs);
     if (source.painted == Painted::Yes) {
         tellGaps(source, weights);
         warnUnitMismatch(source, weights);

@@ -10,6 +10,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkin/UpdateMorphs>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/NonUniformScale>
 #include <osgSkinBind/ShowRegions>
@@ -35,6 +36,7 @@
 #include <osg/MatrixTransform>
 #include <osg/Notify>
 #include <osg/ref_ptr>
+#include <osgAnimation/Channel>
 #include <osgDB/FileNameUtils>
 #include <osgDB/Options>
 #include <osgUtil/UpdateVisitor>
@@ -248,6 +250,14 @@ void takeAnimations(const CharacterSource& source, Character& character) {
         character.motions.emplace_back().animation = animation;
 }
 
+/// Whether some clip has channels of morph targets.
+bool drivesMorphs(const osgAnimation::AnimationList& clips) {
+    for (const auto& clip : clips)
+        for (const auto& channel : clip->getChannels())
+            if (channel->getTargetName() == UpdateMorphs::kName) return true;
+    return false;
+}
+
 void play(Character& character) {
     if (character.motions.empty()) return;
     osgAnimation::AnimationList clips;
@@ -287,6 +297,7 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
     character.root->addChild(upright);
     if (source.skeleton) {
         takeAnimations(source, character);
+        if (drivesMorphs(source.animations)) upright->setUpdateCallback(new UpdateMorphs);
         const JointCentres atRest = boneCentres(character.rest, *character.root);
         osg::BoundingSphere bound = playedBounds(*character.root, source.animations);
         const JointCentres played = boneCentres(character.rest, *character.root);

@@ -2,6 +2,7 @@
 #include <osgSkinCharacter/Character>
 
 #include <osgSkin/Error>
+#include <osgSkin/SetMorph>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinRig/ApplyFrame>
 #include <osgSkinRig/MakeAnimation>
@@ -43,6 +44,14 @@ void Character::poseAt(const CharacterMotion& motion, double seconds) {
     visitor.setFrameStamp(new osg::FrameStamp);
     root->traverse(visitor); // without the manager, which would play on
     poseSkins(*this);
+}
+
+std::vector<std::string> Character::morphs() const {
+    return morphNames(*root);
+}
+
+bool Character::setMorph(const std::string& name, float weight) {
+    return osgSkin::setMorph(*root, name, weight);
 }
 
 } // namespace osgSkin

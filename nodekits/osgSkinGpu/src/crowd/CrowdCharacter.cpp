@@ -15,6 +15,7 @@
 #include <osg/Array>
 #include <osg/BufferObject>
 #include <osg/Geometry>
+#include <osg/Notify>
 #include <osg/TriangleIndexFunctor>
 #include <osg/Vec3>
 #include <osg/ref_ptr>
@@ -136,6 +137,12 @@ std::size_t CrowdCharacter::addSkin(const DeformableSkin& skin, const osg::Matri
     if (!isUsable(toCharacter))
         throw Error("crowd: the matrix of the skin \"" + skin.getName() +
                     "\" is singular or not finite");
+    if (skin.getMorphTargets() && !_hasToldMorphs) {
+        OSG_NOTICE << onOneLine("osgSkin: crowd: the skin \"" + skin.getName() +
+                                "\" has morph targets, which members are drawn without")
+                   << std::endl;
+        _hasToldMorphs = true;
+    }
     const osg::ref_ptr<const GpuModel> model = GpuModel::of(*skin.getModel());
     addPart({new osg::Geometry(*skin.getRestGeometry(), osg::CopyOp::SHALLOW_COPY),
              const_cast<osg::StateSet*>(skin.getStateSet()),

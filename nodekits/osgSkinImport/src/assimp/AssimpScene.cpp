@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/AssimpScene.h"
 
+#include "scene/SceneMorphs.h"
 #include "text/FileText.h"
 
 #include <osg/Math>
@@ -171,6 +172,114 @@ SourceMesh readMesh(const aiScene& scene, const aiMesh& source) {
     return result;
 }
 
+/// Reads morph targets, which Assimp calls animation meshes. It does not say with which weights
+/// they begin, and reads none from Collada files.
+class MorphReader {
+public:
+    /// Adds a mesh's targets.
+    /// \param mesh with its positions
+    void addMorphs(const aiMesh& source, SourceMesh& mesh) {
+        const std::vector<const aiAnimMesh*> targets = targetsOf(source);
+        std::vector<std::string> wanted;
+        for (const aiAnimMesh* target : targets)
+            wanted.push_back(target->mName.length > 0
+                                 ? target->mName.C_Str()
+                                 : mesh.name + "-" + std::to_string(wanted.size()));
+        const std::vector<std::string> names =
+            _names.of(wanted, std::vector<float>(wanted.size(), 0.0f));
+        const MorphFiller filler(mesh);
+        for (std::size_t t = 0; t < targets.size(); ++t) {
+            const auto offsets = [&](const aiVector3D* to, const aiVector3D* rest) {
+                return offsetsOf(to, rest, std::min(targets[t]->mNumVertices, source.mNumVertices));
+            };
+            MorphTarget& target = mesh.morphs.emplace_back();
+            target.name = names[t];
+            filler.fill(offsets(targets[t]->mVertices, source.mVertices),
+                        offsets(targets[t]->mNormals, source.mNormals),
+                        offsets(targets[t]->mTangents, source.mTangents), target);
+        }
+    }
+
+    /// Adds the tracks of an animation.
+    /// \param scene with all meshes and nodes
+    static void addTracks(const aiAnimation& source, const SourceScene& scene,
+                          SourceAnimation& result) {
+        for (unsigned c = 0; c < source.mNumMorphMeshChannels; ++c) {
+            const aiMeshMorphAnim& from = *source.mMorphMeshChannels[c];
+            const SourceMesh* const mesh = meshOf(from.mName.C_Str(), scene);
+            if (mesh == nullptr) continue;
+            std::vector<SourceMorphTrack> tracks(mesh->morphs.size());
+            for (unsigned k = 0; k < from.mNumKeys; ++k) {
+                const aiMeshMorphKey& key = from.mKeys[k];
+                for (unsigned i = 0; i < key.mNumValuesAndWeights; ++i)
+                    if (key.mValues[i] < tracks.size())
+                        tracks[key.mValues[i]].weights.push_back(
+                            {key.mTime, static_cast<float>(key.mWeights[i])});
+            }
+            for (std::size_t t = 0; t < tracks.size(); ++t) {
+                if (tracks[t].weights.empty()) continue;
+                tracks[t].morph = mesh->morphs[t].name;
+                result.morphs.push_back(std::move(tracks[t]));
+            }
+        }
+    }
+
+    void tell(const std::string& path) const {
+        _names.tell(path);
+        if (_between > 0)
+            tellOf(path,
+                   std::to_string(_between) + " in-between shapes of morph targets are left out");
+    }
+
+private:
+    /// An FBX channel may have several shapes, all with its name, of which the last one is that of
+    /// its full weight. Channels are numbered without the others.
+    std::vector<const aiAnimMesh*> targetsOf(const aiMesh& source) {
+        std::vector<const aiAnimMesh*> result;
+        for (unsigned t = 0; t < source.mNumAnimMeshes; ++t) {
+            const aiAnimMesh* const target = source.mAnimMeshes[t];
+            const bool isSame = !result.empty() && target->mName.length > 0 &&
+                                target->mName == result.back()->mName;
+            if (isSame) {
+                result.back() = target;
+                ++_between;
+            } else {
+                result.push_back(target);
+            }
+        }
+        return result;
+    }
+
+    /// None where one of the lists is missing.
+    static VertexOffsets offsetsOf(const aiVector3D* to, const aiVector3D* rest, unsigned count) {
+        VertexOffsets result;
+        for (unsigned v = 0; to != nullptr && rest != nullptr && v < count; ++v) {
+            const glm::vec3 offset = toGlm(to[v]) - toGlm(rest[v]);
+            if (offset == glm::vec3(0.0f)) continue;
+            result.vertices.push_back(v);
+            result.offsets.push_back(offset);
+        }
+        return result;
+    }
+
+    /// The mesh that a channel animates: "NODE*0" in FBX files, or a node's or a mesh's name.
+    static const SourceMesh* meshOf(const std::string& channel, const SourceScene& scene) {
+        const std::string name = channel.substr(0, channel.rfind('*'));
+        const SourceMesh* result = nullptr;
+        for (const SourceNode& node : scene.nodes)
+            for (const std::size_t index : node.meshes) {
+                const SourceMesh& mesh = *scene.meshes[index];
+                if ((node.name == name || node.name == channel || mesh.name == channel) &&
+                    (result == nullptr || result->morphs.size() < mesh.morphs.size()))
+                    result = &mesh;
+            }
+        return result;
+    }
+
+    MorphNames _names;
+    std::size_t _between = 0;
+};
+
 template <typename Key, typename Value>
 void readKeys(const Key* keys, unsigned count, std::vector<SourceKey<Value>>& result) {
     result.reserve(count);
@@ -284,12 +393,18 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
         if (scene->mMeshes[m] == nullptr) failFile(path, "Assimp reads a mesh that is not there");
     readNodes(*scene, path, limits, result);
     readMaterials(*scene, path, result);
-    for (unsigned m = 0; m < scene->mNumMeshes; ++m)
-        result.meshes.push_back(
-            std::make_shared<const SourceMesh>(readMesh(*scene, *scene->mMeshes[m])));
-    for (unsigned a = 0; a < scene->mNumAnimations; ++a)
-        result.animations.push_back(
-            std::make_shared<const SourceAnimation>(readAnimation(*scene->mAnimations[a])));
+    MorphReader morphs;
+    for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+        SourceMesh mesh = readMesh(*scene, *scene->mMeshes[m]);
+        morphs.addMorphs(*scene->mMeshes[m], mesh);
+        result.meshes.push_back(std::make_shared<const SourceMesh>(std::move(mesh)));
+    }
+    for (unsigned a = 0; a < scene->mNumAnimations; ++a) {
+        SourceAnimation animation = readAnimation(*scene->mAnimations[a]);
+        MorphReader::addTracks(*scene->mAnimations[a], result, animation);
+        result.animations.push_back(std::make_shared<const SourceAnimation>(std::move(animation)));
+    }
+    morphs.tell(path);
     result.toWorld = toWorld(*scene, path);
     result.metresPerUnit = metresPerUnit(*scene);
     return result;

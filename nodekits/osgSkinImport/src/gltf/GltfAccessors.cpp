@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace osgSkin {
 namespace {
@@ -210,6 +211,21 @@ void GltfAccessors::read(std::size_t view, std::size_t offset, int component, st
     }
 }
 
+/// Reads the elements that a sparse accessor replaces.
+template <typename Result>
+void GltfAccessors::readChanges(std::size_t index, std::vector<std::uint32_t>& indices,
+                                std::vector<Result>& values) const {
+    const GltfAccessor& source = _accessors[index];
+    read(source.indexView, source.indexOffset, source.indexComponent, 1, source.changes, true,
+         indices);
+    read(source.changeView, source.changeOffset, source.component, source.width, source.changes,
+         true, values);
+    for (const std::uint32_t changed : indices)
+        if (changed >= source.count)
+            _file.fail("accessors[" + std::to_string(index) + "].sparse.indices",
+                       "numbers below " + std::to_string(source.count));
+}
+
 template <typename Result>
 std::vector<Result> GltfAccessors::all(std::size_t index) const {
     const GltfAccessor& source = _accessors[index];
@@ -222,17 +238,10 @@ std::vector<Result> GltfAccessors::all(std::size_t index) const {
     if (!source.sparse) return result;
     std::vector<std::uint32_t> indices;
     std::vector<Result> values;
-    read(source.indexView, source.indexOffset, source.indexComponent, 1, source.changes, true,
-         indices);
-    read(source.changeView, source.changeOffset, source.component, source.width, source.changes,
-         true, values);
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        if (indices[i] >= source.count)
-            _file.fail("accessors[" + std::to_string(index) + "].sparse.indices",
-                       "numbers below " + std::to_string(source.count));
+    readChanges(index, indices, values);
+    for (std::size_t i = 0; i < indices.size(); ++i)
         std::copy_n(values.begin() + std::ptrdiff_t(i * source.width), source.width,
                     result.begin() + std::ptrdiff_t(indices[i] * source.width));
-    }
     return result;
 }
 
@@ -240,6 +249,36 @@ std::vector<float> GltfAccessors::floats(std::size_t index) const {
     std::vector<float> result = all<float>(index);
     if (_accessors[index].normalised)
         for (float& value : result) value = normalised(value, _accessors[index].component);
+    return result;
+}
+
+VertexOffsets GltfAccessors::offsets(std::size_t index) const {
+    const GltfAccessor& source = _accessors[index];
+    VertexOffsets result;
+    const auto add = [&result](std::size_t vertex, const float* v) {
+        if (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f) return;
+        result.vertices.push_back(static_cast<std::uint32_t>(vertex));
+        result.offsets.emplace_back(v[0], v[1], v[2]);
+    };
+    if (source.stored) {
+        const std::vector<float> all = floats(index);
+        for (std::size_t v = 0; v < source.count; ++v) add(v, &all[3 * v]);
+        return result;
+    }
+    if (!source.sparse) return result;
+    std::vector<std::uint32_t> elements;
+    std::vector<float> numbers;
+    readChanges(index, elements, numbers);
+    if (source.normalised)
+        for (float& value : numbers) value = normalised(value, source.component);
+    std::vector<std::size_t> order(elements.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto isBefore = [&](std::size_t a, std::size_t b) { return elements[a] < elements[b]; };
+    if (!std::is_sorted(order.begin(), order.end(), isBefore))
+        std::stable_sort(order.begin(), order.end(), isBefore);
+    for (std::size_t k = 0; k < order.size(); ++k)
+        if (k + 1 == order.size() || isBefore(order[k], order[k + 1])) // else replaced again
+            add(elements[order[k]], &numbers[3 * order[k]]);
     return result;
 }
 

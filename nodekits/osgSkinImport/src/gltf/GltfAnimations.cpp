@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 
 namespace osgSkin {
 namespace {
@@ -155,11 +154,11 @@ public:
           _pieces(4.0 * double(document.file.limits.samplesOf(document.file.ownBytes))) {}
 
     void run() {
-        tellMorphs();
         bool moves = false;
         for (std::size_t a = 0; a < _document.animations.size(); ++a) {
             _scene.animations.push_back(build(_document.animations[a], a));
-            moves = moves || !_scene.animations.back()->tracks.empty();
+            moves = moves || !_scene.animations.back()->tracks.empty() ||
+                    !_scene.animations.back()->morphs.empty();
         }
         // Keep clips without tracks if another has some: clips can be selected by their number in
         // the file.
@@ -169,30 +168,14 @@ public:
 private:
     /// Channels of one node: the last one of each kind.
     struct NodeChannels {
-        const GltfAnimation::Channel *translation = nullptr, *rotation = nullptr, *scale = nullptr;
+        const GltfAnimation::Channel *translation = nullptr, *rotation = nullptr, *scale = nullptr,
+                                     *weights = nullptr;
     };
 
     struct Rest {
         std::optional<glm::vec3> translation, scale;
         std::optional<glm::quat> rotation;
     };
-
-    void tellMorphs() const {
-        bool any = false;
-        std::set<std::size_t> nodes;
-        for (const GltfAnimation& animation : _document.animations)
-            for (const GltfAnimation::Channel& channel : animation.channels) {
-                if (channel.path != Path::Weights) continue;
-                any = true;
-                if (channel.node) nodes.insert(*channel.node);
-            }
-        const std::string& path = _document.file.path;
-        if (!nodes.empty())
-            tellOf(path, "clips change the shape of " + std::to_string(nodes.size()) +
-                             (nodes.size() == 1 ? " mesh" : " meshes") +
-                             " by morph targets, which are left as they are at rest");
-        if (any) tellOf(path, "morph targets are animated, which is not played");
-    }
 
     std::shared_ptr<const SourceAnimation> build(const GltfAnimation& from, std::size_t index) {
         const auto result = std::make_shared<SourceAnimation>();
@@ -203,15 +186,18 @@ private:
         _known.clear();
         std::map<std::size_t, NodeChannels> nodes;
         for (const GltfAnimation::Channel& channel : from.channels) {
-            if (!channel.node || channel.path == Path::Weights) continue;
+            if (!channel.node || widthOf(channel) == 0) continue;
             keysOf(from, channel); // checked even if a later channel overrides it
             NodeChannels& node = nodes[*channel.node];
             (channel.path == Path::Translation ? node.translation
              : channel.path == Path::Rotation  ? node.rotation
-                                               : node.scale) = &channel;
+             : channel.path == Path::Scale     ? node.scale
+                                               : node.weights) = &channel;
         }
         result->tracks.reserve(nodes.size());
         for (const auto& [n, channels] : nodes) {
+            if (channels.weights != nullptr) addWeights(from, *channels.weights, *result);
+            if (!channels.translation && !channels.rotation && !channels.scale) continue;
             SourceTrack& track = result->tracks.emplace_back();
             track.node = _document.nodes[n].name;
             const Rest rest = restOf(n);
@@ -269,25 +255,62 @@ private:
         }
     }
 
+    /// Adds a track for each morph target of a node's mesh.
+    void addWeights(const GltfAnimation& from, const GltfAnimation::Channel& channel,
+                    SourceAnimation& result) {
+        if (_indexOf[*channel.node] < 0) return; // not in the scene
+        const Keys& keys = keysOf(from, channel);
+        const auto& shown = _scene.nodes[std::size_t(_indexOf[*channel.node])].meshes;
+        const std::vector<MorphTarget>* targets = nullptr;
+        for (const std::size_t mesh : shown) {
+            const std::vector<MorphTarget>& morphs = _scene.meshes[mesh]->morphs;
+            if (!targets || targets->size() < morphs.size()) targets = &morphs;
+        }
+        if (!targets) return;
+        for (std::size_t t = 0; t < std::min(keys.width, targets->size()); ++t) {
+            SourceMorphTrack& track = result.morphs.emplace_back();
+            track.morph = (*targets)[t].name;
+            const auto weight = [&](std::size_t k) { return keys.values[k * keys.width + t]; };
+            bool isConstant = true;
+            for (std::size_t k = 1; k < keys.times.size(); ++k)
+                isConstant = isConstant && weight(k) == weight(0);
+            const std::size_t count = isConstant ? 1 : keys.times.size();
+            track.weights.reserve(count);
+            for (std::size_t k = 0; k < count; ++k)
+                track.weights.push_back({ticks(keys.times[k]), weight(k)});
+        }
+    }
+
+    /// Numbers in a channel's value; 0 for the weights of a mesh without morph targets.
+    std::size_t widthOf(const GltfAnimation::Channel& channel) const {
+        if (channel.path == Path::Rotation) return 4;
+        if (channel.path != Path::Weights) return 3;
+        const GltfIndex& mesh = _document.nodes[*channel.node].mesh;
+        return mesh ? _document.meshes[*mesh].targetNames.size() : 0;
+    }
+
     /// A sampler's keys, converted to linear. Channels may share a sampler.
     const Keys& keysOf(const GltfAnimation& from, const GltfAnimation::Channel& channel) {
-        const bool isRotation = channel.path == Path::Rotation;
         const auto [known, isNew] = _known.emplace(channel.sampler, Keys());
         if (isNew)
-            known->second = read(from.samplers[channel.sampler], isRotation,
-                                 _where + std::to_string(channel.sampler));
-        else if ((known->second.width == 4) != isRotation)
+            known->second = read(from, channel, _where + std::to_string(channel.sampler));
+        else if (known->second.width != widthOf(channel))
             failFile(_where + std::to_string(channel.sampler),
                      "rotations and others, expected a sampler of one kind");
         return known->second;
     }
 
-    Keys read(const GltfAnimation::Sampler& sampler, bool isRotation, const std::string& where) {
+    Keys read(const GltfAnimation& from, const GltfAnimation::Channel& channel,
+              const std::string& where) {
+        const GltfAnimation::Sampler& sampler = from.samplers[channel.sampler];
+        const bool isRotation = channel.path == Path::Rotation;
         const bool isSpline = sampler.interpolation == Interpolation::CubicSpline;
-        const std::size_t keys = _accessors[sampler.input].count, width = isRotation ? 4 : 3;
+        const std::size_t keys = _accessors[sampler.input].count, width = widthOf(channel);
         const GltfAccessor& output = _accessors[sampler.output];
-        if (_accessors[sampler.input].width != 1 || output.width != width ||
-            output.count != keys * (isSpline ? 3 : 1) || keys == 0)
+        // Weights are single numbers, all of a key in a row.
+        const std::size_t wide = channel.path == Path::Weights ? 1 : width;
+        if (_accessors[sampler.input].width != 1 || output.width != wide ||
+            output.count * wide != keys * width * (isSpline ? 3 : 1) || keys == 0)
             failFile(where, std::to_string(keys) + " keys and " + std::to_string(output.count) +
                                 " values, expected " + std::to_string(width) + " numbers a key");
         Keys track{width, _accessors.floats(sampler.input), {}};
@@ -296,17 +319,19 @@ private:
         checkKeys(track, sampler.output, where, isRotation, isSpline);
         if (sampler.interpolation == Interpolation::Step) track = fromSteps(track);
         if (isSpline) {
-            takePieces(track.times, where);
+            takePieces(track, where);
             track = fromSplines(track, isRotation);
         }
         return hasTwins(track.times) ? apart(track) : track;
     }
 
     /// Counts a spline's pieces against the limit for all clips together.
-    void takePieces(const std::vector<float>& times, const std::string& where) {
+    void takePieces(const Keys& track, const std::string& where) {
+        const std::vector<float>& times = track.times;
         double pieces = 1.0;
         for (std::size_t k = 1; k < times.size(); ++k)
             pieces += piecesOf(double(times[k - 1]), double(times[k]));
+        if (track.width > 4) pieces *= double(track.width) / 4.0;
         if (!(pieces <= _pieces))
             failFile(where, "a spline of " + std::to_string(times.back() - times.front()) +
                                 " seconds, expected no more pieces than the file has room for "

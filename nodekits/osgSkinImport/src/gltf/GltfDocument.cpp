@@ -2,6 +2,7 @@
 #include "gltf/GltfDocument.h"
 
 #include "text/FileText.h"
+#include "text/UniqueName.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -40,6 +41,7 @@ public:
         readMeshes();
         readSkins();
         readNodes();
+        readExpressions(_document);
         readScenes();
         readAnimations();
         _file.checkEntries();
@@ -79,9 +81,35 @@ private:
             }
             if (mesh.weights.size() > _costs.back().targets)
                 mesh.weights.resize(_costs.back().targets);
+            mesh.targetNames = targetNames(from, where, _costs.back().targets);
             _file.addEntries(mesh.primitives.size());
             _document.meshes.push_back(std::move(mesh));
         });
+    }
+
+    /// The names of morph targets, which exporters add to a mesh or its primitives; "face-3" where
+    /// there is none.
+    std::vector<std::string> targetNames(const json& mesh, const std::string& where,
+                                         std::size_t count) {
+        const json* names = nullptr;
+        const auto look = [&names](const json& from) {
+            const auto extras = from.find("extras");
+            if (names || extras == from.end() || !extras->is_object()) return;
+            const auto found = extras->find("targetNames");
+            if (found != extras->end() && found->is_array()) names = &*found;
+        };
+        look(mesh);
+        for (const json& primitive : mesh.at("primitives")) look(primitive);
+        std::vector<std::string> result(count);
+        if (count == 0) return result;
+        const std::string own = nameOf(mesh);
+        const std::string label = _targetLabels.unique(own.empty() ? where : own);
+        for (std::size_t t = 0; t < count; ++t) {
+            if (names && t < names->size() && (*names)[t].is_string())
+                result[t] = nameOf({{"name", (*names)[t]}});
+            if (result[t].empty()) result[t] = label + "-" + std::to_string(t);
+        }
+        return result;
     }
 
     void readPrimitive(const json& from, const std::string& where, GltfMesh& mesh) {
@@ -233,8 +261,10 @@ private:
                     _file.fail(place, std::to_string(vertices) + " elements, one a vertex");
                 return accessor;
             };
-            const GltfIndex positions = attribute("POSITION");
-            primitive.targets.push_back({positions, attribute("NORMAL")});
+            GltfPrimitive::Target& known = primitive.targets.emplace_back();
+            known.positions = attribute("POSITION");
+            known.normals = attribute("NORMAL");
+            if (from.at("attributes").contains("TANGENT")) known.tangents = attribute("TANGENT");
             _file.addEntries(1);
         }
     }
@@ -482,6 +512,7 @@ private:
     GltfFile& _file;
     GltfAccessors& _accessors;
     std::vector<Cost> _costs;     ///< of each mesh
+    UniqueNames _targetLabels;    ///< that begin names of morph targets
     std::size_t _unfinished = 0;  ///< primitives with an incomplete last triangle
     std::size_t _placedTwice = 0; ///< nodes with both a matrix and other transforms
     /// Number of vertices that an accessor of indices uses, by accessor and number of vertices.

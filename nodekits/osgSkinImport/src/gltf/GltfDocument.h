@@ -3,6 +3,7 @@
 #define OSGSKINIMPORT_GLTF_GLTFDOCUMENT_H
 
 #include "gltf/GltfFile.h"
+#include "scene/SceneMorphs.h"
 #include "scene/SourceScene.h"
 
 #include <glm/mat4x4.hpp>
@@ -37,6 +38,8 @@ struct GltfAccessor {
 
     /// Whether the file contains its values, not only in compressed form by an extension.
     bool hasValues() const { return stored || sparse; }
+    /// The number of elements in the file.
+    std::size_t storedCount() const { return stored ? count : sparse ? changes : 0; }
 };
 
 /// Reads the numbers of a glTF file as the specification defines: normalised integers, sparse
@@ -63,6 +66,9 @@ public:
     /// All numbers, element by element.
     std::vector<float> floats(std::size_t accessor) const;
 
+    /// The vectors of a VEC3 accessor that are not zero.
+    VertexOffsets offsets(std::size_t accessor) const;
+
     /// All numbers of joints or indices, as integers even if the file declares them normalised.
     std::vector<std::uint32_t> integers(std::size_t accessor) const;
 
@@ -84,6 +90,9 @@ private:
     template <typename Result>
     void read(std::size_t view, std::size_t offset, int component, std::size_t width,
               std::size_t count, bool packed, std::vector<Result>& result) const;
+    template <typename Result>
+    void readChanges(std::size_t accessor, std::vector<std::uint32_t>& indices,
+                     std::vector<Result>& values) const;
     template <typename Result>
     std::vector<Result> all(std::size_t accessor) const;
 
@@ -115,7 +124,7 @@ struct GltfImage {
 
 struct GltfPrimitive {
     struct Target {
-        GltfIndex positions, normals;
+        GltfIndex positions, normals, tangents;
     };
     struct Draco {
         std::size_t view = 0;
@@ -132,9 +141,16 @@ struct GltfPrimitive {
 };
 
 struct GltfMesh {
+    /// A facial expression of a VRM file: morph targets of this mesh, with weights.
+    struct Expression {
+        std::string name;
+        std::vector<std::pair<std::size_t, double>> parts; ///< below targetNames.size()
+    };
     std::string name;
     std::vector<GltfPrimitive> primitives;
-    std::vector<double> weights; ///< of morph targets
+    std::vector<std::string> targetNames; ///< of the primitive with most morph targets
+    std::vector<double> weights;          ///< of morph targets
+    std::vector<Expression> expressions;
 };
 
 struct GltfSkin {
@@ -192,10 +208,17 @@ public:
     std::vector<GltfNode> nodes;
     std::vector<std::size_t> roots; ///< of the default scene
     std::vector<GltfAnimation> animations;
+    std::vector<std::string> expressions; ///< names, each once
 };
 
 /// Reads images and materials.
 void readMaterials(GltfDocument& document);
+
+/// Reads the expressions of VRM 0 and 1 as further morph targets of the meshes. Reports what they
+/// do beside moving vertices, which is left out.
+///
+/// \param document with meshes and nodes
+void readExpressions(GltfDocument& document);
 
 /// Adds a mesh for each primitive in the scene, once for each distinct set of morph weights and for
 /// each node with a skin.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfDocument.h"
 
+#include "scene/SceneMorphs.h"
 #include "text/FileText.h"
 
 #include <osgSkin/GlmTypes>
@@ -18,6 +19,7 @@ namespace osgSkin {
 namespace {
 
 constexpr float kRounding = -1e-3f; ///< the least weight that exporters round from 0
+constexpr std::size_t kPart = 20;   ///< the cost of a part of an expression, in numbers of targets
 
 std::string number(std::size_t value) {
     return std::to_string(value);
@@ -47,7 +49,7 @@ public:
     MeshBuilder(const GltfDocument& document, const std::vector<int>& indexOf, SourceScene& scene)
         : _document(document), _file(document.file), _accessors(document.accessors),
           _indexOf(indexOf), _scene(scene), _materialOf(document.materials.size()),
-          _imageOf(document.images.size()),
+          _imageOf(document.images.size()), _names(document.expressions),
           _morphs(64.0 * double(_file.limits.samplesOf(_file.ownBytes))) {}
 
     void run(const std::vector<std::size_t>& order) {
@@ -65,20 +67,25 @@ public:
                 shown = first->second;
                 continue;
             }
+            std::vector<float> initial(weights.begin(), weights.end());
+            initial.resize(mesh.targetNames.size());
+            const std::vector<std::string> names = _names.of(mesh.targetNames, initial);
             for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
                 shown.push_back(_scene.meshes.size());
-                addPrimitive(*node.mesh, p, weights, node.skin);
+                const auto added = addPrimitive(*node.mesh, p, weights, node.skin);
+                addMorphs(mesh, mesh.primitives[p], names, initial, *added);
             }
             if (!node.skin) first->second = shown;
         }
         // The default material is last.
         const std::size_t last = materialOf(_document.materials.size() - 1);
         for (const auto& mesh : _plain) mesh->material = last;
+        _names.tell(_file.path);
     }
 
 private:
-    void addPrimitive(std::size_t meshIndex, std::size_t primitiveIndex,
-                      const std::vector<double>& weights, GltfIndex skin) {
+    std::shared_ptr<SourceMesh> addPrimitive(std::size_t meshIndex, std::size_t primitiveIndex,
+                                             const std::vector<double>& weights, GltfIndex skin) {
         const GltfMesh& from = _document.meshes[meshIndex];
         const GltfPrimitive& primitive = from.primitives[primitiveIndex];
         _where = "meshes[" + number(meshIndex) + "].primitives[" + number(primitiveIndex) + "]";
@@ -97,6 +104,7 @@ private:
         readFaces(primitive, *mesh);
         if (skin) readBones(_document.skins[*skin], *skin, primitive, *mesh);
         _scene.meshes.push_back(mesh);
+        return mesh;
     }
 
     /// Whether the file also contains all of a compressed primitive's attributes uncompressed.
@@ -163,8 +171,16 @@ private:
         for (glm::vec2& texCoord : mesh.texCoords) texCoord.y = 1.0f - texCoord.y;
     }
 
-    /// Adds morph targets with the file's default weights (section 3.7.2.2). Counts the numbers it
-    /// adds against a limit for the whole file, so that a small file cannot take minutes.
+    /// Counts numbers of morph targets against a limit for the whole file, so that a small file
+    /// cannot take minutes.
+    void takeMorph(std::size_t numbers) {
+        _morphs -= double(numbers);
+        if (_morphs < 0.0)
+            failFile(_file.path, "malformed glTF: expected morph targets of less vertices "
+                                 "(option maxSamples)");
+    }
+
+    /// Adds morph targets with the file's default weights (section 3.7.2.2).
     void morph(const GltfPrimitive& from, const std::vector<double>& weights,
                GltfIndex GltfPrimitive::Target::*attribute, std::vector<float>& values) {
         const std::size_t targets = std::min(weights.size(), from.targets.size());
@@ -173,15 +189,54 @@ private:
         for (std::size_t t = 0; t < targets; ++t) {
             const GltfIndex& accessor = from.targets[t].*attribute;
             if (weights[t] == 0.0 || !accessor) continue;
-            _morphs -= double(values.size());
-            if (_morphs < 0.0)
-                failFile(_file.path, "malformed glTF: expected morph targets of less vertices "
-                                     "(option maxSamples)");
+            takeMorph(values.size());
             const std::vector<float> moves = _accessors.floats(*accessor);
             for (std::size_t i = 0; i < std::min(sums.size(), moves.size()); ++i)
                 sums[i] += weights[t] * double(moves[i]);
         }
         for (std::size_t i = 0; i < sums.size(); ++i) values[i] = static_cast<float>(sums[i]);
+    }
+
+    // --- morph targets ---
+
+    /// Adds the morph targets of a primitive, and the expressions that move it.
+    void addMorphs(const GltfMesh& from, const GltfPrimitive& primitive,
+                   const std::vector<std::string>& names, const std::vector<float>& initial,
+                   SourceMesh& mesh) {
+        if (primitive.mode == 0) return; // not drawn
+        const MorphFiller filler(mesh);
+        for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+            const GltfPrimitive::Target& source = primitive.targets[t];
+            MorphTarget target;
+            target.name = names[t];
+            target.initial = initial[t];
+            filler.fill(offsets(source.positions),
+                        primitive.normals ? offsets(source.normals) : VertexOffsets(),
+                        offsets(source.tangents), target);
+            addMorph(std::move(target), mesh);
+        }
+        for (const GltfMesh::Expression& expression : from.expressions) {
+            std::vector<std::pair<const MorphTarget*, double>> parts;
+            for (const auto& [t, weight] : expression.parts) {
+                if (t >= primitive.targets.size()) continue;
+                takeMorph(kPart + 3 * mesh.morphs[t].vertices.size());
+                parts.emplace_back(&mesh.morphs[t], weight);
+            }
+            MorphTarget target = sumOf(parts);
+            target.name = expression.name;
+            addMorph(std::move(target), mesh);
+        }
+    }
+
+    VertexOffsets offsets(const GltfIndex& accessor) {
+        if (!accessor) return {};
+        takeMorph(3 * _accessors[*accessor].storedCount());
+        return _accessors.offsets(*accessor);
+    }
+
+    void addMorph(MorphTarget target, SourceMesh& mesh) {
+        _document.file.take(target.vertices.size(), _where);
+        mesh.morphs.push_back(std::move(target));
     }
 
     // --- faces ---
@@ -338,7 +393,8 @@ private:
     std::vector<GltfIndex> _materialOf, _imageOf;            ///< in the scene
     std::vector<std::shared_ptr<SourceMesh>> _plain;         ///< without a material
     std::map<std::size_t, std::vector<glm::dmat4>> _offsets; ///< by skin
-    double _morphs;     ///< how many more numbers targets may move
+    MorphNames _names;
+    double _morphs;     ///< how many more numbers of morph targets may be read
     std::string _where; ///< path of the current primitive
     DracoMesh _packed;  ///< decoded content of the primitive
     bool _isPacked = false;

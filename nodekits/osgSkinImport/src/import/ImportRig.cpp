@@ -10,6 +10,7 @@
 
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkin/UpdateMorphs>
 
 #include <glm/geometric.hpp>
 #include <osgAnimation/Animation>
@@ -25,7 +26,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -107,6 +110,14 @@ bool isValid(const glm::dquat& q) {
     return std::isfinite(length) && length > 0.0;
 }
 
+bool isValid(float weight) {
+    return std::isfinite(weight);
+}
+
+float stored(float weight) {
+    return weight;
+}
+
 osg::Vec3 stored(const glm::dvec3& v) {
     return osg::Vec3(toOsg(v));
 }
@@ -133,14 +144,16 @@ struct Clock {
     }
 };
 
-/// Adds the channel of one stacked element: the track's keys, or a single key if it has none.
+/// Adds the channel of one stacked element or morph target: the track's keys, or a single key if it
+/// has none.
+/// \param target name of the callback that the channel moves
 template <typename Channel, typename Keyframe, typename Keys, typename Value>
-void addChannel(osgAnimation::Animation& animation, const std::string& joint, const char* element,
-                const Keys& keys, const Value& otherwise, const Clock& clock,
-                const std::string& path) {
+void addChannel(osgAnimation::Animation& animation, const std::string& target,
+                const std::string& element, const Keys& keys, const Value& otherwise,
+                const Clock& clock, const std::string& path) {
     const osg::ref_ptr<Channel> channel = new Channel;
     channel->setName(element);
-    channel->setTargetName(joint);
+    channel->setTargetName(target);
     auto* container = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
     double last = -std::numeric_limits<double>::infinity();
     container->reserve(keys.size());
@@ -148,7 +161,7 @@ void addChannel(osgAnimation::Animation& animation, const std::string& joint, co
         const Value value(keys[k].value);
         if (!isValid(value) || !std::isfinite(keys[k].time))
             failFile(path, "animation " + inQuotes(animation.getName()) + ": joint " +
-                               inQuotes(joint) + ": key " + std::to_string(k) + " of its " +
+                               inQuotes(target) + ": key " + std::to_string(k) + " of its " +
                                element + " is not finite, or beyond -1e18 to 1e18");
         const double time = keys.size() > 1 ? clock.seconds(keys[k].time) : 0.0;
         if (!(time > last)) continue; // interpolation needs keys in order
@@ -185,10 +198,50 @@ void addJoint(osgAnimation::Animation& animation, const std::string& joint, cons
     for (Vec3Keyframe& key : *scales) key.setValue(clampedTinyScale(key.getValue()));
 }
 
+/// The morph targets that some clip of a scene drives, with their initial weights.
+using DrivenMorphs = std::map<std::string, float>;
+
+DrivenMorphs drivenMorphs(const SourceScene& scene, const ImportedMesh& body) {
+    DrivenMorphs all, result;
+    for (const MeshPart& part : body.parts)
+        for (const MorphTarget& target : part.morphs) all.emplace(target.name, target.initial);
+    for (const auto& animation : scene.animations)
+        for (const SourceMorphTrack& track : animation->morphs) {
+            const auto known = all.find(track.morph);
+            if (known == all.end()) continue;
+            const auto isOther = [&](const auto& key) { return key.value != known->second; };
+            if (std::any_of(track.weights.begin(), track.weights.end(), isOther))
+                result.insert(*known);
+        }
+    return result;
+}
+
+using MorphTracks = std::map<std::string, const SourceMorphTrack*>;
+
+bool isSame(const SourceMorphTrack& a, const SourceMorphTrack& b) {
+    return std::equal(
+        a.weights.begin(), a.weights.end(), b.weights.begin(), b.weights.end(),
+        [](const auto& p, const auto& q) { return p.time == q.time && p.value == q.value; });
+}
+
+/// The first track of each driven morph target.
+/// \param[out] torn gets the targets that have other tracks, too
+MorphTracks morphTracksOf(const SourceAnimation& animation, const DrivenMorphs& driven,
+                          std::set<std::string>& torn) {
+    MorphTracks result;
+    for (const SourceMorphTrack& track : animation.morphs) {
+        if (driven.count(track.morph) == 0) continue;
+        const auto [known, isNew] = result.emplace(track.morph, &track);
+        if (!isNew && !isSame(*known->second, track)) torn.insert(track.morph);
+    }
+    return result;
+}
+
 osg::ref_ptr<osgAnimation::Animation> makeClip(const SourceAnimation& source,
                                                const std::string& name, const SceneSkeleton& joints,
                                                const std::vector<bool>& moves,
-                                               const std::string& path) {
+                                               const DrivenMorphs& driven,
+                                               const MorphTracks& morphs, const std::string& path) {
     const Tracks tracks = tracksOf(source);
     const auto trackOf = [&](std::size_t joint) -> const SourceTrack* {
         const auto found = tracks.find(joints.rest.joints[joint].name);
@@ -202,6 +255,7 @@ osg::ref_ptr<osgAnimation::Animation> makeClip(const SourceAnimation& source,
             clock.include(track->rotations);
             clock.include(track->scales);
         }
+    for (const auto& [morph, track] : morphs) clock.include(track->weights);
     if (!clock.any) return nullptr;
     if (!std::isfinite(clock.first)) clock.first = 0.0; // a pose
     osg::ref_ptr<osgAnimation::Animation> clip = new osgAnimation::Animation;
@@ -210,6 +264,13 @@ osg::ref_ptr<osgAnimation::Animation> makeClip(const SourceAnimation& source,
     for (std::size_t j = 0; j < moves.size(); ++j)
         if (moves[j])
             addJoint(*clip, joints.rest.joints[j].name, *joints.nodes[j], trackOf(j), clock, path);
+    for (const auto& [morph, initial] : driven) {
+        const auto found = morphs.find(morph);
+        const SourceMorphTrack none;
+        const SourceMorphTrack& track = found == morphs.end() ? none : *found->second;
+        addChannel<osgAnimation::FloatLinearChannel, osgAnimation::FloatKeyframe>(
+            *clip, UpdateMorphs::kName, morph, track.weights, initial, clock, path);
+    }
     clip->computeDuration();
     return clip;
 }
@@ -225,22 +286,33 @@ std::vector<bool> movedJoints(const SourceScene& scene, const SceneSkeleton& joi
     return moves;
 }
 
-/// The scene's clips for the bones of makeBones(), without clips that move no joint.
+/// The scene's clips for the bones of makeBones() and the body's morph targets, without clips that
+/// move none of them.
 /// \throw osgSkin::Error if a key is not finite
 osgAnimation::AnimationList makeClips(const SourceScene& scene, const SceneSkeleton& joints,
-                                      const std::vector<bool>& moves, std::size_t mostSamples,
-                                      const std::string& path) {
-    const auto moved = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), true));
-    // Every clip has channels for all joints that any clip moves.
+                                      const std::vector<bool>& moves, const ImportedMesh& body,
+                                      std::size_t mostSamples, const std::string& path) {
+    const DrivenMorphs driven = drivenMorphs(scene, body);
+    const std::size_t moved =
+        static_cast<std::size_t>(std::count(moves.begin(), moves.end(), true)) + driven.size();
+    // Every clip has channels for all joints and morph targets that any clip moves.
     if (moved * scene.animations.size() > mostSamples / 8)
         failFile(path, std::to_string(scene.animations.size()) + " animations of " +
-                           std::to_string(moved) + " joints, expected at most " +
+                           std::to_string(moved) + " joints and morph targets, expected at most " +
                            std::to_string(mostSamples / 8) + " tracks (option maxSamples)");
     osgAnimation::AnimationList result;
     const std::vector<std::string> names = clipNames(scene);
-    for (std::size_t a = 0; a < scene.animations.size(); ++a)
-        if (const auto clip = makeClip(*scene.animations[a], names[a], joints, moves, path))
+    std::set<std::string> torn;
+    for (std::size_t a = 0; a < scene.animations.size(); ++a) {
+        const MorphTracks morphs = morphTracksOf(*scene.animations[a], driven, torn);
+        if (const auto clip =
+                makeClip(*scene.animations[a], names[a], joints, moves, driven, morphs, path))
             result.push_back(clip);
+    }
+    if (!torn.empty())
+        tellOf(path, std::to_string(torn.size()) + " morph targets, " + inQuotes(*torn.begin()) +
+                         " among them, have different weights on several meshes in a clip; those "
+                         "of the first mesh are played");
     return result;
 }
 
@@ -275,7 +347,8 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     result.rest = joints.rest;
     const std::vector<bool> moves = movedJoints(scene, joints);
     result.skeleton = makeBones(joints, moves);
-    result.animations = makeClips(scene, joints, moves, limits.samplesOf(scene.bytes), path);
+    result.animations =
+        makeClips(scene, joints, moves, result.body, limits.samplesOf(scene.bytes), path);
     result.toWorld = scene.toWorld;
     result.metresPerUnit = scene.metresPerUnit;
     return result;

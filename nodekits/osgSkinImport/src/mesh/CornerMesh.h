@@ -2,6 +2,7 @@
 #ifndef OSGSKINIMPORT_CORNERMESH_H
 #define OSGSKINIMPORT_CORNERMESH_H 1
 
+#include <osgSkin/MorphTargets>
 #include <osgSkinImport/BoneWeights>
 #include <osgSkinRig/SkinMesh>
 
@@ -27,6 +28,7 @@ struct CornerMesh {
     std::vector<std::uint32_t> materials; ///< per face: index in stateSets
     std::vector<osg::ref_ptr<osg::StateSet>> stateSets;
     std::vector<BoneWeights> weights; ///< per bone
+    std::vector<MorphTarget> morphs;  ///< of mesh.positions
     bool hasTexCoords = false;        ///< whether any corner has some
 
     /// The weights of the bone called `name`, added if new.

@@ -6,7 +6,9 @@
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/GlmTypes>
 #include <osgSkinRig/MeshPart>
+#include <osgSkinRig/MorphsByVertex>
 #include <osgSkinRig/SkinMesh>
 
 #include <glm/geometric.hpp>
@@ -109,6 +111,7 @@ std::vector<Areas> areasOf(const CornerMesh& mesh) {
 void mendNormals(CornerMesh& mesh, const std::string& path) {
     const std::vector<Areas> areas = areasOf(mesh);
     std::vector<glm::vec3> computed;
+    std::vector<bool> isMended(mesh.mesh.positions.size(), false);
     std::size_t first = 0, faces = 0;
     for (std::size_t f = 0; f < mesh.mesh.faceSizes.size(); ++f) {
         const std::size_t size = mesh.mesh.faceSizes[f], begin = first;
@@ -116,9 +119,16 @@ void mendNormals(CornerMesh& mesh, const std::string& path) {
         if (mesh.materials[f] >= areas.size() || !areas[mesh.materials[f]].areMostlyWrong())
             continue;
         if (computed.empty()) computed = smoothNormals(mesh.mesh);
-        for (std::size_t k = begin; k < first; ++k) mesh.normals[k] = computed[k];
+        for (std::size_t k = begin; k < first; ++k) {
+            mesh.normals[k] = computed[k];
+            isMended[mesh.mesh.faceVertices[k]] = true;
+        }
         ++faces;
     }
+    if (faces > 0)
+        for (MorphTarget& target : mesh.morphs)
+            for (std::size_t i = 0; i < target.normals.size(); ++i)
+                if (isMended[target.vertices[i]]) target.normals[i] = glm::vec3(0.0f);
     if (faces > 0)
         tellOf(path, "the normals of " + std::to_string(faces) + " of " +
                          std::to_string(mesh.mesh.faceSizes.size()) +
@@ -137,7 +147,8 @@ public:
         _part.sourceFace.push_back(face);
     }
 
-    MeshPart finish(osg::StateSet* stateSet) {
+    MeshPart finish(osg::StateSet* stateSet, const MorphsByVertex& morphs) {
+        _part.morphs = morphs.ofCopies(_part.sourceVertex);
         _part.geometry = new osg::Geometry;
         osg::Geometry& geometry = *_part.geometry;
         geometry.setVertexArray(_positions);
@@ -196,9 +207,10 @@ std::vector<MeshPart> makeMeshParts(const CornerMesh& source) {
     for (std::uint32_t f = 0; f < source.mesh.faceSizes.size(); ++f)
         for (std::uint32_t k = 2; k < source.mesh.faceSizes[f]; ++k, triangle += 3)
             builders[source.materials[f]].addTriangle(f, triangle);
+    const MorphsByVertex morphs(source.morphs);
     std::vector<MeshPart> result;
     for (std::size_t m = 0; m < builders.size(); ++m)
-        if (!builders[m].empty()) result.push_back(builders[m].finish(source.stateSets[m]));
+        if (!builders[m].empty()) result.push_back(builders[m].finish(source.stateSets[m], morphs));
     return result;
 }
 
@@ -241,6 +253,18 @@ void finishColours(std::vector<glm::vec4>& colours) {
     }
 }
 
+/// Throws osgSkin::Error if an offset is not finite or too large.
+void checkMorphs(const std::vector<MorphTarget>& morphs, const std::string& path) {
+    for (const MorphTarget& target : morphs)
+        for (const auto* offsets : {&target.positions, &target.normals, &target.tangents})
+            for (std::size_t i = 0; i < offsets->size(); ++i)
+                if (!isInRange((*offsets)[i]))
+                    failFile(path, "morph target " + inQuotes(target.name) +
+                                       ": its offset of vertex " +
+                                       std::to_string(target.vertices[i]) +
+                                       " is not finite, or beyond -1e18 to 1e18");
+}
+
 std::size_t samplesFor(const std::string& path, const ReadLimits& limits) {
     std::error_code failure;
     const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(path, failure));
@@ -273,10 +297,13 @@ ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
     }
     if (read.mesh.size() == 0.0)
         failFile(path, "all vertices are at one place, expected a surface");
-    if (normalise(read.normals))
+    checkMorphs(read.morphs, path);
+    if (normalise(read.normals)) {
         mendNormals(read, path);
-    else
+    } else {
         read.normals = smoothNormals(read.mesh);
+        for (MorphTarget& target : read.morphs) target.normals.clear();
+    }
     for (glm::vec2& t : read.texCoords)
         if (!std::isfinite(t.x) || !std::isfinite(t.y)) t = glm::vec2(0.0f);
     finishColours(read.colours);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -324,6 +325,48 @@ void addMesh(const SourceMesh& source, const glm::dmat4& toScene,
     }
 }
 
+/// Adds the morph targets of one mesh, transformed like its vertices. Those of the same name become
+/// one.
+/// \param known indices in result.morphs, by name
+void addMorphs(const SourceMesh& source, const glm::dmat4& toScene,
+               const std::vector<glm::dmat4>& apart, const std::vector<std::uint32_t>& indices,
+               std::map<std::string, std::size_t>& known, CornerMesh& result) {
+    const glm::dmat3 linear(toScene), normalMatrix = normalMatrixOf(toScene);
+    for (const MorphTarget& from : source.morphs) {
+        const auto [entry, isNew] = known.emplace(from.name, result.morphs.size());
+        if (isNew) {
+            result.morphs.emplace_back();
+            result.morphs.back().name = from.name;
+            result.morphs.back().initial = from.initial;
+        }
+        MorphTarget& to = result.morphs[entry->second];
+        const bool hasNormals = !from.normals.empty() && !source.normals.empty();
+        if (hasNormals) to.normals.resize(to.vertices.size());
+        if (!from.tangents.empty()) to.tangents.resize(to.vertices.size());
+        for (std::size_t i = 0; i < from.vertices.size(); ++i) {
+            const std::uint32_t v = from.vertices[i];
+            if (v >= indices.size() || indices[v] == kUnused) continue;
+            const glm::dmat3 own = apart.empty() ? linear : glm::dmat3(apart[v]);
+            to.vertices.push_back(indices[v]);
+            to.positions.emplace_back(own * glm::dvec3(from.positions[i]));
+            if (hasNormals) {
+                const glm::dmat3 turn = apart.empty() ? normalMatrix : normalMatrixOf(apart[v]);
+                // Relative to the vertex's normal, which will be of unit length.
+                const double length = glm::length(turn * glm::dvec3(source.normals[v]));
+                const glm::dvec3 change = turn * glm::dvec3(from.normals[i]) / length;
+                to.normals.emplace_back(length > 0.0 ? change : glm::dvec3(0.0));
+            }
+            if (!from.tangents.empty()) {
+                const double scale = std::cbrt(std::abs(glm::determinant(own)));
+                const glm::dvec3 change = own * glm::dvec3(from.tangents[i]) / scale;
+                to.tangents.emplace_back(scale > 0.0 ? change : glm::dvec3(0.0));
+            }
+        }
+        if (!to.normals.empty()) to.normals.resize(to.vertices.size());
+        if (!to.tangents.empty()) to.tangents.resize(to.vertices.size());
+    }
+}
+
 /// Adds the weights of a mesh whose vertices have `indices`: its own, or, if it has none, full
 /// weight for the joint `above` that it is parented to.
 void addWeights(const SourceMesh& source, const SourceNode* above,
@@ -368,6 +411,7 @@ CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
     const Scenery scenery(scene, bind);
     const std::set<const SourceNode*> moved = movedNodes(scene, bind);
     std::set<std::string> leftOut, unmoved;
+    std::map<std::string, std::size_t> morphs; // by name
     for (const SourceNode* node : bind.nodes())
         for (const std::size_t index : node->meshes) {
             const SourceMesh& mesh = *scene.meshes[index];
@@ -384,7 +428,9 @@ CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
             const std::string where = path + ": mesh \"" + mesh.name + "\"";
             const auto indices = indicesOf(mesh, result.mesh.positions.size(), where);
             const glm::dmat4 toScene = bind.mesh(*node, index);
-            addMesh(mesh, toScene, perVertexBindPose(mesh, toScene, bind), indices, looks, result);
+            const auto apart = perVertexBindPose(mesh, toScene, bind);
+            addMesh(mesh, toScene, apart, indices, looks, result);
+            addMorphs(mesh, toScene, apart, indices, morphs, result);
             addWeights(mesh, above, indices, where, result);
         }
     tellOfSome(path, leftOut, " things beside the figure are left out");

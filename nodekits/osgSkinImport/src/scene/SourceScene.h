@@ -7,6 +7,8 @@
 
 #include "mesh/Material.h"
 
+#include <osgSkin/MorphTargets>
+
 #include <osg/Image>
 #include <osg/Matrixd>
 #include <osg/ref_ptr>
@@ -57,6 +59,7 @@ struct SourceMesh {
     std::vector<std::uint32_t> faceSizes; ///< corners per face; below 3: points and lines
     std::vector<std::uint32_t> corners;   ///< vertex indices, face by face
     std::vector<SourceBone> bones;
+    std::vector<MorphTarget> morphs; ///< offsets in the mesh's space
 };
 
 /// An image embedded in the file.
@@ -87,10 +90,18 @@ struct SourceTrack {
     std::vector<SourceKey<glm::vec3>> scales;
 };
 
+/// The weight of a morph target: linear between keys, in increasing time.
+struct SourceMorphTrack {
+    std::string morph; ///< MorphTarget::name
+    std::vector<SourceKey<float>> weights;
+};
+
 struct SourceAnimation {
     std::string name;
     double ticksPerSecond = 25.0; ///< above 0
     std::vector<SourceTrack> tracks;
+    /// Several may drive one target: in files, each mesh has weights of its own.
+    std::vector<SourceMorphTrack> morphs;
 };
 
 /// Copies share the meshes, images and animations.

@@ -9,6 +9,7 @@
 #include <osgSkin/GlmTypes>
 #include <osgSkin/Pose>
 #include <osgSkin/RigidPart>
+#include <osgSkin/UpdateMorphs>
 
 #include <glm/common.hpp>
 #include <osg/LOD>
@@ -17,6 +18,7 @@
 #include <osg/Switch>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Bone>
+#include <osgAnimation/Channel>
 
 #include <algorithm>
 #include <array>
@@ -207,6 +209,13 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
 
 osg::ref_ptr<const SampledClip> ClipCharacter::sample(const osgAnimation::Animation& animation,
                                                       double samplesPerSecond) const {
+    for (const auto& channel : animation.getChannels()) {
+        if (channel->getTargetName() != UpdateMorphs::kName) continue;
+        OSG_NOTICE << onOneLine("osgSkin: clip character: animation \"" + animation.getName() +
+                                "\" moves morph targets, which players leave as they are")
+                   << std::endl;
+        break;
+    }
     return SampledClip::create(animation, *_skeleton, samplesPerSecond);
 }
 
@@ -286,7 +295,10 @@ ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
         rigid->setDataVariance(osg::Object::DYNAMIC);
         rigid->setStateSet(source.look.state);
         rigid->setNodeMask(source.look.mask);
-        for (const osg::ref_ptr<osg::Node>& part : source.parts) rigid->addChild(part);
+        for (const osg::ref_ptr<osg::Node>& part : source.parts) {
+            const auto* skin = dynamic_cast<const DeformableSkin*>(part.get());
+            rigid->addChild(skin ? osg::clone(skin, osg::CopyOp::SHALLOW_COPY) : part.get());
+        }
         result.node->addChild(rigid);
         result.player->addRigid(rigid, source.joint, _skeletonToCharacter);
     }
