@@ -157,8 +157,8 @@ int difference(const osg::Image& a, const osg::Image& b) {
     int result = 0;
     for (unsigned pixel = 0; pixel < test::pixelCount(a); ++pixel)
         for (unsigned i = 0; i < 3; ++i)
-            result = std::max(result, std::abs(test::channel(a, pixel, i) -
-                                               test::channel(b, pixel, i)));
+            result =
+                std::max(result, std::abs(test::channel(a, pixel, i) - test::channel(b, pixel, i)));
     return result;
 }
 
@@ -188,7 +188,8 @@ TEST(Maps, LightFallsOnTheNormalsOfTheMap) {
 }
 
 TEST(Maps, OcclusionDarkensAmbientLightAndEmissionNeedsNone) {
-    const Colours shade{osg::Vec3(0.2f, 1, 1), osg::Vec3(0.4f, 1, 1), osg::Vec3(0.6f, 1, 1), kWhite};
+    const Colours shade{osg::Vec3(0.2f, 1, 1), osg::Vec3(0.4f, 1, 1), osg::Vec3(0.6f, 1, 1),
+                        kWhite};
     const Colours glow{osg::Vec3(0.1f, 0, 0), osg::Vec3(0, 0.2f, 0), osg::Vec3(0, 0, 0.3f), kBlack};
     Board board;
     const Colours open = board.map("occlusionTexture", shade);
@@ -227,14 +228,11 @@ TEST(Maps, NeutralOnesAreThePictureOfTheFixedPipeline) {
     const Lamp dim{{1, 0.5f, 1, 0}, {0.5f, 0.6f, 0.4f}, {0.2f, 0.3f, 0.1f}};
     const Lamp behind{{1, 0.5f, -1, 0}, {0.5f, 0.6f, 0.4f}, {0.2f, 0.3f, 0.1f}};
     const Lamp far{{300, 200, 300, 1}, {0.5f, 0.6f, 0.4f}, {0.2f, 0.3f, 0.1f}};
-    const Case cases[] = {{"plain", json::object(), false, dim, kFront},
-                          {"glossy", glossy, false, dim, kFront},
-                          {"one_sided", glossy, false, behind, kBack},
-                          {"both_sides", both, false, behind, kBack},
-                          {"far_lamp", glossy, false, far, kFront},
-                          {"coloured", glossy, true, dim, kFront},
-                          {"masked", mask, false, dim, kFront},
-                          {"blended", blend, false, dim, kFront}};
+    const Case cases[] = {
+        {"plain", json::object(), false, dim, kFront}, {"glossy", glossy, false, dim, kFront},
+        {"one_sided", glossy, false, behind, kBack},   {"both_sides", both, false, behind, kBack},
+        {"far_lamp", glossy, false, far, kFront},      {"coloured", glossy, true, dim, kFront},
+        {"masked", mask, false, dim, kFront},          {"blended", blend, false, dim, kFront}};
     for (const Case& each : cases) {
         Board board;
         board.material() = each.material;

@@ -203,7 +203,8 @@ TEST(MeshLooks, AnEmissionTextureThatIsMissingDoesNotGlow) {
         << "newmtl m\nmap_Ke eyes.png\nKd 1 0 0\nKe 1 1 1\nnewmtl n\nKd 1 0 0\nKe 0 1 0\n";
     const test::Notices notices;
     const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
-    EXPECT_TRUE(notices.say("texture \"eyes.png\" cannot be read; drawn without")) << notices.text();
+    EXPECT_TRUE(notices.say("texture \"eyes.png\" cannot be read; drawn without"))
+        << notices.text();
     const auto emission = [&](std::size_t part) {
         return dynamic_cast<const osg::Material&>(
                    *mesh.parts.at(part).geometry->getStateSet()->getAttribute(

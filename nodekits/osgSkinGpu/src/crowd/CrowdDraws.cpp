@@ -43,9 +43,9 @@ bool hasTexture(const osg::StateSet* state) {
 /// A material's state for a crowd: without its program, if that does not call osgSkin_vertex() and
 /// so draws no members, such as one for normal maps.
 osg::ref_ptr<osg::StateSet> forCrowds(osg::StateSet* state) {
-    const auto* program = state ? dynamic_cast<const osg::Program*>(
-                                      state->getAttribute(osg::StateAttribute::PROGRAM))
-                                : nullptr;
+    const auto* program =
+        state ? dynamic_cast<const osg::Program*>(state->getAttribute(osg::StateAttribute::PROGRAM))
+              : nullptr;
     if (!program) return state;
     for (unsigned int s = 0; s < program->getNumShaders(); ++s)
         if (program->getShader(s)->getShaderSource().find("osgSkin_vertex") != std::string::npos)
@@ -119,7 +119,8 @@ CrowdDraws::Draw CrowdDraws::makeDraw(const CrowdCharacter& character,
                                                                   : nullptr;
     if (hasTexture(part.state) || hasTexture(own)) state->setDefine("OSGSKIN_TEXTURE");
     geometry->setStateSet(state);
-    return {forCrowds(part.state), forCrowds(own), geometry, level, indices.empty() || count == Count::Direct};
+    return {forCrowds(part.state), forCrowds(own), geometry, level,
+            indices.empty() || count == Count::Direct};
 }
 
 void CrowdDraws::setCount(std::size_t level, std::size_t members) {

@@ -16,7 +16,6 @@
 #include <array>
 #include <exception>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -74,17 +73,22 @@ unsigned texCoordsOf(const aiMaterial& material, aiTextureType type) {
     return static_cast<unsigned>(std::max(set, 0));
 }
 
-/// The textures that are drawn: of several kinds with one meaning, the first that there is. All
-/// have the same texture coordinates.
-std::vector<std::pair<Material::Map, aiTextureType>> drawnTextures(const aiMaterial& source) {
-    std::vector<std::pair<Material::Map, aiTextureType>> result;
+using TextureKind = std::pair<Material::Map, aiTextureType>;
+
+/// Of several kinds with one meaning, the first that there is is drawn.
+constexpr TextureKind kTextureKinds[] = {{Material::Diffuse, aiTextureType_DIFFUSE},
+                                         {Material::Diffuse, aiTextureType_BASE_COLOR},
+                                         {Material::Normal, aiTextureType_NORMALS},
+                                         {Material::Occlusion, aiTextureType_AMBIENT_OCCLUSION},
+                                         {Material::Occlusion, aiTextureType_LIGHTMAP},
+                                         {Material::Emission, aiTextureType_EMISSIVE},
+                                         {Material::Emission, aiTextureType_EMISSION_COLOR}};
+
+/// The textures that are drawn. All have the same texture coordinates.
+std::vector<TextureKind> drawnTextures(const aiMaterial& source) {
+    std::vector<TextureKind> result;
     std::array<bool, Material::kMaps> isKnown{};
-    for (const auto& [map, type] : {std::make_pair(Material::Diffuse, aiTextureType_DIFFUSE),
-                                    {Material::Normal, aiTextureType_NORMALS},
-                                    {Material::Occlusion, aiTextureType_AMBIENT_OCCLUSION},
-                                    {Material::Occlusion, aiTextureType_LIGHTMAP},
-                                    {Material::Emission, aiTextureType_EMISSIVE},
-                                    {Material::Emission, aiTextureType_EMISSION_COLOR}}) {
+    for (const auto& [map, type] : kTextureKinds) {
         if (isKnown[map] || source.GetTextureCount(type) == 0) continue;
         if (!result.empty() &&
             texCoordsOf(source, type) != texCoordsOf(source, result.front().second))
@@ -109,27 +113,27 @@ SourceMaterial readMaterial(const aiScene& scene, const aiMaterial& source,
     float opacity = 1.0f;
     if (source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) look.diffuse.a() = opacity;
     source.Get(AI_MATKEY_SHININESS, look.shininess);
-    std::set<unsigned> drawn;
     for (const auto& [map, type] : drawnTextures(source)) {
         aiString name;
         if (source.GetTexture(type, 0, &name) != AI_SUCCESS) continue;
-        drawn.insert(type);
         result.textures[map].name = name.C_Str();
         const int embedded = scene.GetEmbeddedTextureAndIndex(name.C_Str()).second;
         if (embedded >= 0) result.textures[map].image = static_cast<std::size_t>(embedded);
         look.textures[map].wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type);
         look.textures[map].wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type);
     }
-    for (unsigned type = aiTextureType_NONE + 1; type <= AI_TEXTURE_TYPE_MAX; ++type) {
-        const auto kind = static_cast<aiTextureType>(type);
-        if (source.GetTextureCount(kind) > 0 && drawn.count(type) == 0)
-            ++unused[aiTextureTypeToString(kind)];
+    for (unsigned number = aiTextureType_NONE + 1; number <= AI_TEXTURE_TYPE_MAX; ++number) {
+        const auto type = static_cast<aiTextureType>(number);
+        if (source.GetTextureCount(type) == 0) continue;
+        bool isDrawn = false;
+        for (const TextureKind& kind : kTextureKinds)
+            isDrawn = isDrawn || (kind.second == type && !result.textures[kind.first].name.empty());
+        if (isDrawn) continue;
+        ++unused[aiTextureTypeToString(type)];
+        // Without its texture, the colour would make the whole surface glow.
+        if (type == aiTextureType_EMISSIVE || type == aiTextureType_EMISSION_COLOR)
+            look.emission = Material().emission;
     }
-    // Without its texture, the colour would make the whole surface glow.
-    const bool hasGlow = source.GetTextureCount(aiTextureType_EMISSIVE) > 0 ||
-                         source.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
-    if (hasGlow && result.textures[Material::Emission].name.empty())
-        look.emission = Material().emission;
     return result;
 }
 

@@ -136,7 +136,7 @@ struct GltfPrimitive {
         std::size_t view = 0;
         std::map<std::string, std::size_t> ids; ///< of compressed attributes, by name
     };
-    std::size_t positions = 0; ///< accessor, like those below
+    std::size_t positions = 0;                     ///< accessor, like those below
     GltfIndex normals, tangents, colours, indices; ///< tangents: if the material uses them
     std::array<GltfIndex, 8> texCoords;
     std::array<GltfIndex, 4> joints, weights; ///< both or none

@@ -217,8 +217,8 @@ void finishTangents(CornerMesh& mesh) {
     for (std::size_t f = 0; f < mesh.mesh.faceSizes.size(); ++f)
         for (std::uint32_t k = 0; k < mesh.mesh.faceSizes[f]; ++k, ++corner) {
             glm::vec4& tangent = mesh.tangents[corner];
-            const glm::vec3 given(alongSurface(glm::dvec3(glm::vec3(tangent)),
-                                               glm::dvec3(mesh.normals[corner])));
+            const glm::vec3 given(
+                alongSurface(glm::dvec3(glm::vec3(tangent)), glm::dvec3(mesh.normals[corner])));
             if (!needed[mesh.materials[f]])
                 tangent = glm::vec4(0.0f);
             else if (given != glm::vec3(0.0f))

@@ -20,8 +20,11 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <mutex>
 
 namespace osgSkin {
 
@@ -59,8 +62,7 @@ namespace {
 
 // A picture of neutral maps is that of the fixed pipeline, but for the highlight, which is computed
 // in each pixel: light 0, without a spot, and a viewer at infinity.
-const char* const kVertex = R"(#version 120
-#pragma import_defines(OSGSKIN_NORMAL_MAP)
+const char* const kVertex = R"(
 varying vec3 osgSkinPosition, osgSkinNormal;
 varying vec4 osgSkinColour;
 varying vec2 osgSkinTexture;
@@ -87,9 +89,7 @@ void main() {
 }
 )";
 
-const char* const kFragment = R"(#version 120
-#pragma import_defines(OSGSKIN_DIFFUSE_MAP, OSGSKIN_NORMAL_MAP, OSGSKIN_OCCLUSION_MAP)
-#pragma import_defines(OSGSKIN_EMISSION_MAP, OSGSKIN_VERTEX_COLOURS)
+const char* const kFragment = R"(
 varying vec3 osgSkinPosition, osgSkinNormal;
 varying vec4 osgSkinColour;
 varying vec2 osgSkinTexture;
@@ -155,27 +155,35 @@ void main() {
 )";
 
 constexpr const char* kDefines[] = {"OSGSKIN_DIFFUSE_MAP", "OSGSKIN_NORMAL_MAP",
-                                    "OSGSKIN_OCCLUSION_MAP", "OSGSKIN_EMISSION_MAP"};
+                                    "OSGSKIN_OCCLUSION_MAP", "OSGSKIN_EMISSION_MAP",
+                                    "OSGSKIN_VERTEX_COLOURS"};
 constexpr const char* kSamplers[] = {"osgSkinDiffuseMap", "osgSkinNormalMap", "osgSkinOcclusionMap",
                                      "osgSkinEmissionMap"};
 
-/// Draws all materials with maps; defines of their state sets select what it does.
-osg::Program* mapProgram() {
+/// The program for materials with the same maps, which share it. (Defines of state sets would
+/// select the same from one program, but OSG cannot read them in .osgx files.)
+/// \param defined which of `kDefines`
+osg::ref_ptr<osg::Program> mapProgram(std::bitset<std::size(kDefines)> defined) {
+    static std::mutex mutex;
     // Never deleted: contexts may be gone when a process ends.
-    static const auto& program = *new osg::ref_ptr<osg::Program>([] {
-        osg::ref_ptr<osg::Program> made = new osg::Program;
-        made->setName("osgSkin maps");
-        made->addShader(new osg::Shader(osg::Shader::VERTEX, kVertex));
-        made->addShader(new osg::Shader(osg::Shader::FRAGMENT, kFragment));
-        made->addBindAttribLocation("osgSkinTangent", MeshPart::kTangentAttribute);
-        return made;
-    }());
+    static auto& programs = *new std::map<unsigned long, osg::ref_ptr<osg::Program>>;
+    const std::lock_guard<std::mutex> lock(mutex);
+    osg::ref_ptr<osg::Program>& program = programs[defined.to_ulong()];
+    if (program) return program;
+    std::string head = "#version 120\n";
+    for (std::size_t d = 0; d < defined.size(); ++d)
+        if (defined[d]) head += std::string("#define ") + kDefines[d] + "\n";
+    program = new osg::Program;
+    program->setName("osgSkin maps");
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, head + kVertex));
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, head + kFragment));
+    program->addBindAttribLocation("osgSkinTangent", MeshPart::kTangentAttribute);
     return program;
 }
 
 /// Adds the textures, and the program where one of them needs it.
 void setTextures(osg::StateSet& state, const Material& material) {
-    bool needsProgram = false;
+    std::bitset<std::size(kDefines)> defined;
     for (unsigned int unit = 0; unit < Material::kMaps; ++unit) {
         const Material::Texture& from = material.textures[unit];
         if (!from.image) continue;
@@ -187,21 +195,18 @@ void setTextures(osg::StateSet& state, const Material& material) {
             state.setTextureAttributeAndModes(unit, texture);
         else
             state.setTextureAttribute(unit, texture);
-        needsProgram = needsProgram || unit != Material::Diffuse;
+        defined.set(unit);
     }
-    if (!needsProgram) return;
-    state.setAttribute(mapProgram());
-    if (material.vertexColours) state.setDefine("OSGSKIN_VERTEX_COLOURS");
-    for (unsigned int unit = 0; unit < Material::kMaps; ++unit) {
-        if (!material.textures[unit].image) continue;
-        state.setDefine(kDefines[unit]);
-        state.addUniform(new osg::Uniform(kSamplers[unit], static_cast<int>(unit)));
-    }
+    if ((defined >> 1).none()) return;
+    for (unsigned int unit = 0; unit < Material::kMaps; ++unit)
+        if (defined[unit])
+            state.addUniform(new osg::Uniform(kSamplers[unit], static_cast<int>(unit)));
+    if (material.vertexColours) defined.set(Material::kMaps);
+    state.setAttribute(mapProgram(defined));
     state.addUniform(new osg::Uniform("osgSkinNormalScale", material.normalScale));
     state.addUniform(new osg::Uniform("osgSkinOcclusionStrength", material.occlusionStrength));
     const osg::Vec4& glow = material.emission;
-    state.addUniform(
-        new osg::Uniform("osgSkinEmission", osg::Vec3(glow.r(), glow.g(), glow.b())));
+    state.addUniform(new osg::Uniform("osgSkinEmission", osg::Vec3(glow.r(), glow.g(), glow.b())));
 }
 
 void setSides(osg::StateSet& state, bool two) {
@@ -286,7 +291,7 @@ osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material) {
 }
 
 bool hasNormalMap(const osg::StateSet& state) {
-    return state.getDefinePair(kDefines[Material::Normal]) != nullptr;
+    return state.getUniform(kSamplers[Material::Normal]) != nullptr;
 }
 
 void tellOfUnusedTextures(const std::string& path,

@@ -78,8 +78,8 @@ struct Material {
 /// A component of a linear colour in sRGB.
 float toSrgb(float linear);
 
-/// Makes a state set with an osg::Material, the textures on the units of their maps, and blending or
-/// an alpha test if it is transparent. Back faces are culled if the material is single-sided.
+/// Makes a state set with an osg::Material, the textures on the units of their maps, and blending
+/// or an alpha test if it is transparent. Back faces are culled if the material is single-sided.
 ///
 /// With a normal, occlusion or emission map it has a program in GLSL 1.20, which lights each pixel
 /// from light 0 by OpenGL's fixed states. Tangents are the vertex attribute

@@ -285,8 +285,7 @@ private:
         constexpr double underTexture = 0.6;
         if (map == Material::Diffuse && !material.hasDiffuse)
             material.diffuse = {underTexture, underTexture, underTexture};
-        if (map == Material::Emission && !material.hasEmission)
-            material.emission = {1.0, 1.0, 1.0};
+        if (map == Material::Emission && !material.hasEmission) material.emission = {1.0, 1.0, 1.0};
     }
 
     std::set<std::string, std::less<>> _wanted; ///< not found in any library so far
