@@ -311,6 +311,16 @@ public:
     }
 };
 
+void tellOfMaps(const Character& character) {
+    const std::vector<osgSkin::MeshPart>& parts = character.body.parts;
+    if (std::any_of(parts.begin(), parts.end(), [](const osgSkin::MeshPart& part) {
+            return part.geometry->getStateSet()->getAttribute(osg::StateAttribute::PROGRAM);
+        }))
+        std::cerr << osgSkin::onOneLine(character.file)
+                  << ": normal, occlusion and emission maps left out\n"
+                  << std::flush;
+}
+
 void tellOtherThings(const Character& character) {
     OtherThings others;
     character.root->accept(others);
@@ -368,7 +378,10 @@ int run(const Arguments& arguments) {
         bake::ObjWriter(character, arguments.rest)
             .write(arguments.rest, bake::PosedMesh::rest(character));
     if (!arguments.out.empty() || !arguments.pose.empty()) bakeFrames(arguments, character);
-    if (!arguments.quiet) tellOtherThings(character);
+    if (!arguments.quiet) {
+        tellOtherThings(character);
+        tellOfMaps(character);
+    }
     return 0;
 }
 

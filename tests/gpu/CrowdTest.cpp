@@ -115,6 +115,25 @@ TEST_F(Crowd, PalettesClipsAndCommandsGiveOnePicture) {
     EXPECT_EQ(test::unlikePixels(*pictureOf(palettes), *expected), 0u) << "palettes";
 }
 
+/// Such as a program for normal maps, which draws other figures.
+TEST_F(Crowd, LeavesProgramsThatDrawNoMembers) {
+    const osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+    const osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->addShader(new osg::Shader(osg::Shader::VERTEX,
+                                       "void main() { gl_Position = vec4(0.0, 0.0, 0.0, 1.0); }"));
+    const auto picture = [&] {
+        return pictureOf(crowdOf(subject.character(0.0, state), subject.members));
+    };
+    const auto plain = picture();
+    EXPECT_GT(test::seenPixels(*plain), 10000u);
+    state->setAttribute(program);
+    EXPECT_EQ(test::unlikePixels(*picture(), *plain), 0u);
+    EXPECT_NE(state->getAttribute(osg::StateAttribute::PROGRAM), nullptr) << "it is the author's";
+    program->addShader(
+        new osg::Shader(osg::Shader::FRAGMENT, "// osgSkin_vertex\nvoid main() { discard; }"));
+    EXPECT_GT(test::unlikePixels(*picture(), *plain), 100u) << "a program for crowds";
+}
+
 TEST_F(Crowd, BlendsTwoClips) {
     const auto character = subject.character();
     std::vector<CrowdInstance> others = subject.members, blended = subject.members;

@@ -173,6 +173,26 @@ void expectValid(const std::string& glb) {
 
 } // namespace
 
+TEST(BakeMaterials, MapsAreLeftOutAndReported) {
+    const std::string folder = test::makeTestFolder();
+    const std::string rig = texturedRig(folder);
+    nlohmann::json gltf = test::readJson(rig);
+    for (const char* map : {"normalTexture", "emissiveTexture"})
+        gltf["materials"][0][map] = {{"index", 0}, {"texCoord", 1}};
+    std::ofstream(rig) << gltf;
+    const test::CommandResult result =
+        test::runBake("'" + rig + ".skin' --frames 0 --out baked.glb", folder);
+    EXPECT_EQ(result.status, 0);
+    EXPECT_NE(result.err.find("normal, occlusion and emission maps left out"), std::string::npos)
+        << result.err;
+    const Glb glb(folder + "/baked.glb");
+    const nlohmann::json& material = glb.json["materials"].at(0);
+    EXPECT_EQ(material.count("normalTexture"), 0u);
+    // Without its texture, the colour would make the whole surface glow.
+    EXPECT_EQ(material.count("emissiveFactor"), 0u);
+    EXPECT_EQ(material["pbrMetallicRoughness"].count("baseColorTexture"), 1u);
+}
+
 TEST(BakeMaterials, RiggedModelKeepsMaterialAndTexture) {
     const std::string folder = test::makeTestFolder();
     const std::string rig = texturedRig(folder);

@@ -234,6 +234,10 @@ SkinParts::Skin makeSkin(const MeshPart& unordered, const Binding& binding,
     const MeshPart part = reorderedPart(unordered, order);
     const osg::ref_ptr<DeformableSkin> skin = new DeformableSkin;
     skin->setName(part.geometry->getName());
+    const auto* tangents = dynamic_cast<const osg::Vec4Array*>(
+        part.geometry->getVertexAttribArray(MeshPart::kTangentAttribute));
+    if (tangents && tangents->size() == order.size())
+        skin->setTangentAttribute(MeshPart::kTangentAttribute);
     skin->setSkin(part.geometry, model);
     std::vector<std::uint32_t> morphed;
     morphed.reserve(order.size());

@@ -8,11 +8,13 @@
 
 #include <osg/BufferObject>
 #include <osg/Notify>
+#include <osg/Program>
 #include <osg/RenderInfo>
 #include <osg/Uniform>
 
 #include <algorithm>
 #include <atomic>
+#include <string>
 
 #ifndef GL_R32UI
 #define GL_R32UI 0x8236
@@ -36,6 +38,21 @@ namespace {
 
 bool hasTexture(const osg::StateSet* state) {
     return state && state->getTextureAttribute(0, osg::StateAttribute::TEXTURE);
+}
+
+/// A material's state for a crowd: without its program, if that does not call osgSkin_vertex() and
+/// so draws no members, such as one for normal maps.
+osg::ref_ptr<osg::StateSet> forCrowds(osg::StateSet* state) {
+    const auto* program =
+        state ? dynamic_cast<const osg::Program*>(state->getAttribute(osg::StateAttribute::PROGRAM))
+              : nullptr;
+    if (!program) return state;
+    for (unsigned int s = 0; s < program->getNumShaders(); ++s)
+        if (program->getShader(s)->getShaderSource().find("osgSkin_vertex") != std::string::npos)
+            return state;
+    const osg::ref_ptr<osg::StateSet> result = new osg::StateSet(*state);
+    result->removeAttribute(osg::StateAttribute::PROGRAM);
+    return result;
 }
 
 std::size_t texelsOf(const osg::TextureBuffer& texture) {
@@ -102,7 +119,8 @@ CrowdDraws::Draw CrowdDraws::makeDraw(const CrowdCharacter& character,
                                                                   : nullptr;
     if (hasTexture(part.state) || hasTexture(own)) state->setDefine("OSGSKIN_TEXTURE");
     geometry->setStateSet(state);
-    return {part.state, own, geometry, level, indices.empty() || count == Count::Direct};
+    return {forCrowds(part.state), forCrowds(own), geometry, level,
+            indices.empty() || count == Count::Direct};
 }
 
 void CrowdDraws::setCount(std::size_t level, std::size_t members) {

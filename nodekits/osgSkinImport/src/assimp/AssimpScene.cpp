@@ -4,6 +4,7 @@
 #include "scene/SceneMorphs.h"
 #include "text/FileText.h"
 
+#include <glm/geometric.hpp>
 #include <osg/Math>
 #include <osgDB/FileNameUtils>
 
@@ -13,7 +14,9 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -57,50 +60,90 @@ SourceImage readImage(const aiTexture& texture) {
     return result;
 }
 
-osg::Texture::WrapMode wrapOf(const aiMaterial& material, const char* key) {
+osg::Texture::WrapMode wrapOf(const aiMaterial& material, const char* key, aiTextureType type) {
     int mode = aiTextureMapMode_Wrap;
-    material.Get(key, aiTextureType_DIFFUSE, 0, mode);
+    material.Get(key, type, 0, mode);
     if (mode == aiTextureMapMode_Clamp) return osg::Texture::CLAMP_TO_EDGE;
     return mode == aiTextureMapMode_Mirror ? osg::Texture::MIRROR : osg::Texture::REPEAT;
 }
 
-/// Whether a material has an emission texture. Without the texture, the emission colour would make
-/// the whole surface glow.
-bool glowsByTexture(const aiMaterial& source) {
-    return source.GetTextureCount(aiTextureType_EMISSIVE) > 0 ||
-           source.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
+/// The set of texture coordinates of one of a material's textures.
+unsigned texCoordsOf(const aiMaterial& material, aiTextureType type) {
+    int set = 0;
+    material.Get(_AI_MATKEY_UVWSRC_BASE, type, 0, set);
+    return static_cast<unsigned>(std::max(set, 0));
 }
 
-SourceMaterial readMaterial(const aiScene& scene, const aiMaterial& source) {
+using TextureKind = std::pair<Material::Map, aiTextureType>;
+
+/// Of several kinds with one meaning, the first that there is is drawn.
+constexpr TextureKind kTextureKinds[] = {{Material::Diffuse, aiTextureType_DIFFUSE},
+                                         {Material::Diffuse, aiTextureType_BASE_COLOR},
+                                         {Material::Normal, aiTextureType_NORMALS},
+                                         {Material::Occlusion, aiTextureType_AMBIENT_OCCLUSION},
+                                         {Material::Occlusion, aiTextureType_LIGHTMAP},
+                                         {Material::Emission, aiTextureType_EMISSIVE},
+                                         {Material::Emission, aiTextureType_EMISSION_COLOR}};
+
+/// The textures that are drawn. All have the same texture coordinates.
+std::vector<TextureKind> drawnTextures(const aiMaterial& source) {
+    std::vector<TextureKind> result;
+    std::array<bool, Material::kMaps> isKnown{};
+    for (const auto& [map, type] : kTextureKinds) {
+        if (isKnown[map] || source.GetTextureCount(type) == 0) continue;
+        if (!result.empty() &&
+            texCoordsOf(source, type) != texCoordsOf(source, result.front().second))
+            continue;
+        if (map == Material::Emission &&
+            colour(source, AI_MATKEY_COLOR_EMISSIVE, Material().emission) == Material().emission)
+            continue;
+        isKnown[map] = true;
+        result.emplace_back(map, type);
+    }
+    return result;
+}
+
+/// \param unused counts textures that are not drawn, by Assimp's name of their type
+SourceMaterial readMaterial(const aiScene& scene, const aiMaterial& source,
+                            std::map<std::string, std::size_t>& unused) {
     SourceMaterial result;
     Material& look = result.look;
     look.diffuse = colour(source, AI_MATKEY_COLOR_DIFFUSE, look.diffuse);
     look.specular = colour(source, AI_MATKEY_COLOR_SPECULAR, look.specular);
-    if (!glowsByTexture(source))
-        look.emission = colour(source, AI_MATKEY_COLOR_EMISSIVE, look.emission);
+    look.emission = colour(source, AI_MATKEY_COLOR_EMISSIVE, look.emission);
     float opacity = 1.0f;
     if (source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) look.diffuse.a() = opacity;
     source.Get(AI_MATKEY_SHININESS, look.shininess);
-    aiString name;
-    if (source.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS) return result;
-    result.texture = name.C_Str();
-    const int embedded = scene.GetEmbeddedTextureAndIndex(name.C_Str()).second;
-    if (embedded >= 0) result.image = static_cast<std::size_t>(embedded);
-    look.wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE);
-    look.wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE);
+    for (const auto& [map, type] : drawnTextures(source)) {
+        aiString name;
+        if (source.GetTexture(type, 0, &name) != AI_SUCCESS) continue;
+        result.textures[map].name = name.C_Str();
+        const int embedded = scene.GetEmbeddedTextureAndIndex(name.C_Str()).second;
+        if (embedded >= 0) result.textures[map].image = static_cast<std::size_t>(embedded);
+        look.textures[map].wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type);
+        look.textures[map].wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type);
+    }
+    for (unsigned number = aiTextureType_NONE + 1; number <= AI_TEXTURE_TYPE_MAX; ++number) {
+        const auto type = static_cast<aiTextureType>(number);
+        if (source.GetTextureCount(type) == 0) continue;
+        bool isDrawn = false;
+        for (const TextureKind& kind : kTextureKinds)
+            isDrawn = isDrawn || (kind.second == type && !result.textures[kind.first].name.empty());
+        if (isDrawn) continue;
+        ++unused[aiTextureTypeToString(type)];
+        // Without its texture, the colour would make the whole surface glow.
+        if (type == aiTextureType_EMISSIVE || type == aiTextureType_EMISSION_COLOR)
+            look.emission = Material().emission;
+    }
     return result;
 }
 
 void readMaterials(const aiScene& scene, const std::string& path, SourceScene& result) {
-    std::size_t glowing = 0;
-    for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
-        glowing += glowsByTexture(*scene.mMaterials[m]);
-        result.materials.push_back(readMaterial(scene, *scene.mMaterials[m]));
-    }
+    std::map<std::string, std::size_t> unused;
+    for (unsigned m = 0; m < scene.mNumMaterials; ++m)
+        result.materials.push_back(readMaterial(scene, *scene.mMaterials[m], unused));
     result.materials.emplace_back(); // for meshes without a material
-    if (glowing > 0)
-        tellOf(path, "textures of emission: " + std::to_string(glowing) +
-                         ", left out, and that surfaces glow with them");
+    tellOfUnusedTextures(path, unused);
     for (unsigned t = 0; t < scene.mNumTextures; ++t)
         result.images.push_back(
             std::make_shared<const SourceImage>(readImage(*scene.mTextures[t])));
@@ -128,11 +171,12 @@ std::string toString(const aiString& text) {
     return {text.C_Str(), text.length};
 }
 
-/// The set of texture coordinates that the material's texture uses.
+/// The set of texture coordinates that the material's textures use.
 unsigned texCoordsOf(const aiMesh& mesh, const aiMaterial* material) {
-    int set = 0;
-    if (material != nullptr) material->Get(AI_MATKEY_UVWSRC_DIFFUSE(0), set);
-    const auto wanted = static_cast<unsigned>(std::max(set, 0));
+    unsigned wanted = 0;
+    if (material != nullptr)
+        if (const auto drawn = drawnTextures(*material); !drawn.empty())
+            wanted = texCoordsOf(*material, drawn.front().second);
     return wanted < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(wanted) ? wanted : 0;
 }
 
@@ -150,6 +194,12 @@ SourceMesh readMesh(const aiScene& scene, const aiMesh& source) {
         if (source.HasTextureCoords(set))
             result.texCoords.emplace_back(source.mTextureCoords[set][v].x,
                                           source.mTextureCoords[set][v].y);
+        if (source.HasNormals() && source.HasTangentsAndBitangents() && set == 0) {
+            const glm::vec3 along = toGlm(source.mTangents[v]);
+            const glm::vec3 across = glm::cross(result.normals.back(), along);
+            const bool isMirrored = glm::dot(across, toGlm(source.mBitangents[v])) < 0.0f;
+            result.tangents.emplace_back(along, isMirrored ? -1.0f : 1.0f);
+        }
         if (source.HasVertexColors(0)) {
             const aiColor4D& c = source.mColors[0][v];
             result.colours.emplace_back(c.r, c.g, c.b, c.a);

@@ -158,6 +158,8 @@ private:
             primitive.mode = _file.index(from.at("mode"), 7, where + ".mode");
         if (from.contains("material"))
             primitive.material = _file.indexOf(from.at("material"), "materials", where);
+        if (primitive.material && _document.materials[*primitive.material].usesTangents())
+            primitive.tangents = attribute("TANGENT", {"VEC4"});
         readDraco(from, where, primitive);
         if (!primitive.draco) {
             checkStored(primitive, where);
@@ -235,6 +237,7 @@ private:
         takeZeros(primitive.indices, where + ".indices");
         takeZeros(primitive.positions, where + ".POSITION");
         takeZeros(primitive.normals, where + ".NORMAL");
+        takeZeros(primitive.tangents, where + ".TANGENT");
         takeZeros(primitive.colours, where + ".COLOR_0");
         for (std::size_t set = 0; set < primitive.texCoords.size(); ++set)
             takeZeros(primitive.texCoords[set], where + "." + numbered("TEXCOORD_", set));

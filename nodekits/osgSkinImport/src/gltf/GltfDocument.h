@@ -8,6 +8,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -106,12 +107,26 @@ using GltfIndex = std::optional<std::size_t>; ///< index in some list; none if n
 /// A material's transform of texture coordinates (KHR_texture_transform).
 struct GltfTextureTransform {
     double offset[2] = {0.0, 0.0}, scale[2] = {1.0, 1.0}, rotation = 0.0;
+
+    /// The directions along which texture coordinates grow are the same after it.
+    bool keepsDirections() const { return rotation == 0.0 && scale[0] > 0.0 && scale[1] > 0.0; }
+    bool operator==(const GltfTextureTransform& other) const {
+        return std::equal(offset, offset + 2, other.offset) &&
+               std::equal(scale, scale + 2, other.scale) && rotation == other.rotation;
+    }
 };
 
 struct GltfMaterial {
-    SourceMaterial source; ///< `image` is an index in GltfDocument::images
-    std::size_t texCoord = 0;
+    SourceMaterial source; ///< an `image` is an index in GltfDocument::images
+    bool hasTextures = false;
+    std::size_t texCoord = 0; ///< of all textures, as is `transform`
     std::optional<GltfTextureTransform> transform;
+
+    /// Whether it needs a mesh's tangents, and those of the file fit.
+    bool usesTangents() const {
+        return source.textures[Material::Normal].image.has_value() &&
+               (!transform || transform->keepsDirections());
+    }
 };
 
 /// An embedded image, or the name of an image file.
@@ -130,8 +145,8 @@ struct GltfPrimitive {
         std::size_t view = 0;
         std::map<std::string, std::size_t> ids; ///< of compressed attributes, by name
     };
-    std::size_t positions = 0; ///< accessor, like those below
-    GltfIndex normals, colours, indices;
+    std::size_t positions = 0;                     ///< accessor, like those below
+    GltfIndex normals, tangents, colours, indices; ///< tangents: if the material uses them
     std::array<GltfIndex, 8> texCoords;
     std::array<GltfIndex, 4> joints, weights; ///< both or none
     GltfIndex material;

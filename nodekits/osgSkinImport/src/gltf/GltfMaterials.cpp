@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string_view>
 #include <tuple>
 
 namespace osgSkin {
@@ -68,13 +70,10 @@ public:
     void run() {
         readImages();
         readTextures();
-        std::size_t glowing = 0;
         _file.forEach("materials", [&](const json& from, const std::string& where) {
-            glowing += readMaterial(from, where);
+            readMaterial(from, where);
         });
-        if (glowing > 0)
-            tellOf(_file.path, "textures of emission: " + std::to_string(glowing) +
-                                   ", left out, and that surfaces glow with them");
+        tellOfUnusedTextures(_file.path, _unused);
     }
 
 private:
@@ -177,8 +176,7 @@ private:
         return info;
     }
 
-    /// Adds a material; returns whether its emission texture is ignored.
-    bool readMaterial(const json& from, const std::string& where) {
+    void readMaterial(const json& from, const std::string& where) {
         std::vector<double> base{1.0, 1.0, 1.0, 1.0};
         double roughness = 1.0;
         const json* texture = nullptr;
@@ -197,7 +195,9 @@ private:
         const std::vector<double> emissive = _file.numbers(from, "emissiveFactor", 3, where);
         const json* glow = memberOf(from, "emissiveTexture");
         const bool isBlack = base[0] == 0.0 && base[1] == 0.0 && base[2] == 0.0;
-        if (glow && pbr != from.end() && isBlack && !texture && !emissive.empty()) {
+        const bool isGlowOnly =
+            glow && pbr != from.end() && isBlack && !texture && !emissive.empty();
+        if (isGlowOnly) {
             texture = glow;
             std::copy(emissive.begin(), emissive.end(), base.begin());
         }
@@ -207,13 +207,14 @@ private:
             colour(*glossy, "diffuseFactor");
             roughness = 1.0 - _file.number(*glossy, "glossinessFactor", 1.0, where);
             texture = memberOf(*glossy, "diffuseTexture");
+            if (pbr != from.end()) _drawn.insert(&*pbr); // by other means
         }
         GltfMaterial result;
         Material& look = result.source.look;
         result.source.isLinear = true;
         look.diffuse = {toSrgb(float(base[0])), toSrgb(float(base[1])), toSrgb(float(base[2])),
                         static_cast<float>(base[3])};
-        if (!glow && !emissive.empty())
+        if (!isGlowOnly && !emissive.empty())
             look.emission = {toSrgb(float(emissive[0])), toSrgb(float(emissive[1])),
                              toSrgb(float(emissive[2])), 1.0f};
         setRoughness(static_cast<float>(roughness), look);
@@ -225,9 +226,48 @@ private:
         }
         look.alphaCutOff = static_cast<float>(_file.number(from, "alphaCutoff", 0.5, where));
         look.twoSided = from.contains("doubleSided") && from.at("doubleSided").get<bool>();
-        if (texture) setTexture(textureInfo(*texture, where), result);
+        if (texture) setTexture(*texture, where, Material::Diffuse, result);
+        if (!extensionOf(from, "KHR_materials_unlit")) {
+            readMaps(from, where, result);
+            countUnused(from);
+        }
+        const osg::Vec4 none = Material().emission;
+        if (glow && !result.source.textures[Material::Emission].image) look.emission = none;
         _document.materials.push_back(std::move(result));
-        return glow && texture != glow;
+    }
+
+    /// Reads the textures that need shaders.
+    void readMaps(const json& from, const std::string& where, GltfMaterial& material) {
+        Material& look = material.source.look;
+        if (const json* bumps = memberOf(from, "normalTexture")) {
+            look.normalScale = static_cast<float>(_file.number(*bumps, "scale", 1.0, where));
+            setTexture(*bumps, where, Material::Normal, material);
+        }
+        if (const json* shade = memberOf(from, "occlusionTexture")) {
+            look.occlusionStrength =
+                static_cast<float>(_file.number(*shade, "strength", 1.0, where));
+            setTexture(*shade, where, Material::Occlusion, material);
+        }
+        const json* glow = memberOf(from, "emissiveTexture");
+        if (!glow || _drawn.count(glow) > 0) return;
+        if (look.emission == Material().emission)
+            _drawn.insert(glow); // times black
+        else
+            setTexture(*glow, where, Material::Emission, material);
+    }
+
+    /// Counts the textures of a material and its extensions that are not drawn.
+    void countUnused(const json& from) {
+        constexpr std::string_view kTexture = "Texture";
+        for (const auto& [name, part] : from.items()) {
+            if (!part.is_object() || name == "extras" || _drawn.count(&part) > 0) continue;
+            const bool isTexture = name.size() > kTexture.size() &&
+                                   name.substr(name.size() - kTexture.size()) == kTexture;
+            if (isTexture && part.contains("index"))
+                ++_unused[name];
+            else
+                countUnused(part);
+        }
     }
 
     static const json* memberOf(const json& from, const char* name) {
@@ -240,15 +280,21 @@ private:
         return extensions ? memberOf(*extensions, name) : nullptr;
     }
 
-    void setTexture(const TextureInfo& info, GltfMaterial& material) const {
+    /// Sets one of the textures, unless it needs other texture coordinates than those before it.
+    void setTexture(const json& from, const std::string& where, Material::Map map,
+                    GltfMaterial& material) {
+        const TextureInfo info = textureInfo(from, where);
+        if (material.hasTextures &&
+            !(info.texCoord == material.texCoord && info.transform == material.transform))
+            return;
         const Texture& texture = _textures[info.texture];
+        material.hasTextures = true;
         material.texCoord = info.texCoord;
         material.transform = info.transform;
         if (!texture.image) return;
-        material.source.image = texture.image;
-        material.source.texture = _document.images[*texture.image].uri;
-        material.source.look.wrapS = texture.wrapS;
-        material.source.look.wrapT = texture.wrapT;
+        _drawn.insert(&from);
+        material.source.textures[map] = {_document.images[*texture.image].uri, texture.image};
+        material.source.look.textures[map] = {nullptr, texture.wrapS, texture.wrapT};
     }
 
     /// Sets the specular exponent for a highlight of the same width; a rough surface has none.
@@ -262,6 +308,8 @@ private:
     const GltfAccessors& _accessors;
     std::vector<std::size_t> _imageOf; ///< index in GltfDocument::images of each image
     std::vector<Texture> _textures;
+    std::set<const json*> _drawn;               ///< parts of materials
+    std::map<std::string, std::size_t> _unused; ///< textures, by name of the member
 };
 
 } // namespace

@@ -113,7 +113,7 @@ private:
             return !accessor || _accessors[*accessor].hasValues();
         };
         bool result = has(primitive.positions) && has(primitive.normals) &&
-                      has(primitive.colours) && has(primitive.indices);
+                      has(primitive.tangents) && has(primitive.colours) && has(primitive.indices);
         for (const GltfIndex& each : primitive.texCoords) result = result && has(each);
         for (const GltfIndex& each : primitive.joints) result = result && has(each);
         for (const GltfIndex& each : primitive.weights) result = result && has(each);
@@ -142,6 +142,8 @@ private:
             morph(from, weights, &GltfPrimitive::Target::normals, normals);
             mesh.normals = asVectors<glm::vec3>(normals);
         }
+        if (from.normals && from.tangents)
+            mesh.tangents = asVectors<glm::vec4>(floats(*from.tangents, "TANGENT", 4));
         readTexCoords(from, mesh);
         if (!from.colours) return;
         const bool isOpaque = _accessors[*from.colours].width == 3;
@@ -362,18 +364,19 @@ private:
         if (known) return *known;
         known = _scene.materials.size();
         SourceMaterial material = _document.materials[index].source;
-        if (material.image) addImage(_document.images[*material.image], material);
+        for (SourceTexture& texture : material.textures)
+            if (texture.image) addImage(_document.images[*texture.image], texture);
         _scene.materials.push_back(std::move(material));
         return *known;
     }
 
     /// Sets an embedded image, named after its index.
-    void addImage(const GltfImage& from, SourceMaterial& material) {
+    void addImage(const GltfImage& from, SourceTexture& texture) {
         if (!from.uri.empty()) {
-            material.image.reset();
+            texture.image.reset();
             return;
         }
-        GltfIndex& known = _imageOf[*material.image];
+        GltfIndex& known = _imageOf[*texture.image];
         if (!known) {
             known = _scene.images.size();
             const auto image = std::make_shared<SourceImage>();
@@ -381,8 +384,8 @@ private:
             image->bytes = from.view.empty() ? from.data : std::string(from.view);
             _scene.images.push_back(image);
         }
-        material.image = known;
-        material.texture = "*" + number(*known);
+        texture.image = known;
+        texture.name = "*" + number(*known);
     }
 
     const GltfDocument& _document;

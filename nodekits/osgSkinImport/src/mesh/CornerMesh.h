@@ -22,9 +22,12 @@ namespace osgSkin {
 /// Attributes are per face corner, in the order of mesh.faceVertices.
 struct CornerMesh {
     SkinMesh mesh;
-    std::vector<glm::vec3> normals;       ///< per corner
-    std::vector<glm::vec2> texCoords;     ///< per corner
-    std::vector<glm::vec4> colours;       ///< per corner, or empty; sRGB
+    std::vector<glm::vec3> normals;   ///< per corner
+    std::vector<glm::vec2> texCoords; ///< per corner
+    std::vector<glm::vec4> colours;   ///< per corner, or empty; sRGB
+    /// Those in the file, see MeshPart::kTangentAttribute: per corner, zero where there is none;
+    /// may end early.
+    std::vector<glm::vec4> tangents;
     std::vector<std::uint32_t> materials; ///< per face: index in stateSets
     std::vector<osg::ref_ptr<osg::StateSet>> stateSets;
     std::vector<BoneWeights> weights; ///< per bone

@@ -2,6 +2,7 @@
 #include "mesh/FinishMesh.h"
 
 #include "mesh/CornerMesh.h"
+#include "mesh/Material.h"
 #include "text/FileText.h"
 
 #include <osgSkin/Error>
@@ -12,7 +13,9 @@
 #include <osgSkinRig/SkinMesh>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <array>
@@ -135,6 +138,106 @@ void mendNormals(CornerMesh& mesh, const std::string& path) {
                          " faces point to the faces' back; computed anew");
 }
 
+/// A vector's part perpendicular to a unit normal, of unit length; zero if there is none.
+glm::dvec3 alongSurface(const glm::dvec3& vector, const glm::dvec3& normal) {
+    const glm::dvec3 along = vector - normal * glm::dot(vector, normal);
+    const double length = glm::length(along);
+    return std::isfinite(length) && length > 0.0 ? along / length : glm::dvec3(0.0);
+}
+
+/// Computes the tangents of faces with a normal map by their texture coordinates.
+///
+/// As MikkTSpace, with which normal maps are made: corners that share position, normal, texture
+/// coordinates and handedness share the mean of their faces' tangents, weighted by angle.
+class TangentBuilder {
+public:
+    explicit TangentBuilder(const CornerMesh& mesh)
+        : _mesh(mesh), _welded(weld(mesh.mesh.positions)),
+          _isMirrored(mesh.mesh.faceVertices.size(), false) {}
+
+    /// \param corners three indices in the mesh's `faceVertices`
+    void addTriangle(const std::uint32_t* corners) {
+        glm::dvec3 p[3];
+        glm::dvec2 t[3];
+        for (int k = 0; k < 3; ++k) {
+            p[k] = _mesh.mesh.positions[_mesh.mesh.faceVertices[corners[k]]];
+            t[k] = glm::dvec2(_mesh.texCoords[corners[k]]);
+        }
+        const glm::dvec2 a = t[1] - t[0], b = t[2] - t[0];
+        const double area = a.x * b.y - b.x * a.y;
+        if (area == 0.0) return;
+        const glm::dvec3 alongU = ((p[1] - p[0]) * b.y - (p[2] - p[0]) * a.y) / area;
+        for (int k = 0; k < 3; ++k) {
+            _isMirrored[corners[k]] = area < 0.0;
+            const glm::dvec3 normal(_mesh.normals[corners[k]]);
+            const double cosine = glm::dot(alongSurface(p[(k + 1) % 3] - p[k], normal),
+                                           alongSurface(p[(k + 2) % 3] - p[k], normal));
+            _sums[keyOf(corners[k], area < 0.0)] +=
+                std::acos(std::clamp(cosine, -1.0, 1.0)) * alongSurface(alongU, normal);
+        }
+    }
+
+    /// A corner's tangent; any one along the surface where texture coordinates give none.
+    glm::vec4 tangent(std::size_t corner) const {
+        const glm::dvec3 normal(_mesh.normals[corner]);
+        for (const bool isMirrored : {bool(_isMirrored[corner]), !_isMirrored[corner]}) {
+            const auto sum = _sums.find(keyOf(corner, isMirrored));
+            const glm::dvec3 mean =
+                sum != _sums.end() ? alongSurface(sum->second, normal) : glm::dvec3(0.0);
+            if (mean != glm::dvec3(0.0)) return {glm::vec3(mean), isMirrored ? -1.0f : 1.0f};
+        }
+        const glm::dvec3 axis =
+            std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+        return {glm::vec3(alongSurface(axis, normal)), 1.0f};
+    }
+
+private:
+    using Key = std::pair<std::size_t, std::array<float, 6>>;
+
+    Key keyOf(std::size_t corner, bool isMirrored) const {
+        const glm::vec3& n = _mesh.normals[corner];
+        const glm::vec2& t = _mesh.texCoords[corner];
+        return {_welded[_mesh.mesh.faceVertices[corner]],
+                {n.x, n.y, n.z, t.x, t.y, isMirrored ? -1.0f : 1.0f}};
+    }
+
+    const CornerMesh& _mesh;
+    std::vector<std::size_t> _welded;
+    std::vector<bool> _isMirrored; ///< per corner
+    std::map<Key, glm::dvec3> _sums;
+};
+
+/// Completes the tangents of faces whose material has a normal map; clears all others.
+void finishTangents(CornerMesh& mesh) {
+    std::vector<bool> needed;
+    for (const osg::ref_ptr<osg::StateSet>& state : mesh.stateSets)
+        needed.push_back(hasNormalMap(*state));
+    if (!mesh.hasTexCoords || std::count(needed.begin(), needed.end(), true) == 0) {
+        mesh.tangents.clear();
+        return;
+    }
+    mesh.tangents.resize(mesh.normals.size(), glm::vec4(0.0f));
+    TangentBuilder builder(mesh);
+    const std::vector<std::uint32_t> corners = mesh.mesh.triangleCorners();
+    const std::uint32_t* triangle = corners.data();
+    for (std::size_t f = 0; f < mesh.mesh.faceSizes.size(); ++f)
+        for (std::uint32_t k = 2; k < mesh.mesh.faceSizes[f]; ++k, triangle += 3)
+            if (needed[mesh.materials[f]]) builder.addTriangle(triangle);
+    std::size_t corner = 0;
+    for (std::size_t f = 0; f < mesh.mesh.faceSizes.size(); ++f)
+        for (std::uint32_t k = 0; k < mesh.mesh.faceSizes[f]; ++k, ++corner) {
+            glm::vec4& tangent = mesh.tangents[corner];
+            const glm::vec3 given(
+                alongSurface(glm::dvec3(glm::vec3(tangent)), glm::dvec3(mesh.normals[corner])));
+            if (!needed[mesh.materials[f]])
+                tangent = glm::vec4(0.0f);
+            else if (given != glm::vec3(0.0f))
+                tangent = glm::vec4(given, tangent.w < 0.0f ? -1.0f : 1.0f);
+            else
+                tangent = builder.tangent(corner);
+        }
+}
+
 /// Builds a part from its triangles.
 class PartBuilder {
 public:
@@ -156,6 +259,9 @@ public:
         if (_source.hasTexCoords)
             geometry.setTexCoordArray(0, _texCoords, osg::Array::BIND_PER_VERTEX);
         if (!_colours->empty()) geometry.setColorArray(_colours, osg::Array::BIND_PER_VERTEX);
+        if (!_tangents->empty() && hasNormalMap(*stateSet))
+            geometry.setVertexAttribArray(MeshPart::kTangentAttribute, _tangents,
+                                          osg::Array::BIND_PER_VERTEX);
         geometry.addPrimitiveSet(_triangles);
         geometry.setUseDisplayList(false);
         geometry.setUseVertexBufferObjects(true);
@@ -172,19 +278,22 @@ private:
         const glm::vec2& t = _source.texCoords[corner];
         const bool coloured = !_source.colours.empty();
         const glm::vec4 c = coloured ? _source.colours[corner] : glm::vec4(1.0f);
-        const Key key{source, {n.x, n.y, n.z, t.x, t.y, c.r, c.g, c.b, c.a}};
+        const bool hasTangents = !_source.tangents.empty();
+        const glm::vec4 u = hasTangents ? _source.tangents[corner] : glm::vec4(0.0f);
+        const Key key{source, {n.x, n.y, n.z, t.x, t.y, c.r, c.g, c.b, c.a, u.x, u.y, u.z, u.w}};
         const auto [entry, isNew] = _copies.emplace(key, static_cast<unsigned>(_positions->size()));
         if (isNew) {
             _positions->push_back(osg::Vec3(toOsg(_source.mesh.positions[source])));
             _normals->push_back(osg::Vec3(toOsg(glm::dvec3(n))));
             _texCoords->push_back({t.x, t.y});
             if (coloured) _colours->push_back({c.r, c.g, c.b, c.a});
+            if (hasTangents) _tangents->push_back({u.x, u.y, u.z, u.w});
             _part.sourceVertex.push_back(source);
         }
         return entry->second;
     }
 
-    using Key = std::pair<std::uint32_t, std::array<float, 9>>;
+    using Key = std::pair<std::uint32_t, std::array<float, 13>>;
 
     const CornerMesh& _source;
     MeshPart _part;
@@ -193,11 +302,12 @@ private:
     osg::ref_ptr<osg::Vec3Array> _normals = new osg::Vec3Array;
     osg::ref_ptr<osg::Vec2Array> _texCoords = new osg::Vec2Array;
     osg::ref_ptr<osg::Vec4Array> _colours = new osg::Vec4Array;
+    osg::ref_ptr<osg::Vec4Array> _tangents = new osg::Vec4Array;
     osg::ref_ptr<osg::DrawElementsUInt> _triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
 };
 
 /// Builds a drawable part for each material in use. A vertex is duplicated if its corners differ in
-/// normal, texture coordinates or colour.
+/// normal, texture coordinates, colour or tangent.
 std::vector<MeshPart> makeMeshParts(const CornerMesh& source) {
     std::vector<PartBuilder> builders;
     builders.reserve(source.stateSets.size());
@@ -303,10 +413,12 @@ ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
     } else {
         read.normals = smoothNormals(read.mesh);
         for (MorphTarget& target : read.morphs) target.normals.clear();
+        read.tangents.clear();
     }
     for (glm::vec2& t : read.texCoords)
         if (!std::isfinite(t.x) || !std::isfinite(t.y)) t = glm::vec2(0.0f);
     finishColours(read.colours);
+    finishTangents(read);
 
     ImportedMesh result;
     result.parts = makeMeshParts(read);

@@ -11,6 +11,8 @@
 #include <osg/ref_ptr>
 #include <osgDB/Options>
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
@@ -51,14 +53,23 @@ private:
 /// The properties of a part's material that the file formats share. Colours are in sRGB.
 struct Material {
     enum class Alpha { ByOpacity, Opaque, Mask, Blend }; ///< ByOpacity: blended below 1
+    /// What a texture says, which is also the unit that it is bound to.
+    enum Map : unsigned int { Diffuse, Normal, Occlusion, Emission };
+    static constexpr std::size_t kMaps = 4;
+    struct Texture {
+        osg::ref_ptr<osg::Image> image; ///< null if there is none
+        osg::Texture::WrapMode wrapS = osg::Texture::REPEAT, wrapT = osg::Texture::REPEAT;
+    };
 
     osg::Vec4 diffuse{0.8f, 0.74f, 0.68f, 1.0f}; ///< neutral skin, for files without materials
     osg::Vec4 specular{0.1f, 0.1f, 0.1f, 1.0f};
     osg::Vec4 emission{0.0f, 0.0f, 0.0f, 1.0f};
-    float shininess = 16.0f;        ///< 0..128
-    osg::ref_ptr<osg::Image> image; ///< of the diffuse texture, if any
-    osg::Texture::WrapMode wrapS = osg::Texture::REPEAT, wrapT = osg::Texture::REPEAT;
-    std::optional<bool> twoSided; ///< if unset, both sides are drawn and lit
+    float shininess = 16.0f; ///< 0..128
+    /// One for each kind of map. All use the same texture coordinates.
+    std::array<Texture, kMaps> textures;
+    float normalScale = 1.0f;       ///< of the normal map's x and y
+    float occlusionStrength = 1.0f; ///< 0: no occlusion
+    std::optional<bool> twoSided;   ///< if unset, both sides are drawn and lit
     Alpha alpha = Alpha::ByOpacity;
     float alphaCutOff = 0.5f;   ///< with Alpha::Mask
     bool vertexColours = false; ///< vertex colours replace `diffuse`
@@ -67,9 +78,25 @@ struct Material {
 /// A component of a linear colour in sRGB.
 float toSrgb(float linear);
 
-/// Makes a state set with an osg::Material, the texture on unit 0, and blending or an alpha test if
-/// it is transparent. Back faces are culled if the material is single-sided.
+/// Makes a state set with an osg::Material, the textures on the units of their maps, and blending
+/// or an alpha test if it is transparent. Back faces are culled if the material is single-sided.
+///
+/// With a normal, occlusion or emission map it has a program in GLSL 1.20, which lights each pixel
+/// from light 0 by OpenGL's fixed states. Tangents are the vertex attribute
+/// MeshPart::kTangentAttribute; a normal map's green points along increasing v. Occlusion darkens
+/// ambient light only. Without a program (or where a driver has none) the fixed pipeline draws the
+/// diffuse texture.
 osg::ref_ptr<osg::StateSet> makeStateSet(const Material& material);
+
+/// Whether makeStateSet() has made this for a material with a normal map, also if it comes from a
+/// saved scene.
+bool hasNormalMap(const osg::StateSet& state);
+
+/// Reports textures that are not drawn in one notice; none if `counts` is empty.
+/// \param path of the file
+/// \param counts number of textures by kind, in the file's own words
+void tellOfUnusedTextures(const std::string& path,
+                          const std::map<std::string, std::size_t>& counts);
 
 /// Reads a texture that the mesh file `meshPath` names; null if it cannot be read.
 /// \param name of the texture

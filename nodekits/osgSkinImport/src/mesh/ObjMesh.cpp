@@ -151,8 +151,8 @@ struct MtlMaterial {
     Colour diffuse{0.8, 0.74, 0.68}; ///< the default
     Colour specular{0.0, 0.0, 0.0}, emission{0.0, 0.0, 0.0};
     double dissolve = 1.0, shininess = 1.0;
-    std::string texture;
-    bool hasDiffuse = false, hasDissolve = false, hasGlowTexture = false;
+    std::array<std::string, Material::kMaps> textures;
+    bool hasDiffuse = false, hasEmission = false, hasDissolve = false;
 };
 
 float upToOne(double number) {
@@ -176,19 +176,15 @@ public:
     /// Reads a library. The first library with a material wins.
     void read(const std::string& path, std::string_view text) {
         _current = nullptr;
-        _placed = _opacities = _glows = 0;
+        _placed = 0;
+        _unused.clear();
         forEachLine(text, [&](std::string_view keyword, std::string_view rest, std::size_t) {
             readLine(keyword, rest);
         });
         if (_placed > 0)
             tellOf(path, "moved or scaled textures (-o, -s): " + std::to_string(_placed) +
                              ", drawn as if they were not");
-        if (_opacities > 0)
-            tellOf(path,
-                   "textures of opacity (map_d): " + std::to_string(_opacities) + ", left out");
-        if (_glows > 0)
-            tellOf(path, "textures of emission (map_Ke): " + std::to_string(_glows) +
-                             ", left out, and that surfaces glow with them (Ke)");
+        tellOfUnusedTextures(path, _unused);
     }
 
     /// Null if no library so far has the material.
@@ -218,7 +214,7 @@ private:
         } else if (is("Ks")) {
             readColour(rest, material.specular);
         } else if (is("Ke")) {
-            readColour(rest, material.emission);
+            if (readColour(rest, material.emission)) material.hasEmission = true;
         } else if (is("Ns")) {
             if (readNumber(rest, number)) material.shininess = number;
         } else if (is("d")) {
@@ -229,12 +225,13 @@ private:
         } else if (is("Tr")) { // not in the standard: "d" wins
             if (readNumber(rest, number) && !material.hasDissolve) material.dissolve = 1.0 - number;
         } else if (is("map_Kd")) {
-            readDiffuseTexture(rest, material);
-        } else if (is("map_d")) {
-            ++_opacities;
+            readTextureName(rest, Material::Diffuse, material);
         } else if (is("map_Ke")) {
-            ++_glows;
-            material.hasGlowTexture = true;
+            readTextureName(rest, Material::Emission, material);
+        } else if (is("norm")) {
+            readTextureName(rest, Material::Normal, material);
+        } else if (!is("map_Ka") && (keyword.substr(0, 4) == "map_" || is("bump"))) {
+            ++_unused[std::string(keyword)];
         }
     }
 
@@ -257,7 +254,7 @@ private:
     }
 
     /// Reads options, then a file name up to the end of the line.
-    void readDiffuseTexture(std::string_view rest, MtlMaterial& material) {
+    void readTextureName(std::string_view rest, Material::Map map, MtlMaterial& material) {
         bool isPlaced = false;
         for (std::string_view behind = rest;; rest = behind) {
             const std::string_view option = takeWord(behind);
@@ -284,15 +281,18 @@ private:
         const std::string_view name = nameIn(rest);
         if (name.empty()) return;
         if (isPlaced) ++_placed;
-        material.texture = name;
+        material.textures[map] = name;
         constexpr double underTexture = 0.6;
-        if (!material.hasDiffuse) material.diffuse = {underTexture, underTexture, underTexture};
+        if (map == Material::Diffuse && !material.hasDiffuse)
+            material.diffuse = {underTexture, underTexture, underTexture};
+        if (map == Material::Emission && !material.hasEmission) material.emission = {1.0, 1.0, 1.0};
     }
 
     std::set<std::string, std::less<>> _wanted; ///< not found in any library so far
     std::map<std::string, MtlMaterial, std::less<>> _materials;
     MtlMaterial* _current = nullptr; ///< described by the current lines; null if not wanted
-    std::size_t _placed = 0, _opacities = 0, _glows = 0;
+    std::size_t _placed = 0;
+    std::map<std::string, std::size_t> _unused; ///< textures, by keyword
 };
 
 // Vertices and faces.
@@ -556,10 +556,15 @@ private:
         if (source == nullptr) return material;
         material.diffuse = toOsg(source->diffuse, source->dissolve);
         material.specular = toOsg(source->specular);
-        // Without the emission texture, the colour would make the whole surface glow.
-        material.emission = toOsg(source->hasGlowTexture ? Colour{} : source->emission);
+        material.emission = toOsg(source->emission);
         material.shininess = static_cast<float>(source->shininess);
-        material.image = readTexture(source->texture, _path, _options, reads);
+        for (std::size_t map = 0; map < Material::kMaps; ++map)
+            material.textures[map].image =
+                readTexture(source->textures[map], _path, _options, reads);
+        // Without its texture, the colour would make the whole surface glow.
+        if (!source->textures[Material::Emission].empty() &&
+            !material.textures[Material::Emission].image)
+            material.emission = Material().emission;
         return material;
     }
 

@@ -578,8 +578,8 @@ CornerMesh readPlyMesh(const std::string& path, const osgDB::Options* options) {
         Material material;
         material.vertexColours = collector.hasColours();
         if (texture >= 0.0 && texture < double(header.textures.size()))
-            material.image = readTexture(header.textures[static_cast<std::size_t>(texture)], path,
-                                         options, reads);
+            material.textures[Material::Diffuse].image = readTexture(
+                header.textures[static_cast<std::size_t>(texture)], path, options, reads);
         stateSets.push_back(makeStateSet(material));
         return static_cast<std::uint32_t>(stateSets.size() - 1);
     });

@@ -45,18 +45,12 @@ public:
         TextureReads reads(path, options);
         for (const SourceMaterial& source : scene.materials) {
             Material material = source.look;
-            if (!source.texture.empty())
-                material.image =
-                    source.image
-                        ? reads.once(source.texture,
-                                     [&] {
-                                         return reads.pictures().shared().once(
-                                             path, source.texture, [&] {
-                                                 return decodeImage(*scene.images[*source.image],
-                                                                    path, reads.pictures());
-                                             });
-                                     })
-                        : readTexture(source.texture, path, options, reads);
+            for (std::size_t map = 0; map < Material::kMaps; ++map)
+                material.textures[map].image = imageOf(source.textures[map], path, options, reads);
+            // Without its texture, the colour would make the whole surface glow.
+            if (!source.textures[Material::Emission].name.empty() &&
+                !material.textures[Material::Emission].image)
+                material.emission = {0.0f, 0.0f, 0.0f, 1.0f};
             material.vertexColours = _hasColours;
             stateSets.push_back(makeStateSet(material));
         }
@@ -79,6 +73,17 @@ public:
     std::vector<osg::ref_ptr<osg::StateSet>> stateSets; ///< [material]
 
 private:
+    osg::ref_ptr<osg::Image> imageOf(const SourceTexture& texture, const std::string& path,
+                                     const osgDB::Options* options, TextureReads& reads) const {
+        if (!texture.image) return readTexture(texture.name, path, options, reads);
+        PictureReader& pictures = reads.pictures();
+        return reads.once(texture.name, [&] {
+            return pictures.shared().once(path, texture.name, [&] {
+                return decodeImage(*_scene.images[*texture.image], path, pictures);
+            });
+        });
+    }
+
     const SourceScene& _scene;
     bool _hasColours = false;
 };
@@ -320,6 +325,12 @@ void addMesh(const SourceMesh& source, const glm::dmat4& toScene,
                 source.texCoords.empty() ? glm::vec2(0.0f) : source.texCoords[v];
             result.addCorner(indices[v], glm::vec3(normal), texCoord);
             if (looks.hasColours()) result.colours.push_back(looks.colour(source, v));
+            if (source.tangents.empty()) continue;
+            result.tangents.resize(result.normals.size(), glm::vec4(0.0f));
+            const glm::vec4& tangent = source.tangents[v];
+            const glm::dmat3 rotation(apart.empty() ? toScene : apart[v]);
+            result.tangents.back() = glm::vec4(glm::vec3(rotation * glm::dvec3(tangent)),
+                                               mirrored ? -tangent.w : tangent.w);
         }
         result.hasTexCoords = result.hasTexCoords || !source.texCoords.empty();
     }

@@ -19,6 +19,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -54,7 +55,8 @@ struct SourceMesh {
     std::size_t material = 0; ///< index in SourceScene::materials
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
-    std::vector<glm::vec2> texCoords;     ///< of the material's texture, v up
+    std::vector<glm::vec4> tangents;      ///< as MeshPart::kTangentAttribute
+    std::vector<glm::vec2> texCoords;     ///< of the material's textures, v up
     std::vector<glm::vec4> colours;       ///< linear or sRGB, like the material
     std::vector<std::uint32_t> faceSizes; ///< corners per face; below 3: points and lines
     std::vector<std::uint32_t> corners;   ///< vertex indices, face by face
@@ -69,11 +71,15 @@ struct SourceImage {
     osg::ref_ptr<osg::Image> image; ///< if the file contains raw pixels instead
 };
 
-struct SourceMaterial {
-    Material look;         ///< without its image
-    bool isLinear = false; ///< vertex colours are linear, and multiplied with the material's
-    std::string texture;   ///< file of the diffuse texture, or a name for `image`
+struct SourceTexture {
+    std::string name;                 ///< file, or a name for `image`; empty: no texture
     std::optional<std::size_t> image; ///< index in SourceScene::images
+};
+
+struct SourceMaterial {
+    Material look;         ///< without images
+    bool isLinear = false; ///< vertex colours are linear, and multiplied with the material's
+    std::array<SourceTexture, Material::kMaps> textures;
 };
 
 template <typename Value>
