@@ -9,6 +9,7 @@
 #include <osgSkin/Binding>
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/Pose>
 #include <osgSkin/RigidPart>
 #include <osgSkinCharacter/Character>
@@ -226,12 +227,13 @@ SampledMotion chooseMotion(Character& character, const Arguments& arguments) {
     if (motions.empty())
         throw UsageError{arguments.character + " has no motion, so there are no frames"};
     if (arguments.motion.empty()) return motions.front();
-    std::string known;
+    std::vector<std::string> known;
     for (const SampledMotion& motion : motions) {
         if (motion.name == arguments.motion) return motion;
-        known += (known.empty() ? "\"" : ", \"") + motion.name + "\"";
+        known.push_back(motion.name);
     }
-    throw UsageError{"--motion: expected one of " + known + ", found \"" + arguments.motion + "\""};
+    throw UsageError{"--motion: found \"" + arguments.motion + '"' +
+                     osgSkin::expectedNames(arguments.motion, known)};
 }
 
 bake::FrameRange chooseFrames(const Arguments& arguments, const SampledMotion& motion) {
@@ -326,7 +328,8 @@ void tense(Character& character, const Arguments& arguments) {
         for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins)
             known = skin.drawable->setActivation(name, activation) || known;
         if (!known)
-            throw UsageError{"--tense: " + arguments.character + " has no muscle \"" + name + "\""};
+            throw UsageError{"--tense: " + arguments.character + " has no muscle \"" + name + '"' +
+                             osgSkin::expectedNames(name, character.binding.correctives.inputs)};
     }
 }
 

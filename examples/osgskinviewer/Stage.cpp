@@ -6,6 +6,8 @@
 #include "Keys.h"
 #include "Snapshots.h"
 
+#include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkinBind/ShowRegions>
 
 #include <osg/Array>
@@ -231,9 +233,13 @@ void Stage::setMotion(std::size_t index) {
 }
 
 void Stage::setMotion(const std::string& name) {
-    for (std::size_t i = 0; i < motionCount(); ++i)
-        if (_figure.motion(i).getName() == name) return setMotion(i);
-    throw std::runtime_error(_file + ": expected a motion called \"" + name + "\"");
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < motionCount(); ++i) {
+        known.push_back(_figure.motion(i).getName());
+        if (known.back() == name) return setMotion(i);
+    }
+    throw osgSkin::Error(_file + ": no motion is called \"" + name + '"' +
+                         osgSkin::expectedNames(name, known));
 }
 
 void Stage::setJoint(const std::string& name) {

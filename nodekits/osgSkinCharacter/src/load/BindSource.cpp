@@ -5,6 +5,7 @@
 
 #include <osgSkin/Binding>
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmOsg>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindReport>
@@ -48,7 +49,8 @@ VertexWeights meshWeights(const std::string& file, const ImportedMesh& body,
         const auto joint = jointOf.find(bone.bone);
         if (joint == jointOf.end())
             throw Error(file + ": bone \"" + bone.bone +
-                        "\" has weights, expected the name of a joint of the skeleton");
+                        "\" has weights, but the skeleton has no such joint" +
+                        expectedNames(bone.bone, jointOf));
         for (const BoneWeights::Entry& entry : bone.entries)
             result[entry.vertex].push_back(
                 {static_cast<std::uint32_t>(joint->second), entry.weight});
@@ -328,9 +330,12 @@ std::size_t bindShellsRigidly(const CharacterSource& source, const VertexWeights
 using Painted = CharacterSource::Painted;
 
 VertexWeights paintedWeights(const CharacterSource& source) {
-    if (source.weightsFile.empty()) return meshWeights(source.meshFile, source.body, source.rest);
-    return readWeights(source.weightsFile, source.rest, source.body.mesh.positions.size(),
-                       source.limits);
+    return withFileContext(source.file, [&] {
+        return source.weightsFile.empty()
+                   ? meshWeights(source.meshFile, source.body, source.rest)
+                   : readWeights(source.weightsFile, source.rest, source.body.mesh.positions.size(),
+                                 source.limits);
+    });
 }
 
 /// Whether the mesh has weights for joints of the skeleton, which may come from another file.

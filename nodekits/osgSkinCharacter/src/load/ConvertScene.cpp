@@ -6,6 +6,7 @@
 
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkinBind/ConvertRigs>
 #include <osgSkinCharacter/Character>
 #include <osgSkinCharacter/LoadOptions>
@@ -89,18 +90,17 @@ public:
 /// Moves the requested animation to the front.
 void putFirst(const std::string& wanted, const std::string& file,
               std::vector<osgAnimation::AnimationList>& lists) {
-    std::string names;
+    std::vector<std::string> names;
     for (osgAnimation::AnimationList& list : lists)
         for (std::size_t a = 0; a < list.size(); ++a) {
-            const std::string& name = list[a]->getName();
-            names += (names.empty() ? ", expected one of \"" : ", \"") + name + '"';
-            if (name != wanted) continue;
+            names.push_back(list[a]->getName());
+            if (names.back() != wanted) continue;
             std::rotate(list.begin(), list.begin() + std::ptrdiff_t(a),
                         list.begin() + std::ptrdiff_t(a) + 1);
             return;
         }
     throw Error(file + ": motion \"" + wanted + "\" is none of the scene's" +
-                (names.empty() ? ", which has none" : names) +
+                (names.empty() ? ", which has none" : expectedNames(wanted, names)) +
                 "; motion files are not carried over to scenes that OpenSceneGraph reads");
 }
 

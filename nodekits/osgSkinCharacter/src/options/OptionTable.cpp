@@ -2,8 +2,11 @@
 #include "options/OptionTable.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkinCharacter/OptionString>
 #include <osgSkinCharacter/ProgressOption>
+
+#include <osg/Notify>
 
 #include <algorithm>
 #include <cctype>
@@ -139,7 +142,8 @@ Option rigidOption() {
 Option motionOption() {
     Option option = textsOf({"motion", "the first one",
                              "the motion to play by its name, or a motion file to retarget, or one "
-                             "of the file's clips by name or number"},
+                             "of the file's clips by name or number; names with blanks need double "
+                             "quotes, as -O 'motion=\"Idle Loop\"'"},
                             "clip|file|file#clip|none", In::StringsOnly);
     option.expected = "a clip's name, a motion file, or none";
     option.set = [](LoadOptions& options, const std::string& text) {
@@ -282,13 +286,31 @@ void completeOptions(LoadOptions& options, const LoadOptions& file) {
         if (option.complete) option.complete(options, file);
 }
 
+namespace {
+
+/// Warns about an option that is probably misspelt. Other unknown words may be for other readers.
+void warnMisspelt(const std::string& word) {
+    std::vector<std::string> known;
+    for (const Option& option : optionTable()) known.push_back(option.word);
+    const std::string meant = nearestName(word, known);
+    if (!meant.empty())
+        OSG_WARN << onOneLine("unknown option \"" + word + "\" ignored; did you mean \"" + meant +
+                              "\"?")
+                 << std::endl;
+}
+
+} // namespace
+
 LoadOptions toLoadOptions(const osgDB::Options* options) {
     LoadOptions result;
     if (options == nullptr) return result;
     result.readOptions = options;
     result.progress = getProgress(options);
     for (const auto& [word, value] : optionValues(options->getOptionString()))
-        setOption(result, word, value);
+        if (findOption(word) == nullptr)
+            warnMisspelt(word);
+        else
+            setOption(result, word, value);
     return result;
 }
 
