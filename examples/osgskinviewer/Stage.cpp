@@ -130,11 +130,17 @@ private:
     std::vector<osg::Vec3> _above;
 };
 
-/// The approximate size of a figure, not including its path.
+/// The approximate size of a figure in the scene, not including its path.
 double sizeOf(const Figure& figure) {
     double result = 0.0;
-    for (const auto& skin : figure.skins)
-        result = std::max(result, 2.0 * static_cast<double>(skin->getBoundingBox().radius()));
+    for (const auto& skin : figure.skins) {
+        const osg::BoundingBox& box = skin->getBoundingBox();
+        const osg::NodePathList paths = skin->getParentalNodePaths();
+        if (!box.valid() || paths.empty()) continue;
+        const osg::Matrixd toScene = osg::computeLocalToWorld(paths.front());
+        const osg::Vec3d diagonal = osg::Vec3d(box._max) - osg::Vec3d(box._min);
+        result = std::max(result, osg::Matrixd::transform3x3(diagonal, toScene).length());
+    }
     return result > 0.0 ? result : 1.0;
 }
 

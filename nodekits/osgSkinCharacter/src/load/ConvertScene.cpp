@@ -202,17 +202,20 @@ void takeBody(ConvertedBody& body, const BindOptions& options, Character& charac
     if (!paths.empty()) character.toWorld = osg::computeLocalToWorld(paths.front());
 }
 
-/// Rotates the whole scene without changing the author's nodes.
-void faceViewer(Character& character) {
-    const osg::Matrixd turn = orientToFront(recogniseJoints(character.rest),
-                                            boneCentres(character.rest, *character.root));
-    if (turn.isIdentity()) return;
-    const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(turn);
+/// Rotates the whole scene, and scales it to metres, without changing the author's nodes.
+void placeScene(double metresPerUnit, Character& character) {
+    osg::Matrixd place = osg::Matrixd::scale(metresPerUnit, metresPerUnit, metresPerUnit);
+    if (character.hasBody())
+        place = place * orientToFront(recogniseJoints(character.rest),
+                                      boneCentres(character.rest, *character.root));
+    if (place.isIdentity()) return;
+    const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(place);
     placed->setName(character.root->getName());
     placed->setDataVariance(osg::Object::DYNAMIC);
+    normalizeIfScaled(*placed);
     placed->addChild(character.root);
     character.root = placed;
-    character.toWorld = character.toWorld * turn;
+    character.toWorld = character.toWorld * place;
 }
 
 } // namespace
@@ -240,10 +243,8 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     character.notes = report.notes;
     for (const auto& skin : report.skins) character.skin.skins.push_back({skin, {}});
     character.root = asGroup(scene);
-    if (report.bodies.size() == 1) {
-        takeBody(report.bodies.front(), convert.bind, character);
-        faceViewer(character);
-    }
+    if (report.bodies.size() == 1) takeBody(report.bodies.front(), convert.bind, character);
+    placeScene(unitOf(0.0, options, file, character.notes), character);
     takeSceneMotions(options, character);
     stages.finish();
     return character;

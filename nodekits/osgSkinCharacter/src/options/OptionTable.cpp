@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 namespace osgSkin {
@@ -139,6 +141,45 @@ Option rigidOption() {
     return option;
 }
 
+constexpr std::pair<const char*, double> kUnits[] = {
+    {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+
+bool isUnit(double metres) {
+    return metres >= 1e-9 && metres <= 1e9; // also false for NaN
+}
+
+Option unitOption() {
+    Option option = textsOf(
+        {"unit", "as the mesh or the skeleton states it, else m",
+         "the unit of files that do not state theirs, as FBX, Collada and glTF files do; a number, "
+         "metres per unit, also replaces what a file states; the scene is in metres"},
+        "", In::Files);
+    for (const auto& [name, metres] : kUnits) option.values += std::string(name) + "|";
+    option.values += "number";
+    option.expected = "m, cm, mm, in, ft, or metres per unit (1e-9 to 1e9)";
+    option.set = [](LoadOptions& options, const std::string& text) {
+        for (const auto& [name, metres] : kUnits)
+            if (text == name) {
+                options.unit = FileUnit{metres, false};
+                return true;
+            }
+        double metres = 0.0;
+        const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), metres);
+        options.unit = FileUnit{metres, true};
+        return status == std::errc() && stop == text.data() + text.size() && isUnit(metres);
+    };
+    const auto set = option.set;
+    option.read = [set, expected = option.expected](LoadOptions& options, const JsonReader& member,
+                                                    const ReadLimits&) {
+        if (member.isNumber()) options.unit = FileUnit{member.number(), true};
+        const bool isValid =
+            member.isNumber() ? isUnit(options.unit->metres) : set(options, member.string());
+        if (!isValid) member.failWith("expected " + expected);
+    };
+    option.complete = completeBy(&LoadOptions::unit);
+    return option;
+}
+
 Option motionOption() {
     Option option = textsOf({"motion", "the first one",
                              "the motion to play by its name, or a motion file to retarget, or one "
@@ -191,6 +232,7 @@ std::vector<Option> makeTable() {
                        "motions from files keep forearms and hands out of trunk, thighs and head"},
                       &LoadOptions::avoidBody),
                 "clearHands"),
+        unitOption(),
         motionOption(),
         onOff({"gpu", "off",
                "skins are deformed on the graphics card where a context has OpenGL 4.3"},

@@ -72,6 +72,9 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
         source.rest = withFileContext(
             file, [&] { return importSkeleton(skin.skeleton, options.readOptions.get()); });
     }
+    const osgDB::Options* read = options.readOptions.get();
+    source.statedUnit = importUnit(skin.mesh, read);
+    if (source.statedUnit == 0.0 && !skin.fit) source.statedUnit = importUnit(skin.skeleton, read);
     return source;
 }
 
