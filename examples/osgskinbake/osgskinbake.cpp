@@ -344,7 +344,12 @@ int run(const Arguments& arguments) {
         bake::ObjWriter(character, arguments.rest)
             .write(arguments.rest, bake::PosedMesh::rest(character));
     if (!arguments.out.empty() || !arguments.pose.empty()) bakeFrames(arguments, character);
-    if (!arguments.quiet) tellOtherThings(character);
+    if (arguments.quiet) return 0;
+    std::cerr << "bound by "
+              << (character.bindReport.boundaries.empty() ? "painted weights"
+                                                          : "regions of the skin")
+              << std::endl;
+    tellOtherThings(character);
     return 0;
 }
 

@@ -381,6 +381,48 @@ TEST(BindMethod, WeightsMayBeTheMeshsOwn) {
     }
 }
 
+/// An artist's weights are the default; every other method is one word away.
+TEST(BindMethod, WeightsAreTheDefaultWhereTheMeshHasGoodOnes) {
+    const std::string folder = test::makeTestFolder();
+    const std::string painted = test::GltfColumn().save("default_painted.gltf");
+    const auto load = [&](const std::string& members, const std::string& options = {}) {
+        std::ofstream(folder + "/column.skin")
+            << R"({"osgskin": 1, "mesh": ")" << painted << '"' << members << "}";
+        return osgSkin::loadCharacter(folder + "/column.skin", test::loadOptions(options));
+    };
+    EXPECT_TRUE(load("").bindReport.boundaries.empty());
+    EXPECT_NE(load("").bindReport.text().find("bound by painted weights\n"), std::string::npos);
+    EXPECT_TRUE(load(R"(, "shapes": "fast", "rigid": [])").bindReport.boundaries.empty());
+    EXPECT_FALSE(load(R"(, "bind": "smooth")").bindReport.boundaries.empty());
+    EXPECT_FALSE(load("", "bind=smooth").bindReport.boundaries.empty());
+    EXPECT_TRUE(load(R"(, "bind": "smooth")", "bind=weights").bindReport.boundaries.empty());
+    EXPECT_FALSE(load(R"(, "bind": "paper")").bindReport.boundaries.empty());
+    // Regions have boundaries, weights have none.
+    EXPECT_FALSE(load(R"(, "joints": {"top": {"skip": true}})").bindReport.boundaries.empty());
+    for (const auto& [members, summary] :
+         {std::pair("", "bound by painted weights\n"),
+          {R"(, "bind": "smooth")", "bound by regions of the skin\n"}}) {
+        load(members);
+        const std::string said = test::runBake("column.skin --rest rest.obj", folder).err;
+        EXPECT_NE(said.find(summary), std::string::npos) << said;
+    }
+    const test::Notices notices;
+    const Character other = load(R"(, "skeleton": ")" OSGSKIN_TEST_DATA "/character/rig.bvh\"");
+    EXPECT_FALSE(other.bindReport.boundaries.empty());
+    EXPECT_TRUE(notices.say("default_painted.gltf: its weights are for bones that the skeleton "
+                            "does not have, the body is bound by regions"))
+        << notices.text();
+}
+
+TEST(BindMethod, WeightsAreThoseOfAFileWithoutAWord) {
+    const std::string folder = test::makeTestFolder(), data = OSGSKIN_TEST_DATA "/character/";
+    std::ofstream(folder + "/painted.skin")
+        << R"({"osgskin": 1, "mesh": ")" << data << R"(body.obj", "skeleton": ")" << data
+        << R"(rig.bvh", "weights": ")" << data << R"(weights.json"})";
+    expectBend(osgSkin::loadCharacter(folder + "/painted.skin"),
+               [](double height) { return std::clamp(height - 1.5, 0.0, 1.0); });
+}
+
 TEST(BindMethod, PaperGivesEquation5BetweenTheFilesBoundaries) {
     expectBend(osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/printed.skin"),
                [](double height) {

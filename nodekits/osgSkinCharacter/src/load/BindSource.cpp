@@ -368,7 +368,13 @@ void tellGaps(CharacterSource& source, const VertexWeights& weights) {
 }
 
 /// Notes that a mesh's own weights are not used.
+/// \param weights empty if they are for another skeleton
 void tellUnused(CharacterSource& source, const VertexWeights& weights) {
+    if (weights.empty()) {
+        takeNote(source.notes, source.meshFile + ": its weights are for bones that the skeleton "
+                                                 "does not have, the body is bound by regions");
+        return;
+    }
     const std::size_t gaps = gapsOf(weights);
     if (gaps == weights.size()) {
         takeNote(source.notes,
@@ -423,7 +429,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
     if (options.maxInfluences == 0)
         options.maxInfluences = source.limits.influencesOf(source.body.mesh.positions.size());
     VertexWeights weights;
-    if (source.painted != Painted::No || carriesWeights(source)) weights = paintedWeights(source);
+    if (source.painted == Painted::Yes || carriesWeights(source)) weights = paintedWeights(source);
     const bool byWeights = source.painted == Painted::Yes ||
                            (source.painted == Painted::WhereGood && isWellPainted(weights));
     if (!byWeights && isWellPainted(weights)) skipUnused(source.rest, weights, options);
@@ -446,8 +452,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
             report.notes.push_back(std::to_string(kept) +
                                    " shells follow one joint: heads, and what hands hold");
     }
-    OSG_INFO << source.file << ": bound by " << (byWeights ? "painted weights" : "regions") << "\n"
-             << report.text();
+    OSG_INFO << source.file << ":\n" << report.text();
     return binding;
 }
 

@@ -205,7 +205,7 @@ std::vector<Option> makeTable() {
     const auto number = [](std::size_t value) { return std::to_string(value); };
     return {
         choice<Method, Method>(
-            {"bind", "smooth; for a rigged model weights where it is painted throughout",
+            {"bind", "weights where the mesh is painted throughout, else smooth",
              "how ratios are found: from regions of the skin, between two boundary planes a joint "
              "as the paper prints them, or from painted weights"},
             &LoadOptions::method,

@@ -241,14 +241,15 @@ JointBindOptions readJoint(const JsonReader& reader) {
 void readWeightsFile(const JsonReader& root, const std::string& folder, SkinFile& skin) {
     const auto weights = root.find("weights");
     if (!weights) return;
-    if (skin.options.method != LoadOptions::Method::Weights)
+    LoadOptions::Method& method = skin.options.method;
+    if (method == LoadOptions::Method::Default) method = LoadOptions::Method::Weights;
+    if (method != LoadOptions::Method::Weights)
         weights->failWith("expected \"bind\": \"weights\" beside it");
     skin.weights = path(*weights, folder);
 }
 
 /// Reads the members that are options, see optionTable().
 void readOptions(const JsonReader& root, const ReadLimits& limits, SkinFile& skin) {
-    skin.options.method = LoadOptions::Method::Smooth;
     for (const Option& option : optionTable()) {
         if (!option.isMember) continue;
         const bool isFormer = !root.find(option.word) && !option.formerWord.empty();
@@ -329,6 +330,9 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
         joints->forEachMember([&](const std::string& name, const JsonReader& value) {
             skin.bind.joints[name] = readJoint(value);
         });
+    // Regions have boundaries, painted weights have none.
+    if (skin.options.method == LoadOptions::Method::Default && !skin.bind.joints.empty())
+        skin.options.method = LoadOptions::Method::Smooth;
     return skin;
 }
 
