@@ -6,6 +6,7 @@
 
 #include <osgSkin/DeformJob>
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmOsg>
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinCharacter/ReadWeights>
@@ -96,7 +97,8 @@ Body::Body(const std::string& file, const std::string& weights, osgSkin::LoadOpt
 std::size_t Body::find(const std::string& name) const {
     const int index = character.rest.find(name);
     if (index < 0)
-        throw std::runtime_error(character.file + ": expected a joint called \"" + name + "\"");
+        throw osgSkin::Error(character.file + ": no joint is called \"" + name + '"' +
+                             osgSkin::expectedNames(name, character.rest.byName()));
     return static_cast<std::size_t>(index);
 }
 

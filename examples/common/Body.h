@@ -45,6 +45,9 @@ public:
     std::vector<glm::dmat4> turned(std::size_t joint, const glm::dvec3& axis, double degrees) const;
     std::vector<glm::dvec3> deform(Method method, const std::vector<glm::dmat4>& skinning) const;
 
+    /// The length of its longest side in the scene.
+    double size() const { return character.body.mesh.size() * character.metresPerUnit(); }
+
     /// Converts to the scene's frame: Z up, the figure facing -Y.
     glm::dvec3 toWorld(const glm::dvec3& v) const;
     glm::dvec3 fromWorld(const glm::dvec3& v) const;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <osgSkin/ExpectedNames>
 #include <osgSkinCharacter/CharacterOption>
 
 #include <CLI/CLI.hpp>
 
 #include <exception>
 #include <string>
+#include <vector>
 
 namespace example {
 
@@ -34,6 +36,19 @@ inline void addCharacterOptions(CLI::App& app, osgSkin::LoadOptions& options) {
         former.word = option.formerWord;
         app.add_option_function<std::string>(former.flag(), set)->group(""); // hidden from the help
     }
+}
+
+/// A suggestion for a misspelt option that `app` has refused: "; did you mean \"--shapes\"?", or an
+/// empty string.
+inline std::string suggestOption(const CLI::App& app) {
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const std::string& word : app.remaining()) {
+        const std::string meant = osgSkin::nearestName(word.substr(0, word.find('=')), known);
+        if (word.rfind("--", 0) == 0 && !meant.empty()) return "; did you mean \"" + meant + "\"?";
+    }
+    return {};
 }
 
 } // namespace example

@@ -214,7 +214,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
         std::cout << app.help();
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
-        throw UsageError{error.what()};
+        throw UsageError{error.what() + example::suggestOption(app)};
     }
     if (arguments.rate && !std::isfinite(*arguments.rate)) // CLI::Range accepts NaN
         throw UsageError{"--rate: expected a number from 0.001 to 1000000"};

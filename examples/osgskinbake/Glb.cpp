@@ -331,6 +331,9 @@ void GlbMorphs::finish() {
     mesh["primitives"] = primitives;
     nlohmann::json node{{"name", "skin"}, {"mesh", 0}};
     if (_series.character->isZUp()) node["rotation"] = {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
+    // glTF's unit is the metre.
+    const double scale = _series.character->metresPerUnit();
+    if (std::abs(scale - 1.0) > 1e-9) node["scale"] = {scale, scale, scale};
     nlohmann::json root{{"asset", {{"version", "2.0"}, {"generator", "osgskinbake"}}},
                         {"scene", 0},
                         {"scenes", {{{"nodes", {0}}}}}};

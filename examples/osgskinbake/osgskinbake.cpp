@@ -9,6 +9,7 @@
 #include <osgSkin/Binding>
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/Pose>
 #include <osgSkin/RigidPart>
 #include <osgSkin/SetMorph>
@@ -227,12 +228,13 @@ SampledMotion chooseMotion(Character& character, const Arguments& arguments) {
     if (motions.empty())
         throw UsageError{arguments.character + " has no motion, so there are no frames"};
     if (arguments.motion.empty()) return motions.front();
-    std::string known;
+    std::vector<std::string> known;
     for (const SampledMotion& motion : motions) {
         if (motion.name == arguments.motion) return motion;
-        known += (known.empty() ? "\"" : ", \"") + motion.name + "\"";
+        known.push_back(motion.name);
     }
-    throw UsageError{"--motion: expected one of " + known + ", found \"" + arguments.motion + "\""};
+    throw UsageError{"--motion: found \"" + arguments.motion + '"' +
+                     osgSkin::expectedNames(arguments.motion, known)};
 }
 
 bake::FrameRange chooseFrames(const Arguments& arguments, const SampledMotion& motion) {
@@ -362,7 +364,8 @@ void tense(Character& character, const Arguments& arguments) {
         for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins)
             known = skin.drawable->setActivation(name, activation) || known;
         if (!known)
-            throw UsageError{"--tense: " + arguments.character + " has no muscle \"" + name + "\""};
+            throw UsageError{"--tense: " + arguments.character + " has no muscle \"" + name + '"' +
+                             osgSkin::expectedNames(name, character.binding.correctives.inputs)};
     }
 }
 
@@ -378,10 +381,13 @@ int run(const Arguments& arguments) {
         bake::ObjWriter(character, arguments.rest)
             .write(arguments.rest, bake::PosedMesh::rest(character));
     if (!arguments.out.empty() || !arguments.pose.empty()) bakeFrames(arguments, character);
-    if (!arguments.quiet) {
-        tellOtherThings(character);
-        tellOfMaps(character);
-    }
+    if (arguments.quiet) return 0;
+    std::cerr << "bound by "
+              << (character.bindReport.boundaries.empty() ? "painted weights"
+                                                          : "regions of the skin")
+              << std::endl;
+    tellOtherThings(character);
+    tellOfMaps(character);
     return 0;
 }
 

@@ -181,7 +181,7 @@ Tile picture(const Body& body, const Arm& arm, const RatioPlot& plot,
         makeSkin(body, body.rest(), [&](std::size_t v) { return ratioColour(ratioAt(v)); }));
     scene->addChild(drawPlot(plot, kRatioWidth, kRatioHeight));
     scene->addChild(makeCaption(caption, kRatioWidth, kRatioHeight));
-    const double size = body.character.body.mesh.size();
+    const double size = body.size();
     // The arm in the upper half, the plot below it.
     const osg::Vec3d at(toScene(body.toWorld(body.joint(arm.elbow).centre)));
     const osg::Vec3d centre = at - osg::Vec3d(0, 0, 0.23 * size);
@@ -287,9 +287,8 @@ Tile tile(const Body& body, const Shot& shot, Method method, const std::string& 
     glm::dvec3 centre = body.joint(joint).centre;
     if (shot.twist) // the twist is along the forearm
         centre = glm::mix(centre, body.joint(std::size_t(body.joint(joint).parent)).centre, 0.4);
-    const double distance = shot.distance * body.character.body.mesh.size();
-    const osg::Vec3d at(
-        toScene(body.toWorld(centre) + body.character.body.mesh.size() * shot.aside));
+    const double distance = shot.distance * body.size();
+    const osg::Vec3d at(toScene(body.toWorld(centre) + body.size() * shot.aside));
     const osg::Vec3d eye = at + osg::Vec3d(toScene(glm::normalize(shot.eye) * distance));
     return photograph(scene, {eye, at}, kCompareSize, kCompareSize);
 }
@@ -502,7 +501,7 @@ Tile throwFigure(Body& body) {
         throw std::runtime_error(character.file + ": expected a motion, for Fig. 4");
     const osgSkin::Clip& clip = character.motions.front().clip;
     const osg::ref_ptr<osg::Group> scene = example::withShadow(character.root);
-    const double size = character.body.mesh.size();
+    const double size = body.size();
     scene->addChild(example::makeFloor(float(5.0 * size)));
     const osg::ref_ptr<osg::Camera> overlay = makeCaption("", kThrowSize, kThrowSize, 18.0f);
     auto& caption = static_cast<osgText::Text&>(*overlay->getChild(0));

@@ -6,6 +6,8 @@
 #include "Keys.h"
 #include "Snapshots.h"
 
+#include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/SetMorph>
 #include <osgSkinBind/ShowRegions>
 
@@ -129,11 +131,17 @@ private:
     std::vector<osg::Vec3> _above;
 };
 
-/// The approximate size of a figure, not including its path.
+/// The approximate size of a figure in the scene, not including its path.
 double sizeOf(const Figure& figure) {
     double result = 0.0;
-    for (const auto& skin : figure.skins)
-        result = std::max(result, 2.0 * static_cast<double>(skin->getBoundingBox().radius()));
+    for (const auto& skin : figure.skins) {
+        const osg::BoundingBox& box = skin->getBoundingBox();
+        const osg::NodePathList paths = skin->getParentalNodePaths();
+        if (!box.valid() || paths.empty()) continue;
+        const osg::Matrixd toScene = osg::computeLocalToWorld(paths.front());
+        const osg::Vec3d diagonal = osg::Vec3d(box._max) - osg::Vec3d(box._min);
+        result = std::max(result, osg::Matrixd::transform3x3(diagonal, toScene).length());
+    }
     return result > 0.0 ? result : 1.0;
 }
 
@@ -238,9 +246,13 @@ void Stage::setMotion(std::size_t index) {
 }
 
 void Stage::setMotion(const std::string& name) {
-    for (std::size_t i = 0; i < motionCount(); ++i)
-        if (_figure.motion(i).getName() == name) return setMotion(i);
-    throw std::runtime_error(_file + ": expected a motion called \"" + name + "\"");
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < motionCount(); ++i) {
+        known.push_back(_figure.motion(i).getName());
+        if (known.back() == name) return setMotion(i);
+    }
+    throw osgSkin::Error(_file + ": no motion is called \"" + name + '"' +
+                         osgSkin::expectedNames(name, known));
 }
 
 void Stage::setJoint(const std::string& name) {

@@ -99,6 +99,8 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        const std::string meant = example::suggestOption(app);
+        if (!meant.empty()) std::cerr << "osgskinviewer: unknown option" << meant << std::endl;
         return app.exit(error) == 0 ? 0 : 2;
     }
     if (!(std::abs(at) <= kLatest)) { // also rejects NaN

@@ -243,7 +243,7 @@ const BadFile kBadFiles[] = {
     {"fit_missing", "fit_missing.skin", "skeleton", "\"fit\" is missing, expected true"},
     {"fit_no_person", "body.obj", "cannot fit a skeleton", "expected"},
     {"fit_unknown_landmark", "fit_unknown_landmark.skin", "skeleton.landmarks.Nose",
-     "expected the name of a CMU joint"},
+     "not a CMU joint, expected one of"},
     {"fit_landmark_not_a_point", "fit_landmark_not_a_point.skin", "skeleton.landmarks.Head",
      "expected a list of three numbers"},
     {"fit_facing_nowhere", "fit_facing_nowhere.skin", "skeleton.facing", "expected a direction"},
@@ -262,8 +262,8 @@ const BadFile kBadFiles[] = {
     {"unknown_rigid", "unknown_rigid.skin", "\"nobody\"", "expected"},
     {"unknown_method", "unknown_method.skin", "bind", "expected \"smooth\""},
     {"weights_not_named", "body.obj", "carries no weights", "expected bones"},
-    {"mesh_weights_of_unknown_joint", "tube.gltf", "\"base\"", "expected the name of a joint"},
-    {"weights_without_method", "weights_without_method.skin", "weights", "expected \"bind\""},
+    {"mesh_weights_of_unknown_joint", "tube.gltf", "\"base\"", "no such joint, expected one of"},
+    {"weights_with_smooth", "weights_with_smooth.skin", "weights", "expected \"bind\""},
     {"missing_weights", "nowhere.json", "", "cannot open"},
     {"weights_malformed", "weights_malformed.json", "line 1", "malformed JSON"},
     {"weights_without_member", "weights_without_member.json", "weights", "expected"},
@@ -276,12 +276,12 @@ const BadFile kBadFiles[] = {
     {"weights_negative", "weights_negative.json", "weights.arm[0][1]", "0 or more"},
     {"weights_as_text", "weights_as_text.json", "weights.arm[0][1]", "expected a number"},
     {"weights_all_zero", "weights_all_zero.skin", "weights", "above 0"},
-    {"names_of_unknown_role", "names_of_unknown_role.skin", "names.robot.Elbow", "expected Hips"},
+    {"names_of_unknown_role", "names_of_unknown_role.skin", "names.robot.Elbow", "expected one of"},
     {"names_as_number", "names_as_number.skin", "names.robot.Hips", "expected a string"},
     {"unknown_pole", "unknown_pole.skin", "joints.arm.twist.along", "expected"},
     {"crossed_boundaries", "crossed_boundaries.skin", "joints.arm.bend", "expected"},
     {"unknown_up", "unknown_up.skin", "up", "expected"},
-    {"prop_without_motion", "prop_without_motion.skin", "props[0].motion", "expected"},
+    {"prop_without_motion", "prop_without_motion.skin", "props[0].motion", "no motion is called"},
     {"malformed", "malformed.skin", "line 3", "malformed JSON"},
     {"empty_file", "empty_file.skin", "line 1", "malformed JSON"},
     {"not_an_object", "not_an_object.skin", "", "expected an object"},
@@ -379,6 +379,48 @@ TEST(BindMethod, WeightsMayBeTheMeshsOwn) {
         const float arm = last->joint == 1 ? last->bend : 0.0f;
         EXPECT_NEAR(arm, std::clamp(height - 1.5, 0.0, 1.0), 1e-5) << "vertex " << v;
     }
+}
+
+/// An artist's weights are the default; every other method is one word away.
+TEST(BindMethod, WeightsAreTheDefaultWhereTheMeshHasGoodOnes) {
+    const std::string folder = test::makeTestFolder();
+    const std::string painted = test::GltfColumn().save("default_painted.gltf");
+    const auto load = [&](const std::string& members, const std::string& options = {}) {
+        std::ofstream(folder + "/column.skin")
+            << R"({"osgskin": 1, "mesh": ")" << painted << '"' << members << "}";
+        return osgSkin::loadCharacter(folder + "/column.skin", test::loadOptions(options));
+    };
+    EXPECT_TRUE(load("").bindReport.boundaries.empty());
+    EXPECT_NE(load("").bindReport.text().find("bound by painted weights\n"), std::string::npos);
+    EXPECT_TRUE(load(R"(, "shapes": "fast", "rigid": [])").bindReport.boundaries.empty());
+    EXPECT_FALSE(load(R"(, "bind": "smooth")").bindReport.boundaries.empty());
+    EXPECT_FALSE(load("", "bind=smooth").bindReport.boundaries.empty());
+    EXPECT_TRUE(load(R"(, "bind": "smooth")", "bind=weights").bindReport.boundaries.empty());
+    EXPECT_FALSE(load(R"(, "bind": "paper")").bindReport.boundaries.empty());
+    // Regions have boundaries, weights have none.
+    EXPECT_FALSE(load(R"(, "joints": {"top": {"skip": true}})").bindReport.boundaries.empty());
+    for (const auto& [members, summary] :
+         {std::pair("", "bound by painted weights\n"),
+          {R"(, "bind": "smooth")", "bound by regions of the skin\n"}}) {
+        load(members);
+        const std::string said = test::runBake("column.skin --rest rest.obj", folder).err;
+        EXPECT_NE(said.find(summary), std::string::npos) << said;
+    }
+    const test::Notices notices;
+    const Character other = load(R"(, "skeleton": ")" OSGSKIN_TEST_DATA "/character/rig.bvh\"");
+    EXPECT_FALSE(other.bindReport.boundaries.empty());
+    EXPECT_TRUE(notices.say("default_painted.gltf: its weights are for bones that the skeleton "
+                            "does not have, the body is bound by regions"))
+        << notices.text();
+}
+
+TEST(BindMethod, WeightsAreThoseOfAFileWithoutAWord) {
+    const std::string folder = test::makeTestFolder(), data = OSGSKIN_TEST_DATA "/character/";
+    std::ofstream(folder + "/painted.skin")
+        << R"({"osgskin": 1, "mesh": ")" << data << R"(body.obj", "skeleton": ")" << data
+        << R"(rig.bvh", "weights": ")" << data << R"(weights.json"})";
+    expectBend(osgSkin::loadCharacter(folder + "/painted.skin"),
+               [](double height) { return std::clamp(height - 1.5, 0.0, 1.0); });
 }
 
 TEST(BindMethod, PaperGivesEquation5BetweenTheFilesBoundaries) {

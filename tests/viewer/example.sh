@@ -46,7 +46,7 @@ grep -q "x-1" "$folder/says.txt" || fail "r does not turn the time round"
 "$program" --pictures "$folder" --keys '?' 2>"$folder/error.txt" && fail "an unknown key was taken"
 grep -q "no key '?'" "$folder/error.txt" || fail "an unknown key is not named"
 "$program" --motion none --pictures "$folder" 2>"$folder/error.txt" && fail "an unknown motion"
-grep -q 'expected a motion called "none"' "$folder/error.txt" || fail "the motion is not named"
+grep -q 'no motion is called "none"' "$folder/error.txt" || fail "the motion is not named"
 for at in nan inf 1e308; do
   "$program" --at "$at" --pictures "$folder" 2>"$folder/error.txt" && fail "--at $at was taken"
   grep -q "expected at most a million seconds" "$folder/error.txt" || fail "--at $at is not named"

@@ -197,7 +197,8 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
 
 std::string BindReport::text() const {
     std::ostringstream out;
-    out << "vertices " << vertices << ", welded " << weldedVertices << ", shells " << shells
+    out << "bound by " << (boundaries.empty() ? "painted weights" : "regions") << "\n"
+        << "vertices " << vertices << ", welded " << weldedVertices << ", shells " << shells
         << ", vertices on others " << layeredVertices << ", open edges " << openEdges << "\n"
         << "regions " << regions.size() << ", rejected Delaunay edges " << rejectedEdges
         << ", unassigned vertices " << unassigned << "\n"

@@ -2,6 +2,7 @@
 #include "bind/CheckOptions.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmTypes>
 #include <osgSkin/SkinModel>
 
@@ -31,8 +32,8 @@ void checkMuscle(const RestSkeleton& skeleton, const BindOptions::Muscle& muscle
     const std::string where = "bind: muscle \"" + muscle.name + "\"";
     if (muscle.name.empty()) throw Error("bind: a muscle has no name");
     if (skeleton.find(muscle.joint) < 0)
-        throw Error(where + ": joint \"" + muscle.joint +
-                    "\" is not in the skeleton, expected one of its joints");
+        throw Error(where + ": joint \"" + muscle.joint + "\" is not in the skeleton" +
+                    expectedNames(muscle.joint, skeleton.byName()));
     if (!(muscle.from >= -0.5 && muscle.from + 0.1 <= muscle.to && muscle.to <= 1.5))
         throw Error(where + " lies from " + std::to_string(muscle.from) + " to " +
                     std::to_string(muscle.to) +
@@ -67,8 +68,8 @@ void checkOptions(const RestSkeleton& skeleton, const BindOptions& options) {
     const std::map<std::string, int> jointOf = skeleton.byName();
     for (const auto& [name, joint] : options.joints) {
         if (jointOf.count(name) == 0)
-            throw Error("bind: joint \"" + name +
-                        "\" is not in the skeleton, expected one of its joints");
+            throw Error("bind: joint \"" + name + "\" is not in the skeleton" +
+                        expectedNames(name, jointOf));
         checkBoundaries(name, "bend", joint.bendUpper, joint.bendLower);
         checkBoundaries(name, "twist", joint.twistUpper, joint.twistLower);
     }

@@ -9,6 +9,7 @@
 #include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmTypes>
 #include <osgSkinBind/FitReport>
 #include <osgSkinRig/JointRoles>
@@ -242,8 +243,8 @@ void check(const FitOptions& options, const SkinMesh& mesh) {
     const std::vector<std::string>& names = fittedJointNames();
     for (const auto& [name, centre] : options.landmarks) {
         if (std::find(names.begin(), names.end(), name) == names.end())
-            throw Error("cannot fit a skeleton: landmark " + name +
-                        ": expected the name of a CMU joint, such as LeftHand or Head");
+            throw Error("cannot fit a skeleton: landmark " + name + " is no CMU joint" +
+                        expectedNames(name, names));
         if (!isFinite(centre))
             throw Error("cannot fit a skeleton: landmark " + name +
                         ": expected finite coordinates");

@@ -4,6 +4,7 @@
 #include "joints/BodyAxes.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkinBind/RigidJoints>
 
 #include <glm/geometric.hpp>
@@ -122,8 +123,8 @@ std::vector<int> rigidJoints(const RestSkeleton& skeleton, const BindOptions& op
          options.rigid ? *options.rigid : automaticRigidJoints(skeleton, options.names)) {
         const auto joint = jointOf.find(name);
         if (joint == jointOf.end())
-            throw Error("bind: rigid joint \"" + name +
-                        "\" is not in the skeleton, expected one of its joints");
+            throw Error("bind: rigid joint \"" + name + "\" is not in the skeleton" +
+                        expectedNames(name, jointOf));
         named[at(joint->second)] = true;
     }
     std::vector<int> result(skeleton.joints.size(), -1);

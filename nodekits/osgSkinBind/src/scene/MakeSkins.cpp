@@ -3,6 +3,7 @@
 
 #include <osgSkin/BoneReader>
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinBind/AttachSkin>
@@ -33,8 +34,8 @@ std::vector<bool> findJoints(const Binding& binding, const std::vector<std::stri
     for (const std::string& name : names) {
         const auto joint = jointOf.find(name);
         if (joint == jointOf.end())
-            throw Error("rigid parts: \"" + name +
-                        "\" is not a joint of the binding, expected one of its joints");
+            throw Error("rigid parts: \"" + name + "\" is not a joint of the binding" +
+                        expectedNames(name, jointOf));
         result[joint->second] = true;
     }
     return result;

@@ -5,6 +5,7 @@
 
 #include <osgSkin/Binding>
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmOsg>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindReport>
@@ -49,7 +50,8 @@ VertexWeights meshWeights(const std::string& file, const ImportedMesh& body,
         const auto joint = jointOf.find(bone.bone);
         if (joint == jointOf.end())
             throw Error(file + ": bone \"" + bone.bone +
-                        "\" has weights, expected the name of a joint of the skeleton");
+                        "\" has weights, but the skeleton has no such joint" +
+                        expectedNames(bone.bone, jointOf));
         for (const BoneWeights::Entry& entry : bone.entries)
             result[entry.vertex].push_back(
                 {static_cast<std::uint32_t>(joint->second), entry.weight});
@@ -329,9 +331,12 @@ std::size_t bindShellsRigidly(const CharacterSource& source, const VertexWeights
 using Painted = CharacterSource::Painted;
 
 VertexWeights paintedWeights(const CharacterSource& source) {
-    if (source.weightsFile.empty()) return meshWeights(source.meshFile, source.body, source.rest);
-    return readWeights(source.weightsFile, source.rest, source.body.mesh.positions.size(),
-                       source.limits);
+    return withFileContext(source.file, [&] {
+        return source.weightsFile.empty()
+                   ? meshWeights(source.meshFile, source.body, source.rest)
+                   : readWeights(source.weightsFile, source.rest, source.body.mesh.positions.size(),
+                                 source.limits);
+    });
 }
 
 /// Whether the mesh has weights for joints of the skeleton, which may come from another file.
@@ -364,7 +369,13 @@ void tellGaps(CharacterSource& source, const VertexWeights& weights) {
 }
 
 /// Notes that a mesh's own weights are not used.
+/// \param weights empty if they are for another skeleton
 void tellUnused(CharacterSource& source, const VertexWeights& weights) {
+    if (weights.empty()) {
+        takeNote(source.notes, source.meshFile + ": its weights are for bones that the skeleton "
+                                                 "does not have, the body is bound by regions");
+        return;
+    }
     const std::size_t gaps = gapsOf(weights);
     if (gaps == weights.size()) {
         takeNote(source.notes,
@@ -435,7 +446,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
     if (options.maxInfluences == 0)
         options.maxInfluences = source.limits.influencesOf(source.body.mesh.positions.size());
     VertexWeights weights;
-    if (source.painted != Painted::No || carriesWeights(source)) weights = paintedWeights(source);
+    if (source.painted == Painted::Yes || carriesWeights(source)) weights = paintedWeights(source);
     const bool byWeights = source.painted == Painted::Yes ||
                            (source.painted == Painted::WhereGood && isWellPainted(weights));
     if (!byWeights && isWellPainted(weights)) skipUnused(source.rest, weights, options);
@@ -460,8 +471,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
             report.notes.push_back(std::to_string(kept) +
                                    " shells follow one joint: heads, and what hands hold");
     }
-    OSG_INFO << source.file << ": bound by " << (byWeights ? "painted weights" : "regions") << "\n"
-             << report.text();
+    OSG_INFO << source.file << ":\n" << report.text();
     return binding;
 }
 

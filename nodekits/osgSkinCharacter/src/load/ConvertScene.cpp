@@ -6,6 +6,7 @@
 
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkinBind/ConvertRigs>
 #include <osgSkinCharacter/Character>
 #include <osgSkinCharacter/LoadOptions>
@@ -89,18 +90,17 @@ public:
 /// Moves the requested animation to the front.
 void putFirst(const std::string& wanted, const std::string& file,
               std::vector<osgAnimation::AnimationList>& lists) {
-    std::string names;
+    std::vector<std::string> names;
     for (osgAnimation::AnimationList& list : lists)
         for (std::size_t a = 0; a < list.size(); ++a) {
-            const std::string& name = list[a]->getName();
-            names += (names.empty() ? ", expected one of \"" : ", \"") + name + '"';
-            if (name != wanted) continue;
+            names.push_back(list[a]->getName());
+            if (names.back() != wanted) continue;
             std::rotate(list.begin(), list.begin() + std::ptrdiff_t(a),
                         list.begin() + std::ptrdiff_t(a) + 1);
             return;
         }
     throw Error(file + ": motion \"" + wanted + "\" is none of the scene's" +
-                (names.empty() ? ", which has none" : names) +
+                (names.empty() ? ", which has none" : expectedNames(wanted, names)) +
                 "; motion files are not carried over to scenes that OpenSceneGraph reads");
 }
 
@@ -202,17 +202,20 @@ void takeBody(ConvertedBody& body, const BindOptions& options, Character& charac
     if (!paths.empty()) character.toWorld = osg::computeLocalToWorld(paths.front());
 }
 
-/// Rotates the whole scene without changing the author's nodes.
-void faceViewer(Character& character) {
-    const osg::Matrixd turn = orientToFront(recogniseJoints(character.rest),
-                                            boneCentres(character.rest, *character.root));
-    if (turn.isIdentity()) return;
-    const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(turn);
+/// Rotates the whole scene, and scales it to metres, without changing the author's nodes.
+void placeScene(double metresPerUnit, Character& character) {
+    osg::Matrixd place = osg::Matrixd::scale(metresPerUnit, metresPerUnit, metresPerUnit);
+    if (character.hasBody())
+        place = place * orientToFront(recogniseJoints(character.rest),
+                                      boneCentres(character.rest, *character.root));
+    if (place.isIdentity()) return;
+    const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(place);
     placed->setName(character.root->getName());
     placed->setDataVariance(osg::Object::DYNAMIC);
+    normalizeIfScaled(*placed);
     placed->addChild(character.root);
     character.root = placed;
-    character.toWorld = character.toWorld * turn;
+    character.toWorld = character.toWorld * place;
 }
 
 } // namespace
@@ -240,10 +243,8 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     character.notes = report.notes;
     for (const auto& skin : report.skins) character.skin.skins.push_back({skin, {}});
     character.root = asGroup(scene);
-    if (report.bodies.size() == 1) {
-        takeBody(report.bodies.front(), convert.bind, character);
-        faceViewer(character);
-    }
+    if (report.bodies.size() == 1) takeBody(report.bodies.front(), convert.bind, character);
+    placeScene(unitOf(0.0, options, file, character.notes), character);
     takeSceneMotions(options, character);
     stages.finish();
     return character;

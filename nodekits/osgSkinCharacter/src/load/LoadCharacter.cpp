@@ -83,7 +83,8 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     character.rest = std::move(source.rest);
     character.bindOptions = source.bind;
     character.fitReport = std::move(source.fitReport);
-    character.toWorld = source.toWorld;
+    const double metres = unitOf(source.statedUnit, source.options, source.meshFile, source.notes);
+    character.toWorld = osg::Matrixd::scale(metres, metres, metres) * source.toWorld;
     character.notes = std::move(source.notes);
     withFileContext(source.file, [&] { buildScene(source, options, character); });
     stages.finish();

@@ -34,7 +34,7 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
     for (const SkinFile::MotionEntry& entry : source.motions) {
         stages.begin("motion " + entry.name, LoadStages::kMotion);
         CharacterMotion& made = motions.emplace_back();
-        withFileContext(entry.file, [&] {
+        const auto make = [&] {
             Motion motion = importMotion(entry.file, entry.skipFrames, entry.clip, readOptions);
             checkSize(source, entry, motion);
             motion.name = entry.name;
@@ -42,7 +42,8 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
             options.joints = entry.joints;
             options.names = source.bind.names;
             made.clip = retarget(motion, source.rest, options, &made.report);
-        });
+        };
+        withFileContext(source.file, [&] { withFileContext(entry.file, make); });
         OSG_INFO << entry.file << ":\n" << made.report.text();
         for (const std::string& note : made.report.notes)
             takeNote(source.notes, entry.file + ": " + note);

@@ -2,6 +2,7 @@
 #include "options/JsonReader.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 
 #include <nlohmann/json.hpp>
 #include <osg/Notify>
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -71,40 +71,9 @@ std::string placeOf(const std::string& text, std::size_t byte) {
 
 /// Shortens a quoted name of any length to its beginning and end.
 std::string shortened(const std::string& text) {
-    constexpr std::size_t part = 200;
+    constexpr std::size_t part = 500;
     if (text.size() <= 3 * part) return text;
     return text.substr(0, part) + "..." + text.substr(text.size() - part);
-}
-
-/// Levenshtein's distance: the number of letters to insert, delete or replace.
-std::size_t editsBetween(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t(0));
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
-
-/// The known word that differs from `word` by two letters at most; empty where there is none.
-std::string nearestOf(const std::vector<std::string>& known, const std::string& word) {
-    std::string nearest;
-    std::size_t fewest = 3;
-    for (const std::string& candidate : known) {
-        if (word.size() > candidate.size() + fewest) continue;
-        const std::size_t edits = editsBetween(candidate, word);
-        if (edits < fewest && edits < candidate.size() / 2 + 1) {
-            fewest = edits;
-            nearest = candidate;
-        }
-    }
-    return nearest;
 }
 
 } // namespace
@@ -232,9 +201,10 @@ void JsonReader::warnUnknown(const std::vector<std::string>& known) const {
     forEachMember([&](const std::string& key, const JsonReader& member) {
         if (std::find(known.begin(), known.end(), key) != known.end()) return;
         if (++unknown > mostLines) return;
-        const std::string meant = nearestOf(known, key);
+        const std::string meant = nearestName(key, known);
         OSG_WARN << onOneLine(_file + ": " + shortened(member._path) + ": unknown member ignored" +
-                              (meant.empty() ? "" : "; did you mean \"" + meant + "\"?"))
+                              (meant.empty() ? expectedNames(key, known)
+                                             : "; did you mean \"" + meant + "\"?"))
                  << std::endl;
     });
     if (unknown > mostLines)

@@ -57,7 +57,8 @@ private:
     double _size = 0.0;  ///< of the present one
 };
 
-/// Runs a step and adds the file's name to its errors, which name vertices and joints but no file.
+/// Runs a step and adds a file's name to its errors: to those that name vertices and joints but no
+/// file, or another file that this one names.
 ///
 /// \param file the name to add
 /// \param step called once

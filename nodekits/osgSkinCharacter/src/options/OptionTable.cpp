@@ -2,13 +2,18 @@
 #include "options/OptionTable.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkinCharacter/OptionString>
 #include <osgSkinCharacter/ProgressOption>
 
+#include <osg/Notify>
+
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 namespace osgSkin {
@@ -136,10 +141,50 @@ Option rigidOption() {
     return option;
 }
 
+constexpr std::pair<const char*, double> kUnits[] = {
+    {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+
+bool isUnit(double metres) {
+    return metres >= 1e-9 && metres <= 1e9; // also false for NaN
+}
+
+Option unitOption() {
+    Option option = textsOf(
+        {"unit", "as the mesh or the skeleton states it, else m",
+         "the unit of files that do not state theirs, as FBX, Collada and glTF files do; a number, "
+         "metres per unit, also replaces what a file states; the scene is in metres"},
+        "", In::Files);
+    for (const auto& [name, metres] : kUnits) option.values += std::string(name) + "|";
+    option.values += "number";
+    option.expected = "m, cm, mm, in, ft, or metres per unit (1e-9 to 1e9)";
+    option.set = [](LoadOptions& options, const std::string& text) {
+        for (const auto& [name, metres] : kUnits)
+            if (text == name) {
+                options.unit = FileUnit{metres, false};
+                return true;
+            }
+        double metres = 0.0;
+        const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), metres);
+        options.unit = FileUnit{metres, true};
+        return status == std::errc() && stop == text.data() + text.size() && isUnit(metres);
+    };
+    const auto set = option.set;
+    option.read = [set, expected = option.expected](LoadOptions& options, const JsonReader& member,
+                                                    const ReadLimits&) {
+        if (member.isNumber()) options.unit = FileUnit{member.number(), true};
+        const bool isValid =
+            member.isNumber() ? isUnit(options.unit->metres) : set(options, member.string());
+        if (!isValid) member.failWith("expected " + expected);
+    };
+    option.complete = completeBy(&LoadOptions::unit);
+    return option;
+}
+
 Option motionOption() {
     Option option = textsOf({"motion", "the first one",
                              "the motion to play by its name, or a motion file to retarget, or one "
-                             "of the file's clips by name or number"},
+                             "of the file's clips by name or number; names with blanks need double "
+                             "quotes, as -O 'motion=\"Idle Loop\"'"},
                             "clip|file|file#clip|none", In::StringsOnly);
     option.expected = "a clip's name, a motion file, or none";
     option.set = [](LoadOptions& options, const std::string& text) {
@@ -160,7 +205,7 @@ std::vector<Option> makeTable() {
     const auto number = [](std::size_t value) { return std::to_string(value); };
     return {
         choice<Method, Method>(
-            {"bind", "smooth; for a rigged model weights where it is painted throughout",
+            {"bind", "weights where the mesh is painted throughout, else smooth",
              "how ratios are found: from regions of the skin, between two boundary planes a joint "
              "as the paper prints them, or from painted weights"},
             &LoadOptions::method,
@@ -187,6 +232,7 @@ std::vector<Option> makeTable() {
                        "motions from files keep forearms and hands out of trunk, thighs and head"},
                       &LoadOptions::avoidBody),
                 "clearHands"),
+        unitOption(),
         motionOption(),
         onOff({"gpu", "off",
                "skins are deformed on the graphics card where a context has OpenGL 4.3"},
@@ -282,13 +328,31 @@ void completeOptions(LoadOptions& options, const LoadOptions& file) {
         if (option.complete) option.complete(options, file);
 }
 
+namespace {
+
+/// Warns about an option that is probably misspelt. Other unknown words may be for other readers.
+void warnMisspelt(const std::string& word) {
+    std::vector<std::string> known;
+    for (const Option& option : optionTable()) known.push_back(option.word);
+    const std::string meant = nearestName(word, known);
+    if (!meant.empty())
+        OSG_WARN << onOneLine("unknown option \"" + word + "\" ignored; did you mean \"" + meant +
+                              "\"?")
+                 << std::endl;
+}
+
+} // namespace
+
 LoadOptions toLoadOptions(const osgDB::Options* options) {
     LoadOptions result;
     if (options == nullptr) return result;
     result.readOptions = options;
     result.progress = getProgress(options);
     for (const auto& [word, value] : optionValues(options->getOptionString()))
-        setOption(result, word, value);
+        if (findOption(word) == nullptr)
+            warnMisspelt(word);
+        else
+            setOption(result, word, value);
     return result;
 }
 

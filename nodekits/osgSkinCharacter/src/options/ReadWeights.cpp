@@ -3,6 +3,8 @@
 
 #include "options/JsonReader.h"
 
+#include <osgSkin/ExpectedNames>
+
 #include <map>
 
 namespace osgSkin {
@@ -40,7 +42,7 @@ VertexWeights readWeights(const std::string& file, const RestSkeleton& skeleton,
         .forEachMember([&](const std::string& name, const JsonReader& pairs) {
             const auto joint = jointOf.find(name);
             if (joint == jointOf.end())
-                pairs.failWith("expected the name of a joint of the skeleton");
+                pairs.failWith("not a joint of the skeleton" + expectedNames(name, jointOf));
             pairs.forEachItem([&](const JsonReader& pair) {
                 readPair(pair, static_cast<std::uint32_t>(joint->second), weights);
             });

@@ -4,6 +4,7 @@
 #include "options/JsonReader.h"
 #include "options/OptionTable.h"
 
+#include <osgSkin/ExpectedNames>
 #include <osgSkinBind/BindOptions>
 #include <osgSkinBind/FitSkeleton>
 
@@ -69,7 +70,7 @@ FitOptions readFit(const JsonReader& reader) {
     const std::map<std::string, std::string> known = fittedNamesOf(names);
     landmarks->forEachMember([&](const std::string& name, const JsonReader& value) {
         if (known.count(name) == 0)
-            value.failWith("expected the name of a CMU joint, such as LeftHand or Head");
+            value.failWith("not a CMU joint" + expectedNames(name, fittedJointNames()));
         options.landmarks[name] = value.vector();
     });
     return options;
@@ -165,7 +166,8 @@ public:
         JointNames names{family, {}};
         reader.forEachMember([&](const std::string& role, const JsonReader& value) {
             if (_roles.count(role) == 0)
-                value.failWith("no such part of a body, expected Hips, Spine, LeftUpperArm, ...");
+                value.failWith("no such part of a body" +
+                               expectedNames(role, {_roles.begin(), _roles.end()}));
             const auto add = [&](const JsonReader& name) {
                 if (++_count > _most)
                     name.failWith("one of more than " + std::to_string(_most) +
@@ -193,9 +195,13 @@ SkinFile::Prop readProp(const JsonReader& reader, const SkinFile& skin, const st
     const JsonReader motion = reader.require("motion", "the name of one of the motions");
     prop.motion = motion.string();
     prop.file = path(reader.require("file", "a motion file's name"), folder);
-    for (const SkinFile::MotionEntry& known : skin.motions)
+    std::vector<std::string> names;
+    for (const SkinFile::MotionEntry& known : skin.motions) {
         if (known.name == prop.motion) return prop;
-    motion.failWith("expected the name of one of the motions, found \"" + prop.motion + "\"");
+        names.push_back(known.name);
+    }
+    motion.failWith("no motion is called \"" + prop.motion + '"' +
+                    expectedNames(prop.motion, names));
 }
 
 /// Reads a region's two boundaries (paper, Fig. 3), in bone lengths from the joint.
@@ -235,14 +241,15 @@ JointBindOptions readJoint(const JsonReader& reader) {
 void readWeightsFile(const JsonReader& root, const std::string& folder, SkinFile& skin) {
     const auto weights = root.find("weights");
     if (!weights) return;
-    if (skin.options.method != LoadOptions::Method::Weights)
+    LoadOptions::Method& method = skin.options.method;
+    if (method == LoadOptions::Method::Default) method = LoadOptions::Method::Weights;
+    if (method != LoadOptions::Method::Weights)
         weights->failWith("expected \"bind\": \"weights\" beside it");
     skin.weights = path(*weights, folder);
 }
 
 /// Reads the members that are options, see optionTable().
 void readOptions(const JsonReader& root, const ReadLimits& limits, SkinFile& skin) {
-    skin.options.method = LoadOptions::Method::Smooth;
     for (const Option& option : optionTable()) {
         if (!option.isMember) continue;
         const bool isFormer = !root.find(option.word) && !option.formerWord.empty();
@@ -323,6 +330,9 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
         joints->forEachMember([&](const std::string& name, const JsonReader& value) {
             skin.bind.joints[name] = readJoint(value);
         });
+    // Regions have boundaries, painted weights have none.
+    if (skin.options.method == LoadOptions::Method::Default && !skin.bind.joints.empty())
+        skin.options.method = LoadOptions::Method::Smooth;
     return skin;
 }
 

@@ -64,13 +64,14 @@ std::vector<double> skinDistances(const Binding& binding, const SkinMesh& mesh) 
     return distances;
 }
 
-/// A sphere around the character over the whole clip, in the space of `toWorld`: the joints' paths,
-/// enlarged by the skin's distance from its joints.
-osg::BoundingSphere clipBounds(const Clip& clip, const RestSkeleton& rig, const Binding& binding,
-                               const SkinMesh& mesh, const osg::Matrix& toWorld) {
+/// A sphere around the character over the whole clip, in the scene: the joints' paths, enlarged by
+/// the skin's distance from its joints.
+osg::BoundingSphere clipBounds(const Clip& clip, const Character& character) {
     // A character moves less than a hand's breadth in a few samples.
     const std::size_t step = std::max<std::size_t>(1, clip.frames / 200);
-    const std::vector<double> distances = skinDistances(binding, mesh);
+    const RestSkeleton& rig = character.rest;
+    std::vector<double> distances = skinDistances(character.binding, character.body.mesh);
+    for (double& distance : distances) distance *= character.metresPerUnit();
     std::vector<std::pair<osg::Vec3d, double>> balls;
     osg::BoundingBoxd box;
     std::vector<glm::dquat> rotations;
@@ -79,7 +80,7 @@ osg::BoundingSphere clipBounds(const Clip& clip, const RestSkeleton& rig, const 
         worldRotations(rig, &clip.rotations[frame * clip.joints], rotations);
         worldPositions(rig, rotations, clip.rootPositions[frame], centres);
         for (std::size_t j = 0; j < centres.size(); ++j) {
-            const osg::Vec3d centre = toOsg(centres[j]) * toWorld;
+            const osg::Vec3d centre = toOsg(centres[j]) * character.toWorld;
             const osg::Vec3d reach(distances[j], distances[j], distances[j]);
             balls.emplace_back(centre, distances[j]);
             box.expandBy(centre - reach);
@@ -92,19 +93,37 @@ osg::BoundingSphere clipBounds(const Clip& clip, const RestSkeleton& rig, const 
     return {box.center(), static_cast<float>(radius)};
 }
 
-/// The meshes of a character's props. Each file is read once and shared.
+/// The meshes of a character's props, in the character's unit. Each file is read once and shared.
 class PropMeshes {
 public:
-    /// \param options for the meshes; may be null
-    explicit PropMeshes(const osgDB::Options* options) : _options(options) {}
+    /// \param source its options are for the meshes, too
+    /// \param metresPerUnit of rest space
+    PropMeshes(const CharacterSource& source, double metresPerUnit)
+        : _options(source.meshOptions), _metresPerUnit(metresPerUnit),
+          _overridesFiles(source.options.unit && source.options.unit->overridesFile) {}
 
     /// \throw Error with the file and the place in it
     const ImportedMesh& of(const std::string& file);
 
 private:
+    /// Scales a mesh whose file states another unit than the character's.
+    void scale(const std::string& file, const ImportedMesh& mesh) const;
+
     const osg::ref_ptr<const osgDB::Options> _options;
+    const double _metresPerUnit;
+    const bool _overridesFiles;
     std::map<std::string, ImportedMesh> _meshes; ///< by path
 };
+
+void PropMeshes::scale(const std::string& file, const ImportedMesh& mesh) const {
+    const double stated = _overridesFiles ? 0.0 : importUnit(file, _options.get());
+    if (stated == 0.0 || stated == _metresPerUnit) return;
+    for (const MeshPart& part : mesh.parts) {
+        for (osg::Vec3& v : static_cast<osg::Vec3Array&>(*part.geometry->getVertexArray()))
+            v *= static_cast<float>(stated / _metresPerUnit);
+        part.geometry->dirtyBound();
+    }
+}
 
 const ImportedMesh& PropMeshes::of(const std::string& file) {
     std::error_code failure;
@@ -112,7 +131,9 @@ const ImportedMesh& PropMeshes::of(const std::string& file) {
     const std::string& key = failure ? file : path;
     const auto known = _meshes.find(key);
     if (known != _meshes.end()) return known->second;
-    return _meshes.emplace(key, importMesh(file, _options.get())).first->second;
+    const ImportedMesh& read = _meshes.emplace(key, importMesh(file, _options.get())).first->second;
+    scale(file, read);
+    return read;
 }
 
 /// The time that a motion skips, in seconds. A prop skips it too, to stay in time with the motion.
@@ -194,6 +215,12 @@ void update(osg::Node& root, double time) {
 
 } // namespace
 
+void normalizeIfScaled(osg::MatrixTransform& transform) {
+    const osg::Vec3d x = osg::Matrixd::transform3x3(osg::Vec3d(1, 0, 0), transform.getMatrix());
+    if (std::abs(x.length() - 1.0) > 1e-6)
+        transform.getOrCreateStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::ON);
+}
+
 osg::BoundingSphere playedBounds(osg::Group& root, const osgAnimation::AnimationList& clips) {
     // A separate manager, so that the one that plays later begins at 0.
     double duration = 0.0;
@@ -228,9 +255,10 @@ void attach(const CharacterSource& source, Character& character) {
                                 splitRigid(mesh, character.binding, rigid));
 }
 
-osg::ref_ptr<osg::MatrixTransform> makeUpright(const osg::Matrixd& toWorld) {
-    osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(toWorld);
+osg::ref_ptr<osg::MatrixTransform> makeUpright(const Character& character) {
+    osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(character.toWorld);
     upright->setName("upright");
+    normalizeIfScaled(*upright);
     // The bones below are set every frame: an optimizer must not flatten this transform into them.
     upright->setDataVariance(osg::Object::DYNAMIC);
     return upright;
@@ -287,9 +315,9 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
     attach(source, character);
     const JointRoles roles = recogniseJoints(character.rest, source.bind.names);
     if (!source.skeleton) character.toWorld = character.toWorld * turnOfRig(character, roles);
-    const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character.toWorld);
+    const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character);
     upright->addChild(character.skeleton);
-    PropMeshes propMeshes(source.meshOptions.get());
+    PropMeshes propMeshes(source, character.metresPerUnit());
     for (const CharacterMotion& motion : character.motions)
         addProps(source, motion, *upright, propMeshes, options.readOptions.get());
     character.root = new osg::Group;
@@ -309,9 +337,7 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
     } else if (!character.motions.empty()) {
         // A viewer places its camera before the first frame, so it needs bounds of the whole
         // motion.
-        character.root->setInitialBound(clipBounds(character.motions.front().clip, character.rest,
-                                                   character.binding, character.body.mesh,
-                                                   character.toWorld));
+        character.root->setInitialBound(clipBounds(character.motions.front().clip, character));
         character.pose(character.motions.front(), 0);
     }
     play(character);

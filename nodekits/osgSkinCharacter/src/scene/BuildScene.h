@@ -9,6 +9,7 @@
 
 #include <osg/BoundingSphere>
 #include <osg/Group>
+#include <osg/MatrixTransform>
 #include <osgAnimation/Animation>
 
 namespace osgSkin {
@@ -19,6 +20,10 @@ namespace osgSkin {
 ///
 /// \param root without an update callback of its own
 osg::BoundingSphere playedBounds(osg::Group& root, const osgAnimation::AnimationList& clips);
+
+/// Lets OpenGL normalise the normals below a transform that scales, which are lit too brightly or
+/// too darkly otherwise.
+void normalizeIfScaled(osg::MatrixTransform& transform);
 
 /// Builds the scene of a bound character, Z up: skeleton, skins, rigid parts, props, and the
 /// manager that plays its motions; in the first motion's first pose.

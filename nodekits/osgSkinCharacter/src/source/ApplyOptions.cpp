@@ -4,6 +4,7 @@
 #include "options/OptionTable.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkinImport/FindNamedFile>
 
 #include <osgDB/FileNameUtils>
@@ -11,7 +12,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
 
@@ -50,15 +53,16 @@ void applyMethod(CharacterSource& source, Method method) {
         method == Method::Paper ? BindOptions::Method::Paper : BindOptions::Method::Smooth;
 }
 
-/// The names of all motions, for an error.
-std::string expectedNames(const CharacterSource& source) {
-    std::string names;
-    const auto add = [&names](const std::string& name) {
-        names += (names.empty() ? ", expected one of \"" : ", \"") + name + "\"";
-    };
-    for (const auto& animation : source.animations) add(animation->getName());
-    for (const SkinFile::MotionEntry& entry : source.motions) add(entry.name);
-    return names;
+/// The end of an error about an unknown motion: the names of all motions. Without quotes, an option
+/// string cuts a name at its first blank.
+std::string expectedMotions(const CharacterSource& source, const std::string& wanted) {
+    std::vector<std::string> names;
+    for (const auto& animation : source.animations) names.push_back(animation->getName());
+    for (const SkinFile::MotionEntry& entry : source.motions) names.push_back(entry.name);
+    const auto isCut = [&](const std::string& name) { return name.rfind(wanted + ' ', 0) == 0; };
+    const auto cut = std::find_if(names.begin(), names.end(), isCut);
+    return expectedNames(wanted, names) +
+           (cut == names.end() ? "" : "; an option string needs quotes: motion=\"" + *cut + '"');
 }
 
 /// Moves the element called `name` to the front, or the only one with that behind the last '|' of
@@ -97,7 +101,8 @@ void applyMotion(CharacterSource& source, const std::string& wanted, const osgDB
     SkinFile::MotionEntry entry = fileEntry(wanted, read);
     if (entry.file.empty())
         throw Error(source.file + ": motion \"" + wanted +
-                    "\" is neither one of its motions nor a file" + expectedNames(source));
+                    "\" is neither one of its motions nor a file" +
+                    expectedMotions(source, wanted));
     for (const SkinFile::MotionEntry& other : source.motions)
         if (other.name == entry.name) entry.name = wanted; // names are unique
     source.motions.insert(source.motions.begin(), entry);

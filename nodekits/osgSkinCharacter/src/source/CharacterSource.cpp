@@ -3,7 +3,10 @@
 
 #include <osgSkin/Error>
 
+#include <cmath>
 #include <filesystem>
+#include <locale>
+#include <sstream>
 #include <system_error>
 
 namespace osgSkin {
@@ -26,6 +29,22 @@ void MotionSamples::add(const std::string& file, std::size_t frames, std::size_t
                     " rotations (option maxSamples)");
     }
     _samples += frames * joints;
+}
+
+double unitOf(double stated, const LoadOptions& options, const std::string& file,
+              std::vector<std::string>& notes) {
+    if (!options.unit) return stated > 0.0 ? stated : 1.0;
+    const FileUnit& given = *options.unit;
+    if (given.overridesFile || !(stated > 0.0)) return given.metres;
+    if (std::abs(given.metres - stated) > 1e-6 * stated) {
+        std::ostringstream note;
+        note.imbue(std::locale::classic());
+        note << file << ": states that its unit is " << stated
+             << " m, so the option unit is not used; a number (\"unit\": " << given.metres
+             << ") would replace it";
+        takeNote(notes, note.str());
+    }
+    return stated;
 }
 
 } // namespace osgSkin

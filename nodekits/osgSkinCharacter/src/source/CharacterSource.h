@@ -62,10 +62,11 @@ struct CharacterSource {
     ImportedMesh body;
     RestSkeleton rest;
     FitReport fitReport;
-    osg::Matrixd toWorld; ///< from rest space to a scene with Z up
+    osg::Matrixd toWorld;    ///< rotates rest space to Z up
+    double statedUnit = 0.0; ///< metres per unit of rest space, as the files state it; else 0
 
     BindOptions bind;
-    Painted painted = Painted::No;
+    Painted painted = Painted::WhereGood;
     std::string weightsFile; ///< painted weights; empty: the mesh's own
 
     /// A rigged model's own skeleton, in the pose of its nodes, and its animations, which move
@@ -96,6 +97,16 @@ struct CharacterSource {
         return bindingSize() + LoadStages::kMotion * double(motions.size()) + sceneSize();
     }
 };
+
+/// The unit of rest space.
+///
+/// \param stated metres per unit, as the files state it; 0 if they do not
+/// \param options the caller's and the file's
+/// \param file named in the note
+/// \param notes gets one if the option names another unit than the files
+/// \return metres per unit
+double unitOf(double stated, const LoadOptions& options, const std::string& file,
+              std::vector<std::string>& notes);
 
 /// Reads a `.skin` file, the mesh and the skeleton that it names, or fits a skeleton.
 ///

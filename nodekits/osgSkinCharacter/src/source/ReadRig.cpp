@@ -18,7 +18,7 @@ CharacterSource readRig(const std::string& file, const LoadOptions& options, Loa
     source.body = std::move(rig.body);
     source.rest = std::move(rig.rest);
     source.toWorld = rig.toWorld;
-    source.painted = CharacterSource::Painted::WhereGood;
+    source.statedUnit = rig.metresPerUnit;
     source.skeleton = rig.skeleton;
     source.animations = rig.animations;
     applyOptions(source, options);

@@ -58,16 +58,23 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
     applyOptions(source, options);
     source.files = filesOf(skin, source);
 
+    stages.begin("mesh", LoadStages::kMesh);
+    source.body =
+        withFileContext(file, [&] { return importMesh(skin.mesh, source.meshOptions.get()); });
+    if (source.painted == CharacterSource::Painted::WhereGood && source.body.weights.empty())
+        source.painted = CharacterSource::Painted::No;
     stages.plan(LoadStages::kMesh + (skin.fit ? LoadStages::kFit : LoadStages::kSkeleton) +
                 source.laterSize());
-    stages.begin("mesh", LoadStages::kMesh);
-    source.body = importMesh(skin.mesh, source.meshOptions.get());
     if (skin.fit) {
         fitRest(source, *skin.fit, stages.begin("skeleton", LoadStages::kFit));
     } else {
         stages.begin("skeleton", LoadStages::kSkeleton);
-        source.rest = importSkeleton(skin.skeleton, options.readOptions.get());
+        source.rest = withFileContext(
+            file, [&] { return importSkeleton(skin.skeleton, options.readOptions.get()); });
     }
+    const osgDB::Options* read = options.readOptions.get();
+    source.statedUnit = importUnit(skin.mesh, read);
+    if (source.statedUnit == 0.0 && !skin.fit) source.statedUnit = importUnit(skin.skeleton, read);
     return source;
 }
 

@@ -410,9 +410,12 @@ osg::Matrixd toWorld(const aiScene& scene, const std::string& path) {
     return osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
 }
 
-double metresPerUnit(const aiScene& scene) {
+double metresPerUnit(const aiScene& scene, const std::string& path) {
     double centimetres = 0.0;
     float single = 0.0f;
+    // Assimp scales the root node of Collada files by their unit.
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    if (extension == "dae" || extension == "zae") return 1.0;
     if (scene.mMetaData == nullptr) return 0.0;
     if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return 0.01 * centimetres;
     if (scene.mMetaData->Get("UnitScaleFactor", single)) return 0.01 * double(single);
@@ -456,7 +459,7 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     }
     morphs.tell(path);
     result.toWorld = toWorld(*scene, path);
-    result.metresPerUnit = metresPerUnit(*scene);
+    result.metresPerUnit = metresPerUnit(*scene, path);
     return result;
 }
 

@@ -46,4 +46,10 @@ ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) 
     return finishMesh(std::move(read), path);
 }
 
+double importUnit(const std::string& path, const osgDB::Options* options) {
+    const bool isScene = hasSceneReader(path) && !holdsMeshesOnly(path) &&
+                         osgDB::getLowerCaseFileExtension(path) != "bvh";
+    return isScene ? readSourceScene(path, options)->metresPerUnit : 0.0;
+}
+
 } // namespace osgSkin

@@ -22,6 +22,7 @@
 #include <osgAnimation/StackedScaleElement>
 #include <osgAnimation/StackedTranslateElement>
 #include <osgAnimation/UpdateBone>
+#include <osgDB/FileNameUtils>
 
 #include <algorithm>
 #include <cmath>
@@ -321,6 +322,13 @@ bool isRigged(const SourceScene& scene) {
                        [](const auto& mesh) { return !mesh->bones.empty(); });
 }
 
+/// How to use a file that has motions only.
+std::string motionHint(const std::string& path) {
+    return "; its motions can move one: name it in the \"motions\" of a .skin file, or load the "
+           "character with -O 'motion=\"" +
+           path + "\"'";
+}
+
 } // namespace
 
 bool isReadByAssimp(const std::string& path) {
@@ -333,11 +341,15 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     const std::string none = "no mesh with bones, expected a rigged character";
     if (holdsMeshesOnly(path)) {
         requireReadable(path, limits);
-        failFile(path, none);
+        failFile(path, none + "; a .skin file can name a skeleton for it, or fit one");
+    }
+    if (osgDB::getLowerCaseFileExtension(path) == "bvh") {
+        requireReadable(path, limits);
+        failFile(path, none + motionHint(path));
     }
     const std::shared_ptr<const SourceScene> source = readSourceScene(path, options);
     const SourceScene& scene = *source;
-    if (!isRigged(scene)) failFile(path, none);
+    if (!isRigged(scene)) failFile(path, none + (scene.animations.empty() ? "" : motionHint(path)));
 
     ImportedRig result;
     CornerMesh body = readSceneMesh(scene, path, options);

@@ -3,6 +3,9 @@
 
 #include "text/FileText.h"
 
+#include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
+
 #include <algorithm>
 #include <charconv>
 #include <map>
@@ -43,8 +46,10 @@ std::size_t findClip(const std::vector<std::string>& names, const std::string& w
     std::string known;
     for (std::size_t n = 0; n < names.size(); ++n)
         known += (n > 0 ? ", " : "") + std::to_string(n) + " \"" + names[n] + '"';
+    const std::string nearest = nearestName(wanted, names);
     failFile(path, (found.empty() ? "no clip " : "several clips ") + inQuotes(wanted) +
-                       ", expected one of " + known);
+                       ", expected one of " + known +
+                       (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
 }
 
 } // namespace osgSkin

@@ -5,6 +5,7 @@
 #include "skeleton/SkeletonTree.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmTypes>
 
 #include <glm/geometric.hpp>
@@ -28,13 +29,10 @@ void checkNames(const RestSkeleton& rig, const ByName& motion,
     for (const auto& [rigName, motionName] : names) {
         if (rigJoints.count(rigName) == 0)
             throw Error("retarget: the map names the joint \"" + rigName +
-                        "\", which the rig does not have");
+                        "\", which the rig does not have" + expectedNames(rigName, rigJoints));
         if (!motionName.empty() && motion.count(motionName) == 0)
-            throw Error(std::string("retarget: the map gives \"")
-                            .append(rigName)
-                            .append("\" the joint \"")
-                            .append(motionName)
-                            .append("\", which the motion does not have"));
+            throw Error("retarget: the map gives \"" + rigName + "\" the joint \"" + motionName +
+                        "\", which the motion does not have" + expectedNames(motionName, motion));
     }
 }
 

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a user reads after a mistake: a suggestion, the known names, and the file at fault.
+#include "Command.h"
+#include "GltfBuilder.h"
+#include "Notices.h"
+#include "WhyRefused.h"
+
+#include <osgSkinCharacter/CharacterOption>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace {
+
+const std::string kParts = OSGSKIN_TEST_DATA "/character/";
+
+/// Writes a `.skin` file of the tests' tube with more members.
+std::string tubeSkin(const std::string& folder, const std::string& members) {
+    std::string file = folder + "/tube.skin";
+    std::ofstream(file) << R"({"osgskin": 1, "mesh": ")" << kParts << R"(body.obj", "skeleton": ")"
+                        << kParts << R"(rig.bvh")" << members << "}";
+    return file;
+}
+
+void expectSays(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << '"' << part << "\" in: " << text;
+}
+
+/// Writes a glTF file with the clips "Idle Loop" and "Walk".
+std::string clipsFile() {
+    test::GltfColumn column;
+    for (const char* name : {"Idle Loop", "Walk"})
+        column.animate(name, column.joints[1], "rotation", {0.0, 1.0},
+                       test::GltfColumn::turns({0.0, 30.0}));
+    return column.save("messages_clips.gltf");
+}
+
+} // namespace
+
+TEST(Messages, SuggestOptionsOfStrings) {
+    for (const auto& [text, meant] : {std::pair("shape=elastic", "shapes"),
+                                      {"Shapes=none", "shapes"},
+                                      {"avoid-body=on", "avoidBody"},
+                                      {"maxFilesMB=3", "maxFileMB"},
+                                      {"montion=run", "motion"}}) {
+        const test::Notices notices;
+        test::loadOptions(text);
+        const std::string word(text, std::string(text).find('='));
+        EXPECT_EQ(notices.warnings(),
+                  "unknown option \"" + word + "\" ignored; did you mean \"" + meant + "\"?\n");
+    }
+    const test::Notices notices; // these belong to other readers
+    test::loadOptions("noRotation dds_flip noTexturesInIveFile precision=6 Compressor=zlib Ascii");
+    EXPECT_EQ(notices.text(), "");
+}
+
+TEST(Messages, SuggestOptionsOfPrograms) {
+    const std::string folder = test::makeTestFolder();
+    for (const std::string program : {OSGSKIN_BAKE, OSGSKIN_VIEWER}) {
+        const test::CommandResult result =
+            test::runCommand(program + " '" + kParts + "good.skin' --shape elastic", folder);
+        EXPECT_EQ(result.status, 2);
+        expectSays(result.err, "; did you mean \"--shapes\"?");
+    }
+}
+
+TEST(Messages, SuggestMembersOrListThem) {
+    const std::string folder = test::makeTestFolder();
+    const test::Notices notices;
+    EXPECT_EQ(test::whyRefused(tubeSkin(folder, R"(, "shape": "elastic", "colour": "red")")),
+              "read");
+    expectSays(notices.warnings(), "shape: unknown member ignored; did you mean \"shapes\"?");
+    expectSays(notices.warnings(), "colour: unknown member ignored, expected one of \"osgskin\"");
+    expectSays(notices.warnings(), "\"unit\"");
+}
+
+TEST(Messages, ListJoints) {
+    const std::string folder = test::makeTestFolder();
+    const std::string known = ", expected one of \"arm\", \"base\"; did you mean \"arm\"?";
+    const auto refusal = [&](const std::string& members) {
+        return test::whyRefused(tubeSkin(folder, members));
+    };
+    expectSays(refusal(R"(, "rigid": ["armm"])"),
+               "rigid joint \"armm\" is not in the skeleton" + known);
+    expectSays(refusal(R"(, "joints": {"Arm": {"skip": true}})"),
+               "joint \"Arm\" is not in the skeleton" + known);
+    expectSays(refusal(R"(, "muscles": [{"name": "m", "joint": "rig:arm"}])"),
+               "joint \"rig:arm\" is not in the skeleton" + known);
+    std::ofstream(folder + "/weights.json") << R"({"weights": {"amr": [[0, 1]]}})";
+    expectSays(refusal(R"(, "weights": "weights.json")"),
+               "weights.amr: not a joint of the skeleton" + known);
+    const std::string motion = R"(, "motions": [{"file": ")" + kParts + R"(move.bvh", "joints": )";
+    expectSays(refusal(motion + R"({"armm": "arm"}}])"), "which the rig does not have" + known);
+    expectSays(refusal(motion + R"({"arm": "armm"}}])"), "which the motion does not have" + known);
+    expectSays(refusal(R"(, "names": {"mine": {"Hip": "base"}})"), "did you mean \"Hips\"?");
+}
+
+TEST(Messages, ListMotions) {
+    const std::string clips = clipsFile(), folder = test::makeTestFolder();
+    const auto refusal = [](const std::string& file, const std::string& options) {
+        return test::whyRefused(file, test::loadOptions(options));
+    };
+    expectSays(refusal(clips, "motion=walk2"),
+               ", expected one of \"Idle Loop\", \"Walk\"; did you mean \"Walk\"?");
+    expectSays(refusal(clips, "motion=Idle Loop"),
+               "an option string needs quotes: motion=\"Idle Loop\"");
+    EXPECT_EQ(refusal(clips, "motion=\"Idle Loop\""), "read");
+    expectSays(
+        refusal(tubeSkin(folder, R"(, "motions": [{"file": ")" + clips + R"(", "clip": "Wlak"}])"),
+                ""),
+        "no clip \"Wlak\", expected one of 0 \"Idle Loop\", 1 \"Walk\"; did you mean \"Walk\"?");
+    expectSays(refusal(tubeSkin(folder, R"(, "motions": [{"file": ")" + kParts +
+                                            R"(move.bvh"}], "props": [{"mesh": "m", "file": "f", )"
+                                            R"("motion": "moves"}])"),
+                       ""),
+               "did you mean \"move\"?");
+    expectSays(test::runBake("'" + clips + "' --motion walk2", folder).err,
+               "did you mean \"Walk\"?");
+}
+
+TEST(Messages, TellOfQuotesInLists) {
+    const auto& all = osgSkin::characterOptions();
+    const auto motion = std::find_if(all.begin(), all.end(),
+                                     [](const auto& option) { return option.word == "motion"; });
+    ASSERT_NE(motion, all.end());
+    expectSays(motion->meaning, "motion=\"Idle Loop\"");
+}
+
+TEST(Messages, NameTheSkinFileThatAsksForAPart) {
+    const std::string folder = test::makeTestFolder(), skin = folder + "/tube.skin: ";
+    const std::string body = kParts + "body.obj", rig = kParts + "rig.bvh";
+    const auto refusal = [&](const std::string& mesh, const std::string& skeleton,
+                             const std::string& more) {
+        std::ofstream(folder + "/tube.skin")
+            << R"({"osgskin": 1, "mesh": ")" << mesh << R"(", "skeleton": ")" << skeleton << '"'
+            << more << "}";
+        return test::whyRefused(folder + "/tube.skin");
+    };
+    for (const std::string& why :
+         {refusal("none.obj", rig, ""), refusal(body, "none.bvh", ""),
+          refusal(body, rig, R"(, "motions": [{"file": "none.bvh"}])"),
+          refusal(body, rig, R"(, "bind": "weights", "weights": "none.json")"),
+          refusal(body, rig,
+                  R"(, "motions": [{"file": ")" + kParts +
+                      R"(move.bvh"}], "props": [{"mesh": "none.obj", "file": ")" + kParts +
+                      R"(move.bvh", "motion": "move"}])")}) {
+        EXPECT_EQ(why.rfind(skin, 0), 0u) << why;
+        expectSays(why, "none.");
+        expectSays(why, "cannot open");
+    }
+}
+
+TEST(Messages, TellHowAMotionIsUsed) {
+    const std::string bvh = OSGSKIN_TEST_DATA "/bvh/two_joints.bvh";
+    test::GltfColumn column;
+    column.bend();
+    column.json["nodes"][column.meshNode].erase("skin");
+    const std::string gltf = column.save("messages_motion.gltf");
+    for (const std::string& file : {bvh, gltf}) {
+        const std::string why = test::whyRefused(file + ".skin");
+        expectSays(why, "no mesh with bones");
+        expectSays(why, "name it in the \"motions\" of a .skin file");
+        expectSays(why, "-O 'motion=\"" + file + "\"'");
+    }
+    const std::string still = test::whyRefused(OSGSKIN_TEST_DATA "/rig/unskinned.gltf");
+    expectSays(still, "no mesh with bones");
+    expectSays(test::whyRefused(kParts + "body.obj.skin"), "can name a skeleton for it");
+}
