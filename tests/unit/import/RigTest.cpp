@@ -97,15 +97,17 @@ osg::Matrixd localAt(const aiNode& node, const aiAnimation* animation, double ti
 
 using Places = std::map<std::string, osg::Matrixd>;
 
+/// Follows mParent: the bones of Half-Life's models are listed as children of another node.
 Places placesAt(const aiScene& scene, const aiAnimation* animation, double time) {
     Places result;
-    const std::function<void(const aiNode&, const osg::Matrixd&)> walk =
-        [&](const aiNode& node, const osg::Matrixd& above) {
-            const osg::Matrixd place = localAt(node, animation, time) * above;
-            result.emplace(node.mName.C_Str(), place);
-            for (unsigned c = 0; c < node.mNumChildren; ++c) walk(*node.mChildren[c], place);
-        };
-    walk(*scene.mRootNode, osg::Matrixd());
+    const std::function<void(const aiNode&)> walk = [&](const aiNode& node) {
+        osg::Matrixd place;
+        for (const aiNode* at = &node; at != nullptr; at = at->mParent)
+            place = place * localAt(*at, animation, time);
+        result.emplace(node.mName.C_Str(), place);
+        for (unsigned c = 0; c < node.mNumChildren; ++c) walk(*node.mChildren[c]);
+    };
+    walk(*scene.mRootNode);
     return result;
 }
 

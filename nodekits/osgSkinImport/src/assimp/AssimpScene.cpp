@@ -8,15 +8,22 @@
 #include <osg/Math>
 #include <osgDB/FileNameUtils>
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <exception>
 #include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -351,7 +358,30 @@ SourceAnimation readAnimation(const aiAnimation& source) {
     return result;
 }
 
-/// Reads all nodes. Some of Assimp's readers leave null children in a node.
+/// The children that each node should have. Some of Assimp's readers leave null children in a node.
+/// The reader of Half-Life's models lists all bones as children of one node, and tells only by
+/// mParent which bone hangs on which.
+std::unordered_map<const aiNode*, std::vector<const aiNode*>> childrenOf(const aiScene& scene) {
+    std::unordered_map<const aiNode*, std::vector<const aiNode*>> result;
+    std::vector<const aiNode*> open{scene.mRootNode};
+    while (!open.empty()) {
+        const aiNode* const node = open.back();
+        open.pop_back();
+        if (node->mChildren == nullptr) continue;
+        const std::set<const aiNode*> listed(node->mChildren, node->mChildren + node->mNumChildren);
+        const bool isBones = node->mName == aiString("<MDL_bones>");
+        for (unsigned c = 0; c < node->mNumChildren; ++c) {
+            const aiNode* const child = node->mChildren[c];
+            if (child == nullptr) continue;
+            open.push_back(child);
+            result[isBones && listed.count(child->mParent) != 0 ? child->mParent : node].push_back(
+                child);
+        }
+    }
+    return result;
+}
+
+/// Reads all nodes.
 void readNodes(const aiScene& scene, const std::string& path, const ReadLimits& limits,
                SourceScene& result) {
     struct Open {
@@ -359,6 +389,7 @@ void readNodes(const aiScene& scene, const std::string& path, const ReadLimits& 
         int parent;
         std::size_t depth;
     };
+    const auto children = childrenOf(scene);
     std::vector<Open> open{{scene.mRootNode, -1, 1}};
     while (!open.empty()) {
         const Open at = open.back();
@@ -376,11 +407,148 @@ void readNodes(const aiScene& scene, const std::string& path, const ReadLimits& 
                                    std::to_string(scene.mNumMeshes));
             result.nodes.back().meshes.push_back(node.mMeshes[m]);
         }
-        if (node.mChildren == nullptr) continue;
-        for (unsigned c = node.mNumChildren; c > 0; --c)
-            if (const aiNode* child = node.mChildren[c - 1])
-                open.push_back({child, index, at.depth + 1});
+        const auto below = children.find(&node);
+        if (below == children.end()) continue;
+        for (auto child = below->second.rbegin(); child != below->second.rend(); ++child)
+            open.push_back({*child, index, at.depth + 1});
     }
+}
+
+// --- files that Assimp does not read as they are ---
+
+/// Renames the connections of an object's property to another object, text or binary, to those
+/// between two properties: Assimp's reader refuses the former and ignores the latter.
+void renamePropertyConnections(std::string& fbx) {
+    // In binary files: a record called "C", and a string of two bytes.
+    static const std::string binary("\x01"
+                                    "CS\x02\0\0\0PO",
+                                    9);
+    for (auto at = fbx.find(binary); at != std::string::npos; at = fbx.find(binary, at + 1))
+        fbx[at + binary.size() - 1] = 'P';
+    static const std::string text = "\"PO\"";
+    for (auto at = fbx.find(text); at != std::string::npos; at = fbx.find(text, at + 1)) {
+        std::size_t end = at; // of the record's name
+        while (end > 0 && (fbx[end - 1] == ' ' || fbx[end - 1] == '\t')) --end;
+        const bool isConnection =
+            end > 1 && fbx.compare(end - 2, 2, "C:") == 0 &&
+            (end == 2 || std::isspace(static_cast<unsigned char>(fbx[end - 3])) != 0);
+        if (isConnection) fbx[at + 2] = 'P';
+    }
+}
+
+/// An attribute's value in an XML file, to read or to replace.
+struct XmlValue {
+    std::size_t begin = 0, size = 0;
+};
+
+/// Finds an attribute of the element whose start tag begins at `tag`.
+std::optional<XmlValue> findAttribute(const std::string& xml, std::size_t tag,
+                                      const std::string& name) {
+    const std::size_t end = std::min(xml.find('>', tag), xml.size());
+    for (auto at = xml.find(name, tag); at < end; at = xml.find(name, at + 1)) {
+        const std::size_t sign = xml.find_first_not_of(" \t\r\n", at + name.size());
+        if (sign >= end || xml[sign] != '=' ||
+            std::isspace(static_cast<unsigned char>(xml[at - 1])) == 0)
+            continue;
+        const std::size_t quote = xml.find_first_not_of(" \t\r\n", sign + 1);
+        if (quote >= end || (xml[quote] != '"' && xml[quote] != '\'')) continue;
+        const std::size_t close = xml.find(xml[quote], quote + 1);
+        if (close < end) return XmlValue{quote + 1, close - quote - 1};
+    }
+    return std::nullopt;
+}
+
+/// Removes Collada's morph controllers, on which Assimp's reader fails, so that their meshes stay as
+/// they rest: a skin of a morph becomes one of the morph's own mesh, and where a morph is shown, its
+/// skin or mesh is.
+///
+/// \param path of the file, for errors
+/// \param xml the file, which is changed
+/// \return the number of morph controllers
+/// \throw osgSkin::Error if controllers refer to each other
+std::size_t removeMorphs(const std::string& path, std::string& xml) {
+    struct Controller {
+        XmlValue whole, source;
+        bool isSkin = false;
+    };
+    static const std::string close = "</controller>";
+    std::map<std::string, Controller> controllers; // by "#id"
+    for (auto tag = xml.find("<controller"); tag != std::string::npos;
+         tag = xml.find("<controller", tag + 1)) {
+        const std::size_t end = xml.find(close, tag);
+        if (end == std::string::npos) break;
+        const auto element = std::string_view(xml).substr(tag, end - tag);
+        const std::size_t skin = element.find("<skin"),
+                          inside = std::min(skin, element.find("<morph"));
+        if (inside == std::string_view::npos) continue;
+        const auto id = findAttribute(xml, tag, "id");
+        const auto source = findAttribute(xml, tag + inside, "source");
+        if (id && source)
+            controllers['#' + xml.substr(id->begin, id->size)] = {
+                {tag, end + close.size() - tag}, *source, inside == skin};
+    }
+    const auto textOf = [&xml](const XmlValue& value) {
+        return xml.substr(value.begin, value.size);
+    };
+    const auto follow = [&](std::string url) {
+        for (std::size_t steps = 0; steps < controllers.size(); ++steps) {
+            const auto found = controllers.find(url);
+            if (found == controllers.end() || found->second.isSkin) break;
+            url = textOf(found->second.source);
+        }
+        return url;
+    };
+    std::map<std::size_t, std::pair<std::size_t, std::string>> edits; // by position; size and text
+    std::size_t morphs = 0;
+    for (const auto& [id, controller] : controllers) {
+        std::string mesh = follow(textOf(controller.source));
+        if (controllers.count(mesh) != 0 && controller.isSkin) // Assimp would not return
+            failFile(path, "controller " + inQuotes(id) + " is a skin of controller " +
+                               inQuotes(mesh) + ", expected one of a mesh");
+        if (controller.isSkin)
+            edits[controller.source.begin] = {controller.source.size, std::move(mesh)};
+        else
+            edits[controller.whole.begin] = {controller.whole.size, std::string()};
+        morphs += !controller.isSkin;
+    }
+    if (morphs == 0) return 0;
+    for (auto tag = xml.find("<instance_controller"); tag != std::string::npos;
+         tag = xml.find("<instance_controller", tag + 1))
+        if (const auto url = findAttribute(xml, tag, "url"))
+            edits[url->begin] = {url->size, follow(textOf(*url))};
+    for (auto at = edits.rbegin(); at != edits.rend(); ++at) // from the file's end
+        xml.replace(at->first, at->second.first, at->second.second);
+    return morphs;
+}
+
+/// Gives Assimp a file's bytes from memory, and the files beside it from disk.
+class EditedFile : public Assimp::DefaultIOSystem {
+public:
+    EditedFile(std::string path, std::string bytes)
+        : _path(std::move(path)), _bytes(std::move(bytes)) {}
+
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        if (file != _path) return Assimp::DefaultIOSystem::Open(file, mode);
+        return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(_bytes.data()),
+                                          _bytes.size());
+    }
+
+private:
+    const std::string _path, _bytes;
+};
+
+/// Changes what Assimp will read of an FBX or Collada file.
+void editFile(const std::string& path, const ReadLimits& limits, Assimp::Importer& importer) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    if (extension != "fbx" && extension != "dae") return;
+    std::string bytes = readText(path, limits);
+    if (extension == "fbx") {
+        renamePropertyConnections(bytes);
+    } else if (const std::size_t morphs = removeMorphs(path, bytes)) {
+        tellOf(path, std::to_string(morphs) + " morph controllers are left out: meshes stay as "
+                                              "they are at rest");
+    }
+    importer.SetIOHandler(new EditedFile(path, std::move(bytes)));
 }
 
 // --- the file ---
@@ -432,6 +600,7 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     SourceScene result;
     result.bytes = requireReadable(path, limits);
     checkBefore(path);
+    editFile(path, limits, importer);
     const aiScene* scene = nullptr;
     std::string reason;
     try {

@@ -141,12 +141,27 @@ std::vector<std::size_t> shownMeshes(const GltfDocument& document) {
     return result;
 }
 
-/// Adds the scene's nodes, parents before children; returns each node's index, or -1 if it is not
-/// in the scene.
-std::vector<int> addNodes(const GltfDocument& document, const std::string& rootName,
-                          SourceScene& scene) {
+/// The scene's roots, and those above joints of its skins: a file may leave the joints out of the
+/// scene that shows their mesh.
+std::vector<std::size_t> rootsWithJoints(const GltfDocument& document,
+                                         const std::vector<std::size_t>& shown) {
+    std::vector<std::size_t> result = document.roots;
+    std::set<std::size_t> skins, known(result.begin(), result.end());
+    for (const std::size_t n : shown)
+        if (const GltfIndex skin = document.nodes[n].skin) skins.insert(*skin);
+    for (const std::size_t skin : skins)
+        for (std::size_t n : document.skins[skin].joints) {
+            while (document.nodes[n].parent) n = *document.nodes[n].parent;
+            if (known.insert(n).second) result.push_back(n);
+        }
+    return result;
+}
+
+/// Adds nodes, parents before children; returns each node's index, or -1 if it is not below a root.
+std::vector<int> addNodes(const GltfDocument& document, const std::vector<std::size_t>& roots,
+                          const std::string& rootName, SourceScene& scene) {
     std::vector<int> indexOf(document.nodes.size(), -1);
-    std::vector<std::size_t> open(document.roots.rbegin(), document.roots.rend());
+    std::vector<std::size_t> open(roots.rbegin(), roots.rend());
     int above = -1;
     if (open.size() != 1) above = scene.addNode(rootName, -1, glm::dmat4(1.0));
     while (!open.empty()) {
@@ -175,8 +190,10 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
         GltfDocument document(file);
         const std::string rootName = nameNodes(document);
         SourceScene scene;
-        const std::vector<int> indexOf = addNodes(document, rootName, scene);
-        addMeshes(document, shownMeshes(document), indexOf, scene);
+        const std::vector<std::size_t> shown = shownMeshes(document);
+        const std::vector<int> indexOf =
+            addNodes(document, rootsWithJoints(document, shown), rootName, scene);
+        addMeshes(document, shown, indexOf, scene);
         addAnimations(document, indexOf, scene);
         scene.toWorld = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
         if (facesBackwards(file))

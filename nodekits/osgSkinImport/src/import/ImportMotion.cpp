@@ -8,6 +8,7 @@
 #include "scene/ClipNames.h"
 #include "scene/RootMotion.h"
 #include "scene/SceneSkeleton.h"
+#include "scene/SceneTracks.h"
 #include "scene/SourceScene.h"
 #include "text/FileText.h"
 
@@ -142,33 +143,6 @@ void addTimes(const Keys& keys, double rate, std::vector<double>& times) {
     if (keys.size() < 2) return;
     for (const auto& key : keys)
         if (std::isfinite(key.time)) times.push_back(key.time / rate);
-}
-
-glm::dquat blend(const glm::dquat& a, const glm::dquat& b, double t) {
-    return glm::slerp(a, b, t);
-}
-glm::dvec3 blend(const glm::dvec3& a, const glm::dvec3& b, double t) {
-    return glm::mix(a, b, t);
-}
-
-/// A sample's time, in ticks, and the distance within which a key counts as being at the sample.
-struct Moment {
-    double time, reach;
-};
-
-/// The track's value: a key's exact value if it is at the sample, or else interpolated.
-template <typename Result, typename Key>
-Result valueAt(const std::vector<Key>& keys, const Moment& moment) {
-    const double time = moment.time;
-    const auto next = std::lower_bound(keys.begin(), keys.end(), time,
-                                       [](const Key& key, double t) { return key.time < t; });
-    if (next == keys.end()) return Result(keys.back().value);
-    if (next == keys.begin()) return Result(next->value);
-    const auto before = next - 1;
-    const double since = time - before->time, until = next->time - time;
-    if (std::min(since, until) <= moment.reach)
-        return Result(since < until ? before->value : next->value);
-    return blend(Result(before->value), Result(next->value), since / (since + until));
 }
 
 std::vector<const SourceTrack*> tracksOf(const SourceAnimation& animation,

@@ -45,9 +45,8 @@ public:
                 while (node != nullptr && _needed.insert(node).second) node = _bind.parent(*node);
     }
 
-    bool empty() const { return _needed.empty(); }
-
     SceneSkeleton build() {
+        if (_needed.empty()) return {};
         const SourceNode* root = rootJoint();
         if (const SourceNode* above = _bind.parent(*root)) _result.aboveRoot = _bind.node(*above);
         std::vector<std::pair<const SourceNode*, int>> open{{root, -1}};
@@ -117,12 +116,15 @@ std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind
     return bones;
 }
 
+SceneSkeleton findSceneSkeleton(const SourceScene& scene) {
+    return Builder(scene).build();
+}
+
 SceneSkeleton readSceneSkeleton(const SourceScene& scene, const std::string& path,
                                 const ReadLimits& limits) {
-    Builder builder(scene);
-    if (builder.empty())
+    SceneSkeleton result = findSceneSkeleton(scene);
+    if (result.nodes.empty())
         failFile(path, "no skeleton, expected joints that an animation or a skin names");
-    SceneSkeleton result = builder.build();
     if (result.rest.joints.size() > limits.joints)
         failFile(path, std::to_string(result.rest.joints.size()) + " joints, expected at most " +
                            std::to_string(limits.joints) + " (option maxJoints)");

@@ -32,7 +32,10 @@ struct SceneSkeleton {
 /// are.
 std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind& bind);
 
-/// Reads the joints in the bind pose.
+/// Finds the joints in the bind pose; no joint if the scene has none. Nothing is checked.
+SceneSkeleton findSceneSkeleton(const SourceScene& scene);
+
+/// Reads the joints in the bind pose, as findSceneSkeleton().
 /// \throw osgSkin::Error with `path` if the scene has no joint, too many joints, or joints with the
 ///        same name.
 SceneSkeleton readSceneSkeleton(const SourceScene& scene, const std::string& path,

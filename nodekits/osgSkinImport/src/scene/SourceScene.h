@@ -5,6 +5,8 @@
 #ifndef OSGSKINIMPORT_SCENE_SOURCESCENE_H
 #define OSGSKINIMPORT_SCENE_SOURCESCENE_H
 
+#include <osgSkinImport/ReadLimits>
+
 #include "mesh/Material.h"
 
 #include <osgSkin/MorphTargets>
@@ -144,6 +146,16 @@ void separateNames(SourceScene& scene, const std::string& path);
 /// bone of the same mesh with which it shares the most weight; it keeps its bind transform relative
 /// to that parent. Reports each in a notice.
 void addMissingBones(SourceScene& scene, const std::string& path);
+
+/// Attaches joints that only an editor's constraints hold in place, so that they follow the body in
+/// any motion, which consists of rotations:
+/// - a foot, toe, hand, shin or forearm that is not below its limb's previous bone follows that
+///   bone. Rigs with inverse kinematics hang feet on a control;
+/// - MMD's "D" bones, which copy a leg's rotations, follow the leg.
+///
+/// They keep their place, and their motion in each of the scene's animations that moves them or a
+/// node that they hung on. Reports them in one notice. Does nothing for more joints than the limit.
+void attachLooseJoints(SourceScene& scene, const std::string& path, const ReadLimits& limits);
 
 /// A matrix without shear, decomposed: matrix = translation * rotation * scale.
 struct NodeTransform {
