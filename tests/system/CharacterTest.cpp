@@ -7,11 +7,14 @@
 // Settings of a .skin file other than the default method for ratios.
 //
 // Choosing one motion of a file with several, in a .skin file and in options.
+//
+// Whether an actor lies, where a .skin file says which axis is up.
 #include "CharacterFiles.h"
 #include "Command.h"
 #include "DrawnSkin.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
+#include "TextFile.h"
 #include "WhyRefused.h"
 
 #include <osgSkin/Error>
@@ -19,6 +22,7 @@
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinCharacter/OptionString>
 #include <osgSkinRig/ClipCharacter>
+#include <osgSkinRig/ForwardKinematics>
 
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
@@ -281,6 +285,7 @@ const BadFile kBadFiles[] = {
     {"unknown_pole", "unknown_pole.skin", "joints.arm.twist.along", "expected"},
     {"crossed_boundaries", "crossed_boundaries.skin", "joints.arm.bend", "expected"},
     {"unknown_up", "unknown_up.skin", "up", "expected"},
+    {"unknown_motion_up", "unknown_motion_up.skin", "motions[0].up", "expected \"y\" or \"z\""},
     {"prop_without_motion", "prop_without_motion.skin", "props[0].motion", "no motion is called"},
     {"malformed", "malformed.skin", "line 3", "malformed JSON"},
     {"empty_file", "empty_file.skin", "line 1", "malformed JSON"},
@@ -534,4 +539,54 @@ TEST(ClipChoice, InOptions) {
     osgSkin::LoadOptions own;
     own.motion = "bow";
     EXPECT_EQ(osgSkin::loadCharacter(moves, own).motions.front().name(), "Armature|bow");
+}
+
+namespace {
+
+/// The thrower's skeleton laid down, with its trunk along +z, and one frame of it.
+std::string laidDown() {
+    std::istringstream in(test::fileText(OSGSKIN_DATA "/thrower.bvh"));
+    std::ostringstream out;
+    std::size_t channels = 0;
+    for (std::string line; std::getline(in, line) && line.find("MOTION") == std::string::npos;) {
+        std::istringstream words(line);
+        std::string word;
+        double x = 0.0, y = 0.0, z = 0.0;
+        if (words >> word && word == "OFFSET" && words >> x >> y >> z)
+            out << "OFFSET " << x << " " << -z << " " << y << "\n";
+        else if (word == "CHANNELS" && channels++ == 0)
+            out << "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n";
+        else
+            out << line << "\n";
+    }
+    out << "MOTION\nFrames: 1\nFrame Time: 0.04\n0 0 0";
+    for (std::size_t i = 0; i < 3 * channels; ++i) out << " 0";
+    return test::saveText("laid_down.bvh", out.str() + "\n");
+}
+
+/// How far the head is above the hips, in the first frame.
+double headHeight(const std::string& skinMembers, const std::string& motionMembers) {
+    const std::string file = test::saveText(
+        "laid_down.skin", R"({"osgskin": 1, "mesh": ")" OSGSKIN_DATA
+                          R"(/thrower.obj", "skeleton": ")" OSGSKIN_DATA R"(/thrower.bvh")" +
+                              skinMembers + R"(, "shapes": "none", "motions": [{"file": ")" +
+                              laidDown() + "\"" + motionMembers + "}]}");
+    const osgSkin::Character character = osgSkin::loadCharacter(file);
+    const osgSkin::Clip& clip = character.motions.front().clip;
+    std::vector<glm::dquat> rotations;
+    std::vector<glm::dvec3> centres;
+    osgSkin::worldRotations(character.rest, clip.rotations.data(), rotations);
+    osgSkin::worldPositions(character.rest, rotations, clip.rootPositions.front(), centres);
+    return centres[std::size_t(character.rest.find("Head"))].y -
+           centres[std::size_t(character.rest.find("Hips"))].y;
+}
+
+} // namespace
+
+TEST(MotionUp, FileAndMotionSayWhetherAnActorLies) {
+    EXPECT_GT(headHeight("", ""), 0.5) << "nothing is known of a floor";
+    EXPECT_LT(headHeight(R"(, "up": "y")", ""), 0.1);
+    EXPECT_LT(headHeight("", R"(, "up": "y")"), 0.1);
+    EXPECT_GT(headHeight("", R"(, "up": "z")"), 0.5);
+    EXPECT_GT(headHeight(R"(, "up": "y")", R"(, "up": "z")"), 0.5) << "the motion's goes first";
 }

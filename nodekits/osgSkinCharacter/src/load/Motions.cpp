@@ -38,9 +38,11 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
             Motion motion = importMotion(entry.file, entry.skipFrames, entry.clip, readOptions);
             checkSize(source, entry, motion);
             motion.name = entry.name;
+            motion.yIsUp = motion.yIsUp || source.yIsUp;
             RetargetOptions options;
             options.joints = entry.joints;
             options.names = source.bind.names;
+            options.up = entry.up;
             made.clip = retarget(motion, source.rest, options, &made.report);
         };
         withFileContext(source.file, [&] { withFileContext(entry.file, make); });

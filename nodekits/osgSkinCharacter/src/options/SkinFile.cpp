@@ -134,8 +134,14 @@ void checkVersion(const JsonReader& root) {
                          std::to_string(SkinFile::kVersion));
 }
 
+RetargetOptions::Up readUp(const JsonReader& reader) {
+    const std::string up = reader.string();
+    if (up != "y" && up != "z") reader.failWith("expected \"y\" or \"z\", found \"" + up + "\"");
+    return up == "y" ? RetargetOptions::Up::Y : RetargetOptions::Up::Z;
+}
+
 SkinFile::MotionEntry readMotion(const JsonReader& reader, const std::string& folder) {
-    reader.warnUnknown({"file", "clip", "name", "skipFrames", "joints"});
+    reader.warnUnknown({"file", "clip", "name", "skipFrames", "joints", "up"});
     SkinFile::MotionEntry motion;
     motion.file = path(reader.require("file", "a motion file's name"), folder);
     motion.name = osgDB::getStrippedName(motion.file);
@@ -146,6 +152,7 @@ SkinFile::MotionEntry readMotion(const JsonReader& reader, const std::string& fo
     }
     if (const auto name = reader.find("name")) motion.name = name->string();
     if (const auto skip = reader.find("skipFrames")) motion.skipFrames = skip->count();
+    if (const auto up = reader.find("up")) motion.up = readUp(*up);
     if (const auto joints = reader.find("joints"))
         joints->forEachMember([&](const std::string& joint, const JsonReader& value) {
             motion.joints[joint] = value.string();
@@ -316,12 +323,8 @@ SkinFile SkinFile::read(const std::string& file, const ReadLimits& limits) {
             uses.add(skin.props.back().mesh, reader);
             uses.add(skin.props.back().file, reader);
         });
-    if (const auto up = root.find("up")) {
-        if (up->string() != "y" && up->string() != "z")
-            up->failWith("expected \"y\" or \"z\", found \"" + up->string() + "\"");
-        skin.zUp = up->string() == "z";
-    }
-    if (skin.fit && skin.zUp) skin.fit->up = {0.0, 0.0, 1.0};
+    if (const auto up = root.find("up")) skin.up = readUp(*up);
+    if (skin.fit && skin.up == RetargetOptions::Up::Z) skin.fit->up = {0.0, 0.0, 1.0};
     for (const std::string& named : {skin.mesh, skin.skeleton}) limits.checkNamedFormat(named);
     for (const Prop& prop : skin.props) limits.checkNamedFormat(prop.mesh);
     readOptions(root, limits, skin);

@@ -6,6 +6,7 @@
 #include <osgSkinBind/FitSkeleton>
 #include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ReadLimits>
+#include <osgSkinRig/Retarget>
 
 #include <cstddef>
 #include <map>
@@ -28,6 +29,7 @@ struct SkinFile {
         std::string name;
         std::size_t skipFrames = 0;
         std::map<std::string, std::string> joints; ///< rig joint -> motion joint
+        RetargetOptions::Up up = RetargetOptions::Up::Unknown;
     };
 
     /// An object (a ball) that moves along its own path during the motion called `motion`.
@@ -46,7 +48,7 @@ struct SkinFile {
     LoadOptions options; ///< the members that are options, see optionTable()
     BindOptions bind;    ///< only joints, names and own muscles; the names serve retargeting, too
     std::string weights; ///< file of painted weights; empty: the mesh's own
-    bool zUp = false;    ///< the character's files have Z up, not Y
+    RetargetOptions::Up up = RetargetOptions::Up::Unknown; ///< unknown: the files have Y up
 
     /// Reads and checks a file.
     /// \throw Error with file, JSON path and what was expected

@@ -75,6 +75,7 @@ struct CharacterSource {
     osgAnimation::AnimationList animations;
 
     std::vector<SkinFile::MotionEntry> motions; ///< files to retarget
+    bool yIsUp = false; ///< the file says that Y is up; motions are taken to have it, too
     /// The file's options; after applyOptions() the caller's and the file's.
     LoadOptions options;
     std::vector<SkinFile::Prop> props;

@@ -16,7 +16,8 @@ namespace {
 /// OSG's world has Z up; most characters' files have Y up and face +Z, so they come to face -Y,
 /// towards osgviewer's camera.
 osg::Matrixd toWorldOf(const SkinFile& file) {
-    return file.zUp ? osg::Matrixd() : osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
+    return file.up == RetargetOptions::Up::Z ? osg::Matrixd()
+                                             : osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
 }
 
 void fitRest(CharacterSource& source, FitOptions fit, const Progress& progress) {
@@ -53,6 +54,7 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
     source.options = skin.options;
     source.weightsFile = skin.weights;
     source.motions = skin.motions;
+    source.yIsUp = skin.up == RetargetOptions::Up::Y;
     source.props = skin.props;
     source.meshOptions = shareImages(options.readOptions.get());
     applyOptions(source, options);

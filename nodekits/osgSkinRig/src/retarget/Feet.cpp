@@ -74,8 +74,10 @@ FootRoll::FootRoll(const RetargetTarget& body, const std::vector<glm::dquat>& al
         const auto j = static_cast<std::size_t>(ankle);
         if (body.driver(ankle) < 0) continue;
         const auto bone = findBone(body, ankle);
-        if (!bone || !(glm::length(bone->motion) > 0.0)) continue;
-        _feet.push_back({ankle, glm::conjugate(alignment[j]) * glm::normalize(bone->motion)});
+        if (!bone) continue;
+        const glm::dvec3 foot = alongSoles(body, ankle, *bone).motion;
+        if (!(glm::length(foot) > 0.0)) continue;
+        _feet.push_back({ankle, glm::conjugate(alignment[j]) * glm::normalize(foot)});
     }
 }
 

@@ -67,7 +67,11 @@ constexpr double kOnFloor = 0.25; ///< of a body on the floor
 } // namespace
 
 bool Stance::stands() const {
-    return knees <= kMaxKnees && spread <= kMaxSpread && lean <= kMaxLean && tilt <= kMaxTilt;
+    return standsLeaning() && lean <= kMaxLean;
+}
+
+bool Stance::standsLeaning() const {
+    return knees <= kMaxKnees && spread <= kMaxSpread && lean <= 90.0 && tilt <= kMaxTilt;
 }
 
 double Stance::untidiness() const {
@@ -107,8 +111,9 @@ std::optional<Stance> StanceJoints::measure(const std::vector<glm::dvec3>& posit
 
     const glm::dvec3 top = _top >= 0 ? at(_top) : 0.5 * (at(_arms[0].upper) + at(_arms[1].upper));
     const glm::dvec3 across = at(_legs[0].upper) - at(_legs[1].upper);
-    if (!(glm::length(top - result.hips) > 0.0 && glm::length(across) > 0.0)) return std::nullopt;
-    result.lean = degreesBetween(top - result.hips, result.up);
+    result.trunk = top - result.hips;
+    if (!(glm::length(result.trunk) > 0.0 && glm::length(across) > 0.0)) return std::nullopt;
+    result.lean = degreesBetween(result.trunk, result.up);
     result.tilt = std::abs(90.0 - degreesBetween(across, result.up));
 
     double hang[2] = {0.0, 0.0};

@@ -2,10 +2,13 @@
 #ifndef OSGSKINRIG_RETARGET_POSTURE_H
 #define OSGSKINRIG_RETARGET_POSTURE_H
 
+#include "retarget/RetargetTarget.h"
+
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/Motion>
 #include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/Retarget>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -21,6 +24,7 @@ namespace osgSkin {
 /// A body's posture in one pose, whatever the pose's axes.
 struct Stance {
     glm::dvec3 up{0.0};     ///< unit, from the feet to the hips along the legs
+    glm::dvec3 trunk{0.0};  ///< from the hips to the head, neck or shoulders
     glm::dvec3 hips{0.0};   ///< middle of both hip joints
     double leg = 0.0;       ///< length, hip to ankle along the bones
     double lowest = 0.0;    ///< along `up`: the lower ankle
@@ -33,6 +37,9 @@ struct Stance {
 
     /// Whether the body stands: on straight legs, with the trunk over them.
     bool stands() const;
+
+    /// The same, with the trunk leaning by any angle up to a right one.
+    bool standsLeaning() const;
 
     /// Difference from a calibration pose, in which arms are straight and symmetric; 0 for such a
     /// pose.
@@ -54,6 +61,9 @@ public:
 
     /// Whether both legs and a trunk are known.
     bool complete() const { return _complete; }
+
+    /// The joint at the top of the trunk, if complete(): neck or head, else an upper arm.
+    int top() const { return _top >= 0 ? _top : _arms[0].upper; }
 
     /// Nothing where a bone of the legs or the trunk has no length.
     /// \param positions of the skeleton's joints
@@ -86,10 +96,12 @@ private:
     std::size_t _standing = 0, _lying = 0;
 };
 
-/// Relates a motion's skeleton to a rig that is the same skeleton, with the same tree, names and
-/// bones in their joints' own frames (RestJoint::frame), though perhaps at rest in another pose.
+/// Relates a motion's skeleton to a rig that has the same joints: the same tree, names except for a
+/// prefix and, in the joints' own frames (RestJoint::frame), bones of the same directions. The
+/// poses at rest may differ, and then the lengths.
 struct SameSkeleton {
-    double scale; ///< from the motion's unit to the rig's
+    double scale;    ///< from the motion's unit to the rig's
+    bool restsAlike; ///< the motion's zero pose is the rig's rest pose
 
     /// [motion joint] the rotations that take the motion's zero pose to the rig's rest pose.
     std::vector<glm::dquat> toRigRest;
@@ -126,16 +138,14 @@ struct StandingPose {
 
 /// Finds that pose: the zero pose where the actor stands in it, by legs, trunk and hips; else the
 /// rig's rest pose where the skeletons are the same; else the standing sample that is nearest to a
-/// calibration pose.
+/// calibration pose, or a lying one, rotated upright.
 /// \param motion in any zero pose
 /// \param rig at rest
-/// \param motionJoint [rig joint] which joint of the motion drives it, -1 for none
-/// \param rigRoles roles of the rig's joints
-/// \param motionRoles roles of the motion's joints
+/// \param map of their joints
+/// \param stated the axis that is up in the motion's space, if the caller knows it
 /// \throw osgSkin::Error where the actor stands in no sample
-StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
-                              const std::vector<int>& motionJoint, const JointRoles& rigRoles,
-                              const JointRoles& motionRoles);
+StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
+                              RetargetOptions::Up stated);
 
 } // namespace osgSkin
 

@@ -333,7 +333,7 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     rig.validate();
     motion.validate();
     const JointPairs map = mapJoints(rig, motion.skeleton, options);
-    const StandingPose pose = findStandingPose(motion, rig, map.motionJoint, map.rig, map.motion);
+    const StandingPose pose = findStandingPose(motion, rig, map, options.up);
     Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, report)
                             : aligned(pose.counted ? *pose.counted : motion, rig, map, report);
     if (options.shareTwist && !pose.copied) {

@@ -97,6 +97,9 @@ JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
 
 namespace {
 
+/// The largest height of an ankle above the floor, over the length of the shin.
+constexpr double kMaxAnkle = 0.25;
+
 bool hasLength(const glm::dvec3& bone, const SkeletonTree& tree) {
     return glm::length(bone) > 1e-6 * tree.reach();
 }
@@ -143,12 +146,25 @@ std::optional<glm::dvec3> ownBone(const SkeletonTree& tree, const JointRoles& ro
     return result;
 }
 
-/// A foot's bone falls from the ankle to the sole, more or less steeply from one skeleton to the
-/// next, but both soles stand flat: where both feet lie, only their headings are to be aligned.
-BonePair alongFloor(const BonePair& bone) {
-    const auto lies = [](const glm::dvec3& b) { return std::abs(b.y) < 0.8 * glm::length(b); };
-    if (!lies(bone.rig) || !lies(bone.motion)) return bone;
-    return {{bone.rig.x, 0.0, bone.rig.z}, {bone.motion.x, 0.0, bone.motion.z}};
+bool lies(const glm::dvec3& bone) {
+    return std::abs(bone.y) < 0.8 * glm::length(bone);
+}
+
+/// Where an ankle is straight above the ball of the foot or above the end of the file's bone, the
+/// foot's direction is that of the toes; zero if it is unknown. Steep feet that are longer, such as
+/// those of a hanging body, point where their bone does.
+glm::dvec3 alongSole(const SkeletonTree& tree, const JointRoles& roles, int ankle,
+                     const glm::dvec3& bone) {
+    const int parent = tree.joint(ankle).parent;
+    if (lies(bone) || parent < 0 ||
+        glm::length(bone) > kMaxAnkle * glm::distance(tree.centre(ankle), tree.centre(parent)))
+        return bone;
+    for (const int ball : tree.children(ankle)) {
+        const std::optional<glm::dvec3> toes = ownBone(tree, roles, ball);
+        if (toes && lies(*toes)) return *toes;
+    }
+    const glm::dvec3 heading(bone.x, 0.0, bone.z);
+    return glm::length(heading) > 0.3 * glm::length(bone) ? heading : glm::dvec3(0.0);
 }
 
 /// The bone from rig joint `j` to `below` and from the one's driver to the other's.
@@ -190,6 +206,24 @@ std::optional<BonePair> findBone(const RetargetTarget& body, int j) {
     return result;
 }
 
+BonePair alongSoles(const RetargetTarget& body, int j, const BonePair& bone) {
+    return {alongSole(body.rig, body.map.rig, j, bone.rig),
+            alongSole(body.motion, body.map.motion, body.driver(j), bone.motion)};
+}
+
+namespace {
+
+/// A foot's bone falls from the ankle to the sole, more or less steeply from one skeleton to the
+/// next, but both soles stand flat: where both feet lie, only their headings are to be aligned.
+glm::dquat alignFoot(const BonePair& sole) {
+    const glm::dvec3 zero(0.0);
+    if (sole.rig == zero || sole.motion == zero) return {1.0, 0.0, 0.0, 0.0};
+    if (!lies(sole.rig) || !lies(sole.motion)) return shortestRotation(sole.rig, sole.motion);
+    return shortestRotation({sole.rig.x, 0.0, sole.rig.z}, {sole.motion.x, 0.0, sole.motion.z});
+}
+
+} // namespace
+
 std::vector<glm::dquat> alignBones(const RetargetTarget& body) {
     const BodyParts& parts = body.rigParts;
     const glm::dquat identity(1.0, 0.0, 0.0, 0.0);
@@ -200,8 +234,8 @@ std::vector<glm::dquat> alignBones(const RetargetTarget& body) {
         std::optional<BonePair> bone;
         if (body.driver(j) >= 0) bone = findBone(body, j);
         if (bone && std::count(parts.feet.begin(), parts.feet.end(), j) > 0)
-            bone = alongFloor(*bone);
-        if (bone)
+            result[index] = alignFoot(alongSoles(body, j, *bone));
+        else if (bone)
             result[index] = shortestRotation(bone->rig, bone->motion);
         else
             result[index] = result[static_cast<std::size_t>(body.rig.joint(j).parent)];

@@ -60,6 +60,11 @@ struct BonePair {
 /// else to each skeleton's own end. Nothing where either has no length.
 std::optional<BonePair> findBone(const RetargetTarget& body, int j);
 
+/// The directions of rig foot `j` and of its driver: from the ankle to the ball of the foot, or
+/// those of the toes if the ball is straight below the ankle; zero where it is unknown.
+/// \param bone of the foot, see findBone()
+BonePair alongSoles(const RetargetTarget& body, int j, const BonePair& bone);
+
 /// The rotations A that take the rig's rest bones to the motion's zero-pose bones, one per rig
 /// joint.
 ///

@@ -15,7 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace osgSkin {
@@ -53,8 +55,10 @@ Motion rebasedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
     return result;
 }
 
-constexpr std::size_t kFewestBones = 5; ///< that must be equal for two skeletons to be the same
+constexpr std::size_t kFewestBones = 5; ///< that must agree for two skeletons to be the same
 constexpr double kTolerance = 0.02; ///< sum of the bones' differences over the sum of their lengths
+constexpr double kLongBone = 0.2;   ///< over the longest; fingers differ from hand to hand
+const double kSameDirection = std::cos(glm::radians(25.0));
 
 std::size_t at(int joint) {
     return static_cast<std::size_t>(joint);
@@ -67,18 +71,53 @@ glm::dvec3 offset(const RestSkeleton& skeleton, int joint) {
     return glm::conjugate(parent.frame) * (own.centre - parent.centre);
 }
 
+/// The length of the prefix that all joints' names share, as in "mixamorig:Hips".
+std::size_t sharedPrefix(const RestSkeleton& skeleton) {
+    const std::string& first = skeleton.joints.front().name;
+    std::size_t length = first.size();
+    for (const RestJoint& joint : skeleton.joints) {
+        const auto end = first.begin() + static_cast<std::ptrdiff_t>(length);
+        const auto differs =
+            std::mismatch(first.begin(), end, joint.name.begin(), joint.name.end()).first;
+        length = static_cast<std::size_t>(differs - first.begin());
+    }
+    return length;
+}
+
+double longest(const std::vector<glm::dvec3>& bones) {
+    double result = 0.0;
+    for (const glm::dvec3& bone : bones) result = std::max(result, glm::length(bone));
+    return result;
+}
+
+/// Whether bones have the same directions, whatever their lengths. Short ones do not count.
+bool doDirectionsAgree(const std::vector<glm::dvec3>& ours, const std::vector<glm::dvec3>& theirs) {
+    const double ourLongest = longest(ours), theirLongest = longest(theirs);
+    std::size_t agree = 0;
+    for (std::size_t b = 0; b < ours.size(); ++b) {
+        const double a = glm::length(ours[b]), c = glm::length(theirs[b]);
+        if (a < kLongBone * ourLongest || c < kLongBone * theirLongest) continue;
+        if (!(glm::dot(ours[b], theirs[b]) >= kSameDirection * a * c)) return false;
+        ++agree;
+    }
+    return agree >= kFewestBones;
+}
+
 } // namespace
 
 std::optional<SameSkeleton> SameSkeleton::find(const RestSkeleton& rig, const RestSkeleton& motion,
                                                const std::vector<int>& motionJoint) {
-    SameSkeleton result{1.0, std::vector<glm::dquat>(motion.joints.size(), {1.0, 0.0, 0.0, 0.0})};
+    SameSkeleton result{1.0, false,
+                        std::vector<glm::dquat>(motion.joints.size(), {1.0, 0.0, 0.0, 0.0})};
     std::vector<int> rigJoint(motion.joints.size(), -1);
     std::vector<glm::dvec3> ours, theirs;
     double ourLength = 0.0, theirLength = 0.0;
+    const std::size_t ourPrefix = sharedPrefix(rig), theirPrefix = sharedPrefix(motion);
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         const int driver = motionJoint[j];
         if (driver < 0) continue;
-        if (rig.joints[j].name != motion.joints[at(driver)].name) return std::nullopt;
+        const std::string &our = rig.joints[j].name, &their = motion.joints[at(driver)].name;
+        if (our != their && our.substr(ourPrefix) != their.substr(theirPrefix)) return std::nullopt;
         rigJoint[at(driver)] = static_cast<int>(j);
         const int parent = rig.joints[j].parent;
         if (parent < 0 || motionJoint[at(parent)] < 0) continue;
@@ -88,12 +127,9 @@ std::optional<SameSkeleton> SameSkeleton::find(const RestSkeleton& rig, const Re
         ourLength += glm::length(ours.back());
         theirLength += glm::length(theirs.back());
     }
-    if (ours.size() < kFewestBones || !(theirLength > 0.0)) return std::nullopt;
+    if (!(ourLength > 0.0 && theirLength > 0.0) || !doDirectionsAgree(ours, theirs))
+        return std::nullopt;
     result.scale = ourLength / theirLength;
-    double difference = 0.0;
-    for (std::size_t b = 0; b < ours.size(); ++b)
-        difference += glm::distance(ours[b], result.scale * theirs[b]);
-    if (!(difference <= kTolerance * ourLength)) return std::nullopt;
 
     for (std::size_t m = 0; m < motion.joints.size(); ++m) {
         const int j = rigJoint[m], parent = motion.joints[m].parent;
@@ -103,6 +139,13 @@ std::optional<SameSkeleton> SameSkeleton::find(const RestSkeleton& rig, const Re
         else if (parent >= 0)
             result.toRigRest[m] = result.toRigRest[at(parent)];
     }
+    result.restsAlike = std::all_of(result.toRigRest.begin(), result.toRigRest.end(),
+                                    [](const glm::dquat& q) { return std::abs(q.w) > 1.0 - 1e-9; });
+    double difference = 0.0;
+    for (std::size_t b = 0; b < ours.size(); ++b)
+        difference += glm::distance(ours[b], result.scale * theirs[b]);
+    // Bodies that differ at rest, in the same axes, are to be aligned.
+    if (result.restsAlike && !(difference <= kTolerance * ourLength)) return std::nullopt;
     return result;
 }
 
@@ -150,7 +193,7 @@ constexpr std::size_t kMaxSamples = 4000;
 /// Largest untidiness() of a pose that nearly stands, where no sample stands.
 constexpr double kNearlyStands = 5.0;
 
-constexpr int kPlusY = 2; ///< as nearAxis() has it
+constexpr int kPlusY = 2, kPlusZ = 3; ///< as nearAxis() has them
 
 constexpr const char* kNeverAlong =
     "the actor's legs are never along the axis of the motion's zero pose: he lies, or the zero "
@@ -162,20 +205,143 @@ std::vector<glm::dvec3> centresOf(const RestSkeleton& skeleton) {
     return result;
 }
 
+glm::dvec3 alongAxis(int axis) {
+    glm::dvec3 result(0.0);
+    result[std::abs(axis) - 1] = axis > 0 ? 1.0 : -1.0;
+    return result;
+}
+
+/// One sample of a motion.
+struct Sample {
+    std::size_t frame;
+    Stance stance;
+    int axis;             ///< along which the legs are, as nearAxis() has it
+    glm::dvec3 low, high; ///< the box of all joints
+
+    /// Whether the body is straight along an axis: the actor stands, or lies.
+    bool isStraight() const { return axis != 0 && stance.stands(); }
+
+    /// Height of the lowest joint along an axis.
+    double lowest(int up) const { return up > 0 ? low[up - 1] : -high[-up - 1]; }
+
+    /// Whether the feet are on a floor through the origin, if the actor stands.
+    bool hasFeetOnFloor() const {
+        const double height = glm::dot(stance.hips, stance.up) / stance.leg;
+        return height > 0.5 && height < 1.7 && std::abs(stance.lowest) < 0.4 * stance.leg;
+    }
+
+    /// Whether the body lies on the floor through the origin, across an axis.
+    bool liesOnFloor(int up) const {
+        const double height = glm::dot(stance.hips, alongAxis(up)) / stance.leg;
+        return lowest(up) > -0.03 * stance.leg && height > 0.05 && height < 0.4;
+    }
+};
+
 /// The actor's posture over a motion's samples.
 struct Samples {
-    std::map<int, std::size_t> standing; ///< axis -> samples that stand along it
-    std::map<int, std::size_t> grounded; ///< of them, with the feet on a floor through the origin
-    std::map<int, std::size_t> along;    ///< axis -> samples with the legs along it, however bent
+    std::vector<Sample> list; ///< those in which both legs have a direction
     std::size_t all = 0;
 
-    int axis = 0; ///< along which most samples stand; +y where that is known to be up and some do
-    bool isKnown = false; ///< whether +y is known to be up
+    /// The number of samples in which the body is straight along an axis, and `also` holds.
+    template <typename Also>
+    std::size_t straight(int axis, const Also& also) const {
+        return static_cast<std::size_t>(
+            std::count_if(list.begin(), list.end(), [&](const Sample& sample) {
+                return sample.isStraight() && sample.axis == axis && also(sample);
+            }));
+    }
 
-    /// The sample along `axis` that is nearest to a calibration pose, or of all samples where none
-    /// stands.
-    std::size_t best = 0;
-    std::optional<Stance> bestStance;
+    std::size_t straight(int axis) const {
+        return straight(axis, [](const Sample&) { return true; });
+    }
+
+    bool haveLegsAlong(int axis) const {
+        return std::any_of(list.begin(), list.end(), [&](const auto& s) { return s.axis == axis; });
+    }
+
+    /// The axis along which most of the samples are that `counts` accepts; 0 for none.
+    template <typename Counts>
+    int mostAxis(const Counts& counts) const {
+        std::map<int, std::size_t> along;
+        for (const Sample& sample : list)
+            if (sample.axis != 0 && counts(sample)) ++along[sample.axis];
+        int result = 0;
+        std::size_t most = 0;
+        for (const auto& [axis, count] : along)
+            if (count > most) {
+                most = count;
+                result = axis;
+            }
+        return result;
+    }
+
+    /// The axis along which the body is straight in most samples; 0 where it never is.
+    int straightAxis() const {
+        return mostAxis([](const Sample& sample) { return sample.isStraight(); });
+    }
+
+    /// The axis along which the legs are in most samples, however bent; 0 for none.
+    int legsAxis() const {
+        return mostAxis([](const Sample&) { return true; });
+    }
+
+    /// The sample that is nearest to a calibration pose: of those that stand along `up`, or else
+    /// that are straight, or else of all. Null where there is none.
+    /// \param isKnown whether `up` is known for sure, so that a pose across it is none
+    const Sample* best(int up, bool isKnown) const {
+        const bool stand = straight(up) > 0, anyStraight = straightAxis() != 0;
+        const bool alsoLie = std::any_of(list.begin(), list.end(), [&](const Sample& sample) {
+            return sample.isStraight() && sample.axis != up;
+        });
+        const Sample* result = nullptr;
+        double tidiest = 0.0;
+        for (const Sample& sample : list) {
+            if (stand ? !sample.isStraight() || sample.axis != up
+                      : anyStraight && !sample.isStraight())
+                continue;
+            double untidiness = sample.stance.untidiness();
+            if (stand && (isKnown || alsoLie)) {
+                const double cosine = glm::dot(sample.stance.up, alongAxis(up));
+                untidiness += glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+            }
+            if (result != nullptr && untidiness >= tidiest) continue;
+            tidiest = untidiness;
+            result = &sample;
+        }
+        return result;
+    }
+
+    /// How much the height of the lowest joint changes, in leg lengths: little along the axis that
+    /// is up, unless the actor jumps or climbs.
+    double floorRange(int up) const {
+        std::vector<double> heights;
+        for (const Sample& sample : list) heights.push_back(sample.lowest(up) / sample.stance.leg);
+        std::sort(heights.begin(), heights.end());
+        return heights[heights.size() - 1 - heights.size() / 20] - heights[heights.size() / 20];
+    }
+
+    /// Whether the actor moves over a floor across `axis`, and over none across `other`.
+    bool moveOverFloor(int axis, int other) const {
+        return floorRange(axis) < 0.2 && floorRange(other) > 0.5;
+    }
+
+    /// Whether an axis along which the body is straight is up: the actor has the feet on the floor,
+    /// or moves over it. Otherwise he may lie.
+    bool standOnFloor(int axis) const {
+        const std::size_t onFeet =
+            straight(axis, [](const Sample& sample) { return sample.hasFeetOnFloor(); });
+        if (onFeet > 0 && 10 * onFeet >= 8 * straight(axis) && !lieOnFloor(axis, kPlusY))
+            return true;
+        return axis != kPlusY && moveOverFloor(axis, kPlusY);
+    }
+
+    /// Whether the body is on the floor across `up` in most samples in which it is straight along
+    /// `axis`.
+    bool lieOnFloor(int axis, int up) const {
+        const std::size_t lying =
+            straight(axis, [&](const Sample& sample) { return sample.liesOnFloor(up); });
+        return axis != up && lying > 0 && 2 * lying >= straight(axis);
+    }
 };
 
 class Sampler {
@@ -185,63 +351,71 @@ public:
     Samples look() {
         Samples result;
         const std::size_t step = std::max<std::size_t>(1, _motion.frames / kMaxSamples);
-        std::vector<std::pair<std::size_t, Stance>> stances;
         for (std::size_t f = 0; f < _motion.frames; f += step) {
-            const auto stance = measure(f);
             ++result.all;
+            pose(f);
+            const auto stance = _joints.measure(_positions);
             if (!stance) continue;
-            stances.emplace_back(f, *stance);
-            const int axis = nearAxis(stance->up);
-            if (axis != 0) ++result.along[axis];
-            if (!stance->stands() || axis == 0) continue;
-            ++result.standing[axis];
-            const double height = glm::dot(stance->hips, stance->up) / stance->leg;
-            if (height > 0.5 && height < 1.7 && std::abs(stance->lowest) < 0.4 * stance->leg)
-                ++result.grounded[axis];
-        }
-        std::size_t most = 0;
-        for (const auto& [axis, count] : result.standing)
-            if (count > most) {
-                most = count;
-                result.axis = axis;
+            Sample sample{f, *stance, nearAxis(stance->up), _positions[0], _positions[0]};
+            for (const glm::dvec3& position : _positions) {
+                sample.low = glm::min(sample.low, position);
+                sample.high = glm::max(sample.high, position);
             }
-        result.isKnown = _motion.yIsUp && result.standing.count(kPlusY) > 0;
-        if (result.isKnown) result.axis = kPlusY;
-        double tidiest = 0.0;
-        for (const auto& [f, stance] : stances) {
-            const bool stands = stance.stands() && nearAxis(stance.up) == result.axis;
-            if (result.axis != 0 && !stands) continue;
-            double untidiness = stance.untidiness();
-            if (result.isKnown)
-                untidiness += glm::degrees(std::acos(std::clamp(stance.up.y, -1.0, 1.0)));
-            if (result.bestStance && untidiness >= tidiest) continue;
-            tidiest = untidiness;
-            result.best = f;
-            result.bestStance = stance;
+            result.list.push_back(sample);
         }
         return result;
     }
 
-    /// The motion relative to a sample, with the hips above the origin.
-    Motion from(std::size_t frame, const Stance& stance) {
-        measure(frame);
-        const glm::dvec3 hips = stance.hips - glm::dot(stance.hips, up(stance)) * up(stance);
-        return rebasedFrom(_motion, _world, _motion.rootPositions[frame] - hips);
+    /// The motion relative to a sample, which is rotated upright if the actor lies in it.
+    /// \param up axis, 0 if unknown
+    Motion fromSample(const Sample& sample, int up) {
+        pose(sample.frame);
+        return from(sample.stance, sample.axis == 0 ? 0 : up, _motion.rootPositions[sample.frame]);
+    }
+
+    /// The motion relative to its zero pose, rotated upright, with the trunk over the legs.
+    /// \param zero its stance
+    /// \param roles of the motion's joints
+    /// \param up axis, 0 if unknown
+    Motion fromZero(const Stance& zero, const JointRoles& roles, int up) {
+        const RestSkeleton& skeleton = _motion.skeleton;
+        const int legs[] = {roles.joints.at("LeftUpperLeg").front(),
+                            roles.joints.at("RightUpperLeg").front()};
+        const auto isOfLegs = [&](int j) {
+            return std::any_of(std::begin(legs), std::end(legs), [&](int leg) {
+                return skeleton.isInSubtree(j, leg) || skeleton.isInSubtree(leg, j);
+            });
+        };
+        int waist = _joints.top(); // where the trunk begins to lean
+        while (waist > 0 && !isOfLegs(skeleton.joints[at(waist)].parent))
+            waist = skeleton.joints[at(waist)].parent;
+        glm::dvec3 trunk = zero.hips + zero.trunk - skeleton.joints[at(waist)].centre;
+        if (!(glm::length(trunk) > 0.0)) trunk = zero.trunk;
+        const glm::dquat unbent = shortestRotation(trunk, zero.up);
+        _world.clear();
+        for (int j = 0; j < static_cast<int>(skeleton.joints.size()); ++j)
+            _world.push_back(isOfLegs(j) ? glm::dquat(1.0, 0.0, 0.0, 0.0) : unbent);
+        return from(zero, up, skeleton.joints[0].centre);
     }
 
 private:
-    static glm::dvec3 up(const Stance& stance) {
-        const int axis = nearAxis(stance.up);
-        if (axis == 0) return stance.up;
-        glm::dvec3 result(0.0);
-        result[std::abs(axis) - 1] = axis > 0 ? 1.0 : -1.0;
-        return result;
+    /// The motion relative to the pose in `_world`, with the hips above the origin.
+    Motion from(const Stance& stance, int up, glm::dvec3 root) {
+        const int own = nearAxis(stance.up);
+        glm::dvec3 axis = own == 0 ? stance.up : alongAxis(own), hips = stance.hips;
+        if (up != 0 && up != own) {
+            const glm::dquat turn = shortestRotation(axis, alongAxis(up));
+            for (glm::dquat& q : _world) q = glm::normalize(turn * q);
+            axis = alongAxis(up);
+            hips = turn * hips;
+            root = turn * root;
+        }
+        return rebasedFrom(_motion, _world, root - (hips - glm::dot(hips, axis) * axis));
     }
 
-    std::optional<Stance> measure(std::size_t frame) {
+    void pose(std::size_t frame) {
         worldRotations(_motion.skeleton, &_motion.rotation(frame, 0), _world);
         worldPositions(_motion.skeleton, _world, _motion.rootPositions[frame], _positions);
-        return _joints.measure(_positions);
     }
 
     const Motion& _motion;
@@ -272,60 +446,84 @@ std::string faults(const std::optional<Stance>& stance) {
            " apart, trunk leaning by " + whole(stance->lean) + " degrees";
 }
 
+/// The axis that is up in the motion's space, as nearAxis() has it; 0 if it is unknown.
+///
+/// The caller's word goes first, then the file's, unless the actor stands on a floor across another
+/// axis. A lying actor is straight along an axis, too: without such a floor, the zero pose's legs
+/// tell, if they are straight and he does not lie on the floor y = 0, or +y is up if he ever stands
+/// along it.
+int upOf(const Motion& motion, RetargetOptions::Up stated, const std::optional<Stance>& zero,
+         const Samples& samples) {
+    if (stated != RetargetOptions::Up::Unknown)
+        return stated == RetargetOptions::Up::Y ? kPlusY : kPlusZ;
+    const int straight = samples.straightAxis();
+    const int most = straight != 0 ? straight : samples.legsAxis();
+    const bool stands = most != 0 && samples.standOnFloor(most);
+    if (motion.yIsUp) return samples.straight(kPlusY) == 0 && stands ? most : kPlusY;
+    const int own = zero && zero->standsLeaning() ? nearAxis(zero->up) : 0;
+    if (own != 0) {
+        if (straight == 0) return own;
+        if (straight == own || 10 * samples.straight(own) > samples.straight(straight))
+            return !samples.standOnFloor(own) && samples.lieOnFloor(own, kPlusY) ? kPlusY : own;
+        if (stands) return straight;
+        return straight == kPlusY && !samples.lieOnFloor(kPlusY, own) ? kPlusY : own;
+    }
+    if (zero && zero->stands()) return 0;
+    if (stands || most == 0) return most;
+    const bool isOnY = 10 * samples.straight(kPlusY) > samples.straight(most) ||
+                       samples.lieOnFloor(most, kPlusY) || samples.moveOverFloor(kPlusY, most);
+    return isOnY ? kPlusY : most;
+}
+
 /// Where the skeletons are the same, the motion's rotations are made relative to the rig's rest
 /// pose.
-void countFromRig(const Motion& motion, const RestSkeleton& rig, const SameSkeleton& same,
-                  const std::optional<Stance>& rest, const std::optional<Stance>& zero,
-                  const Samples& samples, StandingPose& result) {
-    const bool alike = std::all_of(same.toRigRest.begin(), same.toRigRest.end(),
-                                   [](const glm::dquat& q) { return std::abs(q.w) > 1.0 - 1e-9; });
+void countFromRig(const Motion& motion, const RestSkeleton& rig,
+                  const std::vector<int>& motionJoint, const SameSkeleton& same,
+                  const std::optional<Stance>& rest, const std::optional<Stance>& zero, int up,
+                  StandingPose& result) {
     if (!rest || !rest->stands()) {
         result.copied = same;
-        result.notes.emplace_back("the rig is the motion's own skeleton and rests in no standing "
-                                  "pose: local rotations are copied");
+        result.notes.emplace_back("the rig has the motion's joints and rests in no standing pose: "
+                                  "local rotations are copied");
         return;
     }
-    if (alike) return; // the zero pose is the rig's rest pose
+    if (same.restsAlike) return; // the zero pose is the rig's rest pose
     // Both files' spaces may have different axes up.
     glm::dquat turn(1.0, 0.0, 0.0, 0.0);
-    int axis = zero && zero->stands() ? nearAxis(zero->up) : samples.axis;
-    if (motion.yIsUp && (samples.isKnown || axis == 0)) axis = kPlusY;
     const int rigAxis = nearAxis(rest->up);
-    if (axis != 0 && rigAxis != 0 && axis != rigAxis) {
-        glm::dvec3 from(0.0), to(0.0);
-        from[std::abs(rigAxis) - 1] = rigAxis > 0 ? 1.0 : -1.0;
-        to[std::abs(axis) - 1] = axis > 0 ? 1.0 : -1.0;
-        turn = shortestRotation(from, to);
-    }
+    const bool standAlike = zero && zero->stands() && nearAxis(zero->up) == rigAxis;
+    if (up != 0 && rigAxis != 0 && up != rigAxis && !standAlike)
+        turn = shortestRotation(alongAxis(rigAxis), alongAxis(up));
     std::vector<glm::dquat> world = same.toRigRest;
     for (glm::dquat& q : world) q = glm::normalize(turn * q);
-    int root = 0; // the rig's joint that the motion's root drives, or else its own root
+    std::size_t root = 0; // the rig's joint that the motion's root drives, or else its own root
     for (std::size_t j = 0; j < rig.joints.size(); ++j)
-        if (rig.joints[j].name == motion.skeleton.joints[0].name) root = static_cast<int>(j);
-    const glm::dvec3 place = turn * rig.joints[static_cast<std::size_t>(root)].centre / same.scale;
+        if (motionJoint[j] == 0) root = j;
+    const glm::dvec3 place = turn * rig.joints[root].centre / same.scale;
     result.counted = rebasedFrom(motion, world, place);
-    result.notes.emplace_back("the rig is the motion's own skeleton: local rotations are copied");
+    result.notes.emplace_back("the rig has the motion's joints: local rotations are copied");
 }
 
 } // namespace
 
-StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
-                              const std::vector<int>& motionJoint, const JointRoles& rigRoles,
-                              const JointRoles& motionRoles) {
+StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
+                              RetargetOptions::Up stated) {
     StandingPose result;
-    const StanceJoints joints(rolesOf(motionRoles, rigRoles, motionJoint));
-    const StanceJoints rigJoints(rigRoles);
-    const auto same = SameSkeleton::find(rig, motion.skeleton, motionJoint);
+    const JointRoles motionRoles = rolesOf(map.motion, map.rig, map.motionJoint);
+    const StanceJoints joints(motionRoles);
+    const StanceJoints rigJoints(map.rig);
+    const auto same = SameSkeleton::find(rig, motion.skeleton, map.motionJoint);
     if (!joints.complete()) return result; // unknown roles
     const std::optional<Stance> zero = joints.measure(centresOf(motion.skeleton));
     const bool zeroStands = zero && zero->stands();
     Sampler sampler(motion, joints);
     const Samples samples = sampler.look();
+    const int up = upOf(motion, stated, zero, samples);
 
     if (rigJoints.complete()) {
         const std::optional<Stance> rest = rigJoints.measure(centresOf(rig));
         if (same) {
-            countFromRig(motion, rig, *same, rest, zero, samples, result);
+            countFromRig(motion, rig, map.motionJoint, *same, rest, zero, up, result);
             return result;
         }
         if (!rest || !rest->stands())
@@ -333,40 +531,38 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig,
                                    "): its trunk and feet may point elsewhere than the actor's");
     }
 
-    if (zeroStands) {
-        const int own = nearAxis(zero->up);
-        if (samples.axis == 0 && own != 0 && !samples.along.empty() &&
-            samples.along.count(own) == 0)
-            result.notes.emplace_back(kNeverAlong);
-        if (samples.axis == 0 || own == 0 || samples.axis == own) return result;
-        const auto countOf = [](const std::map<int, std::size_t>& counts, int axis) {
-            const auto found = counts.find(axis);
-            return found == counts.end() ? std::size_t(0) : found->second;
-        };
-        // A lying actor also looks upright about another axis: accept an axis only if the feet are
-        // on the floor, or if it is +y, which files usually have as up.
-        const std::size_t across = countOf(samples.standing, samples.axis);
-        const bool isUp = samples.isKnown || samples.axis == kPlusY ||
-                          10 * countOf(samples.grounded, samples.axis) >= 8 * across;
-        const bool staysLying = !samples.isKnown && 10 * countOf(samples.standing, own) > across;
-        if (!isUp || staysLying) {
-            if (countOf(samples.standing, own) == 0) result.notes.emplace_back(kNeverAlong);
-            return result;
-        }
+    if (zeroStands && (up == 0 || up == nearAxis(zero->up))) {
+        const bool isAlong =
+            samples.straightAxis() != 0 ? samples.straight(up) > 0 : samples.haveLegsAlong(up);
+        if (up != 0 && samples.legsAxis() != 0 && !isAlong) result.notes.emplace_back(kNeverAlong);
+        return result;
     }
     const std::string why = zeroStands
                                 ? "the motion's zero pose lies"
                                 : "the motion's zero pose does not stand (" + faults(zero) + ")";
-    if (!samples.bestStance ||
-        (samples.axis == 0 && samples.bestStance->untidiness() > kNearlyStands))
+    const bool isKnown = motion.yIsUp || stated != RetargetOptions::Up::Unknown;
+    const Sample* best = samples.best(up, isKnown);
+    const bool isStraight = best != nullptr && best->isStraight();
+    if (!isStraight && zero && zero->standsLeaning()) {
+        result.counted = sampler.fromZero(*zero, motionRoles, up);
+        result.notes.push_back(why + ", nor does any sample: its rotations are counted from that "
+                                     "pose, straightened");
+        return result;
+    }
+    const bool nearlyStands = best != nullptr && (best->axis != 0 || best->stance.stands()) &&
+                              best->stance.untidiness() <= kNearlyStands;
+    if (!isStraight && !nearlyStands)
         throw Error("retarget: " + why + ", nor does any of its " + std::to_string(samples.all) +
-                    " samples (the best has " + faults(samples.bestStance) +
+                    " samples (the best has " +
+                    faults(best == nullptr ? std::nullopt : std::optional(best->stance)) +
                     "); expected one with straight legs and trunk, such as a T-pose, to tell "
                     "what its rotations mean");
-    result.counted = sampler.from(samples.best, *samples.bestStance);
-    result.notes.push_back(
-        why + ": its rotations are counted from sample " + std::to_string(samples.best) +
-        (samples.axis == 0 ? ", which nearly does" : ", in which the actor does"));
+    result.counted = sampler.fromSample(*best, up);
+    const char* how = !isStraight                   ? ", which nearly does"
+                      : up != 0 && best->axis != up ? ", in which the actor lies"
+                                                    : ", in which the actor does";
+    result.notes.push_back(why + ": its rotations are counted from sample " +
+                           std::to_string(best->frame) + how);
     return result;
 }
 
