@@ -91,6 +91,16 @@ std::vector<int> ranksOf(const GltfDocument& document) {
     return ranks;
 }
 
+/// Names the nodes of a VRM animation after the human bones that it says they are.
+void nameHumanBones(GltfDocument& document) {
+    static const json::json_pointer bones("/extensions/VRMC_vrm_animation/humanoid/humanBones");
+    if (!document.file.json.contains(bones)) return;
+    for (const auto& [name, bone] : document.file.json.at(bones).items()) {
+        const auto node = bone.at("node").get<std::size_t>();
+        if (node < document.nodes.size()) document.nodes[node].name = name;
+    }
+}
+
 /// Makes node names unique: glTF refers to nodes by index, so several may share a name. Joints keep
 /// their names before other nodes; duplicates get a counter, such as "Torso.001".
 /// \return a name that no node has, for a common root of several roots
@@ -164,7 +174,7 @@ std::vector<int> addNodes(const GltfDocument& document, const std::string& rootN
 
 bool isGltfName(const std::string& path) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    return extension == "gltf" || extension == "glb" || extension == "vrm";
+    return extension == "gltf" || extension == "glb" || extension == "vrm" || extension == "vrma";
 }
 
 SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
@@ -173,6 +183,7 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
         noteExtensions(file);
         unpackMeshopt(file);
         GltfDocument document(file);
+        nameHumanBones(document);
         const std::string rootName = nameNodes(document);
         SourceScene scene;
         const std::vector<int> indexOf = addNodes(document, rootName, scene);
