@@ -170,6 +170,24 @@ std::vector<int> addNodes(const GltfDocument& document, const std::string& rootN
     return indexOf;
 }
 
+/// The names of the nodes that are joints of a skin, or bones of a VRM's human.
+std::set<std::string> namedJoints(const GltfDocument& document) {
+    std::set<std::string> result;
+    for (const GltfSkin& skin : document.skins)
+        for (const std::size_t joint : skin.joints) result.insert(document.nodes[joint].name);
+    for (const std::string extension : {"VRM", "VRMC_vrm"}) {
+        const json::json_pointer bones("/extensions/" + extension + "/humanoid/humanBones");
+        if (!document.file.json.contains(bones)) continue;
+        for (const json& bone : document.file.json.at(bones)) {
+            const auto node = bone.find("node");
+            if (node == bone.end() || !node->is_number_unsigned()) continue;
+            if (const auto n = node->get<std::size_t>(); n < document.nodes.size())
+                result.insert(document.nodes[n].name);
+        }
+    }
+    return result;
+}
+
 } // namespace
 
 bool isGltfName(const std::string& path) {
@@ -189,6 +207,7 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
         const std::vector<int> indexOf = addNodes(document, rootName, scene);
         addMeshes(document, shownMeshes(document), indexOf, scene);
         addAnimations(document, indexOf, scene);
+        scene.joints = namedJoints(document);
         scene.toWorld = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
         if (facesBackwards(file))
             scene.toWorld = osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 1, 0)) * scene.toWorld;
