@@ -264,6 +264,17 @@ TEST(BvhDialect, FramesThatTakeSecondsAreToldOf) {
     }
 }
 
+/// QAvimator, an editor for Second Life, appends the numbers of its key frames.
+TEST(BvhDialect, LinesAfterTheFramesAreSkipped) {
+    const TemporaryBvh file(plainText() + "2 0 1\n8 0 1 29 59 60\n");
+    const test::Notices notices;
+    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    EXPECT_EQ(motion.frames, 2u);
+    EXPECT_EQ(motion.rootPositions[1], glm::dvec3(1, 11, 2));
+    EXPECT_TRUE(notices.say("line 20: 2 line(s) beyond the declared 2 frames, skipped"))
+        << notices.text();
+}
+
 TEST(BvhDialect, PositionsMayComeInAnyOrder) {
     const TemporaryBvh file(
         replaced(plainText(), "Xposition Yposition Zposition", "Zposition Xposition Yposition"));

@@ -264,6 +264,17 @@ Motion sampled(const std::vector<double>& times, const std::vector<double>& degr
     return importMotion(column.save(file));
 }
 
+TEST(VrmAnimation, JointsAreTheHumanBonesOfTheFile) {
+    GltfColumn column;
+    column.bend();
+    column.json["extensions"]["VRMC_vrm_animation"]["humanoid"]["humanBones"] = {
+        {"hips", {{"node", column.joints[0]}}}, {"leftUpperLeg", {{"node", column.joints[1]}}}};
+    const Motion motion = importMotion(column.save("column.vrma"));
+    EXPECT_EQ(motion.skeleton.joints[0].name, "hips");
+    EXPECT_EQ(motion.skeleton.joints[1].name, "leftUpperLeg");
+    EXPECT_EQ(motion.skeleton.joints[2].name, "top");
+}
+
 std::size_t nearestSample(const Motion& motion, double seconds) {
     return std::size_t(std::lround(seconds / motion.frameTime));
 }

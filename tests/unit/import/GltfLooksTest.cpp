@@ -250,6 +250,22 @@ TEST(GltfLooks, TexturesOfExtensionsAreReadOrMissed) {
     }
 }
 
+TEST(GltfLooks, FormatsThatAreNotReadAreNamed) {
+    // "RIFF....WEBP" and the first bytes of KTX 2, in base 64
+    for (const auto& [bytes, format] : {std::pair("UklGRgAAAABXRUJQ", "webp"),
+                                        std::pair("q0tUWCAyMLsNChoK", "ktx2")}) {
+        GltfColumn column;
+        addTexture(column);
+        column.json["images"][0] = {
+            {"uri", std::string("data:application/octet-stream;base64,") + bytes}};
+        paint(column, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+        const test::Notices notices;
+        osgSkin::importMesh(column.save("formats.gltf"));
+        EXPECT_TRUE(notices.say("in the format \"" + std::string(format) + "\", expected PNG"))
+            << notices.text();
+    }
+}
+
 TEST(GltfLooks, ExtensionsThatMoveThingsAreMissed) {
     for (const bool isRequired : {false, true}) {
         GltfColumn column;

@@ -291,7 +291,7 @@ std::vector<std::filesystem::path> allModels() {
 
 /// Whether a file has a format for trusted files only: Assimp leaks memory on errors.
 bool isForTrustedOnly(const std::filesystem::path& file) {
-    const std::string ours[] = {".obj", ".ply", ".bvh", ".gltf", ".glb", ".vrm"};
+    const std::string ours[] = {".obj", ".ply", ".bvh", ".gltf", ".glb", ".vrm", ".vrma"};
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace osgSkin;
@@ -133,6 +134,30 @@ TEST(JointRoles, HipsOfEveryFamilyAreNotAligned) {
 
 TEST(JointRoles, ARokokoBodyMovesLikeTheSameBody) {
     expectAlike(test::knownNames("Rokoko"), {});
+}
+
+/// Some authors name left and right as they see them from the front.
+TEST(JointRoles, TheToesTellLeftFromRight) {
+    JointNames seen = test::knownNames("Rokoko");
+    for (auto& [role, names] : seen.roles)
+        if (role.rfind("Left", 0) == 0) std::swap(names, seen.roles.at("Right" + role.substr(4)));
+    expectAlike(seen, {});
+}
+
+/// Skeletons that name joints alike mean the same sides, though the toes of one point backwards.
+TEST(JointRoles, EqualNamesAreOnOneSide) {
+    const Motion motion = osgSkin::importMotion(OSGSKIN_DATA "/throw.bvh");
+    RestSkeleton body = motion.skeleton;
+    const auto place = [&](const char* name) -> glm::dvec3& {
+        return body.joints.at(std::size_t(body.find(name))).centre;
+    };
+    for (const auto& [foot, toe] : {std::pair("LeftFoot", "LeftToeBase"),
+                                    std::pair("RightFoot", "RightToeBase")})
+        place(toe).z = 2.0 * place(foot).z - place(toe).z;
+    RetargetReport report;
+    osgSkin::retarget(motion, body, {}, &report);
+    for (const RetargetReport::Entry& entry : report.entries)
+        EXPECT_EQ(entry.motionJoint, entry.rigJoint);
 }
 
 /// Assimp's exporters write the pivots of an FBX joint as joints.

@@ -278,6 +278,36 @@ TEST(ImportRig, DoesNotAskAssimpForRigsInMeshes) {
     expectError([&] { osgSkin::importMotion(file); }, "no animation");
 }
 
+/// Figures made of boxes have a mesh for each part, which hangs on the node that moves it.
+TEST(ImportRig, RigidPartsFollowTheNodesThatCarryThem) {
+    test::GltfColumn column;
+    column.json.erase("skins");
+    column.json["nodes"][column.meshNode].erase("skin");
+    column.attributes().erase("JOINTS_0");
+    column.attributes().erase("WEIGHTS_0");
+    const std::size_t part = column.node({{"mesh", 0}, {"translation", {0, 2, 0}}});
+    column.json["nodes"][column.joints[1]]["children"] = {column.joints[2], part};
+    column.json["scenes"][0]["nodes"] = {column.joints[0]};
+    const auto check = [&](const std::string& file, std::size_t clips) {
+        const ImportedRig rig = osgSkin::importRig(column.save(file));
+        EXPECT_EQ(rig.animations.size(), clips);
+        ASSERT_EQ(rig.body.weights.size(), 1u);
+        EXPECT_EQ(rig.body.weights[0].bone, "middle");
+        EXPECT_EQ(rig.body.weights[0].entries.size(), rig.body.mesh.positions.size());
+        EXPECT_NEAR(rig.body.mesh.positions[0].y, 1.0 + 2.0 + column.places[1], 1e-6);
+    };
+    expectError([&] { osgSkin::importRig(column.save("still_parts.gltf")); }, "no mesh with bones");
+    column.bend();
+    check("moved_parts.gltf", 1);
+    column.json.erase("animations");
+    column.json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"] = {
+        {"chest", {{"node", column.joints[1]}}}};
+    check("human_parts.vrm", 0);
+    column.json["extensions"] = {
+        {"VRM", {{"humanoid", {{"humanBones", {{{"bone", "chest"}, {"node", 1}}}}}}}}};
+    check("human_parts0.vrm", 0);
+}
+
 TEST(ImportRig, RefusesWhatIsNotRigged) {
     expectError([] { osgSkin::importRig(testData("rig/unskinned.gltf")); }, "no mesh with bones");
     expectError([] { osgSkin::importRig(testData("mesh/quads.obj")); }, "no mesh with bones");

@@ -365,20 +365,20 @@ void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::
                const BvhFile& file) {
     // A frame may be wrapped over several lines; then only the total must match.
     if (file.values.size() == file.frames * file.channels && rows.size() != file.frames) return;
-    for (const Row& row : rows)
-        if (row.values != file.channels)
-            failLine(path, row.line,
-                     "a frame of " + std::to_string(row.values) + " values, expected " +
+    for (std::size_t r = 0; r < std::min(rows.size(), file.frames); ++r)
+        if (rows[r].values != file.channels)
+            failLine(path, rows[r].line,
+                     "a frame of " + std::to_string(rows[r].values) + " values, expected " +
                          std::to_string(file.channels) + ", one for each channel");
     if (rows.size() < file.frames)
         words.fail("the motion ends after " + std::to_string(rows.size()) +
                    " frame(s), expected the declared " + std::to_string(file.frames));
-    // Some recorders count frames from 0; the declared frames can be read.
+    // Some recorders count frames from 0, and editors append lists of key frames.
     if (rows.size() > file.frames)
         tellOf(path, "line " + std::to_string(rows[file.frames].line) + ": " +
                          std::to_string(rows.size() - file.frames) +
-                         " frame(s) beyond the declared " + std::to_string(file.frames) +
-                         ", skipped");
+                         " line(s) beyond the declared " + std::to_string(file.frames) +
+                         " frames, skipped");
 }
 
 /// Reads the MOTION into `file`, whose joints are known, up to the end of the file: frame time,

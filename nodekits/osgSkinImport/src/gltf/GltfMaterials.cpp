@@ -34,6 +34,8 @@ std::string formatOf(std::string_view bytes, const std::string& mime) {
                                                                      {"\xff\xd8\xff", "jpg"},
                                                                      {"GIF8", "gif"},
                                                                      {"DDS ", "dds"},
+                                                                     {"RIFF", "webp"},
+                                                                     {"\xabKTX 2", "ktx2"},
                                                                      {"BM", "bmp"}};
     for (const auto& [mark, format] : kinds)
         if (bytes.substr(0, mark.size()) == mark) return format;

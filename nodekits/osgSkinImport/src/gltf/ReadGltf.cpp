@@ -91,6 +91,16 @@ std::vector<int> ranksOf(const GltfDocument& document) {
     return ranks;
 }
 
+/// Names the nodes of a VRM animation after the human bones that it says they are.
+void nameHumanBones(GltfDocument& document) {
+    static const json::json_pointer bones("/extensions/VRMC_vrm_animation/humanoid/humanBones");
+    if (!document.file.json.contains(bones)) return;
+    for (const auto& [name, bone] : document.file.json.at(bones).items()) {
+        const auto node = bone.at("node").get<std::size_t>();
+        if (node < document.nodes.size()) document.nodes[node].name = name;
+    }
+}
+
 /// Makes node names unique: glTF refers to nodes by index, so several may share a name. Joints keep
 /// their names before other nodes; duplicates get a counter, such as "Torso.001".
 /// \return a name that no node has, for a common root of several roots
@@ -175,11 +185,29 @@ std::vector<int> addNodes(const GltfDocument& document, const std::vector<std::s
     return indexOf;
 }
 
+/// The names of the nodes that are joints of a skin, or bones of a VRM's human.
+std::set<std::string> namedJoints(const GltfDocument& document) {
+    std::set<std::string> result;
+    for (const GltfSkin& skin : document.skins)
+        for (const std::size_t joint : skin.joints) result.insert(document.nodes[joint].name);
+    for (const std::string extension : {"VRM", "VRMC_vrm"}) {
+        const json::json_pointer bones("/extensions/" + extension + "/humanoid/humanBones");
+        if (!document.file.json.contains(bones)) continue;
+        for (const json& bone : document.file.json.at(bones)) {
+            const auto node = bone.find("node");
+            if (node == bone.end() || !node->is_number_unsigned()) continue;
+            if (const auto n = node->get<std::size_t>(); n < document.nodes.size())
+                result.insert(document.nodes[n].name);
+        }
+    }
+    return result;
+}
+
 } // namespace
 
 bool isGltfName(const std::string& path) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    return extension == "gltf" || extension == "glb" || extension == "vrm";
+    return extension == "gltf" || extension == "glb" || extension == "vrm" || extension == "vrma";
 }
 
 SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
@@ -188,6 +216,7 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
         noteExtensions(file);
         unpackMeshopt(file);
         GltfDocument document(file);
+        nameHumanBones(document);
         const std::string rootName = nameNodes(document);
         SourceScene scene;
         const std::vector<std::size_t> shown = shownMeshes(document);
@@ -195,6 +224,7 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
             addNodes(document, rootsWithJoints(document, shown), rootName, scene);
         addMeshes(document, shown, indexOf, scene);
         addAnimations(document, indexOf, scene);
+        scene.joints = namedJoints(document);
         scene.toWorld = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
         if (facesBackwards(file))
             scene.toWorld = osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 1, 0)) * scene.toWorld;

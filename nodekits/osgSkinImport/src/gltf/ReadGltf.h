@@ -10,7 +10,7 @@
 
 namespace osgSkin {
 
-/// Whether a file name has a glTF extension: .gltf, .glb or .vrm.
+/// Whether a file name has a glTF extension: .gltf, .glb, .vrm or .vrma.
 bool isGltfName(const std::string& path);
 
 /// Reads a glTF file; see isGltfName().

@@ -40,7 +40,7 @@ bool isTurned(const osgDB::Options* options) {
 /// Whether this library has a reader for the file's extension. OSG's readers of these formats trust
 /// their input, and are never used.
 bool isOurFormat(const std::string& path) {
-    static const char* const ours[] = {"bvh", "glb", "gltf", "obj", "off", "ply", "vrm"};
+    static const char* const ours[] = {"bvh", "glb", "gltf", "obj", "off", "ply", "vrm", "vrma"};
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     return std::find(std::begin(ours), std::end(ours), extension) != std::end(ours);
 }

@@ -4,6 +4,7 @@
 #include "names/NameReading.h"
 #include "names/NameWords.h"
 #include "names/RoleTree.h"
+#include "names/Sides.h"
 
 #include <osgSkinRig/RestSkeleton>
 
@@ -322,6 +323,7 @@ JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<Joint
         if (result.known()) {
             inferMissingRoles(skeleton, result.roles);
             result = madeOf(result.roles, result.family);
+            if (areSidesExchanged(skeleton, result)) exchangeSides(result);
         }
     }
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {

@@ -2,6 +2,7 @@
 #include "retarget/RetargetTarget.h"
 
 #include "names/NameWords.h"
+#include "names/Sides.h"
 #include "skeleton/SkeletonTree.h"
 
 #include <osgSkin/Error>
@@ -71,6 +72,17 @@ int byName(const JointPairs& map, const ByName& motion, const std::string& name,
     return differs ? -1 : found->second;
 }
 
+/// Whether the two skeletons call a joint alike that is on the left of one and on the right of the
+/// other.
+bool isOneNameOnBothSides(const JointPairs& map, const RestSkeleton& rig,
+                          const RestSkeleton& motion) {
+    const auto left = map.rig.joints.find("LeftUpperLeg");
+    const auto right = map.motion.joints.find("RightUpperLeg");
+    return left != map.rig.joints.end() && right != map.motion.joints.end() &&
+           rig.joints[static_cast<std::size_t>(left->second.front())].name ==
+               motion.joints[static_cast<std::size_t>(right->second.front())].name;
+}
+
 } // namespace
 
 JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
@@ -80,6 +92,7 @@ JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
     JointPairs map;
     map.rig = recogniseJoints(rig, options.names);
     map.motion = recogniseJoints(motion, options.names);
+    if (isOneNameOnBothSides(map, rig, motion)) exchangeSides(map.motion);
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         const std::string& name = rig.joints[j].name;
         const auto named = options.joints.find(name);
