@@ -146,7 +146,8 @@ TEST_F(GuardedSkin, UnknownMembersAreToldFromKnownOnes) {
     const test::Notices notices;
     EXPECT_EQ(test::whyRefused(skin(R"("motoins": [], "remark": "none")")), "read");
     EXPECT_TRUE(notices.say("motoins: unknown member ignored; did you mean \"motions\"?"));
-    EXPECT_TRUE(notices.say("remark: unknown member ignored\n")) << notices.text();
+    EXPECT_TRUE(notices.say("remark: unknown member ignored, expected one of \"osgskin\""))
+        << notices.text();
 }
 
 TEST_F(GuardedSkin, WeightsAreAVertexAndANumberEach) {

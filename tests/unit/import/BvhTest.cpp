@@ -271,7 +271,7 @@ TEST(BvhDialect, LinesAfterTheFramesAreSkipped) {
     const osgSkin::Motion motion = osgSkin::importMotion(file.path);
     EXPECT_EQ(motion.frames, 2u);
     EXPECT_EQ(motion.rootPositions[1], glm::dvec3(1, 11, 2));
-    EXPECT_TRUE(notices.say("line 20: 2 line(s) beyond the declared 2 frames, skipped"))
+    EXPECT_TRUE(notices.say("line 21: 2 line(s) beyond the declared 2 frames, skipped"))
         << notices.text();
 }
 

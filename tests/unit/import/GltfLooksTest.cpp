@@ -252,8 +252,8 @@ TEST(GltfLooks, TexturesOfExtensionsAreReadOrMissed) {
 
 TEST(GltfLooks, FormatsThatAreNotReadAreNamed) {
     // "RIFF....WEBP" and the first bytes of KTX 2, in base 64
-    for (const auto& [bytes, format] : {std::pair("UklGRgAAAABXRUJQ", "webp"),
-                                        std::pair("q0tUWCAyMLsNChoK", "ktx2")}) {
+    for (const auto& [bytes, format] :
+         {std::pair("UklGRgAAAABXRUJQ", "webp"), std::pair("q0tUWCAyMLsNChoK", "ktx2")}) {
         GltfColumn column;
         addTexture(column);
         column.json["images"][0] = {

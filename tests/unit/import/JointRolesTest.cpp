@@ -151,8 +151,8 @@ TEST(JointRoles, EqualNamesAreOnOneSide) {
     const auto place = [&](const char* name) -> glm::dvec3& {
         return body.joints.at(std::size_t(body.find(name))).centre;
     };
-    for (const auto& [foot, toe] : {std::pair("LeftFoot", "LeftToeBase"),
-                                    std::pair("RightFoot", "RightToeBase")})
+    for (const auto& [foot, toe] :
+         {std::pair("LeftFoot", "LeftToeBase"), std::pair("RightFoot", "RightToeBase")})
         place(toe).z = 2.0 * place(foot).z - place(toe).z;
     RetargetReport report;
     osgSkin::retarget(motion, body, {}, &report);

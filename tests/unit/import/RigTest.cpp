@@ -288,15 +288,19 @@ TEST(ImportRig, RigidPartsFollowTheNodesThatCarryThem) {
     const std::size_t part = column.node({{"mesh", 0}, {"translation", {0, 2, 0}}});
     column.json["nodes"][column.joints[1]]["children"] = {column.joints[2], part};
     column.json["scenes"][0]["nodes"] = {column.joints[0]};
+    const auto save = [&](const std::string& file) {
+        column.json.erase("buffers"); // of an earlier file
+        return column.save(file);
+    };
     const auto check = [&](const std::string& file, std::size_t clips) {
-        const ImportedRig rig = osgSkin::importRig(column.save(file));
+        const ImportedRig rig = osgSkin::importRig(save(file));
         EXPECT_EQ(rig.animations.size(), clips);
         ASSERT_EQ(rig.body.weights.size(), 1u);
         EXPECT_EQ(rig.body.weights[0].bone, "middle");
         EXPECT_EQ(rig.body.weights[0].entries.size(), rig.body.mesh.positions.size());
         EXPECT_NEAR(rig.body.mesh.positions[0].y, 1.0 + 2.0 + column.places[1], 1e-6);
     };
-    expectError([&] { osgSkin::importRig(column.save("still_parts.gltf")); }, "no mesh with bones");
+    expectError([&] { osgSkin::importRig(save("still_parts.gltf")); }, "no mesh with bones");
     column.bend();
     check("moved_parts.gltf", 1);
     column.json.erase("animations");
@@ -306,6 +310,14 @@ TEST(ImportRig, RigidPartsFollowTheNodesThatCarryThem) {
     column.json["extensions"] = {
         {"VRM", {{"humanoid", {{"humanBones", {{{"bone", "chest"}, {"node", 1}}}}}}}}};
     check("human_parts0.vrm", 0);
+
+    // What no joint carries stands still with the root.
+    const std::size_t stand = column.node({{"mesh", 0}});
+    column.json["scenes"][0]["nodes"] = {column.joints[0], stand};
+    const ImportedRig rig = osgSkin::importRig(save("standing_part.vrm"));
+    ASSERT_EQ(rig.body.weights.size(), 2u);
+    EXPECT_EQ(rig.body.weights[0].entries.size(), rig.body.weights[1].entries.size());
+    EXPECT_EQ(rig.rest.joints[0].name, rig.body.weights[1].bone);
 }
 
 TEST(ImportRig, RefusesWhatIsNotRigged) {

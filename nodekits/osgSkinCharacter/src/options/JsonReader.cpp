@@ -71,7 +71,7 @@ std::string placeOf(const std::string& text, std::size_t byte) {
 
 /// Shortens a quoted name of any length to its beginning and end.
 std::string shortened(const std::string& text) {
-    constexpr std::size_t part = 500;
+    constexpr std::size_t part = 300;
     if (text.size() <= 3 * part) return text;
     return text.substr(0, part) + "..." + text.substr(text.size() - part);
 }

@@ -87,6 +87,7 @@ using TextureKind = std::pair<Material::Map, aiTextureType>;
 constexpr TextureKind kTextureKinds[] = {{Material::Diffuse, aiTextureType_DIFFUSE},
                                          {Material::Diffuse, aiTextureType_BASE_COLOR},
                                          {Material::Normal, aiTextureType_NORMALS},
+                                         {Material::Normal, aiTextureType_NORMAL_CAMERA},
                                          {Material::Occlusion, aiTextureType_AMBIENT_OCCLUSION},
                                          {Material::Occlusion, aiTextureType_LIGHTMAP},
                                          {Material::Emission, aiTextureType_EMISSIVE},
@@ -458,9 +459,9 @@ std::optional<XmlValue> findAttribute(const std::string& xml, std::size_t tag,
     return std::nullopt;
 }
 
-/// Removes Collada's morph controllers, on which Assimp's reader fails, so that their meshes stay as
-/// they rest: a skin of a morph becomes one of the morph's own mesh, and where a morph is shown, its
-/// skin or mesh is.
+/// Removes Collada's morph controllers, on which Assimp's reader fails, so that their meshes stay
+/// as they rest: a skin of a morph becomes one of the morph's own mesh, and where a morph is shown,
+/// its skin or mesh is.
 ///
 /// \param path of the file, for errors
 /// \param xml the file, which is changed

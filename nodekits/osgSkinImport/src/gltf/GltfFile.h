@@ -15,8 +15,8 @@
 
 namespace osgSkin {
 
-/// A glTF 2 file in memory, text or binary (.gltf, .glb, .vrm, .vrma): its JSON, its buffers, and how
-/// much more data it may declare.
+/// A glTF 2 file in memory, text or binary (.gltf, .glb, .vrm, .vrma): its JSON, its buffers, and
+/// how much more data it may declare.
 ///
 /// Members throw osgSkin::Error with the file and the position in it; accessing the JSON throws
 /// nlohmann::json::exception if a member is missing or has another type.

@@ -30,13 +30,9 @@ bool isWord(const std::string& text) {
 /// The file extension for an image's format, from its first bytes, because exporters often write a
 /// wrong MIME type or none. For unknown bytes, from the MIME type; empty if there is no reader.
 std::string formatOf(std::string_view bytes, const std::string& mime) {
-    static const std::pair<std::string_view, const char*> kinds[] = {{"\x89PNG", "png"},
-                                                                     {"\xff\xd8\xff", "jpg"},
-                                                                     {"GIF8", "gif"},
-                                                                     {"DDS ", "dds"},
-                                                                     {"RIFF", "webp"},
-                                                                     {"\xabKTX 2", "ktx2"},
-                                                                     {"BM", "bmp"}};
+    static const std::pair<std::string_view, const char*> kinds[] = {
+        {"\x89PNG", "png"}, {"\xff\xd8\xff", "jpg"}, {"GIF8", "gif"}, {"DDS ", "dds"},
+        {"RIFF", "webp"},   {"\xabKTX 2", "ktx2"},   {"BM", "bmp"}};
     for (const auto& [mark, format] : kinds)
         if (bytes.substr(0, mark.size()) == mark) return format;
     const std::size_t slash = mime.find('/');
@@ -242,12 +238,13 @@ private:
     void readMaps(const json& from, const std::string& where, GltfMaterial& material) {
         Material& look = material.source.look;
         if (const json* bumps = memberOf(from, "normalTexture")) {
-            look.normalScale = static_cast<float>(_file.number(*bumps, "scale", 1.0, where));
+            look.normalScale =
+                static_cast<float>(_file.number(*bumps, "scale", 1.0, where + ".normalTexture"));
             setTexture(*bumps, where, Material::Normal, material);
         }
         if (const json* shade = memberOf(from, "occlusionTexture")) {
-            look.occlusionStrength =
-                static_cast<float>(_file.number(*shade, "strength", 1.0, where));
+            look.occlusionStrength = static_cast<float>(
+                _file.number(*shade, "strength", 1.0, where + ".occlusionTexture"));
             setTexture(*shade, where, Material::Occlusion, material);
         }
         const json* glow = memberOf(from, "emissiveTexture");

@@ -9,9 +9,13 @@
 #include <osgDB/FileNameUtils>
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
+#include <memory>
 #include <numeric>
 #include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -185,9 +189,16 @@ std::vector<int> addNodes(const GltfDocument& document, const std::vector<std::s
     return indexOf;
 }
 
-/// The names of the nodes that are joints of a skin, or bones of a VRM's human.
-std::set<std::string> namedJoints(const GltfDocument& document) {
+// --- figures without a skin, made of rigid parts ---
+
+/// The names of the nodes that are joints of a skin, or bones of a VRM's human, or that a clip
+/// moves.
+std::set<std::string> namedJoints(const GltfDocument& document, const SourceScene& scene) {
     std::set<std::string> result;
+    for (const auto& animation : scene.animations)
+        for (const SourceTrack& track : animation->tracks)
+            if (!track.positions.empty() || !track.rotations.empty() || !track.scales.empty())
+                result.insert(track.node);
     for (const GltfSkin& skin : document.skins)
         for (const std::size_t joint : skin.joints) result.insert(document.nodes[joint].name);
     for (const std::string extension : {"VRM", "VRMC_vrm"}) {
@@ -201,6 +212,54 @@ std::set<std::string> namedJoints(const GltfDocument& document) {
         }
     }
     return result;
+}
+
+/// The nearest node, at or above another, that is a joint; the root where none is.
+const SourceNode& carrierOf(const SourceNode& node, const SourceScene& scene,
+                            const std::set<std::string>& joints) {
+    const SourceNode* result = &node;
+    while (result->parent >= 0 && joints.count(result->name) == 0)
+        result = &scene.nodes[static_cast<std::size_t>(result->parent)];
+    return *result;
+}
+
+/// From a node's own frame to that of a node above it.
+glm::dmat4 pathTo(const SourceNode& above, const SourceNode& node, const SourceScene& scene) {
+    glm::dmat4 result(1.0);
+    for (const SourceNode* at = &node; at != &above;
+         at = &scene.nodes[static_cast<std::size_t>(at->parent)])
+        result = at->matrix * result;
+    return result;
+}
+
+/// A copy of a mesh that follows one joint.
+std::shared_ptr<const SourceMesh> boundTo(const std::string& joint, const glm::dmat4& toJoint,
+                                          const SourceMesh& mesh) {
+    SourceBone bone{joint, toJoint, {}};
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        bone.weights.push_back({static_cast<std::uint32_t>(v), 1.0f});
+    auto result = std::make_shared<SourceMesh>(mesh);
+    result->bones.push_back(std::move(bone));
+    return result;
+}
+
+/// Where no mesh has bones, gives each to the joint that carries it, or else to the root. Figures
+/// of boxes and robots have no skin. Does nothing if no joint carries a mesh.
+void bindRigidParts(const std::set<std::string>& joints, SourceScene& scene) {
+    if (std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                    [](const auto& mesh) { return !mesh->bones.empty(); }))
+        return;
+    const auto isCarried = [&](const SourceNode& node) {
+        return !node.meshes.empty() && joints.count(carrierOf(node, scene, joints).name) != 0;
+    };
+    if (std::none_of(scene.nodes.begin(), scene.nodes.end(), isCarried)) return;
+    for (SourceNode& node : scene.nodes)
+        for (std::size_t& mesh : node.meshes) {
+            const SourceNode& joint = carrierOf(node, scene, joints);
+            scene.meshes.push_back(
+                boundTo(joint.name, pathTo(joint, node, scene), *scene.meshes[mesh]));
+            mesh = scene.meshes.size() - 1;
+        }
 }
 
 } // namespace
@@ -224,7 +283,7 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
             addNodes(document, rootsWithJoints(document, shown), rootName, scene);
         addMeshes(document, shown, indexOf, scene);
         addAnimations(document, indexOf, scene);
-        scene.joints = namedJoints(document);
+        bindRigidParts(namedJoints(document, scene), scene);
         scene.toWorld = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
         if (facesBackwards(file))
             scene.toWorld = osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 1, 0)) * scene.toWorld;

@@ -48,7 +48,6 @@ protected:
 Scene readFile(const std::string& path, const ReadLimits& limits) {
     SourceScene scene = isGltfName(path) ? readGltf(path, limits) : readAssimpScene(path, limits);
     separateNames(scene, path);
-    bindRigidParts(scene);
     addMissingBones(scene, path);
     attachLooseJoints(scene, path, limits);
     return std::make_shared<const SourceScene>(std::move(scene));

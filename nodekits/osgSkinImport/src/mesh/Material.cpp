@@ -126,12 +126,12 @@ void main() {
 #endif
   vec4 place = gl_LightSource[0].position;
   vec3 toLight = place.w == 0.0 ? place.xyz : place.xyz / place.w - osgSkinPosition;
-  float far = length(toLight);
+  float span = length(toLight);
   float reach = place.w == 0.0 ? 1.0
                                : 1.0 / (gl_LightSource[0].constantAttenuation +
-                                        far * (gl_LightSource[0].linearAttenuation +
-                                               far * gl_LightSource[0].quadraticAttenuation));
-  toLight /= far;
+                                        span * (gl_LightSource[0].linearAttenuation +
+                                                span * gl_LightSource[0].quadraticAttenuation));
+  toLight /= span;
   float facing = max(dot(normal, toLight), 0.0);
   float shine = max(dot(normal, normalize(toLight + vec3(0.0, 0.0, 1.0))), 1e-6);
   vec3 direct = facing * diffuse.rgb * gl_LightSource[0].diffuse.rgb;

@@ -119,7 +119,6 @@ struct SourceScene {
     std::vector<SourceMaterial> materials; ///< at least one
     std::vector<std::shared_ptr<const SourceImage>> images;
     std::vector<std::shared_ptr<const SourceAnimation>> animations;
-    std::set<std::string> joints; ///< nodes that the file calls so, beside the meshes' bones
 
     osg::Matrixd toWorld;       ///< rotates up to Z and the front to -Y
     double metresPerUnit = 0.0; ///< 0 if the format does not state it
@@ -157,11 +156,6 @@ void addMissingBones(SourceScene& scene, const std::string& path);
 /// They keep their place, and their motion in each of the scene's animations that moves them or a
 /// node that they hung on. Reports them in one notice. Does nothing for more joints than the limit.
 void attachLooseJoints(SourceScene& scene, const std::string& path, const ReadLimits& limits);
-
-/// Gives each mesh of a scene without any bone to the joint that carries it: the nearest node, at or
-/// above its own, that the file calls a joint or an animation moves. Figures made of boxes or of a
-/// robot's parts have no skin. Meshes that no joint carries stay without bones.
-void bindRigidParts(SourceScene& scene);
 
 /// A matrix without shear, decomposed: matrix = translation * rotation * scale.
 struct NodeTransform {
