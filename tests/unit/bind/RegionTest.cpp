@@ -445,6 +445,20 @@ TEST(Ownership, LastJointsWithoutATipReachToTheEndOfTheSkin) {
         }
 }
 
+/// Many rigs end their chains with joints that nobody paints.
+TEST(Ownership, JointsAboveASkippedEndKeepTheirSkin) {
+    RestSkeleton skeleton = shapes::chainAlongY({1.0, 6.0, 11.0}, 11.5);
+    skeleton.joints.back().tip.reset();
+    BindOptions options;
+    options.joints["joint2"].skip = true;
+    const SkinMesh mesh = shapes::cylinder(12.0);
+    const Binding binding = bind(mesh, skeleton, options);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        if (mesh.positions[v].y > 9.0) {
+            EXPECT_EQ(ratiosOf(binding, v, 1).bend, 1.0f) << v;
+        }
+}
+
 TEST(Ownership, LimbsAsShortAsThickBendAtTheirJointsOnly) {
     // Upper arm and forearm are 1.8 radii long.
     RestSkeleton skeleton = shapes::chainAlongY({0.5, 4.0, 5.8, 7.6}, 10.0);

@@ -74,9 +74,8 @@ public:
         const std::size_t count = joints.size();
         std::vector<bool> isBody(count, false); // not a control, or above such a joint
         for (std::size_t j = count; j-- > 0;) {
-            const bool isLeaf = _skeleton.children(static_cast<int>(j)).empty();
             if (joints[j].helper) continue;
-            if (isLeaf && !isControl(joints, j)) isBody[j] = true;
+            if (isLast(joints, j) && !isControl(joints, j)) isBody[j] = true;
             if (isBody[j] && joints[j].parent >= 0) isBody[indexOf(joints[j].parent)] = true;
         }
         std::vector<std::vector<glm::dvec3>> result(count);
@@ -110,6 +109,14 @@ private:
         return result;
     }
 
+    /// Whether nothing below a joint has a region: it is a leaf, or its children are skipped, such
+    /// as the ends of fingers, which no vertex follows.
+    bool isLast(const std::vector<PlannedJoint>& joints, std::size_t j) const {
+        const std::vector<int> children = _skeleton.children(static_cast<int>(j));
+        return std::all_of(children.begin(), children.end(),
+                           [&](int child) { return joints[indexOf(child)].options.skip; });
+    }
+
     bool isControl(const std::vector<PlannedJoint>& joints, std::size_t j) const {
         const PlannedJoint& joint = joints[j];
         if (joint.options.skip) return true;
@@ -133,16 +140,16 @@ private:
         std::vector<glm::dvec3> bones;
         if (_skeleton.children(static_cast<int>(j)).size() > kMaxBones)
             return joint.inside ? std::vector<glm::dvec3>{joint.centre} : std::vector<glm::dvec3>{};
+        const bool isEnd = isLast(joints, j);
         for (const int child : _skeleton.children(static_cast<int>(j)))
-            if (isBody[indexOf(child)])
+            if (isEnd || isBody[indexOf(child)])
                 append(along(joint.centre, joints[indexOf(child)].centre), bones);
         if (_skeleton.joints[j].tip) append(along(joint.centre, joint.boneEnd), bones);
-        const bool isLast = _skeleton.children(static_cast<int>(j)).empty();
 
         std::vector<glm::dvec3> inside;
         for (const glm::dvec3& point : bones)
             if (isInside(point)) inside.push_back(point);
-        if (isLast) append(beyondLast(joint), inside);
+        if (isEnd) append(beyondLast(joint), inside);
         if (!joint.inside &&
             static_cast<double>(inside.size()) < kInside * static_cast<double>(bones.size()))
             inside.clear();
