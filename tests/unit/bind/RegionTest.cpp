@@ -375,6 +375,55 @@ RestSkeleton handSkeleton() {
     return skeleton;
 }
 
+/// A tube along y with rings of eight vertices at these heights, closed at both ends.
+SkinMesh tube(const glm::dvec3& centre, double radius, const std::vector<double>& heights,
+              bool isInverted = false) {
+    constexpr std::uint32_t kSides = 8;
+    SkinMesh mesh;
+    for (const double y : heights)
+        for (std::uint32_t side = 0; side < kSides; ++side) {
+            const double angle = 0.25 * std::acos(-1.0) * side;
+            mesh.positions.emplace_back(centre.x + radius * std::cos(angle), y,
+                                        centre.z + radius * std::sin(angle));
+        }
+    const auto last = static_cast<std::uint32_t>(mesh.positions.size()) - kSides;
+    const auto face = [&](std::vector<std::uint32_t> corners) {
+        if (isInverted) std::reverse(corners.begin(), corners.end());
+        mesh.faceVertices.insert(mesh.faceVertices.end(), corners.begin(), corners.end());
+        mesh.faceSizes.push_back(static_cast<std::uint32_t>(corners.size()));
+    };
+    std::vector<std::uint32_t> bottom, top;
+    for (std::uint32_t side = 0; side < kSides; ++side) {
+        const std::uint32_t next = (side + 1) % kSides;
+        for (std::uint32_t ring = 0; ring < last; ring += kSides)
+            face({ring + side, ring + kSides + side, ring + kSides + next, ring + next});
+        bottom.push_back(side);
+        top.push_back(last + kSides - 1 - side);
+    }
+    face(bottom);
+    face(top);
+    return mesh;
+}
+
+/// A trunk and two legs that end in it; the root is on the floor.
+RestSkeleton modularSkeleton() {
+    RestSkeleton skeleton;
+    shapes::addJoint(skeleton, "Root", "", {0, 0, 0});
+    shapes::addJoint(skeleton, "Hips", "Root", {0, 10, 0});
+    shapes::addJoint(skeleton, "Spine", "Hips", {0, 11, 0});
+    shapes::addJoint(skeleton, "Neck", "Spine", {0, 15, 0});
+    shapes::addJoint(skeleton, "Head", "Neck", {0, 16, 0});
+    skeleton.joints.back().tip = glm::dvec3(0, 18, 0);
+    for (const double side : {1.0, -1.0}) {
+        const std::string name = side > 0.0 ? "Left" : "Right";
+        shapes::addJoint(skeleton, name + "UpLeg", "Hips", {side, 10.2, 0});
+        shapes::addJoint(skeleton, name + "Leg", name + "UpLeg", {side, 6, 0});
+        shapes::addJoint(skeleton, name + "Foot", name + "Leg", {side, 1.8, 0});
+        skeleton.joints.back().tip = glm::dvec3(side, 0.5, 1.5);
+    }
+    return skeleton;
+}
+
 struct PaintedCase {
     const char* shape;
     const char* rig;
@@ -470,6 +519,67 @@ TEST(Ownership, LimbsAsShortAsThickBendAtTheirJointsOnly) {
         if (mesh.positions[v].y > 6.8) {
             EXPECT_GT(ratiosOf(binding, v, 1).bend, 0.99f) << "elbow and beyond";
         }
+}
+
+TEST(Ownership, RingsFarApartDoNotLetABendReachTheNextJoint) {
+    RestSkeleton skeleton = shapes::chainAlongY({0.5, 4.0, 5.8, 8.4}, 10.0);
+    const char* names[] = {"Chest", "LeftArm", "LeftForeArm", "LeftHand"};
+    for (std::size_t j = 0; j < 4; ++j) skeleton.joints[j].name = names[j];
+    const SkinMesh mesh = tube({0, 0, 0}, 1.0, {0, 2, 4, 5.8, 6.6, 7.4, 8.4, 10});
+    const Binding binding = bind(mesh, skeleton);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const double y = mesh.positions[v].y;
+        if (y > 5.7) {
+            EXPECT_EQ(ratiosOf(binding, v, 1).bend, 1.0f) << "elbow and beyond: " << y;
+        }
+        if (y < 4.1) {
+            EXPECT_EQ(ratiosOf(binding, v, 2).bend, 0.0f) << "shoulder and above: " << y;
+        }
+    }
+}
+
+TEST(Ownership, LegsThatAreShellsFollowTheirBones) {
+    const std::vector<double> trunk{7.4, 8.2, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18};
+    const std::vector<double> leg{0.4, 1.2, 3.5, 5.4, 6, 6.6, 7.4, 8.2};
+    for (const bool isInverted : {false, true}) {
+        SkinMesh mesh =
+            shapes::joined(tube({1, 0, 0}, 0.8, leg, isInverted), tube({-1, 0, 0}, 0.8, leg));
+        const std::size_t legs = mesh.positions.size();
+        mesh = shapes::joined(mesh, tube({0, 0, 0}, 2.0, trunk));
+        const Binding binding = bind(mesh, modularSkeleton());
+        expectSound(binding);
+        for (std::size_t v = 0; v < legs; ++v) {
+            const std::string side = mesh.positions[v].x > 0.0 ? "Left" : "Right";
+            EXPECT_EQ(ratiosOf(binding, v, jointCalled(binding, side + "UpLeg")).bend, 1.0f)
+                << mesh.positions[v].y;
+            const double knee = ratiosOf(binding, v, jointCalled(binding, side + "Leg")).bend;
+            if (mesh.positions[v].y > 7.3) {
+                EXPECT_LT(knee, 0.02);
+            }
+            if (mesh.positions[v].y < 4.0) {
+                EXPECT_GT(knee, 0.98);
+            }
+        }
+    }
+}
+
+TEST(Ownership, AShellAroundOthersMayBeInverted) {
+    const SkinMesh limb = shapes::cylinder(12.0);
+    const RestSkeleton skeleton = shapes::chainAlongY({0.5, 6.0}, 11.5);
+    const auto around = [](bool isInverted) {
+        SkinMesh mesh = tube({0, 0, 0}, 2.5, {1, 4, 8, 11}, isInverted);
+        for (int cap = 0; cap < 2; ++cap) { // open at both ends
+            mesh.faceVertices.resize(mesh.faceVertices.size() - 8);
+            mesh.faceSizes.pop_back();
+        }
+        return mesh;
+    };
+    const Binding expected = bind(shapes::joined(limb, around(false)), skeleton);
+    const Binding found = bind(shapes::joined(limb, around(true)), skeleton);
+    for (std::size_t v = 0; v < expected.regions.size(); ++v)
+        EXPECT_NEAR(ratiosOf(found, v, 1).bend, ratiosOf(expected, v, 1).bend, 1e-6) << v;
+    const std::size_t top = limb.positions.size() - 1;
+    EXPECT_EQ(ratiosOf(found, top, 1).bend, 1.0f);
 }
 
 TEST(Ownership, ALimbWithoutSkinIsReported) {

@@ -96,7 +96,7 @@ public:
     Finder(const WeldedMesh& mesh, const Regions& regions, const std::vector<PlannedJoint>& joints,
            const std::vector<double>& radii)
         : _mesh(mesh), _regions(regions), _joints(joints), _tree(joints), _radii(radii),
-          _seedsBelow(joints.size()) {}
+          _seedsBelow(joints.size()), _isBelow(mesh.shells, false) {}
 
     /// Adds the vertices of a shell that are attached to earlier shells.
     void attach(const std::vector<std::uint32_t>& vertices) {
@@ -110,6 +110,7 @@ public:
     void add(std::uint32_t shell, const std::vector<std::uint32_t>& vertices) {
         if (_below.size() == kMaxBelow) return;
         _below.push_back(std::make_unique<ShellSurface>(_mesh, shell));
+        _isBelow[shell] = true;
         const std::vector<std::size_t> seeds = seedsOf(vertices);
         for (std::size_t j = 0; j < seeds.size(); ++j) _seedsBelow[j] += seeds[j];
     }
@@ -122,9 +123,12 @@ private:
     /// \param near the shell's vertices that are above a shell below
     /// \param vertices all vertices of the shell
     void keep(const std::vector<Attached>& near, const std::vector<std::uint32_t>& vertices) {
+        if (near.empty()) return;
         const std::vector<std::size_t> seeds = seedsOf(vertices);
+        const std::vector<bool> runsHere = bonesOnlyIn(_mesh.shellOf[vertices.front()]);
         const auto isCarried = [&](std::uint32_t v) {
-            return seeds[_regions.jointOf[v]] > kCarried * _seedsBelow[_regions.jointOf[v]];
+            const std::uint32_t joint = _regions.jointOf[v];
+            return seeds[joint] > kCarried * _seedsBelow[joint] || runsHere[joint];
         };
         const auto carried =
             static_cast<double>(std::count_if(vertices.begin(), vertices.end(), isCarried));
@@ -152,6 +156,28 @@ private:
             attached.hold = std::min(attached.hold, holdAt(turnedAway[i], distance));
             if (attached.hold > 0.0) _all.push_back(attached);
         }
+    }
+
+    /// For each joint, whether most of its bone that is inside a shell is in no shell below: it is
+    /// a piece of a modular figure, as a leg that is a shell of its own, and no garment.
+    std::vector<bool> bonesOnlyIn(std::uint32_t shell) {
+        if (_shellsAround.empty())
+            for (const PlannedJoint& joint : _joints)
+                for (const glm::dvec3& sample : joint.samples)
+                    _shellsAround.push_back(shellsAround(_mesh, sample, false));
+        std::vector<bool> result(_joints.size(), false);
+        auto around = _shellsAround.begin();
+        for (std::size_t j = 0; j < result.size(); ++j) {
+            std::size_t here = 0, onlyHere = 0;
+            for (std::size_t s = 0; s < _joints[j].samples.size(); ++s, ++around) {
+                if (std::find(around->begin(), around->end(), shell) == around->end()) continue;
+                ++here;
+                onlyHere += std::none_of(around->begin(), around->end(),
+                                         [this](std::uint32_t a) { return _isBelow[a]; });
+            }
+            result[j] = 2 * onlyHere > here;
+        }
+        return result;
     }
 
     /// For each joint, the number of its seeds among the vertices.
@@ -219,6 +245,8 @@ private:
     const std::vector<double>& _radii;
     std::vector<std::unique_ptr<ShellSurface>> _below;
     std::vector<std::size_t> _seedsBelow; ///< of each joint, on the shells in `_below`
+    std::vector<bool> _isBelow;           ///< for each shell, whether it is in `_below`
+    std::vector<std::vector<std::uint32_t>> _shellsAround; ///< of all joints' samples in order
     std::vector<Attached> _all;
 };
 

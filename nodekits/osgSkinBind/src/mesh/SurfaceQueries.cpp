@@ -36,8 +36,8 @@ using AabbTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 /// factor may be equally near.
 constexpr double kRounding = 1.0 + 1e-12;
 
-/// Half of a full sphere's solid angle, minus a margin for rounding.
-constexpr double kAllAround = 6.28;
+/// Half of a full sphere's solid angle, minus a margin for rounding, and of a half sphere's.
+constexpr double kAllAround = 6.28, kHalfAround = 3.141592653589793;
 
 Kernel::Point_3 toCgal(const glm::dvec3& p) {
     return {p.x, p.y, p.z};
@@ -85,18 +85,18 @@ bool isInsideSkin(const WeldedMesh& mesh, const glm::dvec3& point) {
     const std::vector<Seen> seen = seenFrom(point, mesh);
     AngleSum halves;
     for (const auto& t : mesh.triangles) addAngle(seen, t, halves);
-    // Half of a half sphere's solid angle.
-    constexpr double kLeast = 3.141592653589793;
-    return std::abs(halves.value()) > kLeast;
+    return std::abs(halves.value()) > kHalfAround;
 }
 
-std::vector<std::uint32_t> shellsAround(const WeldedMesh& mesh, const glm::dvec3& point) {
+std::vector<std::uint32_t> shellsAround(const WeldedMesh& mesh, const glm::dvec3& point,
+                                        bool onlyClosed) {
     const std::vector<Seen> seen = seenFrom(point, mesh);
     std::vector<AngleSum> halves(mesh.shells);
     for (const auto& t : mesh.triangles) addAngle(seen, t, halves[mesh.shellOf[t[0]]]);
     std::vector<std::uint32_t> result;
     for (std::uint32_t shell = 0; shell < mesh.shells; ++shell)
-        if (std::abs(halves[shell].value()) > kAllAround) result.push_back(shell);
+        if (std::abs(halves[shell].value()) > (onlyClosed ? kAllAround : kHalfAround))
+            result.push_back(shell);
     return result;
 }
 

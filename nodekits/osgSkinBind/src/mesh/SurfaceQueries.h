@@ -16,8 +16,10 @@ namespace osgSkin {
 /// about the point is above one half. The mesh may have holes, and either winding.
 bool isInsideSkin(const WeldedMesh& mesh, const glm::dvec3& point);
 
-/// The closed shells that contain a point.
-std::vector<std::uint32_t> shellsAround(const WeldedMesh& mesh, const glm::dvec3& point);
+/// The shells that contain a point: by their own winding numbers, only closed ones or also those
+/// with holes.
+std::vector<std::uint32_t> shellsAround(const WeldedMesh& mesh, const glm::dvec3& point,
+                                        bool onlyClosed = true);
 
 /// Finds the nearest candidate for each query; among equally near ones, the one with the lowest
 /// index.

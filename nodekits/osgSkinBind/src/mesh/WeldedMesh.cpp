@@ -24,6 +24,9 @@ namespace {
 /// which of them belong together.
 constexpr std::ptrdiff_t kMaxTouching = 16;
 
+/// A shell is flat if its volume, six times, is a smaller share of its area to the power of 3/2.
+constexpr double kFlat = 1e-9;
+
 struct Cell {
     std::int64_t x, y, z;
     bool operator==(const Cell& o) const { return x == o.x && y == o.y && z == o.z; }
@@ -126,6 +129,34 @@ void joinAcross(std::vector<Side>::const_iterator first, std::vector<Side>::cons
     for (const Side& side : left) isOpen[side.triangle] = true;
 }
 
+/// Turns the triangles of shells with inverted winding, which enclose a negative volume. An open
+/// shell's volume is taken about its centre.
+void orientShells(WeldedMesh& mesh) {
+    const std::vector<std::uint32_t>& shellOf = mesh.shellOf;
+    const std::vector<glm::dvec3>& positions = mesh.positions;
+    const std::size_t shells = mesh.shells;
+    std::vector<glm::dvec3> centres(shells, glm::dvec3(0.0));
+    std::vector<double> counts(shells, 0.0), volumes(shells, 0.0), areas(shells, 0.0);
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        if (shellOf[v] == WeldedMesh::kNoShell) continue;
+        centres[shellOf[v]] += positions[v];
+        counts[shellOf[v]] += 1.0;
+    }
+    for (std::size_t shell = 0; shell < shells; ++shell) centres[shell] /= counts[shell];
+    for (const auto& t : mesh.triangles) {
+        const std::uint32_t shell = shellOf[t[0]];
+        const glm::dvec3 a = positions[t[0]] - centres[shell];
+        const glm::dvec3 b = positions[t[1]] - centres[shell];
+        const glm::dvec3 c = positions[t[2]] - centres[shell];
+        volumes[shell] += glm::dot(a, glm::cross(b, c));
+        areas[shell] += glm::length(glm::cross(b - a, c - a));
+    }
+    for (auto& t : mesh.triangles) {
+        const std::uint32_t shell = shellOf[t[0]];
+        if (volumes[shell] < -kFlat * areas[shell] * std::sqrt(areas[shell])) std::swap(t[1], t[2]);
+    }
+}
+
 using Matrix = Eigen::SparseMatrix<double>;
 
 /// Triangles for each vertex (a closed surface has two), and a number of triangles that is always
@@ -201,6 +232,7 @@ WeldedMesh::WeldedMesh(const SkinMesh& mesh, double same) : size(mesh.size()) {
     addTriangles(mesh);
     connect();
     findShells();
+    orientShells(*this);
     computeNormals();
 }
 
@@ -305,21 +337,14 @@ void WeldedMesh::findShells() {
 
 void WeldedMesh::computeNormals() {
     normals.assign(positions.size(), glm::dvec3(0.0));
-    std::vector<double> shellVolume(shells, 0.0);
-    const glm::dvec3 origin = positions.front(); // precise far from the world's origin, too
     for (const auto& t : triangles) {
-        const glm::dvec3 a = positions[t[0]] - origin;
-        const glm::dvec3 b = positions[t[1]] - origin;
-        const glm::dvec3 c = positions[t[2]] - origin;
-        const glm::dvec3 areaNormal = glm::cross(b - a, c - a);
+        const glm::dvec3& a = positions[t[0]];
+        const glm::dvec3 areaNormal = glm::cross(positions[t[1]] - a, positions[t[2]] - a);
         for (const std::uint32_t v : t) normals[v] += areaNormal;
-        shellVolume[shellOf[t[0]]] += glm::dot(a, glm::cross(b, c));
     }
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-        const double length = glm::length(normals[v]);
-        if (!(length > 0.0)) continue;
-        // A shell with inverted winding encloses a negative volume.
-        normals[v] /= shellVolume[shellOf[v]] < 0.0 ? -length : length;
+    for (glm::dvec3& normal : normals) {
+        const double length = glm::length(normal);
+        if (length > 0.0) normal /= length;
     }
 }
 

@@ -4,6 +4,7 @@
 #include "joints/BodyAxes.h"
 #include "mesh/SkinSmoother.h"
 #include "ratios/MinimizeStretch.h"
+#include "regions/HermiteRatio.h"
 
 #include <glm/geometric.hpp>
 
@@ -55,6 +56,9 @@ constexpr double kTrunkLift = 0.15;
 /// largest share that the middle third of the bone above takes.
 constexpr double kOwnRigidity = 0.975;
 constexpr double kNextRigidity = 0.003;
+
+/// Skin farther from its limb's bone than this, in limb radii, is that of a skirt or a wide sleeve.
+constexpr double kFarFromBone = 2.0;
 
 /// The search for widths ends when the excess is within this factor of its limit, or after kTries.
 constexpr double kTolerance = 1.1;
@@ -265,6 +269,41 @@ void evenOut(const BinaryField& binary, const SkinSmoother& smoother, std::size_
                     });
 }
 
+/// Widens the spread on skin far from the bone of its limb, in proportion to the distance, so that
+/// a skirt is not torn between the thighs.
+/// \param[in,out] share a factor of the width for each vertex; empty: 1 for all
+void widenFarSkin(const BinaryField& binary, const std::vector<double>& radii,
+                  std::vector<double>& share) {
+    for (std::size_t v = 0; v < binary.regions.size(); ++v) {
+        const std::uint32_t joint = binary.regions[v];
+        const PlannedJoint& bone = binary.joints[joint];
+        if (bone.trunk || bone.rigid >= 0 || !(radii[joint] > 0.0)) continue;
+        const double far = distanceToBone(bone, binary.mesh.positions[v]) / radii[joint];
+        if (far <= kFarFromBone) continue;
+        if (share.empty()) share.assign(binary.regions.size(), 1.0);
+        share[v] *= std::min(far, kMost);
+    }
+}
+
+/// Ends a limb's field within its own bone and the bone above. For a mesh so coarse that the bone
+/// has no vertices in its middle: heat flows from one ring of vertices to the next.
+void endWithinBones(const BinaryField& binary, std::size_t joint, bool onLimb,
+                    std::vector<double>& field) {
+    const PlannedJoint& bone = binary.joints[joint];
+    const std::vector<bool> isBelow = skinOf(binary, static_cast<int>(joint));
+    const auto share = [](double along) {
+        return hermiteRatio((along - kMaxShareOfBone) / (1.0 - kMaxShareOfBone));
+    };
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        const glm::dvec3 d = binary.mesh.positions[v] - bone.centre;
+        if (isBelow[v])
+            field[v] = std::max(field[v], share(glm::dot(d, bone.boneAxis) / bone.boneLength));
+        else if (onLimb)
+            field[v] =
+                std::min(field[v], 1.0 - share(-glm::dot(d, bone.comingFrom) / bone.lengthAbove));
+    }
+}
+
 /// A joint's bend field if the author gave no boundaries: its binary field
 /// (BinaryField::divided()), spread over the skin about as far as the limb is thick, and exactly 0
 /// and 1 beyond that.
@@ -312,6 +351,8 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     if (limb && binary.joints[above].trunk)
         share = gradientFactor(binary.mesh,
                                spread(smoother, start, widths, {}, isHeld, options.cutOff));
+    const bool leavesTrunk = !share.empty();
+    if (binary.joints[above].trunk) widenFarSkin(binary, radii, share);
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
         field = spread(smoother, start, widths, share, isHeld, options.cutOff);
@@ -324,12 +365,19 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
                        narrower;
         if (!narrower) break;
     }
-    if (!share.empty()) {
+    if (leavesTrunk) {
         const Widths wider = {kRoom * widths.above, kRoom * widths.below};
         const std::vector<bool> isFree =
             isPartial(spread(smoother, start, wider, share, isHeld, options.cutOff));
         evenOut(binary, smoother, joint, own, options.smoothing * radius, isFree, field);
     }
+    const bool isArmOrLeg = !planned.trunk && planned.rigid < 0 && !planned.digit &&
+                            planned.boneLength > radius &&
+                            !carries(binary.joints, joint, JointPart::Head);
+    if (isArmOrLeg && middleThird(binary, joint).empty())
+        endWithinBones(binary, joint,
+                       above > 0 && !binary.joints[above].trunk && planned.lengthAbove > 0.0,
+                       field);
     return field;
 }
 
