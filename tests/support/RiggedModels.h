@@ -26,7 +26,7 @@ constexpr Rigged kRigged[] = {
     {"MDL/MDL (HL1)/duplicate_sequence_groups/duplicate_sequence_groups.mdl", 1, 3, 9},
     {"MDL/MDL (HL1)/duplicate_sequences.mdl", 1, 3, 9},
     {"MDL/MDL (HL1)/duplicate_submodels.mdl", 1, 18, 1},
-    {"MDL/MDL (HL1)/man.mdl", 7, 239, 6},
+    {"MDL/MDL (HL1)/man.mdl", 8, 239, 6},
     {"MDL/MDL (HL1)/sequence_transitions.mdl", 1, 3, 7},
     {"MDL/MDL (HL1)/unnamed_bodyparts.mdl", 1, 27, 1},
     {"MDL/MDL (HL1)/unnamed_bones.mdl", 9, 192, 1},

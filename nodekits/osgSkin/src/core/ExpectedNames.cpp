@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMaxLength = 64;
 
 /// Lists of known names are cut at about this many bytes.
-constexpr std::size_t kMaxList = 800;
+constexpr std::size_t kMaxList = 3000;
 
 std::string lowerCase(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -139,10 +139,15 @@ DeformableSkin::DeformableSkin() {
 
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
-      _pool(other._pool), _tangents(other._tangents), _morphs(other._morphs),
-      _morphWeights(other._morphWeights), _isMorphOld(true), _isMorphed(other._isMorphed),
+      _pool(other._pool), _tangents(other._tangents),
       _backend(other._backend ? other._backend->clone() : nullptr), _eager(other._eager),
       _tangentAttribute(other._tangentAttribute) {
+    if (other._morphs) {
+        _morphs = std::make_unique<Morphs>();
+        _morphs->targets = other._morphs->targets;
+        _morphs->weights = other._morphs->weights;
+        _morphs->isMorphed = other._morphs->isMorphed;
+    }
     makeBuffers();
     poseChanged();
 }
@@ -167,13 +172,8 @@ void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinM
     const std::vector<std::string> inputs = _model ? _model->inputs() : std::vector<std::string>();
     _rest = rest;
     _model = model;
-    _morphed.reset();
-    if (_morphs && _morphs->vertexCount() != model->vertexCount()) {
-        _morphs = nullptr;
-        _morphWeights.clear();
-        _isMorphed = false;
-    }
-    _isMorphOld = true;
+    if (_morphs && _morphs->targets->vertexCount() != model->vertexCount()) _morphs.reset();
+    if (_morphs) _morphs->rest.reset();
     _pose = Pose(_model->joints(), _model->inputs().size());
     setStateSet(rest->getStateSet());
     makeBuffers();
@@ -200,8 +200,7 @@ osg::ref_ptr<const SkinTangents> DeformableSkin::tangentsOf(const osg::Geometry&
 void DeformableSkin::setTangentAttribute(int index) {
     if (_model) _tangents = tangentsOf(*_rest, index, *_model);
     _tangentAttribute = index;
-    _morphed.reset();
-    _isMorphOld = true;
+    if (_morphs) _morphs->rest.reset();
     if (!_model) return;
     makeBuffers();
     poseChanged();
@@ -308,43 +307,55 @@ void DeformableSkin::setMorphTargets(const osg::ref_ptr<const MorphTargets>& tar
     if (targets && targets->vertexCount() != _model->vertexCount())
         throw Error("deformable skin: morph targets of " + std::to_string(targets->vertexCount()) +
                     " vertices, expected the skin's " + std::to_string(_model->vertexCount()));
-    _morphs = targets;
-    _morphWeights = targets ? targets->initialWeights() : std::vector<float>();
-    _morphed.reset();
-    if (_backend && _model) _backend->skinChanged(*this);
-    shapeChanged();
+    _morphs.reset();
+    if (targets) {
+        _morphs = std::make_unique<Morphs>();
+        _morphs->targets = targets;
+        _morphs->weights = targets->initialWeights();
+    }
+    if (!_model) return;
+    if (_backend) _backend->skinChanged(*this);
+    poseChanged();
 }
 
 bool DeformableSkin::setMorph(const std::string& name, float weight) {
-    const std::size_t index = _morphs ? _morphs->find(name) : 0;
-    if (index >= _morphWeights.size() || !std::isfinite(weight)) return false;
-    if (_morphWeights[index] == weight) return true;
-    _morphWeights[index] = weight;
+    const std::size_t index = _morphs ? _morphs->targets->find(name) : 0;
+    if (index >= getMorphWeights().size() || !std::isfinite(weight)) return false;
+    if (_morphs->weights[index] == weight) return true;
+    _morphs->weights[index] = weight;
     shapeChanged();
     return true;
 }
 
 float DeformableSkin::getMorph(const std::string& name) const {
-    const std::size_t index = _morphs ? _morphs->find(name) : 0;
-    return index < _morphWeights.size() ? _morphWeights[index] : 0.0f;
+    const std::size_t index = _morphs ? _morphs->targets->find(name) : 0;
+    return index < getMorphWeights().size() ? _morphs->weights[index] : 0.0f;
 }
 
 bool DeformableSkin::setMorphWeights(const std::vector<float>& weights) {
-    if (weights.size() != _morphWeights.size() ||
+    if (weights.size() != getMorphWeights().size() ||
         !std::all_of(weights.begin(), weights.end(), [](float w) { return std::isfinite(w); }))
         return false;
-    if (weights == _morphWeights) return true;
-    _morphWeights = weights;
+    if (weights == getMorphWeights()) return true;
+    _morphs->weights = weights;
     shapeChanged();
     return true;
 }
 
+const std::vector<float>& DeformableSkin::getMorphWeights() const {
+    static const std::vector<float> none;
+    return _morphs ? _morphs->weights : none;
+}
+
+/// \pre there are morph targets
 void DeformableSkin::shapeChanged() {
-    _isMorphOld = true;
-    _isMorphed = false;
-    for (std::size_t i = 0; i < _morphWeights.size(); ++i)
-        _isMorphed = _isMorphed || _morphWeights[i] != _morphs->targets()[i].initial;
-    if (_model) poseChanged(_poseBounds);
+    Morphs& morphs = *_morphs;
+    morphs.isRestOld = true;
+    morphs.isMorphed = false;
+    for (std::size_t i = 0; i < morphs.weights.size(); ++i)
+        morphs.isMorphed =
+            morphs.isMorphed || morphs.weights[i] != morphs.targets->targets()[i].initial;
+    poseChanged(osg::BoundingBox(morphs.poseBounds));
 }
 
 /// Copies the skin's draw settings to its buffers.
@@ -370,12 +381,12 @@ void DeformableSkin::poseChanged() {
 
 void DeformableSkin::poseChanged(const osg::BoundingBox& poseBounds) {
     _dirty = true;
-    _poseBounds = poseBounds;
     if (!_model) return;
     applyDrawSettings();
+    if (_morphs) _morphs->poseBounds = poseBounds;
     osg::BoundingBox bounds = poseBounds;
-    if (_isMorphed && bounds.valid()) {
-        double reach = _morphs->reach(_morphWeights);
+    if (isMorphed() && bounds.valid()) {
+        double reach = _morphs->targets->reach(_morphs->weights);
         for (std::size_t j = 0; j < _pose.size(); ++j)
             reach *= std::max(1.0, _pose.transform(j).scale);
         const auto room = static_cast<float>(reach);
@@ -405,11 +416,15 @@ void DeformableSkin::deform() const {
     DeformJob job;
     job.model = _model.get();
     job.pose = &_pose;
-    if (_isMorphed) {
-        if (!_morphed) _morphed = std::make_unique<MorphedRest>(_model, _morphs, _tangents);
-        if (_isMorphOld) _morphed->set(_morphWeights);
-        _isMorphOld = false;
-        job.morphed = _morphed.get();
+    if (isMorphed()) {
+        Morphs& morphs = *_morphs;
+        if (!morphs.rest) {
+            morphs.rest = std::make_unique<MorphedRest>(_model, morphs.targets, _tangents);
+            morphs.isRestOld = true;
+        }
+        if (morphs.isRestOld) morphs.rest->set(morphs.weights);
+        morphs.isRestOld = false;
+        job.morphed = morphs.rest.get();
     }
     job.positions = asGlm(vertices.asVector().data());
     job.positionCount = vertices.size();
