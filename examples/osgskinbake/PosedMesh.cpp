@@ -100,7 +100,7 @@ PosedMesh PosedMesh::read(const osgSkin::Character& character) {
     for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins)
         collector.add(*skin.drawable->getDeformedGeometry(), skin.part.sourceVertex, {});
     for (const osgSkin::AttachedSkin::Rigid& rigid : character.skin.rigids)
-        collector.add(*rigid.part.geometry, rigid.part.sourceVertex,
+        collector.add(rigid.drawn(), rigid.part.sourceVertex,
                       rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace());
     collector.addUndrawn(character);
     return collector.finish();

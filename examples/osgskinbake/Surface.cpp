@@ -135,7 +135,7 @@ std::vector<glm::dvec3> Surface::normals(const Character& character) const {
         arrays.push_back(static_cast<const osg::Vec3Array*>(
             skin.drawable->getDeformedGeometry()->getNormalArray()));
     for (const auto& rigid : character.skin.rigids) {
-        arrays.push_back(static_cast<const osg::Vec3Array*>(rigid.part.geometry->getNormalArray()));
+        arrays.push_back(static_cast<const osg::Vec3Array*>(rigid.drawn().getNormalArray()));
         matrices.push_back(rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace());
     }
     std::vector<glm::dvec3> result;

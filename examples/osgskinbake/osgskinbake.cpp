@@ -246,13 +246,19 @@ bake::FrameRange chooseFrames(const Arguments& arguments, const SampledMotion& m
     return *arguments.frames;
 }
 
+/// Sets the weights of --morph, after a clip may have set others.
+void morph(Character& character, const Arguments& arguments) {
+    for (const auto& [name, weight] : arguments.morphs)
+        if (!osgSkin::setMorph(*character.root, name, weight))
+            throw UsageError{"--morph: " + arguments.character + " has no morph target \"" + name +
+                             "\"" + osgSkin::expectedNames(name, character.morphs())};
+}
+
 /// Adds the character's morph targets to a file of one frame.
 void addMorphs(Character& character, bake::FrameWriter& writer) {
     osg::Group& root = *character.root;
     for (const std::string& name : osgSkin::morphNames(root)) {
-        float before = 0.0f;
-        for (const osgSkin::AttachedSkin::Skin& skin : character.skin.skins)
-            before = std::max(before, skin.drawable->getMorph(name));
+        const float before = osgSkin::getMorph(root, name);
         osgSkin::setMorph(root, name, 1.0f);
         writer.addMorph(name, bake::PosedMesh::read(character));
         osgSkin::setMorph(root, name, before);
@@ -279,6 +285,7 @@ void bakeFrames(const Arguments& arguments, Character& character) {
         line.show({std::to_string(done) + " of " + std::to_string(total),
                    static_cast<double>(done) / static_cast<double>(total)});
         motion.pose(frame);
+        morph(character, arguments);
         const bake::PosedMesh posed = bake::PosedMesh::read(character);
         seamGap = std::max(seamGap, posed.seamGap);
         if (writer) writer->add(frame, posed);
@@ -345,17 +352,6 @@ Character load(const Arguments& arguments) {
     if (!character.hasBody())
         throw osgSkin::Error(file + ": expected a .skin file, or a rigged model that Assimp reads");
     return character;
-}
-
-void morph(Character& character, const Arguments& arguments) {
-    for (const auto& [name, weight] : arguments.morphs) {
-        if (osgSkin::setMorph(*character.root, name, weight)) continue;
-        std::string known;
-        for (const std::string& each : osgSkin::morphNames(*character.root))
-            known += (known.empty() ? ", expected one of \"" : ", \"") + each + "\"";
-        throw UsageError{"--morph: " + arguments.character + " has no morph target \"" + name +
-                         "\"" + known};
-    }
 }
 
 void tense(Character& character, const Arguments& arguments) {

@@ -212,7 +212,7 @@ Stage::Stage(const std::string& character, const std::string& weights,
         16.0f);
     overlay->addChild(_morphList);
     for (const std::string& name : osgSkin::morphNames(*_figure.root))
-        _morphs.emplace_back(name, 0.0f);
+        _morphs.emplace_back(name, osgSkin::getMorph(*_figure.root, name));
     _root->addChild(overlay);
     // The joints lie inside the skin, so they are drawn over it.
     _lines->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);

@@ -10,13 +10,6 @@
 
 namespace test {
 
-/// What a rigid part draws; with morph targets it is a skin.
-inline const osg::Geometry& drawnGeometry(const osgSkin::AttachedSkin::Rigid& rigid) {
-    const osg::Node* const child = rigid.node->getChild(0);
-    const auto* skin = dynamic_cast<const osgSkin::DeformableSkin*>(child);
-    return skin ? *skin->getDeformedGeometry() : *child->asGeometry();
-}
-
 /// Calls visit(source vertex, posed position) for every drawn copy of every vertex, of skins and of
 /// rigid parts, in the skeleton's space.
 template <typename Visit>
@@ -28,8 +21,7 @@ void forEachCopy(const osgSkin::Character& character, const Visit& visit) {
             visit(skin.part.sourceVertex[i], osg::Vec3d(vertices[i]));
     }
     for (const auto& rigid : character.skin.rigids) {
-        const auto& vertices =
-            static_cast<const osg::Vec3Array&>(*drawnGeometry(rigid).getVertexArray());
+        const auto& vertices = static_cast<const osg::Vec3Array&>(*rigid.drawn().getVertexArray());
         const osg::Matrixd matrix =
             rigid.node->getMatrix() * rigid.bone->getMatrixInSkeletonSpace();
         for (std::size_t i = 0; i < vertices.size(); ++i)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Morph targets of loaded characters: where each vertex is drawn, computed from the file's numbers.
+#include "Command.h"
 #include "DrawnSkin.h"
+#include "GlbFile.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
 #include "TextFile.h"
@@ -12,6 +14,7 @@
 #include <osg/Matrixd>
 #include <osg/Quat>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -144,4 +147,43 @@ TEST(Morphs, SkinFilesHaveThoseOfTheirMesh) {
         EXPECT_TRUE(character.setMorph("tall", 0.5f));
         expectDrawn(character, face, Face::kWideAtRest, 0.5, 0.0);
     }
+}
+
+/// The offsets are those from the frame, in which "wide" has the weight 0.75, and "tall" 0.5.
+TEST(Morphs, AStillGlbFileHasThemAgain) {
+    Face face;
+    const std::string folder = test::makeTestFolder();
+    for (const char* rigid : {"none", "top"}) {
+        const auto baked =
+            test::runBake(face.save("still.gltf") + " --rigid " + rigid +
+                              " --motion talk --frames 0 --morph wide=0.75 --out still.glb",
+                          folder);
+        ASSERT_EQ(baked.status, 0) << baked.err;
+        const test::Glb glb(folder + "/still.glb");
+        const nlohmann::json& mesh = glb.json["meshes"][0];
+        EXPECT_EQ(mesh["extras"]["targetNames"], (nlohmann::json{"wide", "tall"}));
+        EXPECT_EQ(mesh["weights"], (nlohmann::json{0.0, 0.0}));
+        const nlohmann::json& targets = mesh["primitives"][0]["targets"];
+        ASSERT_EQ(targets.size(), 2u);
+        const auto farthest = [&](std::size_t target) {
+            double result = 0.0;
+            for (const glm::dvec3& v : glb.vectors(targets[target]["POSITION"]))
+                result = std::max(result, glm::length(v));
+            return result;
+        };
+        double wide = 0.0;
+        for (std::size_t v = 0; v < face.places.size() / 3; ++v)
+            wide = std::max(wide, std::hypot(face.wide[3 * v], face.wide[3 * v + 2]));
+        const double tall = *std::max_element(face.tall.begin(), face.tall.end());
+        EXPECT_NEAR(farthest(0), 0.25 * wide, kExact);
+        EXPECT_NEAR(farthest(1), 0.5 * tall, kExact);
+        std::string why;
+        if (test::hasGlbValidator(why)) {
+            EXPECT_EQ(test::glbComplaints(folder + "/still.glb"), "");
+        }
+    }
+    const auto unknown =
+        test::runBake(face.save("still.gltf") + " --morph wied=1 --out no.glb", folder);
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_NE(unknown.err.find("did you mean \"wide\"?"), std::string::npos) << unknown.err;
 }

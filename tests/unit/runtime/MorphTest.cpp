@@ -201,6 +201,8 @@ TEST(Morph, OneCallSetsAllSkinsOfAScene) {
     EXPECT_EQ(face->getMorph("open"), 0.5f);
     EXPECT_EQ(teeth->getMorph("open"), 0.5f);
     EXPECT_EQ(face->getMorph("smile"), 0.3f);
+    EXPECT_EQ(osgSkin::getMorph(*scene, "smile"), 0.3f);
+    EXPECT_EQ(osgSkin::getMorph(*scene, "wink"), 0.0f);
 }
 
 TEST(Morph, ChannelsDriveTargetsWhileTheyPlay) {

@@ -26,9 +26,10 @@ public:
     std::vector<DeformableSkin*> skins;
 };
 
-std::vector<DeformableSkin*> skinsOf(osg::Node& scene) {
+std::vector<DeformableSkin*> skinsOf(const osg::Node& scene) {
     MorphSkins visitor;
-    scene.accept(visitor);
+    // Visitors take nodes that are not const; this one changes none.
+    const_cast<osg::Node&>(scene).accept(visitor);
     return visitor.skins;
 }
 
@@ -37,8 +38,7 @@ std::vector<DeformableSkin*> skinsOf(osg::Node& scene) {
 std::vector<std::string> morphNames(const osg::Node& scene) {
     std::vector<std::string> result;
     std::set<std::string> known;
-    // Visitors take nodes that are not const; this one changes none.
-    for (const DeformableSkin* skin : skinsOf(const_cast<osg::Node&>(scene)))
+    for (const DeformableSkin* skin : skinsOf(scene))
         for (const MorphTarget& target : skin->getMorphTargets()->targets())
             if (known.insert(target.name).second) result.push_back(target.name);
     return result;
@@ -48,6 +48,13 @@ bool setMorph(osg::Node& scene, const std::string& name, float weight) {
     bool any = false;
     for (DeformableSkin* skin : skinsOf(scene)) any = skin->setMorph(name, weight) || any;
     return any;
+}
+
+float getMorph(const osg::Node& scene, const std::string& name) {
+    for (const DeformableSkin* skin : skinsOf(scene))
+        if (skin->getMorphTargets()->find(name) < skin->getMorphWeights().size())
+            return skin->getMorph(name);
+    return 0.0f;
 }
 
 UpdateMorphs::UpdateMorphs(const std::string& name)

@@ -321,6 +321,11 @@ SkinParts makeSkins(const SkinMesh& mesh, const std::vector<MeshPart>& parts,
     return result;
 }
 
+const osg::Geometry& AttachedSkin::Rigid::drawn() const {
+    const auto* skin = dynamic_cast<const DeformableSkin*>(node->getChild(0));
+    return skin ? *skin->getDeformedGeometry() : *part.geometry;
+}
+
 AttachedSkin placeSkins(osgAnimation::Skeleton& skeleton, const SkinParts& parts) {
     const osgAnimation::BoneMap named = bonesOf(skeleton);
     std::vector<osg::ref_ptr<osgAnimation::Bone>> bones;
