@@ -139,14 +139,14 @@ DeformableSkin::DeformableSkin() {
 
 DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _rest(other._rest), _model(other._model), _pose(other._pose),
-      _pool(other._pool), _tangents(other._tangents),
-      _backend(other._backend ? other._backend->clone() : nullptr), _eager(other._eager),
-      _tangentAttribute(other._tangentAttribute) {
-    if (other._morphs) {
-        _morphs = std::make_unique<Morphs>();
-        _morphs->targets = other._morphs->targets;
-        _morphs->weights = other._morphs->weights;
-        _morphs->isMorphed = other._morphs->isMorphed;
+      _pool(other._pool), _backend(other._backend ? other._backend->clone() : nullptr),
+      _eager(other._eager), _tangentAttribute(other._tangentAttribute) {
+    if (other._extras) {
+        _extras = std::make_unique<Extras>();
+        _extras->tangents = other._extras->tangents;
+        _extras->targets = other._extras->targets;
+        _extras->weights = other._extras->weights;
+        _extras->isMorphed = other._extras->isMorphed;
     }
     makeBuffers();
     poseChanged();
@@ -167,13 +167,14 @@ void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinM
     if (broken.empty()) broken = findShort(*rest, model->vertexCount());
     if (!broken.empty())
         throw Error("deformable skin: the geometry \"" + rest->getName() + "\" has " + broken);
-    _tangents = tangentsOf(*rest, _tangentAttribute, *model);
+    const auto tangents = tangentsOf(*rest, _tangentAttribute, *model);
     const Pose before = _pose;
     const std::vector<std::string> inputs = _model ? _model->inputs() : std::vector<std::string>();
     _rest = rest;
     _model = model;
-    if (_morphs && _morphs->targets->vertexCount() != model->vertexCount()) _morphs.reset();
-    if (_morphs) _morphs->rest.reset();
+    const MorphTargets* const targets = getMorphTargets();
+    if (targets && targets->vertexCount() != model->vertexCount()) _extras.reset();
+    setTangents(tangents);
     _pose = Pose(_model->joints(), _model->inputs().size());
     setStateSet(rest->getStateSet());
     makeBuffers();
@@ -197,10 +198,16 @@ osg::ref_ptr<const SkinTangents> DeformableSkin::tangentsOf(const osg::Geometry&
     return SkinTangents::create(&model, std::move(tangents));
 }
 
+void DeformableSkin::setTangents(const osg::ref_ptr<const SkinTangents>& tangents) {
+    if (tangents && !_extras) _extras = std::make_unique<Extras>();
+    if (!_extras) return;
+    _extras->tangents = tangents;
+    _extras->rest.reset();
+}
+
 void DeformableSkin::setTangentAttribute(int index) {
-    if (_model) _tangents = tangentsOf(*_rest, index, *_model);
+    if (_model) setTangents(tangentsOf(*_rest, index, *_model));
     _tangentAttribute = index;
-    if (_morphs) _morphs->rest.reset();
     if (!_model) return;
     makeBuffers();
     poseChanged();
@@ -223,7 +230,7 @@ osg::ref_ptr<osg::Geometry> DeformableSkin::makeDrawnGeometry() const {
     const std::size_t count = _model->vertexCount();
     buffer->setVertexArray(stream<osg::Vec3Array>(_rest->getVertexArray(), count, *vbo));
     buffer->setNormalArray(stream<osg::Vec3Array>(_rest->getNormalArray(), count, *vbo));
-    if (_tangents) {
+    if (tangents()) {
         const auto index = static_cast<unsigned int>(_tangentAttribute);
         buffer->setVertexAttribArray(
             index, stream<osg::Vec4Array>(_rest->getVertexAttribArray(index), count, *vbo));
@@ -307,29 +314,28 @@ void DeformableSkin::setMorphTargets(const osg::ref_ptr<const MorphTargets>& tar
     if (targets && targets->vertexCount() != _model->vertexCount())
         throw Error("deformable skin: morph targets of " + std::to_string(targets->vertexCount()) +
                     " vertices, expected the skin's " + std::to_string(_model->vertexCount()));
-    _morphs.reset();
-    if (targets) {
-        _morphs = std::make_unique<Morphs>();
-        _morphs->targets = targets;
-        _morphs->weights = targets->initialWeights();
-    }
+    if (!_extras) _extras = std::make_unique<Extras>();
+    _extras->targets = targets;
+    _extras->weights = targets ? targets->initialWeights() : std::vector<float>();
+    _extras->isMorphed = false;
+    _extras->rest.reset();
     if (!_model) return;
     if (_backend) _backend->skinChanged(*this);
     poseChanged();
 }
 
 bool DeformableSkin::setMorph(const std::string& name, float weight) {
-    const std::size_t index = _morphs ? _morphs->targets->find(name) : 0;
+    const std::size_t index = getMorphTargets() ? getMorphTargets()->find(name) : 0;
     if (index >= getMorphWeights().size() || !std::isfinite(weight)) return false;
-    if (_morphs->weights[index] == weight) return true;
-    _morphs->weights[index] = weight;
+    if (_extras->weights[index] == weight) return true;
+    _extras->weights[index] = weight;
     shapeChanged();
     return true;
 }
 
 float DeformableSkin::getMorph(const std::string& name) const {
-    const std::size_t index = _morphs ? _morphs->targets->find(name) : 0;
-    return index < getMorphWeights().size() ? _morphs->weights[index] : 0.0f;
+    const std::size_t index = getMorphTargets() ? getMorphTargets()->find(name) : 0;
+    return index < getMorphWeights().size() ? _extras->weights[index] : 0.0f;
 }
 
 bool DeformableSkin::setMorphWeights(const std::vector<float>& weights) {
@@ -337,25 +343,24 @@ bool DeformableSkin::setMorphWeights(const std::vector<float>& weights) {
         !std::all_of(weights.begin(), weights.end(), [](float w) { return std::isfinite(w); }))
         return false;
     if (weights == getMorphWeights()) return true;
-    _morphs->weights = weights;
+    _extras->weights = weights;
     shapeChanged();
     return true;
 }
 
 const std::vector<float>& DeformableSkin::getMorphWeights() const {
     static const std::vector<float> none;
-    return _morphs ? _morphs->weights : none;
+    return _extras ? _extras->weights : none;
 }
 
 /// \pre there are morph targets
 void DeformableSkin::shapeChanged() {
-    Morphs& morphs = *_morphs;
-    morphs.isRestOld = true;
-    morphs.isMorphed = false;
-    for (std::size_t i = 0; i < morphs.weights.size(); ++i)
-        morphs.isMorphed =
-            morphs.isMorphed || morphs.weights[i] != morphs.targets->targets()[i].initial;
-    poseChanged(osg::BoundingBox(morphs.poseBounds));
+    _extras->isRestOld = true;
+    _extras->isMorphed = false;
+    for (std::size_t i = 0; i < _extras->weights.size(); ++i)
+        if (_extras->weights[i] != _extras->targets->targets()[i].initial)
+            _extras->isMorphed = true;
+    poseChanged(osg::BoundingBox(_extras->poseBounds));
 }
 
 /// Copies the skin's draw settings to its buffers.
@@ -383,10 +388,10 @@ void DeformableSkin::poseChanged(const osg::BoundingBox& poseBounds) {
     _dirty = true;
     if (!_model) return;
     applyDrawSettings();
-    if (_morphs) _morphs->poseBounds = poseBounds;
+    if (_extras) _extras->poseBounds = poseBounds;
     osg::BoundingBox bounds = poseBounds;
     if (isMorphed() && bounds.valid()) {
-        double reach = _morphs->targets->reach(_morphs->weights);
+        double reach = _extras->targets->reach(_extras->weights);
         for (std::size_t j = 0; j < _pose.size(); ++j)
             reach *= std::max(1.0, _pose.transform(j).scale);
         const auto room = static_cast<float>(reach);
@@ -417,26 +422,26 @@ void DeformableSkin::deform() const {
     job.model = _model.get();
     job.pose = &_pose;
     if (isMorphed()) {
-        Morphs& morphs = *_morphs;
-        if (!morphs.rest) {
-            morphs.rest = std::make_unique<MorphedRest>(_model, morphs.targets, _tangents);
-            morphs.isRestOld = true;
+        Extras& extras = *_extras;
+        if (!extras.rest) {
+            extras.rest = std::make_unique<MorphedRest>(_model, extras.targets, extras.tangents);
+            extras.isRestOld = true;
         }
-        if (morphs.isRestOld) morphs.rest->set(morphs.weights);
-        morphs.isRestOld = false;
-        job.morphed = morphs.rest.get();
+        if (extras.isRestOld) extras.rest->set(extras.weights);
+        extras.isRestOld = false;
+        job.morphed = extras.rest.get();
     }
     job.positions = asGlm(vertices.asVector().data());
     job.positionCount = vertices.size();
     job.normals = asGlm(normals.asVector().data());
     job.normalCount = normals.size();
-    if (_tangents) {
-        auto& tangents = static_cast<osg::Vec4Array&>(
+    if (const SkinTangents* const rest = tangents()) {
+        auto& posed = static_cast<osg::Vec4Array&>(
             *buffer.getVertexAttribArray(static_cast<unsigned int>(_tangentAttribute)));
-        job.restTangents = _tangents.get();
-        job.tangents = asGlm(tangents.asVector().data());
-        job.tangentCount = tangents.size();
-        tangents.dirty();
+        job.restTangents = rest;
+        job.tangents = asGlm(posed.asVector().data());
+        job.tangentCount = posed.size();
+        posed.dirty();
     }
     if (_pool)
         _pool->run(&job, 1);
