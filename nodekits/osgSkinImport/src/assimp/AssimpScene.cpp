@@ -239,6 +239,7 @@ public:
     void addMorphs(const aiMesh& source, SourceMesh& mesh) {
         const std::vector<const aiAnimMesh*> targets = targetsOf(source);
         std::vector<std::string> wanted;
+        wanted.reserve(targets.size());
         for (const aiAnimMesh* target : targets)
             wanted.push_back(target->mName.length > 0
                                  ? target->mName.C_Str()

@@ -89,7 +89,7 @@ private:
         const GltfMesh& from = _document.meshes[meshIndex];
         const GltfPrimitive& primitive = from.primitives[primitiveIndex];
         _where = "meshes[" + number(meshIndex) + "].primitives[" + number(primitiveIndex) + "]";
-        const auto mesh = std::make_shared<SourceMesh>();
+        auto mesh = std::make_shared<SourceMesh>();
         mesh->name = from.name.empty() ? "meshes[" + number(meshIndex) + "]" : from.name;
         if (from.primitives.size() > 1) mesh->name += "-" + number(primitiveIndex);
         if (primitive.material)
