@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a user reads after a mistake: a suggestion, the known names, and the file at fault.
+// Messages about a user's mistakes: a suggestion, the known names, and the file at fault.
 #include "Command.h"
 #include "GltfBuilder.h"
 #include "Notices.h"

@@ -311,7 +311,7 @@ TEST(ImportRig, RigidPartsFollowTheNodesThatCarryThem) {
         {"VRM", {{"humanoid", {{"humanBones", {{{"bone", "chest"}, {"node", 1}}}}}}}}};
     check("human_parts0.vrm", 0);
 
-    // What no joint carries stands still with the root.
+    // Meshes that no joint carries follow the root.
     const std::size_t stand = column.node({{"mesh", 0}});
     column.json["scenes"][0]["nodes"] = {column.joints[0], stand};
     const ImportedRig rig = osgSkin::importRig(save("standing_part.vrm"));

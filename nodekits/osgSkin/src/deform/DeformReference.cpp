@@ -134,8 +134,7 @@ struct Chain {
     std::array<Partial, SkinModel::kMaxPartialInfluences> partial;
 };
 
-/// Adds what correctives add to a rest normal, which keeps its length, and keeps its tangent
-/// upright. Adds a corrective tilt to a rest normal, keeps it unit, and keeps the tangent
+/// Adds a corrective tilt to a rest normal, keeps it unit, and keeps the tangent
 /// perpendicular.
 void tiltNormal(const glm::dvec3& tilt, glm::vec3& normal, glm::vec3& tangent) noexcept;
 

@@ -90,7 +90,7 @@ HWY_INLINE V inverseRoot(V square) {
     return hn::Mul(guess, hn::NegMulAdd(half, guess, hn::Set(d, 1.5f)));
 }
 
-/// What morph targets add to normals.
+/// Loads the offsets that morph targets add to normals.
 /// \pre call.morphTilts is not null
 HWY_INLINE void morphTilts(const KernelCall& call, std::size_t first, V& dx, V& dy, V& dz) {
     const BlockRow* const rows = call.morphTilts + 3 * (first / kBlock);

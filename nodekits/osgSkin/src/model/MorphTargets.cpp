@@ -14,7 +14,7 @@
 namespace osgSkin {
 namespace {
 
-/// What is wrong with a target; empty where nothing is.
+/// Describes the first error of a target; empty if there is none.
 std::string whatIsWrongWith(const MorphTarget& target, std::size_t vertexCount) {
     const std::size_t count = target.vertices.size();
     const auto fits = [count](const std::vector<glm::vec3>& offsets) {

@@ -128,14 +128,13 @@ void mendNormals(CornerMesh& mesh, const std::string& path) {
         }
         ++faces;
     }
-    if (faces > 0)
-        for (MorphTarget& target : mesh.morphs)
-            for (std::size_t i = 0; i < target.normals.size(); ++i)
-                if (isMended[target.vertices[i]]) target.normals[i] = glm::vec3(0.0f);
-    if (faces > 0)
-        tellOf(path, "the normals of " + std::to_string(faces) + " of " +
-                         std::to_string(mesh.mesh.faceSizes.size()) +
-                         " faces point to the faces' back; computed anew");
+    if (faces == 0) return;
+    for (MorphTarget& target : mesh.morphs)
+        for (std::size_t i = 0; i < target.normals.size(); ++i)
+            if (isMended[target.vertices[i]]) target.normals[i] = glm::vec3(0.0f);
+    tellOf(path, "the normals of " + std::to_string(faces) + " of " +
+                     std::to_string(mesh.mesh.faceSizes.size()) +
+                     " faces point to the faces' back; computed anew");
 }
 
 /// A vector's part perpendicular to a unit normal, of unit length; zero if there is none.

@@ -53,7 +53,7 @@ private:
 /// The properties of a part's material that the file formats share. Colours are in sRGB.
 struct Material {
     enum class Alpha { ByOpacity, Opaque, Mask, Blend }; ///< ByOpacity: blended below 1
-    /// What a texture says, which is also the unit that it is bound to.
+    /// The property that a texture gives; also its texture unit.
     enum Map : unsigned int { Diffuse, Normal, Occlusion, Emission };
     static constexpr std::size_t kMaps = 4;
     struct Texture {
