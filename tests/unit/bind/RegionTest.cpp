@@ -453,6 +453,32 @@ TEST(Ownership, BoxesThatTouchFollowOneJointEach) {
     }
 }
 
+// A head that ends in an open neck is no closed shell, but its eyes are: they must not be all that
+// the head joint gets.
+TEST(Ownership, AnOpenHeadWithEyesIsTheHeads) {
+    SkinMesh head = tube({0, 0, 0}, 1.0, {14.5, 15.2, 15.9, 16.6, 17.3, 18.0});
+    head.faceSizes.erase(head.faceSizes.end() - 2); // the bottom
+    head.faceVertices.erase(head.faceVertices.end() - 16, head.faceVertices.end() - 8);
+    const SkinMesh trunk = tube({0, 0, 0}, 0.9, {8, 9, 10, 11, 12, 13, 14, 15});
+    const SkinMesh eyes = shapes::joined(box({0.3, 16.8, 0.5}, {0.5, 17.0, 0.7}),
+                                         box({-0.5, 16.8, 0.5}, {-0.3, 17.0, 0.7}));
+    RestSkeleton skeleton;
+    shapes::addJoint(skeleton, "Hips", "", {0, 9, 0});
+    shapes::addJoint(skeleton, "Spine", "Hips", {0, 11, 0});
+    shapes::addJoint(skeleton, "Neck", "Spine", {0, 15, 0});
+    shapes::addJoint(skeleton, "Head", "Neck", {0, 16, 0});
+    skeleton.joints.back().tip = glm::dvec3(0, 17.9, 0);
+    shapes::addJoint(skeleton, "LeftEye", "Head", {0.4, 16.9, 0.6});
+    shapes::addJoint(skeleton, "RightEye", "Head", {-0.4, 16.9, 0.6});
+    const SkinMesh mesh = shapes::joined(shapes::joined(head, trunk), eyes);
+    const Binding binding = bind(mesh, skeleton);
+    const std::size_t joint = jointCalled(binding, "Head");
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        if (mesh.positions[v].y > 16.5) {
+            EXPECT_EQ(ratiosOf(binding, v, joint).bend, 1.0f) << v;
+        }
+}
+
 TEST(Ownership, PiecesThatShareVerticesAreOne) {
     SkinMesh mesh = shapes::joined(box({0, 0, 0}, {1, 4, 1}), box({1, 0, 0}, {2, 4, 1}));
     for (std::uint32_t& corner :

@@ -227,14 +227,17 @@ void claimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joint
 void giveShells(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints, Regions& regions) {
     if (mesh.shells < 2) return;
     std::vector<std::map<std::uint32_t, std::size_t>> samplesIn(mesh.shells); // of each joint
+    std::vector<bool> hasShell(joints.size(), false), hasOther(joints.size(), false);
     for (std::uint32_t j = 0; j < joints.size(); ++j) {
         const std::uint32_t joint =
             joints[j].rigid >= 0 ? static_cast<std::uint32_t>(joints[j].rigid) : j;
-        for (const glm::dvec3& sample : joints[j].samples)
-            for (const std::uint32_t shell : shellsAround(mesh, sample)) ++samplesIn[shell][joint];
+        for (const glm::dvec3& sample : joints[j].samples) {
+            const std::vector<std::uint32_t> around = shellsAround(mesh, sample);
+            if (around.empty()) hasOther[joint] = true; // in an open shell, as a face with a neck
+            for (const std::uint32_t shell : around) ++samplesIn[shell][joint];
+        }
     }
     std::vector<std::uint32_t> owner(mesh.shells, Regions::kNone);
-    std::vector<bool> hasShell(joints.size(), false), hasOther(joints.size(), false);
     for (std::uint32_t shell = 0; shell < mesh.shells; ++shell) {
         std::size_t all = 0;
         for (const auto& [joint, count] : samplesIn[shell]) all += count;
