@@ -589,6 +589,27 @@ TEST(Ownership, LegsThatAreShellsFollowTheirBones) {
     }
 }
 
+TEST(Ownership, TheMiddleOfASkirtFollowsBothThighsAlike) {
+    SkinMesh skirt = tube({0, 0, 0}, 2.4, {5, 6, 7, 8, 9, 10, 11});
+    skirt.faceSizes.resize(skirt.faceSizes.size() - 2); // open below and above
+    skirt.faceVertices.resize(skirt.faceVertices.size() - 16);
+    const std::vector<double> heights = {0.5, 2, 4, 6, 8, 9.9};
+    const SkinMesh legs =
+        shapes::joined(tube({1, 0, 0}, 0.8, heights), tube({-1, 0, 0}, 0.8, heights));
+    const SkinMesh trunk = tube({0, 0, 0}, 1.9, {9.8, 11, 12, 13, 14, 15, 16, 17, 18});
+    const Binding binding =
+        bind(shapes::joined(skirt, shapes::joined(trunk, legs)), modularSkeleton());
+    const std::size_t left = jointCalled(binding, "LeftUpLeg");
+    const std::size_t right = jointCalled(binding, "RightUpLeg");
+    for (std::size_t v = 0; v < skirt.positions.size(); ++v) {
+        const glm::dvec3& p = skirt.positions[v];
+        if (std::abs(p.x) > 1e-6 || p.y > 7.5) continue;
+        const float lefts = ratiosOf(binding, v, left).bend;
+        EXPECT_NEAR(lefts, ratiosOf(binding, v, right).bend, 0.03f) << v;
+        EXPECT_GT(lefts, 0.2f) << v;
+    }
+}
+
 TEST(Ownership, AShellAroundOthersMayBeInverted) {
     const SkinMesh limb = shapes::cylinder(12.0);
     const RestSkeleton skeleton = shapes::chainAlongY({0.5, 6.0}, 11.5);

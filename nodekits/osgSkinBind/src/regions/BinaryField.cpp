@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace osgSkin {
 namespace {
@@ -32,6 +34,25 @@ double limbRadius(const BinaryField& binary, std::size_t joint) {
     return *middle;
 }
 
+/// Skin is in the middle between two limbs if its distances to them differ by at most this share of
+/// their sum.
+constexpr double kMiddle = 0.01;
+
+/// The distance of a point to the nearest bone of a limb's joints.
+double distanceToLimb(const std::vector<PlannedJoint>& joints, const std::vector<bool>& isOfLimb,
+                      const glm::dvec3& point) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < isOfLimb.size(); ++j)
+        if (isOfLimb[j] && joints[j].holdsRegion)
+            nearest = std::min(nearest, distanceToBone(joints[j], point));
+    return nearest;
+}
+
+bool leavesTrunk(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    return joint > 0 && joints[joint].holdsRegion && !joints[joint].trunk &&
+           joints[regionAbove(joints, joint)].trunk;
+}
+
 } // namespace
 
 std::vector<double> BinaryField::subtree(std::size_t joint) const {
@@ -42,6 +63,26 @@ std::vector<double> BinaryField::subtree(std::size_t joint) const {
 }
 
 std::vector<double> BinaryField::divided(std::size_t joint, double shift) const {
+    std::vector<double> field = cut(joint, shift);
+    if (!leavesTrunk(joints, joint)) return field;
+    const std::vector<bool> isOwn = subtreeOf(joints, joint);
+    for (std::size_t other = 1; other < joints.size(); ++other) {
+        if (other == joint || !leavesTrunk(joints, other) ||
+            regionAbove(joints, other) != regionAbove(joints, joint))
+            continue;
+        const std::vector<bool> isOther = subtreeOf(joints, other);
+        const std::vector<double> others = cut(other, 0.0);
+        for (std::size_t v = 0; v < field.size(); ++v) {
+            if (!(field[v] + others[v] > 0.0)) continue;
+            const double a = distanceToLimb(joints, isOwn, mesh.positions[v]);
+            const double b = distanceToLimb(joints, isOther, mesh.positions[v]);
+            if (std::abs(a - b) <= kMiddle * (a + b)) field[v] = 0.5;
+        }
+    }
+    return field;
+}
+
+std::vector<double> BinaryField::cut(std::size_t joint, double shift) const {
     const PlannedJoint& planned = joints[joint];
     std::vector<double> field = subtree(joint);
     if (planned.topmost || !planned.beyond.empty() ||

@@ -22,7 +22,8 @@ struct BinaryField {
     ///
     /// A spine joint divides the regions of the whole spine, whose skin is near several joints. A
     /// joint with a border of its own (PlannedJoint::beyond) takes its whole region, and so does a
-    /// rigid part whose bone is longer than the one above.
+    /// rigid part whose bone is longer than the one above. Skin in the middle between two limbs, as
+    /// of a skirt, is 0.5 for both.
     ///
     /// \param joint index in `joints`
     /// \param shift of the plane, towards the child
@@ -41,6 +42,7 @@ struct BinaryField {
 
 private:
     std::vector<double> subtree(std::size_t joint) const;
+    std::vector<double> cut(std::size_t joint, double shift) const;
 };
 
 /// R_j for each joint: the radius of the limb at the joint. This is the median distance to the
