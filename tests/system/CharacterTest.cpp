@@ -419,6 +419,24 @@ TEST(BindMethod, WeightsAreTheDefaultWhereTheMeshHasGoodOnes) {
         << notices.text();
 }
 
+/// A shell without weights, as a gun beside painted arms, takes those of the nearest vertex that
+/// has some. A shell that is painted in part is not well painted.
+TEST(BindMethod, ShellsWithoutWeightsLeaveTheOthersTheirs) {
+    for (const std::size_t bare : {8u, 4u}) {
+        test::GltfColumn column; // three boxes of eight vertices
+        std::vector<double> weights;
+        for (std::size_t v = 0; v < 24; ++v)
+            weights.insert(weights.end(), {v + bare < 24 ? 1.0 : 0.0, 0.0, 0.0, 0.0});
+        column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+        const std::string file = column.save("bare" + std::to_string(bare) + ".gltf");
+        const test::Notices notices;
+        const Character character = osgSkin::loadCharacter(file);
+        EXPECT_EQ(character.bindReport.boundaries.empty(), bare == 8) << bare;
+        EXPECT_TRUE(notices.say(std::to_string(bare) + " of 24 vertices have no weights"))
+            << notices.text();
+    }
+}
+
 TEST(BindMethod, WeightsAreThoseOfAFileWithoutAWord) {
     const std::string folder = test::makeTestFolder(), data = OSGSKIN_TEST_DATA "/character/";
     std::ofstream(folder + "/painted.skin")

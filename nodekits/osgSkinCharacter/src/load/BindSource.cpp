@@ -357,6 +357,19 @@ std::size_t gapsOf(const VertexWeights& weights) {
         }));
 }
 
+/// The weights without those of shells that have none at all, as a gun beside painted arms.
+VertexWeights withoutBareShells(const SkinMesh& mesh, const VertexWeights& weights) {
+    if (gapsOf(weights) == 0) return weights;
+    VertexWeights result;
+    for (const Shell& shell : shellsOf(mesh)) {
+        VertexWeights ofShell;
+        for (const std::uint32_t v : shell) ofShell.push_back(weights[v]);
+        if (gapsOf(ofShell) < ofShell.size())
+            result.insert(result.end(), ofShell.begin(), ofShell.end());
+    }
+    return result;
+}
+
 /// Notes vertices without weights, where the method is weights.
 void tellGaps(CharacterSource& source, const VertexWeights& weights) {
     const std::size_t gaps = gapsOf(weights);
@@ -447,9 +460,10 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
         options.maxInfluences = source.limits.influencesOf(source.body.mesh.positions.size());
     VertexWeights weights;
     if (source.painted == Painted::Yes || carriesWeights(source)) weights = paintedWeights(source);
-    const bool byWeights = source.painted == Painted::Yes ||
-                           (source.painted == Painted::WhereGood && isWellPainted(weights));
-    if (!byWeights && isWellPainted(weights)) skipUnused(source.rest, weights, options);
+    const bool isGood = isWellPainted(withoutBareShells(source.body.mesh, weights));
+    const bool byWeights =
+        source.painted == Painted::Yes || (source.painted == Painted::WhereGood && isGood);
+    if (!byWeights && isGood) skipUnused(source.rest, weights, options);
     Binding binding = withFileContext(source.file, [&] {
         return byWeights ? bindWeights(source.body.mesh, source.rest, weights, options, &report)
                          : bind(source.body.mesh, source.rest, options, &report);
@@ -460,7 +474,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
     if (!source.rigidNote.empty()) report.notes.push_back(source.rigidNote);
     const std::string morphs = morphsNote(source.body);
     if (!morphs.empty()) report.notes.push_back(morphs);
-    if (source.painted == Painted::Yes) {
+    if (byWeights) {
         tellGaps(source, weights);
         warnUnitMismatch(source, weights);
     }
