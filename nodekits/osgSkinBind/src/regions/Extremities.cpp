@@ -32,7 +32,7 @@ constexpr double kMaxDrop = 0.6;
 constexpr int kDrops = 12;
 
 /// A section of a neck is narrow if it is at most this many times as long as the narrowest.
-constexpr double kNarrow = 1.18;
+constexpr double kNarrow = 1.15;
 
 /// A head, hand or foot has at most this many times as many vertices as the rest of the skin.
 constexpr double kMaxShare = 2.0;
