@@ -17,6 +17,12 @@
 #include <mutex>
 #include <thread>
 
+#ifdef __linux__
+#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 using osgSkin::DeformJob;
 using osgSkin::Pose;
 
@@ -449,6 +455,50 @@ TEST(DeformPool, OfAnyNumberOfThreadsTakesRoomForAThousand) {
     pool->forEach(100, [&](std::size_t) { ++calls; });
     EXPECT_EQ(calls, 100u);
 }
+
+#ifdef __linux__
+/// A process whose main thread was pinned to one processor before oneTBB's first use, as by
+/// osgViewer's realize(), ends with the number of threads of a pool made now.
+[[noreturn]] void endWithThreadsOfAPinnedThread() {
+    cpu_set_t first;
+    CPU_ZERO(&first);
+    sched_getaffinity(0, sizeof first, &first);
+    std::size_t processor = 0;
+    while (!CPU_ISSET(processor, &first)) ++processor;
+    CPU_ZERO(&first);
+    CPU_SET(processor, &first);
+    sched_setaffinity(0, sizeof first, &first);
+    const osg::ref_ptr<DeformPool> pool = new DeformPool(2);
+    const unsigned int most = mostAtOnce(*pool);
+    cpu_set_t after;
+    sched_getaffinity(0, sizeof after, &after);
+    std::_Exit(CPU_EQUAL(&first, &after) ? static_cast<int>(most) : 100);
+}
+
+TEST(DeformPool, HasItsThreadsWhereTheMainThreadIsPinned) {
+    if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "needs two processors";
+    if (!DeformPool::hasThreads()) GTEST_SKIP() << "built without threads";
+    GTEST_FLAG_SET(death_test_style, "threadsafe"); // in a process of its own
+    EXPECT_EXIT(endWithThreadsOfAPinnedThread(), testing::ExitedWithCode(2), "");
+}
+
+/// A process that may make no thread ends with 0 where a pool of eight calls all.
+[[noreturn]] void endWithoutThreads() {
+    if (getuid() == 0 && setuid(65534) != 0) std::_Exit(101); // root has no limit
+    const rlimit none = {0, 0};
+    setrlimit(RLIMIT_NPROC, &none);
+    const osg::ref_ptr<DeformPool> pool = new DeformPool(8);
+    std::size_t calls = 0; // from one thread
+    pool->forEach(100, [&](std::size_t) { ++calls; });
+    std::_Exit(calls == 100 && pool->getThreadCount() == 1 ? 0 : 102);
+}
+
+TEST(DeformPool, WorksAloneWhereNoThreadCanBeMade) {
+    if (!DeformPool::hasThreads()) GTEST_SKIP() << "built without threads";
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(endWithoutThreads(), testing::ExitedWithCode(0), "makes no thread");
+}
+#endif
 
 /// For example, a thread deforms a skin and holds its lock while the pool's threads are about to
 /// deform it.

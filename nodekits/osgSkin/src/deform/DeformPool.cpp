@@ -2,13 +2,23 @@
 #include <osgSkin/DeformPool>
 
 #include <OpenThreads/Thread>
+#include <osg/Notify>
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
+#include <system_error>
+#include <thread>
 
 #ifdef OSGSKIN_HAS_TBB
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#endif
+
+#ifdef __linux__
+#include <sched.h>
 #endif
 
 namespace osgSkin {
@@ -18,12 +28,65 @@ namespace osgSkin {
 /// An arena allocates for all of its threads.
 constexpr unsigned int kMaxThreads = 1024;
 
+namespace {
+
+#ifdef __linux__
+cpu_set_t processorsOfThisThread() {
+    cpu_set_t result;
+    CPU_ZERO(&result);
+    sched_getaffinity(0, sizeof result, &result);
+    return result;
+}
+
+/// When this library was loaded.
+const cpu_set_t kProcessors = processorsOfThisThread();
+
+/// Lets the calling thread run, while this exists, where the process could run when it began.
+/// osgViewer's realize() pins the main thread to one processor; oneTBB takes the number of threads
+/// and where they run from the thread that uses it first.
+class Unpinned {
+public:
+    Unpinned() { sched_setaffinity(0, sizeof kProcessors, &kProcessors); }
+    ~Unpinned() { sched_setaffinity(0, sizeof _before, &_before); }
+    Unpinned(const Unpinned&) = delete;
+    Unpinned& operator=(const Unpinned&) = delete;
+
+private:
+    const cpu_set_t _before = processorsOfThisThread();
+};
+#else
+struct Unpinned {};
+#endif
+
+/// Whether the process may make a thread; oneTBB ends it otherwise.
+bool canMakeThreads() {
+    try {
+        std::thread([] {}).join();
+        return true;
+    } catch (const std::system_error&) {
+        return false;
+    }
+}
+
+/// The threads that oneTBB would use.
+unsigned int defaultThreads() {
+    [[maybe_unused]] const Unpinned unpinned;
+    return static_cast<unsigned int>(std::max(1, tbb::info::default_concurrency()));
+}
+
+} // namespace
+
 /// Limits the number of threads, including the caller's.
 struct DeformPool::Arena {
     explicit Arena(unsigned int count) : threads(count), arena(static_cast<int>(count)) {
-        if (count > 1) arena.initialize();
+        if (count < 2) return;
+        // Only to have more: the least of a process's limits counts.
+        if (count > defaultThreads())
+            more.emplace(tbb::global_control::max_allowed_parallelism, count);
+        arena.initialize();
     }
     unsigned int threads;
+    std::optional<tbb::global_control> more;
     tbb::task_arena arena;
     std::atomic<bool> taken{false}; ///< by a thread outside the pool
 };
@@ -57,6 +120,11 @@ void DeformPool::setThreadCount(unsigned int threads) {
     const int processors = OpenThreads::GetNumberOfProcessors();
     if (threads == 0) threads = static_cast<unsigned int>(std::max(1, processors));
     threads = std::min(threads, kMaxThreads);
+    if (threads > 1 && !canMakeThreads()) {
+        OSG_WARN << "osgSkin: DeformPool: the system makes no thread; the calling one works alone"
+                 << std::endl;
+        threads = 1;
+    }
     if (!_arena || _arena->threads != threads) _arena = std::make_unique<Arena>(threads);
 }
 
