@@ -3,13 +3,16 @@
 #include <osgDB/Registry>
 
 USE_SERIALIZER_WRAPPER(osgSkin_AutoPlayManager)
+USE_SERIALIZER_WRAPPER(osgSkin_CullPlayedSkeleton)
 USE_SERIALIZER_WRAPPER(osgSkin_DeformableSkin)
 USE_SERIALIZER_WRAPPER(osgSkin_MorphTargets)
 USE_SERIALIZER_WRAPPER(osgSkin_MorphedSkin)
+USE_SERIALIZER_WRAPPER(osgSkin_PlayedSkeletonBound)
 USE_SERIALIZER_WRAPPER(osgSkin_RigidPart)
 USE_SERIALIZER_WRAPPER(osgSkin_SharedSkinModel)
 USE_SERIALIZER_WRAPPER(osgSkin_SkinModel)
 USE_SERIALIZER_WRAPPER(osgSkin_UpdateDeformableSkin)
 USE_SERIALIZER_WRAPPER(osgSkin_UpdateMorphs)
+USE_SERIALIZER_WRAPPER(osgSkin_UpdatePlayedSkeleton)
 
 extern "C" void wrapper_serializer_library_osgSkin(void) {}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/AutoPlayManager>
 
+#include <osgSkin/UpdatePlayedSkeleton>
+
 #include <osgAnimation/Animation>
 #include <osgAnimation/AnimationManagerBase>
 #include <osgAnimation/LinkVisitor>
@@ -53,6 +55,8 @@ public:
 
     void apply(osg::Node& node) override {
         if (isAnotherCharacter(node, getNodePath())) return;
+        if (UpdatePlayedSkeleton* skeleton = UpdatePlayedSkeleton::of(node))
+            skeletons.push_back(skeleton);
         if (osg::StateSet* states = node.getStateSet()) handle_stateset(states);
         for (osg::Callback* callback = node.getUpdateCallback(); callback != nullptr;
              callback = callback->getNestedCallback()) {
@@ -69,11 +73,52 @@ public:
         traverse(node);
     }
 
+    std::vector<UpdatePlayedSkeleton*> skeletons;
+
 private:
     std::unordered_map<std::string, std::vector<osgAnimation::Channel*>> m_channels;
 };
 
+/// The time in a clip's keys, as osgAnimation::Animation::update() computes it.
+struct ClipTime : osgAnimation::Animation {
+    /// \return false where the clip is over
+    static bool find(osgAnimation::Animation& clip, double time, double& result) {
+        if (clip.getDuration() == 0.0) clip.computeDuration();
+        const double whole = clip.*(&ClipTime::_originalDuration);
+        double t = (time - clip.getStartTime()) * (whole / clip.getDuration());
+        switch (clip.getPlayMode()) {
+        case ONCE:
+            if (t > whole) return false;
+            break;
+        case STAY:
+            t = std::min(t, whole);
+            break;
+        case LOOP:
+            if (whole == 0.0)
+                t = clip.getStartTime();
+            else if (t > whole)
+                t = std::fmod(t, whole);
+            break;
+        case PPONG: {
+            if (whole == 0.0) {
+                t = clip.getStartTime();
+                break;
+            }
+            const bool isBack = static_cast<int>(t / whole) % 2 != 0;
+            t = std::fmod(t, whole);
+            if (isBack) t = whole - t;
+            break;
+        }
+        }
+        result = t;
+        return true;
+    }
+};
+
 } // namespace
+
+AutoPlayManager::AutoPlayManager() = default;
+AutoPlayManager::~AutoPlayManager() = default;
 
 AutoPlayManager::AutoPlayManager(const AutoPlayManager& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop), osgAnimation::BasicAnimationManager(
@@ -88,12 +133,15 @@ void AutoPlayManager::registerAnimations(const osgAnimation::AnimationList& anim
 }
 
 void AutoPlayManager::link(osg::Node* subgraph) {
+    _skeleton = nullptr;
+    _playsDirectly = false;
     if (_linker.valid()) { // the application's
         osgAnimation::BasicAnimationManager::link(subgraph);
         return;
     }
     const osg::ref_ptr<NameLinker> linker = new NameLinker(_animations);
     subgraph->accept(*linker);
+    if (linker->skeletons.size() == 1) _skeleton = linker->skeletons.front();
     _needToLink = false;
     buildTargetReference();
 }
@@ -113,7 +161,26 @@ void AutoPlayManager::update(double time) {
             if (clip->getPlayMode() != osgAnimation::Animation::LOOP &&
                 clip->getDuration() == 0.0 && clip->computeDurationFromChannels() == 0.0)
                 clip->setPlayMode(osgAnimation::Animation::LOOP);
-    osgAnimation::BasicAnimationManager::update(time);
+    _playsDirectly = playDirectly(time);
+    if (!_playsDirectly) osgAnimation::BasicAnimationManager::update(time);
+}
+
+/// Plays the only playing clip through the skeleton's callback.
+bool AutoPlayManager::playDirectly(double time) {
+    if (!_skeleton) return false;
+    osgAnimation::Animation* clip = nullptr;
+    for (const auto& layer : _animationsPlaying)
+        for (const osg::ref_ptr<osgAnimation::Animation>& playing : layer.second) {
+            if (clip) return false;
+            clip = playing.get();
+        }
+    double inClip = 0.0;
+    // With less weight a channel does nothing.
+    if (!clip || clip->getWeight() < 1e-4f || !ClipTime::find(*clip, time, inClip)) return false;
+    if (!_playsDirectly) clearTargets(); // of clips that played before
+    if (!_skeleton->play(*clip, inClip)) return false;
+    _lastUpdate = time;
+    return true;
 }
 
 } // namespace osgSkin

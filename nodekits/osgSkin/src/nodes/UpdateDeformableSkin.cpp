@@ -2,6 +2,7 @@
 #include <osgSkin/UpdateDeformableSkin>
 
 #include <osgSkin/Error>
+#include <osgSkin/UpdatePlayedSkeleton>
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
@@ -66,28 +67,67 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
     return poseAs(Pose::Twist::Shortest, skin, skeleton);
 }
 
+void UpdateDeformableSkin::findBones(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
+    const SkinModel* model = skin.getModel();
+    _reader = BoneReader(model->joints(), skeleton, &skin);
+    _skeleton = &skeleton;
+    _model = model;
+    _played = nullptr;
+    // A root joint above several bones (readSkeleton()) has no bone and stays at rest.
+    const bool toldMissing = _toldMissing;
+    for (const std::string& joint : _reader.missing()) {
+        if (joint == model->joints().front().name) continue;
+        _toldMissing = true;
+        if (!toldMissing)
+            OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
+                                  skeleton.getName() + "\" has no bone \"" + joint +
+                                  "\"; the joint moves with its parent")
+                     << std::endl;
+    }
+}
+
+bool UpdateDeformableSkin::knowsPlaces(const UpdatePlayedSkeleton& played) const {
+    return _played == &played && _playedRevision == played.revision();
+}
+
+/// The joints' skinning matrices from those of the bones.
+const std::vector<glm::dmat4>&
+UpdateDeformableSkin::readPlayed(const UpdatePlayedSkeleton& played) {
+    const std::vector<glm::dmat4>& bones = played.skinning();
+    const std::size_t joints = _model->joints().size();
+    if (!knowsPlaces(played)) {
+        _played = &played;
+        _playedRevision = played.revision();
+        _places.clear();
+        bool isSame = joints == bones.size();
+        for (std::size_t j = 0; j < joints; ++j) {
+            _places.push_back(played.find(_reader.boneOf(j)));
+            isSame = isSame && _places.back() == static_cast<int>(j);
+        }
+        if (isSame) _places.clear();
+    }
+    if (_places.empty()) return bones;
+    static thread_local std::vector<glm::dmat4> skinning;
+    skinning.resize(joints);
+    for (std::size_t j = 0; j < joints; ++j)
+        skinning[j] =
+            _places[j] < 0 ? glm::dmat4(1.0) : bones[static_cast<std::size_t>(_places[j])];
+    return skinning;
+}
+
 bool UpdateDeformableSkin::poseAs(Pose::Twist twist, DeformableSkin& skin,
                                   osgAnimation::Skeleton& skeleton) {
     const SkinModel* model = skin.getModel();
     if (!model) return false;
-    if (_skeleton.get() != &skeleton || _model.get() != model || _reader.isOutdated(&skin)) {
-        _reader = BoneReader(model->joints(), skeleton, &skin);
-        _skeleton = &skeleton;
-        _model = model;
+    const UpdatePlayedSkeleton* played = UpdatePlayedSkeleton::of(skeleton);
+    if (played && !played->skipsBones()) played = nullptr;
+    // Places that are known are those of bones that have not changed.
+    if (_skeleton.get() != &skeleton || _model.get() != model ||
+        (!(played && knowsPlaces(*played)) && _reader.isOutdated(&skin))) {
+        findBones(skin, skeleton);
         twist = Pose::Twist::Shortest;
-        // A root joint above several bones (readSkeleton()) has no bone and stays at rest.
-        const bool toldMissing = _toldMissing;
-        for (const std::string& joint : _reader.missing()) {
-            if (joint == model->joints().front().name) continue;
-            _toldMissing = true;
-            if (!toldMissing)
-                OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
-                                      skeleton.getName() + "\" has no bone \"" + joint +
-                                      "\"; the joint moves with its parent")
-                         << std::endl;
-        }
     }
-    const std::vector<glm::dmat4>& skinning = _reader.read();
+    const std::vector<glm::dmat4>& skinning = played ? readPlayed(*played) : _reader.read();
     if (!skin.setPose(skinning.data(), skinning.size(), twist)) {
         if (!_warned)
             OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +

@@ -11,6 +11,7 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
 #include <osgSkin/UpdateMorphs>
+#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/NonUniformScale>
 #include <osgSkinBind/ShowRegions>
@@ -240,6 +241,7 @@ osg::BoundingSphere playedBounds(osg::Group& root, const osgAnimation::Animation
         if (duration <= 0.0) break;
     }
     root.setUpdateCallback(nullptr);
+    poseBones(root);
     return box.valid() ? osg::BoundingSphere(box) : osg::BoundingSphere();
 }
 
@@ -340,6 +342,7 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
         character.root->setInitialBound(clipBounds(character.motions.front().clip, character));
         character.pose(character.motions.front(), 0);
     }
+    if (source.options.bonesFollow.value_or(false)) setBonesFollow(*character.skeleton, true);
     play(character);
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinCharacter/Character>
 
+#include <osgSkin/BoneReader>
 #include <osgSkin/Error>
 #include <osgSkin/SetMorph>
 #include <osgSkin/UpdateDeformableSkin>
+#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinRig/ApplyFrame>
 #include <osgSkinRig/MakeAnimation>
 
@@ -35,6 +37,7 @@ void Character::pose(const CharacterMotion& motion, std::size_t frame) {
 
 void Character::poseAt(const CharacterMotion& motion, double seconds) {
     if (manager->needToLink()) manager->link(root);
+    if (UpdatePlayedSkeleton* played = UpdatePlayedSkeleton::of(*skeleton)) played->poseBones();
     const double speed = keySpeed(*motion.animation);
     for (const auto& channel : motion.animation->getChannels()) {
         channel->reset();
@@ -44,6 +47,15 @@ void Character::poseAt(const CharacterMotion& motion, double seconds) {
     visitor.setFrameStamp(new osg::FrameStamp);
     root->traverse(visitor); // without the manager, which would play on
     poseSkins(*this);
+}
+
+osg::ref_ptr<osgAnimation::Bone> Character::bone(const std::string& name) {
+    if (!skeleton) return nullptr;
+    const osgAnimation::BoneMap bones = bonesOf(*skeleton);
+    const auto found = bones.find(name);
+    if (found == bones.end()) return nullptr;
+    setBonesFollow(*skeleton, true);
+    return found->second;
 }
 
 std::vector<std::string> Character::morphs() const {

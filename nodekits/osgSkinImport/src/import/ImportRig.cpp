@@ -11,6 +11,7 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
 #include <osgSkin/UpdateMorphs>
+#include <osgSkin/UpdatePlayedSkeleton>
 
 #include <glm/geometric.hpp>
 #include <osgAnimation/Animation>
@@ -69,7 +70,7 @@ osg::ref_ptr<osgAnimation::Skeleton> makeBones(const SceneSkeleton& joints,
                                                const std::vector<bool>& moves) {
     osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
     skeleton->setName("skeleton");
-    skeleton->setDefaultUpdateCallback();
+    skeleton->setUpdateCallback(new UpdatePlayedSkeleton);
     osg::Group* top = skeleton.get();
     if (joints.aboveRoot != glm::dmat4(1.0)) {
         const osg::ref_ptr<osgAnimation::Bone> above =

@@ -7,6 +7,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinRig/ApplyFrame>
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/ForwardKinematics>
@@ -239,6 +240,7 @@ void applyFrame(const Clip& clip, const RestSkeleton& rig, std::size_t frame,
     if (frame >= clip.frames)
         throw Error("clip \"" + clip.name + "\": no frame " + std::to_string(frame) +
                     ", expected less than " + std::to_string(clip.frames));
+    if (UpdatePlayedSkeleton* played = UpdatePlayedSkeleton::of(skeleton)) played->poseBones();
     const ClipOnBones bones(clip, rig, skeleton);
     const std::vector<ClipOnBones::Matrices> posed = bones.frame(frame);
     std::string notHeld;

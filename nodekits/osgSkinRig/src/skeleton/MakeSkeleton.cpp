@@ -3,6 +3,7 @@
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinRig/ReadSkeleton>
 
 #include <osg/NodeVisitor>
@@ -19,7 +20,7 @@ osg::ref_ptr<osgAnimation::Skeleton> makeSkeleton(const RestSkeleton& rig) {
     rig.validate();
     osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
     skeleton->setName("skeleton");
-    skeleton->setDefaultUpdateCallback();
+    skeleton->setUpdateCallback(new UpdatePlayedSkeleton);
 
     std::vector<osgAnimation::Bone*> bones;
     for (const RestJoint& joint : rig.joints) {
