@@ -3,6 +3,7 @@
 // A twist that passes through 180 degrees: UpdateDeformableSkin unwraps it by default.
 //
 // Functions with OSG's types equal those with GLM's.
+#include "Notices.h"
 #include "PlayedFigure.h"
 #include "TubeSkin.h"
 
@@ -19,6 +20,7 @@
 #include <osg/Group>
 #include <osgUtil/UpdateVisitor>
 
+#include <cmath>
 #include <limits>
 
 namespace {
@@ -117,6 +119,85 @@ TEST_F(TwistUnwrap, SkinRunsOnToo) {
         ASSERT_NEAR(at.x(), std::cos(half), 1e-5) << degrees;
         ASSERT_NEAR(at.z(), -std::sin(half), 1e-5) << degrees;
     }
+}
+
+TEST_F(TwistUnwrap, ABoneThatReturnsMovesTheSkinAgain) {
+    osg::Group* const root = skeleton->getChild(0)->asGroup();
+    const osg::ref_ptr<osg::Group> middle = root->getChild(0)->asGroup();
+    twistAt(0.0, 10.0);
+    const auto update = [&] {
+        osgUtil::UpdateVisitor visitor;
+        visitor.setFrameStamp(new osg::FrameStamp);
+        skeleton->accept(visitor);
+    };
+    for (int round = 0; round < 2; ++round) {
+        root->removeChild(middle);
+        const test::Notices notices;
+        update();
+        EXPECT_EQ(skin->getPose().transform(1).split.twistAngle, 0.0);
+        root->addChild(middle);
+        EXPECT_NEAR(twistAt(0.1, 30.0), 30.0, 1e-9);
+    }
+}
+
+TEST_F(TwistUnwrap, ABoneScaledToNothingLeavesTheOthersTheirs) {
+    twistAt(0.0, 0.0);
+    auto& root = static_cast<osgAnimation::Bone&>(*skeleton->getChild(0));
+    auto& middle = static_cast<osgAnimation::Bone&>(*root.getChild(0));
+    auto& end = static_cast<osgAnimation::Bone&>(*middle.getChild(0));
+    const osg::Matrixd moved = osg::Matrix::translate(7, 0, 0);
+    root.setMatrixInSkeletonSpace(moved);
+    const osg::Matrixd nothing =
+        osg::Matrix::scale(0, 0, 0) * osg::Matrix::translate(0, 2, 0) * moved;
+    middle.setMatrixInSkeletonSpace(nothing);
+    end.setMatrixInSkeletonSpace(osg::Matrix::translate(0, 2, 0) * nothing);
+    const test::Notices notices;
+    osgUtil::UpdateVisitor update;
+    update.setFrameStamp(new osg::FrameStamp);
+    skeleton->accept(update);
+    EXPECT_EQ(notices.text(), "");
+    const auto& rest =
+        static_cast<const osg::Vec3Array&>(*skin->getRestGeometry()->getVertexArray());
+    const auto& now =
+        static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
+    for (unsigned int v = 0; v < now.size(); ++v) {
+        if (rest[v].y() < 0.5f) {
+            EXPECT_LT((now[v] - rest[v] * moved).length(), 1e-4f) << v;
+        }
+        if (rest[v].y() > 3.5f) {
+            EXPECT_LT((now[v] - osg::Vec3(7, 2, 0)).length(), 0.01f) << v;
+        }
+    }
+}
+
+TEST_F(TwistUnwrap, ASkinWithoutASkeletonIsReportedOnce) {
+    const osg::ref_ptr<osg::Group> beside = new osg::Group;
+    beside->addChild(skeleton);
+    skeleton->removeChild(skin);
+    beside->addChild(skin);
+    const test::Notices notices;
+    for (int i = 0; i < 3; ++i) {
+        osgUtil::UpdateVisitor update;
+        beside->accept(update);
+    }
+    EXPECT_EQ(notices.lines(), 1u);
+    EXPECT_TRUE(notices.say("is below no osgAnimation::Skeleton")) << notices.text();
+}
+
+TEST(UpdateDeformableSkin, ASkinBelowItsOwnBoneIsFreed) {
+    osg::observer_ptr<osg::Node> figure;
+    {
+        const osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
+        const osg::ref_ptr<osgSkin::DeformableSkin> skin = test::makeSkin();
+        skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
+        skeleton->addChild(skin);
+        osgUtil::UpdateVisitor update;
+        skeleton->accept(update);
+        skeleton->removeChild(skin);
+        figure = skeleton->getChild(0);
+        figure->asGroup()->addChild(skin);
+    }
+    EXPECT_FALSE(figure.valid());
 }
 
 TEST_F(TwistUnwrap, StartsAfreshOnASeek) {

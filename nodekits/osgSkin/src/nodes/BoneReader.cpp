@@ -3,7 +3,6 @@
 
 #include <osgSkin/GlmOsg>
 
-#include <set>
 #include <vector>
 
 namespace osgSkin {
@@ -18,19 +17,6 @@ public:
     }
 };
 
-std::set<const osg::Node*> nodesAbove(const osg::Node* node) {
-    std::set<const osg::Node*> result;
-    std::vector<const osg::Node*> open;
-    if (node) open.push_back(node);
-    while (!open.empty()) {
-        const osg::Node& next = *open.back();
-        open.pop_back();
-        for (unsigned i = 0; i < next.getNumParents(); ++i)
-            if (result.insert(next.getParent(i)).second) open.push_back(next.getParent(i));
-    }
-    return result;
-}
-
 } // namespace
 
 osgAnimation::BoneMap bonesOf(osgAnimation::Skeleton& skeleton) {
@@ -40,42 +26,44 @@ osgAnimation::BoneMap bonesOf(osgAnimation::Skeleton& skeleton) {
 }
 
 BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skeleton& skeleton,
-                       const osg::Node* skin) {
+                       const osg::Node* skin)
+    : _skeleton(&skeleton) {
     const osgAnimation::BoneMap bones = bonesOf(skeleton);
-    const std::set<const osg::Node*> above = nodesAbove(skin);
     _bones.reserve(joints.size());
-    std::vector<osgAnimation::Bone*> found(joints.size(), nullptr);
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        const auto bone = bones.find(joints[j].name);
+    for (const BoundJoint& joint : joints) {
+        const auto bone = bones.find(joint.name);
         if (bone != bones.end()) {
-            found[j] = bone->second;
+            _bones.emplace_back(bone->second.get());
         } else {
-            _missing.push_back(joints[j].name);
-            if (joints[j].parent >= 0) found[j] = found[static_cast<std::size_t>(joints[j].parent)];
+            _missing.push_back(joint.name);
+            _bones.push_back(joint.parent < 0 ? osg::observer_ptr<osgAnimation::Bone>()
+                                              : _bones[static_cast<std::size_t>(joint.parent)]);
         }
-        const bool keepsSkin = found[j] && above.count(found[j]) > 0;
-        _bones.emplace_back(keepsSkin ? nullptr : found[j]);
-        if (!keepsSkin) continue;
-        if (!_above) _above = new Above;
-        _above->bones[j] = found[j];
     }
     _places = placesOf(skin);
 }
 
 const osgAnimation::Bone* BoneReader::boneOf(std::size_t joint) const {
-    if (_bones[joint] || !_above) return _bones[joint].get();
-    const auto found = _above->bones.find(joint);
-    return found == _above->bones.end() ? nullptr : found->second.get();
+    return _bones[joint].get();
 }
 
 std::uint64_t BoneReader::placesOf(const osg::Node* skin) const {
-    std::uint64_t result = 14695981039346656037u; // FNV-1a, an address at a time
-    const auto add = [&](const osg::Node* node) {
-        const osg::Group* parent = node && node->getNumParents() > 0 ? node->getParent(0) : nullptr;
-        result = (result ^ reinterpret_cast<std::uintptr_t>(parent)) * 1099511628211u;
+    std::uint64_t result = 14695981039346656037u; // FNV-1a, a number at a time
+    const auto add = [&result](std::uintptr_t number) {
+        result = (result ^ number) * 1099511628211u;
     };
-    for (std::size_t j = 0; j < _bones.size(); ++j) add(boneOf(j));
-    add(skin);
+    const auto addParent = [&add](const osg::Node* node) {
+        const osg::Group* parent = node && node->getNumParents() > 0 ? node->getParent(0) : nullptr;
+        add(reinterpret_cast<std::uintptr_t>(parent));
+    };
+    for (std::size_t j = 0; j < _bones.size(); ++j) addParent(boneOf(j));
+    addParent(skin);
+    if (_missing.empty()) return result;
+    const auto addChildren = [&add](const osg::Group* node) {
+        add(node ? node->getNumChildren() : 0);
+    };
+    for (std::size_t j = 0; j < _bones.size(); ++j) addChildren(boneOf(j));
+    addChildren(_skeleton.get());
     return result;
 }
 

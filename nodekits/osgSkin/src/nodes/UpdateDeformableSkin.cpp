@@ -28,6 +28,32 @@ bool standsUnderAnother(const osg::Drawable& skin, const osgAnimation::Skeleton&
     });
 }
 
+/// The size of a joint that is scaled to nothing, as to hide a hand.
+constexpr double kShrunk = 1e-4;
+
+/// Skinning matrices without those of joints that are scaled to nothing, which cannot be inverted:
+/// such a joint moves with its parent, but very small.
+std::vector<glm::dmat4> shrunk(const SkinModel& model, std::vector<glm::dmat4> skinning) {
+    std::vector<bool> isShrunk(skinning.size(), false);
+    for (std::size_t j = 1; j < skinning.size(); ++j) {
+        const BoundJoint& joint = model.joints()[j];
+        const auto parent = static_cast<std::size_t>(joint.parent);
+        const glm::dmat4& own = skinning[j];
+        double size = 0.0;
+        for (int axis = 0; axis < 3; ++axis)
+            size = std::max(size, glm::length(glm::dvec3(own[axis])));
+        if (!(size < kShrunk)) continue;
+        isShrunk[j] = true;
+        const glm::dvec3 centre(own * glm::dvec4(joint.centre, 1.0));
+        skinning[j] = skinning[parent];
+        if (isShrunk[parent]) continue;
+        for (int axis = 0; axis < 3; ++axis) skinning[j][axis] *= kShrunk;
+        const glm::dvec3 now(skinning[j] * glm::dvec4(joint.centre, 1.0));
+        skinning[j][3] += glm::dvec4(centre - now, 0.0);
+    }
+    return skinning;
+}
+
 } // namespace
 
 UpdateDeformableSkin::UpdateDeformableSkin(const UpdateDeformableSkin& other,
@@ -59,6 +85,12 @@ void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable)
         noticeSeek(*nv);
         if (poseAs(_twist, *skin, *skeleton))
             _twist = _unwrapTwist ? Pose::Twist::Continued : Pose::Twist::Shortest;
+    } else if (skin && nv && !_toldNoSkeleton) {
+        OSG_WARN << onOneLine("osgSkin: skin \"" + skin->getName() +
+                              "\" is below no osgAnimation::Skeleton, expected one above it; the "
+                              "skin keeps its pose")
+                 << std::endl;
+        _toldNoSkeleton = true;
     }
     traverse(drawable, nv); // nested callbacks
 }
@@ -128,7 +160,8 @@ bool UpdateDeformableSkin::poseAs(Pose::Twist twist, DeformableSkin& skin,
         twist = Pose::Twist::Shortest;
     }
     const std::vector<glm::dmat4>& skinning = played ? readPlayed(*played) : _reader.read();
-    if (!skin.setPose(skinning.data(), skinning.size(), twist)) {
+    if (!skin.setPose(skinning.data(), skinning.size(), twist) &&
+        !skin.setPose(shrunk(*model, skinning).data(), skinning.size(), twist)) {
         if (!_warned)
             OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
                                   skeleton.getName() +
