@@ -15,7 +15,7 @@ namespace recipes {
 /// \param loaded with clips of these names
 /// \return call its setTime() in each update
 inline osg::ref_ptr<osgSkin::GpuCrowd> makeCrowd(osg::Node& loaded, osg::Group& scene) {
-    //! [readme]
+    // [readme]
     const auto character = osgSkin::CrowdCharacter::create(loaded);
     const osg::ref_ptr<osgSkin::GpuCrowd> crowd = new osgSkin::GpuCrowd(character);
     std::vector<osgSkin::CrowdInstance> members(1000);
@@ -26,7 +26,7 @@ inline osg::ref_ptr<osgSkin::GpuCrowd> makeCrowd(osg::Node& loaded, osg::Group& 
     }
     crowd->setInstances(members);
     scene.addChild(crowd);
-    //! [readme]
+    // [readme]
     return crowd;
 }
 

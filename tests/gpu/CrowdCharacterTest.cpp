@@ -33,8 +33,8 @@ osg::ref_ptr<osg::Node> loadThrower() {
     osg::ref_ptr<osg::Node> scene =
         osgDB::readRefNodeFile(std::string(OSGSKIN_DATA) + "/thrower.skin");
     for (const auto& found : test::findNodes<osg::Node>(*scene)) {
-        auto* manager = dynamic_cast<osgAnimation::AnimationManagerBase*>(
-            found.node->getUpdateCallback());
+        auto* manager =
+            dynamic_cast<osgAnimation::AnimationManagerBase*>(found.node->getUpdateCallback());
         if (!manager || manager->getAnimationList().empty()) continue;
         osgAnimation::Animation& first = *manager->getAnimationList().front();
         first.setName("walk");
@@ -138,8 +138,7 @@ TEST(CrowdOfALoadedCharacter, HasItsClipsByName) {
         EXPECT_EQ(character->clipName(1), "run");
         EXPECT_NEAR(character->loopSeconds(1), 0.5, 1e-6);
         EXPECT_EQ(character->loopSeconds(2), 0.0) << "played once";
-        EXPECT_EQ(character->parts().size(),
-                  1 + test::findNodes<osgSkin::RigidPart>(*node).size());
+        EXPECT_EQ(character->parts().size(), 1 + test::findNodes<osgSkin::RigidPart>(*node).size());
         try {
             character->clip("swim");
             ADD_FAILURE() << "expected an error";

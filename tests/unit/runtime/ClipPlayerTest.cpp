@@ -330,8 +330,8 @@ osgSkin::Clip walkOnAnArc(std::size_t frames, double angle) {
         const glm::dquat turn =
             glm::angleAxis(angle * double(f) / double(frames), glm::dvec3(0, 1, 0));
         clip.rotations[3 * f] = turn * clip.rotations[3 * f];
-        clip.rootPositions[f] = turn * glm::dvec3(3.0, 0.0, 0.0) +
-                                glm::dvec3(1.0, clip.rootPositions[f].y, -2.0);
+        clip.rootPositions[f] =
+            turn * glm::dvec3(3.0, 0.0, 0.0) + glm::dvec3(1.0, clip.rootPositions[f].y, -2.0);
     }
     return clip;
 }

@@ -116,11 +116,11 @@ constexpr float kFarSize = 0.012f;
 /// The vertex of a range that is nearest to another one, or that one if it is in the range.
 GLuint nearestTo(GLuint vertex, const std::vector<osg::Vec3>& positions, GLuint first, GLuint end) {
     if (vertex >= first && vertex < end) return vertex;
-    const auto nearest = std::min_element(
-        positions.begin() + first, positions.begin() + end,
-        [&](const osg::Vec3& a, const osg::Vec3& b) {
-            return (a - positions[vertex]).length2() < (b - positions[vertex]).length2();
-        });
+    const auto nearest = std::min_element(positions.begin() + first, positions.begin() + end,
+                                          [&](const osg::Vec3& a, const osg::Vec3& b) {
+                                              return (a - positions[vertex]).length2() <
+                                                     (b - positions[vertex]).length2();
+                                          });
     return static_cast<GLuint>(nearest - positions.begin());
 }
 
@@ -189,7 +189,8 @@ osg::ref_ptr<const osg::Geometry> transformed(const osg::Geometry& geometry,
     return result;
 }
 
-/// The geometries below a node in its space, with the states above each. Those of skins are at rest.
+/// The geometries below a node in its space, with the states above each. Those of skins are at
+/// rest.
 class FindGeometries : public osg::NodeVisitor {
 public:
     struct Found {
@@ -483,14 +484,14 @@ std::size_t CrowdCharacter::appendLevel(std::size_t triangles, bool isFar, float
     firsts.push_back(static_cast<GLuint>(positions.size()));
     const std::vector<GLuint> kept = simplified(positions, indices, 3 * triangles, isFar);
     const auto partOf = [&](GLuint vertex) {
-        return static_cast<std::size_t>(
-            std::upper_bound(firsts.begin(), firsts.end(), vertex) - firsts.begin() - 1);
+        return static_cast<std::size_t>(std::upper_bound(firsts.begin(), firsts.end(), vertex) -
+                                        firsts.begin() - 1);
     };
     for (Part& part : _parts) part.indices.emplace_back();
     for (std::size_t i = 0; i < kept.size(); i += 3) {
         // A triangle between two parts is drawn by one of them, with its nearest vertex.
-        const std::size_t p = partOf(kept[i]) == partOf(kept[i + 1]) ? partOf(kept[i])
-                                                                     : partOf(kept[i + 2]);
+        const std::size_t p =
+            partOf(kept[i]) == partOf(kept[i + 1]) ? partOf(kept[i]) : partOf(kept[i + 2]);
         std::array<GLuint, 3> corners{};
         for (std::size_t k = 0; k < 3; ++k)
             corners[k] = nearestTo(kept[i + k], positions, firsts[p], firsts[p + 1]) - firsts[p];

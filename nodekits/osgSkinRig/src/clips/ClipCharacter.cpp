@@ -137,8 +137,8 @@ std::string boneAbove(const osg::NodePath& path) {
     return (*bone)->getName();
 }
 
-/// The transform of a copy's rigid part. A cull tests its sphere in the parent's space: a matrix and
-/// a frustum of its own, as transforms push them, cost more than all else of the part.
+/// The transform of a copy's rigid part. A cull tests its sphere in the parent's space: a matrix
+/// and a frustum of its own, as transforms push them, cost more than all else of the part.
 class RigidCopy : public osg::MatrixTransform {
 public:
     /// \param parts in rest space
@@ -198,8 +198,8 @@ private:
     }
 };
 
-/// The node of a copy. A crowd's nodes have left the caches when a cull visits them: it asks for all
-/// of a member's nodes at once, instead of waiting for one after the other.
+/// The node of a copy. A crowd's nodes have left the caches when a cull visits them: it asks for
+/// all of a member's nodes at once, instead of waiting for one after the other.
 class Figure : public osg::MatrixTransform {
 public:
     /// Adds a part of the figure.
@@ -391,8 +391,7 @@ ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
         skin->setUpdateCallback(nullptr); // the player sets its pose
         const std::vector<glm::dmat4> rest(skin->getModel()->joints().size(), glm::dmat4(1.0));
         skin->setPose(rest.data(), rest.size());
-        const osg::ref_ptr<osg::MatrixTransform> place =
-            new osg::MatrixTransform(source.toWorld);
+        const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(source.toWorld);
         place->setStateSet(source.look.state);
         place->setNodeMask(source.look.mask);
         place->addChild(skin);
