@@ -165,6 +165,32 @@ TEST(ClipPlayer, RigidPartsAreCulledAsOtherTransformsAre) {
     EXPECT_TRUE(Culled(*copy.node, away).drawn.empty());
 }
 
+TEST(ClipPlayer, SwordsThatHangOnBonesAreCopied) {
+    Character character(someClip(12, 0.8));
+    const osg::ref_ptr<osg::Geometry> sword = makeBox();
+    const osg::ref_ptr<osg::MatrixTransform> grip =
+        new osg::MatrixTransform(osg::Matrixd::rotate(0.4, osg::Vec3d(1, 1, 0)) *
+                                 osg::Matrixd::translate(0.5, 0.25, 1.0));
+    grip->addChild(sword);
+    character.rigid->getParent(0)->addChild(grip);
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto copy = copies->makeInstance(false);
+    character.update(1.0 + 5.0 * kFrame);
+    character.update(5.0 * kFrame);
+    copy.player->setLayer(0, {copies->sample(*character.animation, 30.0), 5.0 * kFrame});
+    ASSERT_TRUE(copy.player->pose());
+    const auto placeOf = [&](osg::Node& node) {
+        for (const auto& found : test::findNodes<osg::Node>(node))
+            if (auto* at = dynamic_cast<osg::MatrixTransform*>(found.node))
+                if (at->getNumChildren() == 1 && at->getChild(0) == sword.get())
+                    return found.toWorld;
+        return osg::Matrixd();
+    };
+    const osg::Matrixd expected = placeOf(*character.scene), is = placeOf(*copy.node);
+    EXPECT_FALSE(expected.isIdentity());
+    for (int i = 0; i < 16; ++i) EXPECT_NEAR(is.ptr()[i], expected.ptr()[i], 1e-5) << i;
+}
+
 TEST(ClipPlayer, RigidPartsMayStandInGroupsBelowTheirBones) {
     Character character(someClip(12, 0.8));
     osg::Group& bone = *character.rigid->getParent(0);

@@ -95,7 +95,17 @@ void sweptBounds(const Moments& moments, std::vector<osg::BoundingBox>& boxes) {
     boxes.insert(boxes.end(), ways.begin(), ways.end());
 }
 
-/// Finds skins, rigid parts and animations below a node, with the paths to the former.
+osgAnimation::Bone* boneAbove(const osg::NodePath& path, osg::NodePath* below = nullptr) {
+    for (auto node = path.rbegin(); node != path.rend(); ++node)
+        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(*node)) {
+            if (below) below->assign(node.base(), path.end());
+            return bone;
+        }
+    return nullptr;
+}
+
+/// Finds skins, rigid parts and animations below a node, with the paths to the former, and what
+/// else hangs on bones.
 class CharacterParts : public osg::NodeVisitor {
 public:
     CharacterParts() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
@@ -111,11 +121,14 @@ public:
             traverse(node);
     }
     void apply(osg::Drawable& drawable) override {
-        if (dynamic_cast<DeformableSkin*>(&drawable)) skins.push_back(getNodePath());
+        if (dynamic_cast<DeformableSkin*>(&drawable))
+            skins.push_back(getNodePath());
+        else if (boneAbove(getNodePath()))
+            hung.push_back(getNodePath());
     }
 
     osgAnimation::AnimationList animations;
-    std::vector<osg::NodePath> skins, rigids;
+    std::vector<osg::NodePath> skins, rigids, hung;
 };
 
 /// The path up to the nearest skeleton; empty where there is none.
@@ -125,16 +138,16 @@ osg::NodePath toSkeleton(osg::NodePath path) {
 }
 
 /// The name of the bone that a rigid part moves with; empty where there is none.
-std::string boneAbove(const osg::NodePath& path) {
-    const auto bone = std::find_if(path.rbegin(), path.rend(), [](osg::Node* node) {
-        return dynamic_cast<osgAnimation::Bone*>(node) != nullptr;
-    });
-    if (bone == path.rend()) return {};
-    if (!osg::computeLocalToWorld(osg::NodePath(bone.base(), path.end() - 1)).isIdentity())
+std::string boneOf(const osg::NodePath& path) {
+    osg::NodePath below;
+    const osgAnimation::Bone* bone = boneAbove(path, &below);
+    if (!bone) return {};
+    below.pop_back();
+    if (!osg::computeLocalToWorld(below).isIdentity())
         throw Error("clip character: the rigid part \"" + path.back()->getName() +
-                    "\" stands under another transform than its bone \"" + (*bone)->getName() +
+                    "\" stands under another transform than its bone \"" + bone->getName() +
                     "\"");
-    return (*bone)->getName();
+    return bone->getName();
 }
 
 /// The transform of a copy's rigid part. A cull tests its sphere in the parent's space: a matrix
@@ -296,10 +309,19 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
     for (const osg::NodePath& path : found.rigids) {
         osg::Group& part = *path.back()->asGroup();
         Rigid rigid{{}, part.getName(), lookOf(path)};
-        rigid.joint = boneAbove(path);
+        rigid.joint = boneOf(path);
         for (unsigned int i = 0; i < part.getNumChildren(); ++i)
             rigid.parts.emplace_back(part.getChild(i));
         result->_rigids.push_back(rigid);
+    }
+    for (const osg::NodePath& path : found.hung) {
+        osg::NodePath below;
+        const osgAnimation::Bone& bone = *boneAbove(path, &below);
+        const osg::ref_ptr<osg::MatrixTransform> toRest = new osg::MatrixTransform(
+            osg::computeLocalToWorld(below) *
+            osg::Matrixd::inverse(bone.getInvBindMatrixInSkeletonSpace()));
+        toRest->addChild(path.back());
+        result->_rigids.push_back({{toRest}, bone.getName(), lookOf(path)});
     }
     return result;
 }
@@ -410,6 +432,7 @@ ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
         result.player->addRigid(rigid, source.joint, _toWorld);
     }
     result.player->_baked = _baked;
+    result.node->getBound(); // now: threads that pose copies may ask for bounds of what they share
     if (updates) result.node->setUpdateCallback(result.player);
     return result;
 }
