@@ -32,7 +32,7 @@ file(RELATIVE_PATH osgskin_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 
 osgskin_install_kit(osgSkin runtime "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation")
 osgskin_install_kit(osgSkinRig runtime "Skeletons, motions and retargeting for osgSkin" "osgSkin")
-osgskin_install_kit(osgSkinGpu runtime "Deforms on a graphics card for osgSkin" "osgSkin")
+osgskin_install_kit(osgSkinGpu runtime "Deforms on a graphics card for osgSkin" "osgSkinRig")
 if(TARGET osgSkinBind)
   osgskin_install_kit(osgSkinBind plugin "Binds a skin to a skeleton for osgSkin" "osgSkinRig")
 endif()

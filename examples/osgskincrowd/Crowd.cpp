@@ -95,12 +95,10 @@ Crowd::Crowd(const std::vector<CrowdCharacter>& characters, std::size_t count,
         const osgSkin::ClipCharacter::Instance copy = source.character->makeInstance(false);
         copy.player->setInterpolated(false);
         copy.player->setLayer(0, {source.clip, static_cast<double>(phase) * source.clip->step()});
-        const osg::ref_ptr<osg::MatrixTransform> stand =
-            new osg::MatrixTransform(osg::Matrix::translate(
-                static_cast<double>(width) * (column - 0.5 * static_cast<double>(side)),
-                static_cast<double>(width) * (row - 0.5 * static_cast<double>(side)), 0.0));
-        stand->addChild(copy.node);
-        _scene->addChild(stand);
+        copy.node->setMatrix(osg::Matrix::translate(
+            static_cast<double>(width) * (column - 0.5 * static_cast<double>(side)),
+            static_cast<double>(width) * (row - 0.5 * static_cast<double>(side)), 0.0));
+        _scene->addChild(copy.node);
         _players.push_back(copy.player);
         _vertices += source.vertices;
         phase += 37;
@@ -122,6 +120,7 @@ void Crowd::update(double time, const std::function<void()>& deform) {
     _pool->forEach(_players.size(), [&](std::size_t i) {
         _players[i]->advance(passed);
         _players[i]->pose();
+        _scene->getChild(static_cast<unsigned int>(i))->getBound();
     });
     const osg::Timer_t posed = osg::Timer::instance()->tick();
     deform();

@@ -27,6 +27,7 @@ public:
     bool releaseContextImplementation() override;
     void bindPBufferToTextureImplementation(GLenum) override {}
     void swapBuffersImplementation() override;
+    void grabFocusIfPointerInWindow() override {}
 
     const char* libraryName() const override { return "osgSkin tests"; }
     const char* className() const override { return "EglWindow"; }

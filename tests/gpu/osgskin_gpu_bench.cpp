@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// osgskin_gpu_bench [CHARACTER [VERTICES]]: times compute shaders over a number of vertices in as
-// many characters as needed, each in its own pose: our deformation, copying the same bytes, and
-// linear blending of four matrices in the same shading language. No display is needed.
+// osgskin_gpu_bench: times compute shaders over a number of vertices, or whole frames.
 #include "EglWindow.h"
 #include "FindNodes.h"
+#include "FrameBench.h"
 
 #include "skin/DeformText.h"
 
@@ -14,6 +13,7 @@
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/GlmOsg>
 
+#include <CLI/CLI.hpp>
 #include <osg/GLExtensions>
 #include <osgDB/ReadFile>
 
@@ -21,7 +21,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -271,17 +270,41 @@ int bench(const osgSkin::SkinModel& model, GLuint wanted, const Card& card) {
 } // namespace
 
 int main(int argc, char** argv) {
+    CLI::App app(
+        "Times compute shaders over a number of vertices, in as many characters as needed, "
+        "each in its own pose: our deformation, copying the same bytes, and linear blending "
+        "of four matrices. With --frames, times whole frames. Needs no display.",
+        "osgskin_gpu_bench");
+    std::string file = std::string(OSGSKIN_DATA) + "/thrower.skin";
+    GLuint wanted = 500000;
+    bool frames = false;
+    std::vector<std::size_t> crowds = {1000, 10000, 100000};
+    std::size_t singles = 100;
+    app.add_option("character", file, "any file with a deformable skin")->capture_default_str();
+    app.add_option("vertices", wanted, "how many vertices to deform")->capture_default_str();
+    CLI::Option* const whole =
+        app.add_flag("--frames", frames, "draw whole frames of 1920 x 1080 pixels instead");
+    app.add_option("--crowd", crowds, "members of the crowds, one crowd after the other")
+        ->check(CLI::Range(1, 10000000))
+        ->needs(whole);
+    app.add_option(
+           "--single", singles,
+           "characters that are loaded one by one, drawn with and without the card; 0: none")
+        ->capture_default_str()
+        ->needs(whole);
+    CLI11_PARSE(app, argc, argv);
     try {
-        const std::string file = argc > 1 ? argv[1] : std::string(OSGSKIN_DATA) + "/thrower.skin";
-        const unsigned long wanted = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 500000;
+        if (frames) {
+            benchFrames(file, crowds, singles);
+            return 0;
+        }
         const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);
         const osgSkin::SkinModel* model = scene ? largestSkin(*scene) : nullptr;
         if (!model) throw std::runtime_error(file + ": expected a character with a skin");
         const osg::ref_ptr<test::EglWindow> window = new test::EglWindow(16, 16);
         if (!window->valid() || !window->realize() || !window->makeCurrent())
             throw std::runtime_error("EGL gives no context");
-        const int result =
-            bench(*model, static_cast<GLuint>(wanted), Card(window->getState()->getContextID()));
+        const int result = bench(*model, wanted, Card(window->getState()->getContextID()));
         window->releaseContext();
         return result;
     } catch (const std::exception& error) {

@@ -227,17 +227,23 @@ def check_steps(house, page, text):
                 house.breach(page, f"line {number}: no file linked in it has {name}()")
 
 
-def check_example(house):
-    """Checks that README.md has the lines and headers of the example that tests/downstream compiles."""
-    example = house.root / "examples/osgskinthrow/ThrowScene.cpp"
-    readme = house.root / "README.md"
-    if not example.is_file() or not readme.is_file():
-        return
+def check_shown(house, example, readme):
+    """Checks that a page shows an example's lines between its [readme] marks."""
     shown = set(map(str.strip, readme.read_text().splitlines()))
     for line in example.read_text().split("[readme]")[1].splitlines():
         line = line.strip().removesuffix("//").strip()
         if line and line not in shown and f"// {line}" not in shown:
             house.breach(readme, f"lacks a line of {house.name(example)}: {line}")
+
+
+def check_example(house):
+    """Checks that pages show examples as tests compile them, and README.md the headers that tests/downstream does."""
+    example = house.root / "examples/osgskinthrow/ThrowScene.cpp"
+    readme = house.root / "README.md"
+    if not example.is_file() or not readme.is_file():
+        return
+    check_shown(house, example, readme)
+    check_shown(house, house.root / "examples/recipes/makeCrowd.h", house.root / "nodekits/osgSkinGpu/README.md")
     downstream = house.root / "tests/downstream/main.cpp"
     for include in re.findall(r"^#include <osgSkin.*>$", readme.read_text(), re.M):
         if include not in downstream.read_text():

@@ -26,9 +26,14 @@
 #include <osgAnimation/Target>
 #include <osgAnimation/UpdateBone>
 #include <osgAnimation/UpdateMaterial>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
 
+#include <algorithm>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace played;
 
@@ -71,6 +76,119 @@ TEST(ClipPlayer, RigidPartsThatMorphAreCopied) {
     copies->sample(*talk, 30.0);
     EXPECT_TRUE(notices.say("moves morph targets")) << notices.text();
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
+}
+
+namespace {
+
+/// A cull traversal that keeps what it would draw, and where.
+struct Culled {
+    std::vector<std::pair<const osg::Drawable*, osg::Matrixd>> drawn;
+    double near = 0.0, far = 0.0;
+
+    Culled(osg::Node& scene, const osg::Matrixd& view) {
+        const osg::ref_ptr<osgUtil::CullVisitor> cv = new osgUtil::CullVisitor;
+        const osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
+        const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+        cv->setStateGraph(graph);
+        cv->setRenderStage(stage);
+        cv->pushViewport(new osg::Viewport(0, 0, 400, 400));
+        cv->pushProjectionMatrix(new osg::RefMatrix(osg::Matrixd::perspective(40, 1, 0.1, 1e3)));
+        cv->pushModelViewMatrix(new osg::RefMatrix(view), osg::Transform::ABSOLUTE_RF);
+        scene.accept(*cv);
+        near = cv->getCalculatedNearPlane();
+        far = cv->getCalculatedFarPlane();
+        for (const osgUtil::StateGraph* states : stage->getStateGraphList())
+            for (const auto& leaf : states->_leaves)
+                drawn.emplace_back(leaf->getDrawable(), *leaf->_modelview);
+        std::sort(drawn.begin(), drawn.end(),
+                  [](const auto& a, const auto& b) { return a.first < b.first; });
+    }
+};
+
+osg::ref_ptr<osg::Geometry> makeBox() {
+    const osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+    for (unsigned int i = 0; i < 8; ++i)
+        corners->push_back({i & 1u ? 0.5f : -0.5f, i & 2u ? 6.0f : 4.0f, i & 4u ? 0.5f : -0.5f});
+    osg::ref_ptr<osg::Geometry> box = new osg::Geometry;
+    box->setVertexArray(corners);
+    box->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, 8));
+    return box;
+}
+
+} // namespace
+
+/// The cull of a copy's rigid part passes over what other transforms do.
+TEST(ClipPlayer, RigidPartsAreCulledAsOtherTransformsAre) {
+    Character character(someClip(12, 0.8));
+    const osg::ref_ptr<osg::Geometry> first = makeBox(), second = makeBox();
+    first->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    character.rigid->addChild(first);
+    character.rigid->addChild(second);
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto copy = copies->makeInstance(false);
+    copy.player->setLayer(0, {SampledClip::create(someClip(12, 0.8), character.rig), 0.2});
+    ASSERT_TRUE(copy.player->pose());
+    auto& rigid = dynamic_cast<osg::MatrixTransform&>(*copy.node->getChild(1));
+    copy.node->setMatrix(osg::Matrixd::scale(2, 2, 2) * osg::Matrixd::translate(1, 2, 3));
+    const osg::BoundingSphere& all = copy.node->getBound();
+    const osg::Vec3d centre = all.center(), up(0, 0, 1);
+    const osg::Vec3d at = rigid.getBound().center() * copy.node->getMatrix();
+    const osg::ref_ptr<osg::NodeCallback> passes = new osg::NodeCallback;
+    for (const osg::Vec3d& eye :
+         {centre + osg::Vec3d(0, -60, 10), centre + osg::Vec3d(30, 20, 0), at}) {
+        const osg::Matrixd view = osg::Matrixd::lookAt(eye, eye == at ? at + up : centre,
+                                                       eye == at ? osg::Vec3d(0, 1, 0) : up);
+        rigid.setCullCallback(nullptr);
+        const Culled fast(*copy.node, view);
+        rigid.setCullCallback(passes); // any callback: the part is then an ordinary transform
+        const Culled slow(*copy.node, view);
+        ASSERT_EQ(fast.drawn.size(), slow.drawn.size());
+        for (std::size_t i = 0; i < fast.drawn.size(); ++i) {
+            EXPECT_EQ(fast.drawn[i].first, slow.drawn[i].first);
+            for (int k = 0; k < 16; ++k)
+                EXPECT_NEAR(fast.drawn[i].second.ptr()[k], slow.drawn[i].second.ptr()[k], 1e-9);
+        }
+        EXPECT_LE(fast.near, slow.near + 1e-4);
+        EXPECT_GE(fast.far, slow.far - 1e-4);
+        EXPECT_LE(fast.far, slow.far + 2.0 * all.radius());
+    }
+    rigid.setCullCallback(nullptr);
+    const osg::Matrixd seen = osg::Matrixd::lookAt(centre + osg::Vec3d(0, -60, 10), centre, up);
+    const std::size_t drawn = Culled(*copy.node, seen).drawn.size();
+    EXPECT_GE(drawn, 3u) << "the skin and both boxes";
+    second->setNodeMask(0);
+    EXPECT_EQ(Culled(*copy.node, seen).drawn.size(), drawn - 1);
+    rigid.setNodeMask(0);
+    EXPECT_EQ(Culled(*copy.node, seen).drawn.size(), 1u) << "the skin";
+    const osg::Matrixd away =
+        osg::Matrixd::lookAt(centre + osg::Vec3d(0, -60, 0), centre - osg::Vec3d(0, 120, 0), up);
+    EXPECT_TRUE(Culled(*copy.node, away).drawn.empty());
+}
+
+TEST(ClipPlayer, SwordsThatHangOnBonesAreCopied) {
+    Character character(someClip(12, 0.8));
+    const osg::ref_ptr<osg::Geometry> sword = makeBox();
+    const osg::ref_ptr<osg::MatrixTransform> grip =
+        new osg::MatrixTransform(osg::Matrixd::rotate(0.4, osg::Vec3d(1, 1, 0)) *
+                                 osg::Matrixd::translate(0.5, 0.25, 1.0));
+    grip->addChild(sword);
+    character.rigid->getParent(0)->addChild(grip);
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto copy = copies->makeInstance(false);
+    character.update(1.0 + 5.0 * kFrame);
+    character.update(5.0 * kFrame);
+    copy.player->setLayer(0, {copies->sample(*character.animation, 30.0), 5.0 * kFrame});
+    ASSERT_TRUE(copy.player->pose());
+    const auto placeOf = [&](osg::Node& node) {
+        for (const auto& found : test::findNodes<osg::Node>(node))
+            if (auto* at = dynamic_cast<osg::MatrixTransform*>(found.node))
+                if (at->getNumChildren() == 1 && at->getChild(0) == sword.get())
+                    return found.toWorld;
+        return osg::Matrixd();
+    };
+    const osg::Matrixd expected = placeOf(*character.scene), is = placeOf(*copy.node);
+    EXPECT_FALSE(expected.isIdentity());
+    for (int i = 0; i < 16; ++i) EXPECT_NEAR(is.ptr()[i], expected.ptr()[i], 1e-5) << i;
 }
 
 TEST(ClipPlayer, RigidPartsMayStandInGroupsBelowTheirBones) {

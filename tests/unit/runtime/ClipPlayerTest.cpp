@@ -321,6 +321,117 @@ TEST(ClipPlayer, TellsTheRootsWay) {
     EXPECT_EQ(copy.player->takeRootMotion().x(), 0.0);
 }
 
+namespace {
+
+/// A walk along an arc of a circle of radius 3, swaying; `up` is y.
+osgSkin::Clip walkOnAnArc(std::size_t frames, double angle) {
+    osgSkin::Clip clip = someClip(frames, 0.3);
+    for (std::size_t f = 0; f < frames; ++f) {
+        const glm::dquat turn =
+            glm::angleAxis(angle * double(f) / double(frames), glm::dvec3(0, 1, 0));
+        clip.rotations[3 * f] = turn * clip.rotations[3 * f];
+        clip.rootPositions[f] =
+            turn * glm::dvec3(3.0, 0.0, 0.0) + glm::dvec3(1.0, clip.rootPositions[f].y, -2.0);
+    }
+    return clip;
+}
+
+/// A copy's vertices in the space of its node's parent.
+Vertices placedBy(const osgSkin::ClipCharacter::Instance& copy, const osg::Matrixd& toWorld) {
+    Vertices vertices = posedBy(*copy.player, skinOf(*copy.node));
+    for (osg::Vec3& v : vertices) v = v * (toWorld * copy.node->getMatrix());
+    return vertices;
+}
+
+} // namespace
+
+TEST(ClipPlayer, AWalkerInPlaceThatIsMovedByItsRootMotionIsTheWalkerThatMoves) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto clip = SampledClip::create(walkOnAnArc(24, 5.0), character.rig);
+    for (const auto root : {ClipPlayer::Root::Extracted, ClipPlayer::Root::ExtractedWithTurn}) {
+        const auto mover = copies->makeInstance(false), walker = copies->makeInstance(false);
+        mover.player->setLayer(0, {clip});
+        walker.player->setLayer(0, {clip});
+        walker.player->setRoot(root);
+        for (const double step : {0.02, 0.05, 0.2, 0.111, 0.3, -0.4}) { // all in the first loop
+            mover.player->advance(step);
+            walker.player->advance(step);
+            walker.node->preMult(walker.player->takeRootMatrix(copies->toWorld()));
+            const Vertices moved = placedBy(mover, copies->toWorld());
+            EXPECT_LE(difference(placedBy(walker, copies->toWorld()), moved), 2e-6 * kSize);
+        }
+        EXPECT_GT(walker.node->getMatrix().getTrans().length(), 0.5);
+    }
+}
+
+TEST(ClipPlayer, RootMotionTurnsOnOverLoops) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    // A third of the circle: the walker is back after three loops, whatever the steps.
+    const auto clip = SampledClip::create(walkOnAnArc(24, 2.0 * osg::PI / 3.0), character.rig);
+    for (const double step : {0.25 * kFrame, kFrame, 7.3 * kFrame, 72.0 * kFrame, -kFrame}) {
+        const auto copy = copies->makeInstance(false);
+        copy.player->setLayer(0, {clip});
+        copy.player->setRoot(ClipPlayer::Root::ExtractedWithTurn);
+        osg::Matrixd way;
+        const double whole = 72.0 * kFrame * (step < 0.0 ? -1.0 : 1.0);
+        const auto steps = static_cast<int>(whole / step + 1e-6);
+        const auto advance = [&](double seconds) {
+            copy.player->advance(seconds);
+            const osg::Matrixd next = copy.player->takeRootMatrix();
+            if (std::abs(seconds) < 2.0 * kFrame) {
+                EXPECT_LT(osg::Vec3d(next.getTrans() - osg::Vec3d(4, 0, -2) +
+                                     osg::Matrixd::transform3x3(osg::Vec3d(4, 0, -2), next))
+                              .length(),
+                          0.6);
+            }
+            way.preMult(next);
+        };
+        for (int i = 0; i < steps; ++i) advance(step);
+        advance(whole - steps * step);
+        for (int i = 0; i < 16; ++i)
+            EXPECT_NEAR(way.ptr()[i], osg::Matrixd().ptr()[i], 1e-6) << step << ' ' << i;
+    }
+}
+
+TEST(ClipPlayer, RootMotionTurnsByTheBlendOfTwoClips) {
+    Character character(someClip(12, 0.0));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto straight = SampledClip::create(walkOnAnArc(24, 0.0), character.rig);
+    const auto arc = SampledClip::create(walkOnAnArc(24, 1.2), character.rig);
+    const auto copy = copies->makeInstance(false);
+    copy.player->setRoot(ClipPlayer::Root::ExtractedWithTurn);
+    copy.player->setLayer(0, {straight});
+    copy.player->setLayer(1, {arc});
+    for (const double weight : {0.0, 0.25, 1.0}) {
+        copy.player->setWeight(weight);
+        osg::Matrixd way;
+        for (int i = 0; i < 24; ++i) {
+            copy.player->advance(kFrame);
+            way.preMult(copy.player->takeRootMatrix());
+        }
+        EXPECT_NEAR(std::atan2(way(2, 0), way(0, 0)), 1.2 * weight, 0.01) << weight;
+    }
+    copy.player->advance(kFrame);
+    EXPECT_EQ(copy.player->takeRootMotion(), osg::Vec3d()) << "it is no Extracted one";
+    EXPECT_TRUE(copy.player->takeRootMatrix().isIdentity());
+}
+
+TEST(ClipCharacter, FindsClipsByName) {
+    Character character(someClip(12, 0.3));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto clip = copies->clip("some");
+    EXPECT_EQ(clip->name(), "some");
+    EXPECT_EQ(copies->clip("some"), clip) << "sampled once";
+    try {
+        copies->clip("other");
+        ADD_FAILURE() << "expected an error";
+    } catch (const osgSkin::Error& error) {
+        EXPECT_NE(std::string(error.what()).find("expected one of \"some\""), std::string::npos);
+    }
+}
+
 TEST(ClipPlayer, IsAnUpdateCallback) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);

@@ -11,16 +11,19 @@
 #include <osgSkin/PoseBounds>
 #include <osgSkinGpu/GpuCrowd>
 #include <osgSkinGpu/GpuPalette>
+#include <osgSkinRig/ClipCharacter>
 
 #include <osg/Array>
 #include <osg/BufferObject>
 #include <osg/Geometry>
+#include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/TriangleIndexFunctor>
 #include <osg/Vec3>
 #include <osg/ref_ptr>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -73,27 +76,52 @@ std::vector<GLuint> trianglesOf(const osg::Geometry& geometry) {
     return collect.indices;
 }
 
+#ifdef OSGSKIN_HAS_MESHOPTIMIZER
+constexpr bool kHasLevels = true;
+#else
+constexpr bool kHasLevels = false;
+#endif
+
 /// Simplifies triangles, without moving vertices.
 ///
 /// \param positions of the vertices; equal ones stay joined
 /// \param most the wanted number of indices
+/// \param isFar also joins parts that do not touch, down to `most`; only for figures of a few pixels
 /// \throw osgSkin::Error where this kit was built without meshoptimizer
 std::vector<GLuint> simplified([[maybe_unused]] const std::vector<osg::Vec3>& positions,
                                [[maybe_unused]] const std::vector<GLuint>& indices,
-                               [[maybe_unused]] std::size_t most) {
+                               [[maybe_unused]] std::size_t most, [[maybe_unused]] bool isFar) {
 #ifdef OSGSKIN_HAS_MESHOPTIMIZER
     std::vector<GLuint> result(indices.size());
     if (indices.empty()) return result;
     // Relative to the extent; allowed, since the character is small in the picture.
-    const float error = 0.05f;
-    const std::size_t size =
-        meshopt_simplify(result.data(), indices.data(), indices.size(), positions.front().ptr(),
-                         positions.size(), sizeof(osg::Vec3), most, error, 0, nullptr);
+    const float error = isFar ? 1.0f : 0.05f;
+    const float* first = positions.front().ptr();
+    std::size_t size =
+        meshopt_simplify(result.data(), indices.data(), indices.size(), first, positions.size(),
+                         sizeof(osg::Vec3), most, error, 0, nullptr);
+    if (isFar && size > most)
+        size = meshopt_simplifySloppy(result.data(), indices.data(), indices.size(), first,
+                                      positions.size(), sizeof(osg::Vec3), most, error, nullptr);
     result.resize(size);
     return result;
 #else
     throw Error("levels of detail: this osgSkinGpu was built without meshoptimizer");
 #endif
+}
+
+/// The size below which the last level is used: figures of 13 pixels in a picture of 1080.
+constexpr float kFarSize = 0.012f;
+
+/// The vertex of a range that is nearest to another one, or that one if it is in the range.
+GLuint nearestTo(GLuint vertex, const std::vector<osg::Vec3>& positions, GLuint first, GLuint end) {
+    if (vertex >= first && vertex < end) return vertex;
+    const auto nearest = std::min_element(positions.begin() + first, positions.begin() + end,
+                                          [&](const osg::Vec3& a, const osg::Vec3& b) {
+                                              return (a - positions[vertex]).length2() <
+                                                     (b - positions[vertex]).length2();
+                                          });
+    return static_cast<GLuint>(nearest - positions.begin());
 }
 
 /// Texel indices that are exact in a float.
@@ -124,11 +152,121 @@ const osg::Vec3Array* vectors(const osg::Array* array) {
     return dynamic_cast<const osg::Vec3Array*>(array);
 }
 
+/// The index of a joint; -1 where there is none.
+int jointOf(const SkinModel& model, const std::string& name) {
+    const std::vector<BoundJoint>& joints = model.joints();
+    const auto found = std::find_if(joints.begin(), joints.end(),
+                                    [&](const BoundJoint& joint) { return joint.name == name; });
+    return found == joints.end() ? -1 : static_cast<int>(found - joints.begin());
+}
+
+/// A state set with those of another below it; either may be null.
+osg::ref_ptr<osg::StateSet> bothOf(osg::StateSet* above, osg::StateSet* below) {
+    if (!above || !below) return above ? above : below;
+    osg::ref_ptr<osg::StateSet> both = new osg::StateSet(*above);
+    both->merge(*below);
+    return both;
+}
+
+/// A geometry whose vertices and normals are transformed; shares all else.
+osg::ref_ptr<const osg::Geometry> transformed(const osg::Geometry& geometry,
+                                              const osg::Matrixd& matrix) {
+    const osg::Vec3Array* positions = vectors(geometry.getVertexArray());
+    const osg::Vec3Array* normals = vectors(geometry.getNormalArray());
+    if (matrix.isIdentity() || !positions || !normals) return &geometry;
+    const osg::ref_ptr<osg::Vec3Array> moved = osg::clone(positions);
+    for (osg::Vec3& p : *moved) p = p * matrix;
+    const osg::ref_ptr<osg::Vec3Array> turned = osg::clone(normals);
+    const osg::Matrixd back = osg::Matrixd::inverse(matrix);
+    for (osg::Vec3& n : *turned) {
+        n = osg::Matrixd::transform3x3(back, n);
+        n.normalize();
+    }
+    const osg::ref_ptr<osg::Geometry> result =
+        new osg::Geometry(geometry, osg::CopyOp::SHALLOW_COPY);
+    result->setVertexArray(moved);
+    result->setNormalArray(turned);
+    return result;
+}
+
+/// The geometries below a node in its space, with the states above each. Those of skins are at
+/// rest.
+class FindGeometries : public osg::NodeVisitor {
+public:
+    struct Found {
+        osg::ref_ptr<const osg::Geometry> geometry;
+        osg::ref_ptr<osg::StateSet> state; ///< of the nodes above; may be null
+    };
+
+    explicit FindGeometries(osg::Node& below) : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {
+        below.accept(*this);
+    }
+    void apply(osg::Drawable& drawable) override {
+        const auto* skin = dynamic_cast<const DeformableSkin*>(&drawable);
+        const osg::Geometry* geometry = skin ? skin->getRestGeometry() : drawable.asGeometry();
+        if (!geometry || !geometry->getVertexArray()) return;
+        osg::ref_ptr<osg::StateSet> state;
+        for (const osg::Node* node : getNodePath())
+            if (node != &drawable || skin)
+                state = bothOf(state, const_cast<osg::StateSet*>(node->getStateSet()));
+        all.push_back({transformed(*geometry, osg::computeLocalToWorld(getNodePath())), state});
+    }
+
+    std::vector<Found> all;
+};
+
 } // namespace
 
 CrowdCharacter::CrowdCharacter() : _sizes{std::numeric_limits<float>::infinity()} {}
 
 CrowdCharacter::~CrowdCharacter() = default;
+
+osg::ref_ptr<CrowdCharacter> CrowdCharacter::create(osg::Node& character, double samplesPerSecond) {
+    osg::ref_ptr<CrowdCharacter> result = new CrowdCharacter;
+    result->addCharacter(*ClipCharacter::create(character), samplesPerSecond);
+    result->addUsualLevels();
+    return result;
+}
+
+void CrowdCharacter::addCharacter(const ClipCharacter& character, double samplesPerSecond) {
+    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    std::vector<osg::ref_ptr<DeformableSkin>> skins;
+    for (const ClipCharacter::Skin& source : character.skins()) {
+        if (source.look.mask == 0 || source.skin->getNodeMask() == 0) continue;
+        // A copy, since a player poses it, and its state is that of the nodes above, too.
+        skins.push_back(osg::clone(source.skin.get(), osg::CopyOp::SHALLOW_COPY));
+        skins.back()->setStateSet(bothOf(source.look.state, source.skin->getStateSet()));
+        addSkin(*skins.back(), source.toWorld);
+        player->addSkin(skins.back());
+    }
+    for (const ClipCharacter::Rigid& rigid : character.rigids()) {
+        if (rigid.look.mask == 0) continue;
+        std::size_t skin = 0;
+        while (skin + 1 < _skins.size() && jointOf(_skins[skin].model->model(), rigid.joint) < 0)
+            ++skin;
+        for (const osg::ref_ptr<osg::Node>& part : rigid.parts)
+            for (const FindGeometries::Found& found : FindGeometries(*part).all)
+                addRigid(*found.geometry, bothOf(rigid.look.state, found.state), skin, rigid.joint);
+    }
+    const auto sampled = [&](const SampledClip* clip) {
+        Samples samples(skins.size());
+        const std::size_t count = clip ? clip->sampleCount() : 1;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (clip) player->setLayer(0, {clip, static_cast<double>(i) * clip->step()});
+            if (clip && !player->pose())
+                throw Error("crowd: the clip \"" + clip->name() + "\" cannot pose its skins");
+            for (std::size_t s = 0; s < skins.size(); ++s)
+                samples[s].push_back(skins[s]->getPose().skinning());
+        }
+        return samples;
+    };
+    for (const auto& animation : character.animations()) {
+        const auto clip = character.sample(*animation, samplesPerSecond);
+        addClip(sampled(clip), 1.0 / clip->step(),
+                animation->getPlayMode() == osgAnimation::Animation::LOOP, clip->name());
+    }
+    if (_clips.empty()) addClip(sampled(nullptr), samplesPerSecond, true);
+}
 
 std::size_t CrowdCharacter::addSkin(const DeformableSkin& skin, const osg::Matrixd& toCharacter) {
     requireNoCrowd();
@@ -159,15 +297,13 @@ void CrowdCharacter::addRigid(const osg::Geometry& geometry, osg::StateSet* stat
     requireNoCrowd();
     if (skin >= _skins.size()) throw Error("crowd: there is no skin " + std::to_string(skin));
     const std::vector<BoundJoint>& joints = _skins[skin].model->model().joints();
-    const auto found = std::find_if(joints.begin(), joints.end(),
-                                    [&](const BoundJoint& j) { return j.name == joint; });
-    if (found == joints.end()) throw Error("crowd: the skin has no joint \"" + joint + "\"");
+    const int index = jointOf(_skins[skin].model->model(), joint);
+    if (index < 0) throw Error("crowd: the skin has no joint \"" + joint + "\"");
     const osg::Vec3Array* positions = vectors(geometry.getVertexArray());
     const osg::Vec3Array* normals = vectors(geometry.getNormalArray());
     if (!positions || !normals || positions->size() != normals->size())
         throw Error("crowd: the geometry \"" + geometry.getName() +
                     "\" needs Vec3Arrays of vertices and of as many normals");
-    const auto index = static_cast<int>(found - joints.begin());
     const osg::ref_ptr<osg::Vec4uiArray> texels =
         packRigid(joints, static_cast<unsigned int>(index), *positions, *normals);
     addPart({new osg::Geometry(geometry, osg::CopyOp::SHALLOW_COPY),
@@ -204,9 +340,7 @@ void CrowdCharacter::requireRoomFor(std::size_t samples) const {
     }
 }
 
-CrowdCharacter::Clip CrowdCharacter::bake(const Samples& samples, double samplesPerSecond,
-                                          bool loops, osg::BoundingBox& bounds) const {
-    Clip clip{samples.front().size(), samplesPerSecond, loops, {}};
+void CrowdCharacter::bake(const Samples& samples, Clip& clip, osg::BoundingBox& bounds) const {
     for (std::size_t s = 0; s < _skins.size(); ++s) {
         const GpuModel& model = *_skins[s].model;
         Pose pose(model.model().joints(), model.model().inputs().size());
@@ -222,10 +356,10 @@ CrowdCharacter::Clip CrowdCharacter::bake(const Samples& samples, double samples
             expandByRigids(bounds, s, skinning);
         }
     }
-    return clip;
 }
 
-unsigned int CrowdCharacter::addClip(const Samples& samples, double samplesPerSecond, bool loops) {
+unsigned int CrowdCharacter::addClip(const Samples& samples, double samplesPerSecond, bool loops,
+                                     const std::string& name) {
     requireNoCrowd();
     const auto rate = static_cast<float>(samplesPerSecond); // as shaders have it
     if (_skins.empty() || samples.size() != _skins.size() || samples.front().empty() ||
@@ -236,7 +370,8 @@ unsigned int CrowdCharacter::addClip(const Samples& samples, double samplesPerSe
             throw Error("crowd: a clip needs equally many samples for each skin");
     requireRoomFor(samples.front().size());
     osg::BoundingBox bounds = _bounds;
-    Clip clip = bake(samples, double(rate), loops, bounds);
+    Clip clip{samples.front().size(), double(rate), loops, name, {}};
+    bake(samples, clip, bounds);
     std::vector<Skin> skins = _skins;
     writeClips(clip, skins);
     _clips.push_back(std::move(clip));
@@ -261,6 +396,15 @@ void CrowdCharacter::writeClips(const Clip& last, std::vector<Skin>& skins) cons
         skins[s].samples = texels;
         skins[s].clips = textureOf(*texels, GL_RGBA32F_ARB);
     }
+}
+
+unsigned int CrowdCharacter::clip(const std::string& name) const {
+    std::string known;
+    for (const Clip& clip : _clips) {
+        if (clip.name == name) return static_cast<unsigned int>(&clip - _clips.data());
+        known += (known.empty() ? "\"" : ", \"") + clip.name + "\"";
+    }
+    throw Error("crowd: no clip \"" + name + "\", expected one of " + known);
 }
 
 double CrowdCharacter::loopSeconds(unsigned int clip) const {
@@ -310,31 +454,53 @@ std::size_t CrowdCharacter::addLevel(double triangles, double size) {
     if (!(triangles >= 0.0 && triangles < _share && below >= 0.0f && below < _sizes.back()))
         throw Error("crowd: a level of detail needs fewer triangles, and a smaller size, than the "
                     "one before");
+    const std::size_t count = appendLevel(
+        static_cast<std::size_t>(triangles * static_cast<double>(triangleCount(0))), false, below);
+    _share = triangles;
+    return count;
+}
+
+void CrowdCharacter::addUsualLevels() {
+    if (_sizes.size() > 1) throw Error("crowd: there are levels of detail already");
+    if (!kHasLevels) return;
+    addLevel(0.4, 0.25);
+    addLevel(0.15, 0.1);
+    addLevel(0.05, 0.04);
+    _hasFar = triangleCount(levelCount() - 1) > kFarTriangles;
+    if (_hasFar) appendLevel(kFarTriangles, true, kFarSize);
+    _share = 0.0;
+}
+
+std::size_t CrowdCharacter::appendLevel(std::size_t triangles, bool isFar, float size) {
     std::vector<osg::Vec3> positions;
     std::vector<GLuint> indices;
-    std::vector<std::size_t> ends;
+    std::vector<GLuint> firsts; // vertices of the parts, then their end
     for (const Part& part : _parts) {
-        const auto first = static_cast<GLuint>(positions.size());
+        firsts.push_back(static_cast<GLuint>(positions.size()));
         for (const osg::Vec3& p : *vectors(part.rest->getVertexArray()))
             positions.push_back(p * _skins[part.skin].toCharacter);
-        for (const GLuint index : part.indices.front()) indices.push_back(first + index);
-        ends.push_back(positions.size());
+        for (const GLuint index : part.indices.front()) indices.push_back(firsts.back() + index);
     }
-    const std::size_t all = indices.size() / 3;
-    const auto most = 3 * static_cast<std::size_t>(triangles * static_cast<double>(all));
-    const std::vector<GLuint> kept = simplified(positions, indices, most);
-    for (std::size_t p = 0; p < _parts.size(); ++p) {
-        const std::size_t first = p == 0 ? 0 : ends[p - 1];
-        const auto isHere = [&](GLuint index) { return index >= first && index < ends[p]; };
-        std::vector<GLuint> own;
-        for (std::size_t i = 0; i < kept.size(); i += 3)
-            if (isHere(kept[i]) && isHere(kept[i + 1]) && isHere(kept[i + 2]))
-                for (std::size_t k = i; k < i + 3; ++k)
-                    own.push_back(kept[k] - static_cast<GLuint>(first));
-        _parts[p].indices.push_back(own);
+    firsts.push_back(static_cast<GLuint>(positions.size()));
+    const std::vector<GLuint> kept = simplified(positions, indices, 3 * triangles, isFar);
+    const auto partOf = [&](GLuint vertex) {
+        return static_cast<std::size_t>(std::upper_bound(firsts.begin(), firsts.end(), vertex) -
+                                        firsts.begin() - 1);
+    };
+    for (Part& part : _parts) part.indices.emplace_back();
+    for (std::size_t i = 0; i < kept.size(); i += 3) {
+        // A triangle between two parts is drawn by one of them, with its nearest vertex.
+        const std::size_t p =
+            partOf(kept[i]) == partOf(kept[i + 1]) ? partOf(kept[i]) : partOf(kept[i + 2]);
+        std::array<GLuint, 3> corners{};
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[k] = nearestTo(kept[i + k], positions, firsts[p], firsts[p + 1]) - firsts[p];
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+            continue;
+        std::vector<GLuint>& own = _parts[p].indices.back();
+        own.insert(own.end(), corners.begin(), corners.end());
     }
-    _sizes.push_back(below);
-    _share = triangles;
+    _sizes.push_back(size);
     return triangleCount(_sizes.size() - 1);
 }
 

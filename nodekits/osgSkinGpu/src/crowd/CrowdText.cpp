@@ -117,6 +117,7 @@ void osgSkin_vertex(inout vec4 vertex, inout vec3 normal, inout vec3 tangent, in
 #endif
 out vec4 osgSkinColour;
 out vec3 osgSkinNormal;
+out vec3 osgSkinPlace;
 out vec2 osgSkinTexture;
 void main() {
   vec4 vertex = gl_Vertex;
@@ -126,15 +127,17 @@ void main() {
   osgSkin_vertex(vertex, normal, tangent, osgSkinColour);
 #endif
   osgSkinNormal = gl_NormalMatrix * normal;
+  osgSkinPlace = (gl_ModelViewMatrix * vertex).xyz;
   osgSkinTexture = gl_MultiTexCoord0.xy;
   gl_Position = gl_ModelViewProjectionMatrix * vertex;
 }
 )";
 
 const char* const kPlainFragment = R"(#version 330 compatibility
-#pragma import_defines(OSGSKIN_TEXTURE)
+#pragma import_defines(OSGSKIN_TEXTURE, OSGSKIN_FAR)
 in vec4 osgSkinColour;
 in vec3 osgSkinNormal;
+in vec3 osgSkinPlace;
 in vec2 osgSkinTexture;
 #ifdef OSGSKIN_TEXTURE
 uniform sampler2D osgSkinImage;
@@ -144,7 +147,11 @@ void main() {
 #ifdef OSGSKIN_TEXTURE
   colour *= texture(osgSkinImage, osgSkinTexture);
 #endif
-  float lit = max(0.0, dot(normalize(osgSkinNormal), normalize(gl_LightSource[0].position.xyz)));
+  vec3 normal = osgSkinNormal;
+#ifdef OSGSKIN_FAR // so few vertices that normals between them may cancel each other
+  normal = cross(dFdx(osgSkinPlace), dFdy(osgSkinPlace));
+#endif
+  float lit = max(0.0, dot(normalize(normal), normalize(gl_LightSource[0].position.xyz)));
   gl_FragColor = vec4(colour.rgb * (0.2 + 0.8 * lit), colour.a);
 }
 )";
@@ -194,7 +201,8 @@ osg::ref_ptr<osg::Program> program(const char* name) {
 } // namespace
 
 std::string crowdText() {
-    return "#version 330\n#pragma requires(OSGSKIN)\n" + deformText() + kInstances + kBlend;
+    return "#version 330\n#pragma import_defines(OSGSKIN_FAR)\n#pragma requires(OSGSKIN)\n" +
+           deformText() + kInstances + kBlend;
 }
 
 osg::Program* plainCrowdProgram() {

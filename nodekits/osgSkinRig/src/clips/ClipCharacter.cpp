@@ -19,6 +19,7 @@
 #include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Bone>
 #include <osgAnimation/Channel>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <array>
@@ -94,7 +95,17 @@ void sweptBounds(const Moments& moments, std::vector<osg::BoundingBox>& boxes) {
     boxes.insert(boxes.end(), ways.begin(), ways.end());
 }
 
-/// Finds skins, rigid parts and animations below a node, with the paths to the former.
+osgAnimation::Bone* boneAbove(const osg::NodePath& path, osg::NodePath* below = nullptr) {
+    for (auto node = path.rbegin(); node != path.rend(); ++node)
+        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(*node)) {
+            if (below) below->assign(node.base(), path.end());
+            return bone;
+        }
+    return nullptr;
+}
+
+/// Finds skins, rigid parts and animations below a node, with the paths to the former, and what
+/// else hangs on bones.
 class CharacterParts : public osg::NodeVisitor {
 public:
     CharacterParts() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
@@ -110,11 +121,14 @@ public:
             traverse(node);
     }
     void apply(osg::Drawable& drawable) override {
-        if (dynamic_cast<DeformableSkin*>(&drawable)) skins.push_back(getNodePath());
+        if (dynamic_cast<DeformableSkin*>(&drawable))
+            skins.push_back(getNodePath());
+        else if (boneAbove(getNodePath()))
+            hung.push_back(getNodePath());
     }
 
     osgAnimation::AnimationList animations;
-    std::vector<osg::NodePath> skins, rigids;
+    std::vector<osg::NodePath> skins, rigids, hung;
 };
 
 /// The path up to the nearest skeleton; empty where there is none.
@@ -124,17 +138,113 @@ osg::NodePath toSkeleton(osg::NodePath path) {
 }
 
 /// The name of the bone that a rigid part moves with; empty where there is none.
-std::string boneAbove(const osg::NodePath& path) {
-    const auto bone = std::find_if(path.rbegin(), path.rend(), [](osg::Node* node) {
-        return dynamic_cast<osgAnimation::Bone*>(node) != nullptr;
-    });
-    if (bone == path.rend()) return {};
-    if (!osg::computeLocalToWorld(osg::NodePath(bone.base(), path.end() - 1)).isIdentity())
+std::string boneOf(const osg::NodePath& path) {
+    osg::NodePath below;
+    const osgAnimation::Bone* bone = boneAbove(path, &below);
+    if (!bone) return {};
+    below.pop_back();
+    if (!osg::computeLocalToWorld(below).isIdentity())
         throw Error("clip character: the rigid part \"" + path.back()->getName() +
-                    "\" stands under another transform than its bone \"" + (*bone)->getName() +
+                    "\" stands under another transform than its bone \"" + bone->getName() +
                     "\"");
-    return (*bone)->getName();
+    return bone->getName();
 }
+
+/// The transform of a copy's rigid part. A cull tests its sphere in the parent's space: a matrix
+/// and a frustum of its own, as transforms push them, cost more than all else of the part.
+class RigidCopy : public osg::MatrixTransform {
+public:
+    /// \param parts in rest space
+    /// \param matrix from rest space to the parent's
+    RigidCopy(const std::vector<osg::ref_ptr<osg::Node>>& parts, const osg::Matrixd& matrix)
+        : osg::MatrixTransform(matrix) {
+        setDataVariance(osg::Object::DYNAMIC);
+        for (const osg::ref_ptr<osg::Node>& part : parts) addChild(part);
+    }
+
+    void accept(osg::NodeVisitor& nv) override {
+        osgUtil::CullVisitor* cv = nv.asCullVisitor();
+        if (!cv || !isPlainFor(*cv)) {
+            osg::MatrixTransform::accept(nv);
+            return;
+        }
+        const osg::BoundingSphere& sphere = getBound();
+        if (!nv.validNodeMask(*this) || (isCullingActive() && cv->isCulled(sphere))) return;
+        const osg::Matrixd& above = *cv->getModelViewMatrix();
+        const double distance = -(osg::Vec3d(sphere.center()) * above).z();
+        if (!addToNearAndFar(*cv, distance, double(sphere.radius()))) return;
+        osg::RefMatrix* matrix = (cv->*&Matrices::createOrReuseMatrix)(getMatrix() * above);
+        if (getStateSet()) cv->pushStateSet(getStateSet());
+        for (const auto& child : _children) {
+            if (!nv.validNodeMask(*child)) continue;
+            if (child->getStateSet()) cv->pushStateSet(child->getStateSet());
+            cv->addDrawableAndDepth(child->asDrawable(), matrix, static_cast<float>(distance));
+            if (child->getStateSet()) cv->popStateSet();
+        }
+        if (getStateSet()) cv->popStateSet();
+    }
+
+private:
+    /// Opens the visitor's pool of matrices, which keeps them until they are drawn.
+    struct Matrices : osgUtil::CullVisitor {
+        using osgUtil::CullVisitor::createOrReuseMatrix;
+    };
+
+    /// Whether nothing here needs the traversal of transforms and drawables.
+    bool isPlainFor(const osgUtil::CullVisitor& cv) const {
+        return !getCullCallback() && getReferenceFrame() == RELATIVE_RF &&
+               cv.getComputeNearFarMode() <=
+                   osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES &&
+               std::all_of(_children.begin(), _children.end(), [](const auto& child) {
+                   return child->asGeometry() && !child->getCullCallback();
+               });
+    }
+
+    /// \return false where the sphere is behind the eye
+    static bool addToNearAndFar(osgUtil::CullVisitor& cv, double distance, double radius) {
+        if (cv.getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR) return true;
+        const double size = radius * double(cv.getLookVectorLocal().length());
+        if (distance + size < 0.0) return false;
+        cv.setCalculatedNearPlane(std::min(cv.getCalculatedNearPlane(), distance - size));
+        cv.setCalculatedFarPlane(std::max(cv.getCalculatedFarPlane(), distance + size));
+        return true;
+    }
+};
+
+/// The node of a copy. A crowd's nodes have left the caches when a cull visits them: it asks for
+/// all of a member's nodes at once, instead of waiting for one after the other.
+class Figure : public osg::MatrixTransform {
+public:
+    /// Adds a part of the figure.
+    ///
+    /// \param skin below it; null: none
+    void addPart(osg::MatrixTransform& part, const DeformableSkin* skin) {
+        addChild(&part);
+        remember(&part, sizeof(RigidCopy));
+        if (skin) remember(skin, sizeof(DeformableSkin));
+    }
+
+    void traverse(osg::NodeVisitor& nv) override {
+        if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR)
+            for (const char* line : _lines) prefetch(line);
+        osg::MatrixTransform::traverse(nv);
+    }
+
+private:
+    static constexpr std::size_t kLine = 64;
+
+    void remember(const void* node, std::size_t bytes) {
+        for (std::size_t i = 0; i < bytes; i += kLine)
+            _lines.push_back(static_cast<const char*>(node) + i);
+    }
+    static void prefetch([[maybe_unused]] const char* line) {
+#if defined(__GNUC__)
+        __builtin_prefetch(line);
+#endif
+    }
+
+    std::vector<const char*> _lines; ///< of the parts' memory, never read
+};
 
 SkinMoment momentOf(const DeformableSkin& skin) {
     const SkinModel& model = *skin.getModel();
@@ -192,19 +302,40 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
             throw Error("clip character: the skin \"" + skin->getName() +
                         "\" does not stand under the character's skeleton");
         result->_skeleton = static_cast<osgAnimation::Skeleton*>(above.back());
-        result->_skeletonToCharacter = osg::computeLocalToWorld(above);
+        result->_toWorld = osg::computeLocalToWorld(above);
         result->_skins.push_back({skin, osg::computeLocalToWorld(path), lookOf(path)});
     }
     if (result->_skins.empty()) throw Error("clip character: no skin, expected a DeformableSkin");
     for (const osg::NodePath& path : found.rigids) {
         osg::Group& part = *path.back()->asGroup();
         Rigid rigid{{}, part.getName(), lookOf(path)};
-        rigid.joint = boneAbove(path);
+        rigid.joint = boneOf(path);
         for (unsigned int i = 0; i < part.getNumChildren(); ++i)
             rigid.parts.emplace_back(part.getChild(i));
         result->_rigids.push_back(rigid);
     }
+    for (const osg::NodePath& path : found.hung) {
+        osg::NodePath below;
+        const osgAnimation::Bone& bone = *boneAbove(path, &below);
+        const osg::ref_ptr<osg::MatrixTransform> toRest = new osg::MatrixTransform(
+            osg::computeLocalToWorld(below) *
+            osg::Matrixd::inverse(bone.getInvBindMatrixInSkeletonSpace()));
+        toRest->addChild(path.back());
+        result->_rigids.push_back({{toRest}, bone.getName(), lookOf(path)});
+    }
     return result;
+}
+
+osg::ref_ptr<const SampledClip> ClipCharacter::clip(const std::string& name) {
+    osg::ref_ptr<const SampledClip>& sampled = _clips[name];
+    if (sampled) return sampled;
+    std::string known;
+    for (const auto& animation : _animations) {
+        if (animation->getName() == name) return sampled = sample(*animation);
+        known += (known.empty() ? "\"" : ", \"") + animation->getName() + "\"";
+    }
+    throw Error("clip character: no animation \"" + name + "\", expected " +
+                (known.empty() ? "a character with animations" : "one of " + known));
 }
 
 osg::ref_ptr<const SampledClip> ClipCharacter::sample(const osgAnimation::Animation& animation,
@@ -265,7 +396,7 @@ void ClipCharacter::bake(const SampledClip* clip) {
             sweptBounds(ways[i], skin.ways);
             const osg::BoundingBox& box = skin.bounds.back();
             for (unsigned int corner = 0; corner < 8; ++corner)
-                bounds.expandBy(box.corner(corner) * _skins[i].toCharacter);
+                bounds.expandBy(box.corner(corner) * _skins[i].toWorld);
         }
     }
     _baked.push_back(baked);
@@ -273,7 +404,8 @@ void ClipCharacter::bake(const SampledClip* clip) {
 }
 
 ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
-    Instance result{new osg::Group, new ClipPlayer};
+    const osg::ref_ptr<Figure> figure = new Figure;
+    const Instance result{figure, new ClipPlayer};
     result.node->setName(_character->getName());
     for (const Skin& source : _skins) {
         const osg::ref_ptr<DeformableSkin> skin =
@@ -281,28 +413,26 @@ ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
         skin->setUpdateCallback(nullptr); // the player sets its pose
         const std::vector<glm::dmat4> rest(skin->getModel()->joints().size(), glm::dmat4(1.0));
         skin->setPose(rest.data(), rest.size());
-        const osg::ref_ptr<osg::MatrixTransform> place =
-            new osg::MatrixTransform(source.toCharacter);
+        const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(source.toWorld);
         place->setStateSet(source.look.state);
         place->setNodeMask(source.look.mask);
         place->addChild(skin);
-        result.node->addChild(place);
+        figure->addPart(*place, skin);
         result.player->addSkin(skin);
     }
     for (const Rigid& source : _rigids) {
-        const osg::ref_ptr<osg::MatrixTransform> rigid =
-            new osg::MatrixTransform(_skeletonToCharacter);
-        rigid->setDataVariance(osg::Object::DYNAMIC);
+        std::vector<osg::ref_ptr<osg::Node>> parts = source.parts;
+        for (osg::ref_ptr<osg::Node>& part : parts)
+            if (const auto* skin = dynamic_cast<const DeformableSkin*>(part.get()))
+                part = osg::clone(skin, osg::CopyOp::SHALLOW_COPY);
+        const osg::ref_ptr<osg::MatrixTransform> rigid = new RigidCopy(parts, _toWorld);
         rigid->setStateSet(source.look.state);
         rigid->setNodeMask(source.look.mask);
-        for (const osg::ref_ptr<osg::Node>& part : source.parts) {
-            const auto* skin = dynamic_cast<const DeformableSkin*>(part.get());
-            rigid->addChild(skin ? osg::clone(skin, osg::CopyOp::SHALLOW_COPY) : part.get());
-        }
-        result.node->addChild(rigid);
-        result.player->addRigid(rigid, source.joint, _skeletonToCharacter);
+        figure->addPart(*rigid, nullptr);
+        result.player->addRigid(rigid, source.joint, _toWorld);
     }
     result.player->_baked = _baked;
+    result.node->getBound(); // now: threads that pose copies may ask for bounds of what they share
     if (updates) result.node->setUpdateCallback(result.player);
     return result;
 }

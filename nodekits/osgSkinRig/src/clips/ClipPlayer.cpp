@@ -50,6 +50,11 @@ bool isActivated(const DeformableSkin& skin) {
     return false;
 }
 
+/// The same angle from -pi to pi.
+double wrapped(double angle) {
+    return std::remainder(angle, 2.0 * osg::PI);
+}
+
 int parentJoint(const SampledClip& clip, int joint) {
     return joint < 0 ? -1 : clip.joints()[static_cast<std::size_t>(joint)].parent;
 }
@@ -82,13 +87,20 @@ void ClipPlayer::setRoot(Root root, const osg::Vec3d& up) {
     _root = root;
     osg::Vec3d unit = up;
     if (std::isfinite(unit.normalize()) && unit.valid()) _up = unit;
-    _motion.set(0.0, 0.0, 0.0);
+    _motion = {};
 }
 
 osg::Vec3d ClipPlayer::takeRootMotion() {
-    const osg::Vec3d result = _motion;
-    _motion.set(0.0, 0.0, 0.0);
+    const osg::Vec3d result = _root == Root::Extracted ? _motion.shift : osg::Vec3d();
+    _motion = {};
     return result;
+}
+
+osg::Matrixd ClipPlayer::takeRootMatrix(const osg::Matrixd& toWorld) {
+    osg::Matrixd result = osg::Matrixd::rotate(osg::Quat(_motion.angle, _up));
+    result.setTrans(_motion.shift);
+    _motion = {};
+    return osg::Matrixd::inverse(toWorld) * result * toWorld;
 }
 
 void ClipPlayer::addSkin(DeformableSkin* skin) {
@@ -104,39 +116,106 @@ void ClipPlayer::addRigid(osg::MatrixTransform* transform, const std::string& jo
     _found[0] = nullptr;
 }
 
-osg::Vec3d ClipPlayer::rootAt(const Layer& track) const {
-    if (!track.clip) return {};
-    const SampledClip& clip = *track.clip;
-    const std::size_t root = clip.rootJoint(), last = clip.sampleCount() - 1;
-    const auto along = [&](std::size_t sample) {
-        const osg::Vec3d at = toOsg(clip.sample(sample)[root].translation);
-        return at - _up * (at * _up);
-    };
-    const SampledClip::Place at = clip.place(track.time, track.loop);
-    osg::Vec3d to = along(at.to);
-    osg::Vec3d way;
-    if (track.loop && last > 0) {
-        // The step from the last sample back to the first continues at the speed of its neighbours.
-        const osg::Vec3d loop =
-            along(last) - along(0) + (along(last) - along(last - 1) + along(1) - along(0)) * 0.5;
-        const double start = static_cast<double>(at.from) + at.share;
-        way = loop * std::round((track.time / clip.step() - start) /
-                                static_cast<double>(clip.sampleCount()));
-        if (at.to < at.from) to += loop;
+ClipPlayer::GroundMove ClipPlayer::then(const GroundMove& first, const GroundMove& next) const {
+    return {first.angle + next.angle, first.shift + osg::Quat(first.angle, _up) * next.shift};
+}
+
+ClipPlayer::GroundMove ClipPlayer::reversed(const GroundMove& move) const {
+    return {-move.angle, osg::Quat(-move.angle, _up) * -move.shift};
+}
+
+ClipPlayer::GroundMove ClipPlayer::power(GroundMove move, double times) const {
+    if (times < 0.0) return power(reversed(move), -times);
+    GroundMove result;
+    for (; times >= 1.0; times = std::floor(0.5 * times)) {
+        if (std::fmod(times, 2.0) == 1.0) result = then(result, move);
+        move = then(move, move);
     }
-    return way + along(at.from) * (1.0 - at.share) + to * at.share;
+    return result;
+}
+
+double ClipPlayer::headingOf(const JointSample& root) const {
+    if (_root != Root::ExtractedWithTurn) return 0.0;
+    const glm::dquat& q = root.rotation; // its part about `up`, before which the rest bends
+    return 2.0 * std::atan2(q.x * _up.x() + q.y * _up.y() + q.z * _up.z(), q.w);
+}
+
+/// From the first sample to another, about the root's position in the first sample.
+ClipPlayer::GroundMove ClipPlayer::rootMove(const SampledClip& clip,
+                                            const JointSample& root) const {
+    const JointSample& first = clip.sample(0)[clip.rootJoint()];
+    return {headingOf(root) - headingOf(first),
+            alongGround(toOsg(root.translation - first.translation))};
+}
+
+/// The move from the first sample to a layer's time within its loop.
+///
+/// \param loops set to the number of loops before
+ClipPlayer::GroundMove ClipPlayer::rootAt(const Layer& layer, double& loops) const {
+    const SampledClip& clip = *layer.clip;
+    const SampledClip::Place at = clip.place(layer.time, layer.loop);
+    const auto rootOf = [&](std::size_t sample) { return clip.sample(sample)[clip.rootJoint()]; };
+    loops = 0.0;
+    if (layer.loop)
+        loops = std::round((layer.time / clip.step() - static_cast<double>(at.from) - at.share) /
+                           static_cast<double>(clip.sampleCount()));
+    if (at.from <= at.to)
+        return rootMove(clip, SampleBlend(at.share)(rootOf(at.from), rootOf(at.to)));
+    GroundMove step = seamStep(clip);
+    step.angle *= at.share;
+    step.shift *= at.share;
+    return then(rootMove(clip, rootOf(at.from)), step);
+}
+
+/// The step from the last sample back to the first: the mean of its neighbours.
+ClipPlayer::GroundMove ClipPlayer::seamStep(const SampledClip& clip) const {
+    const std::size_t last = clip.sampleCount() - 1;
+    if (last == 0) return {};
+    const auto moveAt = [&](std::size_t i) {
+        return rootMove(clip, clip.sample(i)[clip.rootJoint()]);
+    };
+    const GroundMove before = then(reversed(moveAt(last - 1)), moveAt(last)), after = moveAt(1);
+    return {0.5 * (wrapped(before.angle) + wrapped(after.angle)),
+            (before.shift + after.shift) * 0.5};
+}
+
+/// The move of a layer's root in a time that passes; advances the layer.
+ClipPlayer::GroundMove ClipPlayer::rootStep(Layer& layer, double seconds) const {
+    double before = 0.0, after = 0.0;
+    const GroundMove from = rootAt(layer, before);
+    layer.time = finite(layer.time + layer.speed * seconds);
+    GroundMove to = rootAt(layer, after);
+    if (before != after) {
+        const SampledClip& clip = *layer.clip;
+        const JointSample& last = clip.sample(clip.sampleCount() - 1)[clip.rootJoint()];
+        to = then(power(then(rootMove(clip, last), seamStep(clip)), after - before), to);
+    }
+    return then(reversed(from), to);
 }
 
 void ClipPlayer::advance(double seconds) {
     if (!std::isfinite(seconds)) return;
+    const bool extracts = _root == Root::Extracted || _root == Root::ExtractedWithTurn;
+    GroundMove move;
+    osg::Vec3d pivot;
     for (std::size_t i = 0; i < _layers.size(); ++i) {
-        Layer& track = _layers[i];
-        const bool follows = _root == Root::Extracted && track.clip;
-        const osg::Vec3d before = follows ? rootAt(track) : osg::Vec3d();
-        track.time = finite(track.time + track.speed * seconds);
+        Layer& layer = _layers[i];
+        if (!extracts || !layer.clip) {
+            layer.time = finite(layer.time + layer.speed * seconds);
+            continue;
+        }
         const double share = i == 1 ? _weight : _layers[1].clip ? 1.0 - _weight : 1.0;
-        if (follows) _motion += (rootAt(track) - before) * share;
+        const GroundMove own = rootStep(layer, seconds);
+        move.angle += share * wrapped(own.angle);
+        move.shift += own.shift * share;
+        const std::size_t root = layer.clip->rootJoint();
+        pivot += alongGround(toOsg(layer.clip->joints()[root].centre +
+                                   layer.clip->sample(0)[root].translation)) *
+                 share;
     }
+    if (!extracts) return;
+    move.shift += pivot - osg::Quat(move.angle, _up) * pivot;
+    _motion = then(_motion, move);
 }
 
 bool ClipPlayer::knowsJoints() const {
@@ -207,10 +286,11 @@ void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
         const SampleBlend between(at.share);
         for (std::size_t j = 0; j < to.size(); ++j) to[j] = between(from[j], next[j]);
         if (_root == Root::Moving) return;
-        const std::size_t root = track.clip->rootJoint();
-        const glm::dvec3 gone = to[root].translation - track.clip->sample(0)[root].translation;
-        const glm::dvec3 up = toGlm(_up);
-        to[root].translation -= gone - up * glm::dot(gone, up);
+        JointSample& root = to[track.clip->rootJoint()];
+        const GroundMove gone = rootMove(*track.clip, root);
+        root.translation -= toGlm(gone.shift);
+        if (gone.angle != 0.0)
+            root.rotation = glm::angleAxis(-gone.angle, toGlm(_up)) * root.rotation;
     };
     take(_layers[_base], joints);
     const double weight = _base == 0 ? _weight : 1.0 - _weight;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+/// Draws whole frames of 1920 x 1080 pixels without a display, and prints their median times.
+///
+/// \param file of a character, with an animation
+/// \param crowds numbers of members, of one GpuCrowd each
+/// \param singles number of characters that are loaded one by one, each with its own skeleton, drawn
+///        by the graphics card and by the processor; 0: none
+/// \throw std::runtime_error where there is no context or the file cannot be read
+void benchFrames(const std::string& file, const std::vector<std::size_t>& crowds,
+                 std::size_t singles);
