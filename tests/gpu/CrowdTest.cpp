@@ -102,6 +102,25 @@ TEST_F(Crowd, IsThePictureOfItsSkins) {
               << std::endl;
 }
 
+/// A crowd that has gone before its window closes leaves nothing behind that a crowd in the next
+/// window, whose context has the same number, would take for its own.
+TEST_F(Crowd, IsDrawnInTheNextWindowToo) {
+    osg::ref_ptr<osg::Image> pictures[2];
+    for (osg::ref_ptr<osg::Image>& picture : pictures) {
+        osg::ref_ptr<osg::Node> crowd = crowdOf(subject.character(), subject.members);
+        const osg::ref_ptr<osg::Group> scene = new osg::Group;
+        scene->addChild(crowd);
+        GpuStage stage(scene);
+        stage.draw();
+        picture = new osg::Image(stage.picture(), osg::CopyOp::DEEP_COPY_ALL);
+        scene->removeChild(crowd);
+        crowd = nullptr;
+        stage.draw();
+    }
+    EXPECT_GT(test::seenPixels(*pictures[0]), 3000u);
+    EXPECT_EQ(test::unlikePixels(*pictures[0], *pictures[1]), 0u);
+}
+
 TEST_F(Crowd, PalettesClipsAndCommandsGiveOnePicture) {
     const auto character = subject.character(kTime);
     const osg::ref_ptr<GpuCrowd> indirect = crowdOf(character, subject.members);

@@ -283,6 +283,26 @@ TEST(GpuSkinScale, NormalsAreTheProcessorsWhateverTheScale) {
         }
 }
 
+/// As a crowd: see CrowdTest.cpp.
+TEST(GpuSkinState, SkinsAreDrawnInTheNextWindowToo) {
+    osg::ref_ptr<osg::Image> pictures[2];
+    for (osg::ref_ptr<osg::Image>& picture : pictures) {
+        osg::ref_ptr<osg::Group> scene = new osg::Group;
+        {
+            GpuSubject subject("tube");
+            osgSkin::setGpu(*subject.scene, true);
+            scene->addChild(subject.scene);
+        }
+        GpuStage stage(scene);
+        stage.draw(0.8);
+        picture = new osg::Image(stage.picture(), osg::CopyOp::DEEP_COPY_ALL);
+        scene->removeChildren(0, scene->getNumChildren());
+        stage.draw(0.9);
+    }
+    EXPECT_GT(test::seenPixels(*pictures[0]), 1000u);
+    EXPECT_EQ(test::unlikePixels(*pictures[0], *pictures[1]), 0u);
+}
+
 TEST(GpuSkinState, WhatIsDrawnUsesVertexArrayObjectsAsTheSkinDoes) {
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = test::makeSkin();
     osgSkin::setGpu(*skin, true);

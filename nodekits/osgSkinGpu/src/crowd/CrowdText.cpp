@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crowd/CrowdText.h"
 
+#include "skin/ComputeStage.h"
 #include "skin/DeformText.h"
 
 #include <osg/ref_ptr>
@@ -205,25 +206,24 @@ std::string crowdText() {
            deformText() + kInstances + kBlend;
 }
 
-osg::Program* plainCrowdProgram() {
-    // Never deleted: contexts may be gone when a process ends.
-    static const auto& plain = *new osg::ref_ptr<osg::Program>([] {
-        const osg::ref_ptr<osg::Program> made = program("osgSkin crowd");
+osg::ref_ptr<osg::Program> plainCrowdProgram() {
+    static SharedProgram plain([] {
+        osg::ref_ptr<osg::Program> made = program("osgSkin crowd");
         made->addShader(new osg::Shader(osg::Shader::VERTEX, kPlainVertex));
         made->addShader(new osg::Shader(osg::Shader::VERTEX, crowdText()));
         made->addShader(new osg::Shader(osg::Shader::FRAGMENT, kPlainFragment));
         return made;
-    }());
-    return plain;
+    });
+    return plain.get();
 }
 
-osg::Program* cullProgram() {
-    static const auto& cull = *new osg::ref_ptr<osg::Program>([] {
-        const osg::ref_ptr<osg::Program> made = program("osgSkin crowd culling");
+osg::ref_ptr<osg::Program> cullProgram() {
+    static SharedProgram cull([] {
+        osg::ref_ptr<osg::Program> made = program("osgSkin crowd culling");
         made->addShader(new osg::Shader(osg::Shader::COMPUTE, kCull));
         return made;
-    }());
-    return cull;
+    });
+    return cull.get();
 }
 
 } // namespace osgSkin

@@ -3,6 +3,7 @@
 
 #include <osg/Program>
 #include <osg/Shader>
+#include <osg/ref_ptr>
 
 #include <string>
 
@@ -21,10 +22,10 @@ std::string crowdText();
 
 /// Draws a crowd that has no program: lit from light 0, with the material's diffuse colour and the
 /// texture of unit 0.
-osg::Program* plainCrowdProgram();
+osg::ref_ptr<osg::Program> plainCrowdProgram();
 
 /// Finds the instances that a camera sees and their levels of detail, one per thread. GLSL 4.30.
-osg::Program* cullProgram();
+osg::ref_ptr<osg::Program> cullProgram();
 
 /// Threads of a work group of cullProgram().
 constexpr unsigned int kCullThreads = 64;

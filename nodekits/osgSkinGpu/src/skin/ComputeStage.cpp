@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "skin/ComputeStage.h"
 
+#include <osg/ContextData>
 #include <osg/GLExtensions>
+#include <osg/GLObjects>
 #include <osg/State>
 
 #include <array>
@@ -20,16 +22,49 @@
 namespace osgSkin {
 namespace {
 
-std::array<std::atomic<bool>, kMaxContexts>& failed() {
-    static std::array<std::atomic<bool>, kMaxContexts> contexts{};
+/// Facts about contexts by their numbers.
+struct ContextFacts {
+    std::atomic<bool> hasFailed{false};
+    std::atomic<GLint> mostTexels{0}; ///< 0: not asked yet
+};
+
+std::array<ContextFacts, kMaxContexts>& facts() {
+    static std::array<ContextFacts, kMaxContexts> contexts;
     return contexts;
 }
 
+/// Forgets the facts about a context when it closes: the next one may have its number.
+class ForgetFacts : public osg::GraphicsObjectManager {
+public:
+    explicit ForgetFacts(unsigned int contextId)
+        : osg::GraphicsObjectManager("osgSkin", contextId) {}
+    void flushDeletedGLObjects(double, double&) override {}
+    void flushAllDeletedGLObjects() override {}
+    void deleteAllGLObjects() override { forget(); }
+    void discardAllGLObjects() override { forget(); }
+
+private:
+    void forget() const {
+        facts()[_contextID].hasFailed = false;
+        facts()[_contextID].mostTexels = 0;
+    }
+};
+
 } // namespace
+
+osg::ref_ptr<osg::Program> SharedProgram::get() {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    osg::ref_ptr<osg::Program> program;
+    if (!_program.lock(program)) {
+        program = _make();
+        _program = program;
+    }
+    return program;
+}
 
 bool canCompute(const osg::State& state) {
     const unsigned int id = state.getContextID();
-    if (id >= kMaxContexts || failed()[id]) return false;
+    if (id >= kMaxContexts || facts()[id].hasFailed) return false;
     // Finding the extensions needs the context; known ones may be read by any thread.
     const osg::GLExtensions* extensions = osg::GLExtensions::Get(id, false);
     // A driver without compute shaders may still have their functions.
@@ -40,15 +75,20 @@ bool canCompute(const osg::State& state) {
 }
 
 void noteCannotCompute(unsigned int contextId) {
-    if (contextId < kMaxContexts) failed()[contextId] = true;
+    if (contextId >= kMaxContexts) return;
+    osg::get<ForgetFacts>(contextId);
+    facts()[contextId].hasFailed = true;
 }
 
 bool canReadTexels(unsigned int contextId, std::size_t texels) {
-    static std::array<std::atomic<GLint>, kMaxContexts> known{}; // the query may be slow
-    GLint most = contextId < kMaxContexts ? known[contextId].load() : 0;
-    if (most == 0) {
+    const bool isKept = contextId < kMaxContexts;
+    GLint most = isKept ? facts()[contextId].mostTexels.load() : 0;
+    if (most == 0) { // asking may be slow
         glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-        if (contextId < kMaxContexts) known[contextId] = most;
+        if (isKept) {
+            osg::get<ForgetFacts>(contextId);
+            facts()[contextId].mostTexels = most;
+        }
     }
     return most > 0 && texels <= static_cast<std::size_t>(most);
 }

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <osg/Drawable>
+#include <osg/Program>
 #include <osg/StateSet>
+#include <osg/observer_ptr>
 #include <osg/ref_ptr>
 #include <osgUtil/CullVisitor>
 
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <mutex>
 
 namespace osg {
 class State;
@@ -19,11 +22,27 @@ namespace osgSkin {
 /// The most contexts in which skins are computed; in others the processor deforms.
 constexpr unsigned int kMaxContexts = 64;
 
+/// A program that its users share. It goes with the last of them: one that outlived its context
+/// would be taken for a program of a later context of the same number.
+class SharedProgram {
+public:
+    using Make = osg::ref_ptr<osg::Program> (*)();
+    explicit SharedProgram(Make make) : _make(make) {}
+
+    /// The program, made now if nobody has it; thread-safe.
+    osg::ref_ptr<osg::Program> get();
+
+private:
+    Make _make;
+    std::mutex _mutex;
+    osg::observer_ptr<osg::Program> _program;
+};
+
 /// Whether a context can run the compute shaders; thread-safe. False before the context's first
 /// draw, which finds its extensions.
 bool canCompute(const osg::State& state);
 
-/// Notes that a context cannot, whatever it reports.
+/// Notes, while the context is current, that it cannot, whatever it reports.
 void noteCannotCompute(unsigned int contextId);
 
 /// Whether shaders of the current context can read a buffer of so many texels.

@@ -110,13 +110,17 @@ osg::ref_ptr<osg::Program> make(const char* name, const char* defines) {
 ///
 /// \param withTangents reads osgSkinTangents and writes tangents, too
 /// \param withMorphs reads osgSkinMorphs, too
-osg::Program* computeProgram(bool withTangents, bool withMorphs) {
-    // Never deleted: contexts may be gone when a process ends.
-    static const auto& programs = *new std::array<osg::ref_ptr<osg::Program>, 4>{
-        make("osgSkin deform", ""),
-        make("osgSkin deform with tangents", "#define OSGSKIN_TANGENTS\n"),
-        make("osgSkin deform with morphs", "#define OSGSKIN_MORPHS\n"),
-        make("osgSkin deform with both", "#define OSGSKIN_TANGENTS\n#define OSGSKIN_MORPHS\n")};
+osg::ref_ptr<osg::Program> computeProgram(bool withTangents, bool withMorphs) {
+    static SharedProgram programs[] = {
+        SharedProgram([] { return make("osgSkin deform", ""); }), SharedProgram([] {
+            return make("osgSkin deform with tangents", "#define OSGSKIN_TANGENTS\n");
+        }),
+        SharedProgram(
+            [] { return make("osgSkin deform with morphs", "#define OSGSKIN_MORPHS\n"); }),
+        SharedProgram([] {
+            return make("osgSkin deform with both",
+                        "#define OSGSKIN_TANGENTS\n#define OSGSKIN_MORPHS\n");
+        })};
     return programs[(withTangents ? 1u : 0u) + (withMorphs ? 2u : 0u)].get();
 }
 
