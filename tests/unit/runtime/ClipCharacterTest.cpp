@@ -168,9 +168,8 @@ TEST(ClipPlayer, RigidPartsAreCulledAsOtherTransformsAre) {
 TEST(ClipPlayer, SwordsThatHangOnBonesAreCopied) {
     Character character(someClip(12, 0.8));
     const osg::ref_ptr<osg::Geometry> sword = makeBox();
-    const osg::ref_ptr<osg::MatrixTransform> grip =
-        new osg::MatrixTransform(osg::Matrixd::rotate(0.4, osg::Vec3d(1, 1, 0)) *
-                                 osg::Matrixd::translate(0.5, 0.25, 1.0));
+    const osg::ref_ptr<osg::MatrixTransform> grip = new osg::MatrixTransform(
+        osg::Matrixd::rotate(0.4, osg::Vec3d(1, 1, 0)) * osg::Matrixd::translate(0.5, 0.25, 1.0));
     grip->addChild(sword);
     character.rigid->getParent(0)->addChild(grip);
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);

@@ -145,8 +145,7 @@ std::string boneOf(const osg::NodePath& path) {
     below.pop_back();
     if (!osg::computeLocalToWorld(below).isIdentity())
         throw Error("clip character: the rigid part \"" + path.back()->getName() +
-                    "\" stands under another transform than its bone \"" + bone->getName() +
-                    "\"");
+                    "\" stands under another transform than its bone \"" + bone->getName() + "\"");
     return bone->getName();
 }
 
@@ -317,9 +316,9 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
     for (const osg::NodePath& path : found.hung) {
         osg::NodePath below;
         const osgAnimation::Bone& bone = *boneAbove(path, &below);
-        const osg::ref_ptr<osg::MatrixTransform> toRest = new osg::MatrixTransform(
-            osg::computeLocalToWorld(below) *
-            osg::Matrixd::inverse(bone.getInvBindMatrixInSkeletonSpace()));
+        const osg::ref_ptr<osg::MatrixTransform> toRest =
+            new osg::MatrixTransform(osg::computeLocalToWorld(below) *
+                                     osg::Matrixd::inverse(bone.getInvBindMatrixInSkeletonSpace()));
         toRest->addChild(path.back());
         result->_rigids.push_back({{toRest}, bone.getName(), lookOf(path)});
     }
