@@ -326,6 +326,43 @@ TEST(CrowdCharacter, LevelsGrowCoarserOneByOne) {
     EXPECT_EQ(character->skins().size(), 1u);
 }
 
+/// A geometry with a vertex for each corner of its triangles, and their normals.
+TEST(CrowdCharacter, LevelsGrowCoarserAcrossHardEdges) {
+    CrowdSubject subject(1);
+    osg::Geometry& knob = subject.knob();
+    const auto& positions = static_cast<const osg::Vec3Array&>(*knob.getVertexArray());
+    const osg::PrimitiveSet& primitives = *knob.getPrimitiveSet(0);
+    ASSERT_EQ(primitives.getMode(), GLenum(GL_TRIANGLES));
+    const osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+    const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+    for (unsigned int i = 0; i < primitives.getNumIndices(); i += 3) {
+        for (unsigned int k = i; k < i + 3; ++k) corners->push_back(positions[primitives.index(k)]);
+        osg::Vec3 normal =
+            ((*corners)[i + 1] - (*corners)[i]) ^ ((*corners)[i + 2] - (*corners)[i]);
+        normal.normalize();
+        normals->resize(corners->size(), normal);
+    }
+    const osg::ref_ptr<osg::Geometry> flat = new osg::Geometry;
+    flat->setVertexArray(corners);
+    flat->setNormalArray(normals);
+    flat->addPrimitiveSet(
+        new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners->size())));
+    const osg::ref_ptr<CrowdCharacter> character = new CrowdCharacter;
+    character->addSkin(*test::makeSkin(), osg::Matrixd());
+    character->addRigid(*flat, nullptr, 0, "end");
+    const std::size_t all = character->triangleCount(0);
+    ASSERT_GE(all, 100u);
+    EXPECT_LE(character->addLevel(0.3, 0.2), all / 2);
+    // Its triangles have normals of their own sides.
+    const std::vector<GLuint>& kept = character->parts()[1].indices[1];
+    ASSERT_FALSE(kept.empty());
+    for (std::size_t i = 0; i < kept.size(); i += 3) {
+        const osg::Vec3 normal = ((*corners)[kept[i + 1]] - (*corners)[kept[i]]) ^
+                                 ((*corners)[kept[i + 2]] - (*corners)[kept[i]]);
+        for (std::size_t k = i; k < i + 3; ++k) EXPECT_GE((*normals)[kept[k]] * normal, 0.0f);
+    }
+}
+
 TEST(CrowdCharacter, RefusesTrianglesOfVerticesThatAreNotThere) {
     const CrowdSubject subject(1);
     const osg::ref_ptr<CrowdCharacter> character = new CrowdCharacter;

@@ -26,6 +26,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -76,39 +77,82 @@ std::vector<GLuint> trianglesOf(const osg::Geometry& geometry) {
     return collect.indices;
 }
 
+/// The vertices of all parts, in the character's space.
+struct Vertices {
+    std::vector<osg::Vec3> positions, normals;
+};
+
 #ifdef OSGSKIN_HAS_MESHOPTIMIZER
 constexpr bool kHasLevels = true;
-#else
-constexpr bool kHasLevels = false;
-#endif
+
+/// Simplifies triangles as simplified() does, with all vertices of one position joined: those at
+/// hard edges and at seams of textures, too. Of these, a triangle then has the vertices whose
+/// normals fit it best.
+std::vector<GLuint> simplifiedJoined(const Vertices& vertices, const std::vector<GLuint>& indices,
+                                     std::size_t most, bool isFar, float error) {
+    std::map<osg::Vec3, GLuint> known;
+    std::vector<osg::Vec3> positions;
+    std::vector<std::vector<GLuint>> alike;
+    std::vector<GLuint> joined;
+    for (std::size_t v = 0; v < vertices.positions.size(); ++v) {
+        const osg::Vec3& at = vertices.positions[v];
+        const GLuint place = known.emplace(at, static_cast<GLuint>(alike.size())).first->second;
+        if (place == alike.size()) {
+            positions.push_back(at);
+            alike.emplace_back();
+        }
+        alike[place].push_back(static_cast<GLuint>(v));
+    }
+    for (const GLuint index : indices) joined.push_back(known.at(vertices.positions[index]));
+    std::vector<GLuint> result(joined.size());
+    const float* first = positions.front().ptr();
+    std::size_t size =
+        meshopt_simplify(result.data(), joined.data(), joined.size(), first, positions.size(),
+                         sizeof(osg::Vec3), most, error, 0, nullptr);
+    if (isFar && size > most)
+        size = meshopt_simplifySloppy(result.data(), joined.data(), joined.size(), first,
+                                      positions.size(), sizeof(osg::Vec3), most, error, nullptr);
+    result.resize(size);
+    for (std::size_t i = 0; i < size; i += 3) {
+        const osg::Vec3& origin = positions[result[i]];
+        const osg::Vec3 normal =
+            (positions[result[i + 1]] - origin) ^ (positions[result[i + 2]] - origin);
+        for (std::size_t k = i; k < i + 3; ++k) {
+            const std::vector<GLuint>& choice = alike[result[k]];
+            result[k] = *std::max_element(choice.begin(), choice.end(), [&](GLuint p, GLuint q) {
+                return vertices.normals[p] * normal < vertices.normals[q] * normal;
+            });
+        }
+    }
+    return result;
+}
 
 /// Simplifies triangles, without moving vertices.
 ///
-/// \param positions of the vertices; equal ones stay joined
 /// \param most the wanted number of indices
-/// \param isFar also joins parts that do not touch, down to `most`; only for figures of a few pixels
-/// \throw osgSkin::Error where this kit was built without meshoptimizer
-std::vector<GLuint> simplified([[maybe_unused]] const std::vector<osg::Vec3>& positions,
-                               [[maybe_unused]] const std::vector<GLuint>& indices,
-                               [[maybe_unused]] std::size_t most, [[maybe_unused]] bool isFar) {
-#ifdef OSGSKIN_HAS_MESHOPTIMIZER
+/// \param isFar for figures of a few pixels: `most` is reached, even if parts that do not touch are
+///        joined
+std::vector<GLuint> simplified(const Vertices& vertices, const std::vector<GLuint>& indices,
+                               std::size_t most, bool isFar) {
     std::vector<GLuint> result(indices.size());
     if (indices.empty()) return result;
     // Relative to the extent; allowed, since the character is small in the picture.
     const float error = isFar ? 1.0f : 0.05f;
-    const float* first = positions.front().ptr();
-    std::size_t size =
-        meshopt_simplify(result.data(), indices.data(), indices.size(), first, positions.size(),
-                         sizeof(osg::Vec3), most, error, 0, nullptr);
-    if (isFar && size > most)
-        size = meshopt_simplifySloppy(result.data(), indices.data(), indices.size(), first,
-                                      positions.size(), sizeof(osg::Vec3), most, error, nullptr);
-    result.resize(size);
-    return result;
-#else
-    throw Error("levels of detail: this osgSkinGpu was built without meshoptimizer");
-#endif
+    result.resize(meshopt_simplify(result.data(), indices.data(), indices.size(),
+                                   vertices.positions.front().ptr(), vertices.positions.size(),
+                                   sizeof(osg::Vec3), most, error, 0, nullptr));
+    // Hard edges and seams stay, which may be all that there is.
+    return result.size() <= (isFar ? most : 2 * most)
+               ? result
+               : simplifiedJoined(vertices, indices, most, isFar, error);
 }
+#else
+constexpr bool kHasLevels = false;
+
+std::vector<GLuint> simplified(const Vertices&, const std::vector<GLuint>&, std::size_t, bool) {
+    throw Error("levels of detail: this osgSkinGpu was built without meshoptimizer");
+}
+#endif
 
 /// The size below which the last level is used: figures of 13 pixels in a picture of 1080.
 constexpr float kFarSize = 0.012f;
@@ -472,17 +516,21 @@ void CrowdCharacter::addUsualLevels() {
 }
 
 std::size_t CrowdCharacter::appendLevel(std::size_t triangles, bool isFar, float size) {
-    std::vector<osg::Vec3> positions;
+    Vertices vertices;
+    std::vector<osg::Vec3>& positions = vertices.positions;
     std::vector<GLuint> indices;
     std::vector<GLuint> firsts; // vertices of the parts, then their end
     for (const Part& part : _parts) {
         firsts.push_back(static_cast<GLuint>(positions.size()));
+        const osg::Matrixd& toCharacter = _skins[part.skin].toCharacter;
         for (const osg::Vec3& p : *vectors(part.rest->getVertexArray()))
-            positions.push_back(p * _skins[part.skin].toCharacter);
+            positions.push_back(p * toCharacter);
+        for (const osg::Vec3& n : *vectors(part.rest->getNormalArray()))
+            vertices.normals.push_back(osg::Matrixd::transform3x3(n, toCharacter));
         for (const GLuint index : part.indices.front()) indices.push_back(firsts.back() + index);
     }
     firsts.push_back(static_cast<GLuint>(positions.size()));
-    const std::vector<GLuint> kept = simplified(positions, indices, 3 * triangles, isFar);
+    const std::vector<GLuint> kept = simplified(vertices, indices, 3 * triangles, isFar);
     const auto partOf = [&](GLuint vertex) {
         return static_cast<std::size_t>(std::upper_bound(firsts.begin(), firsts.end(), vertex) -
                                         firsts.begin() - 1);
