@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "RegisterWrapper.h"
 #include "SavedPose.h"
+#include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/DeformableSkin>
+#include <osgSkin/ShareEqualData>
 
 #include <osgDB/InputStream>
 #include <osgDB/OutputStream>
@@ -45,13 +47,15 @@ bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
 bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     is >> is.BEGIN_BRACKET;
     const osg::ref_ptr<osg::Geometry> rest = is.readObjectOfType<osg::Geometry>();
-    const osg::ref_ptr<const osgSkin::SkinModel> model = is.readObjectOfType<osgSkin::SkinModel>();
+    const osg::ref_ptr<const osgSkin::SkinModel> model =
+        osgSkin::unpackedModel(is.readObjectOfType<osgSkin::SkinModel>().get());
     is >> is.END_BRACKET;
     if (is.getException()) return false;
     if (!rest) return fail(is, skin, "no rest geometry");
     if (!model) return fail(is, skin, "no skin model");
     // The state set was read with osg::Node's properties, and may differ from the geometry's.
     const osg::ref_ptr<osg::StateSet> stateSet = skin.getStateSet();
+    osgSkin::shareEqualArrays(*rest);
     try {
         skin.setSkin(rest, model);
     } catch (const std::exception& error) {
