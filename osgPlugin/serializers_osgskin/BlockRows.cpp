@@ -41,9 +41,8 @@ bool readWords(osgDB::InputStream& is, std::vector<std::uint32_t>& words) {
         if (is.getException()) return false;
         if (length == 0) break;
         if (length > kRow) {
-            is.throwException("osgSkin: a block has a row of " +
-                              std::to_string(length) + " words, expected at most " +
-                              std::to_string(kRow));
+            is.throwException("osgSkin: a block has a row of " + std::to_string(length) +
+                              " words, expected at most " + std::to_string(kRow));
             return false;
         }
         const std::size_t before = words.size();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "OlderBlock.h"
 
+#include "model/BindingOf.h"
 #include "serialize/BlockWords.h"
-#include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/Correctives>
 

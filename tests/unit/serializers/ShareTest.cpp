@@ -34,7 +34,8 @@ osg::ref_ptr<osgAnimation::Animation> makeClip() {
     moves->setName("position");
     moves->setTargetName("root");
     auto* places = moves->getOrCreateSampler()->getOrCreateKeyframeContainer();
-    for (int i = 0; i < 3; ++i) places->push_back({0.7 * i, osg::Vec3(0.1f * float(i), 2.0f, 3.0f)});
+    for (int i = 0; i < 3; ++i)
+        places->push_back({0.7 * i, osg::Vec3(0.1f * float(i), 2.0f, 3.0f)});
     clip->addChannel(turns);
     clip->addChannel(moves);
     clip->setPlayMode(osgAnimation::Animation::PPONG);
@@ -171,8 +172,8 @@ INSTANTIATE_TEST_SUITE_P(Formats, Shared, testing::Values("osgt", "osgb", "osgx"
 TEST(ShareEqualData, EditedDataIsNotGivenToLaterLoads) {
     const std::string file = test::save(*sceneWith({makeClip()}), "osgb");
     const osg::ref_ptr<osg::Node> first = test::load(file, "osgb");
-    auto& uv = static_cast<osg::Vec2Array&>(*const_cast<osg::Array*>(
-        test::skinsOf(*first)[0]->getRestGeometry()->getTexCoordArray(0)));
+    auto& uv = static_cast<osg::Vec2Array&>(
+        *const_cast<osg::Array*>(test::skinsOf(*first)[0]->getRestGeometry()->getTexCoordArray(0)));
     const osg::Vec2 was = uv[0];
     uv[0] = osg::Vec2(7.0f, 7.0f);
     auto& keys = const_cast<osgAnimation::QuatKeyframeContainer&>(

@@ -9,6 +9,7 @@
 #include "Tube.h"
 #include "Turns.h"
 #include "Version1Block.h"
+#include "model/BindingOf.h"
 
 #include <osgSkin/GlmOsg>
 

@@ -83,9 +83,17 @@ sharedKeys(const std::uint32_t* words, std::size_t count, const Make& make) {
     content.add(words, count * sizeof *words);
     // Keys can be edited, so that a container's present ones decide.
     const auto isEqual = [&](const Keys& keys) {
+        constexpr std::size_t kKeyWords = kTimeWords + kValueWords<Value>;
+        if (keys.size() * kKeyWords != count) return false;
         BlockWriter own;
-        putKeys(keys, own);
-        return own.words.size() == count && std::equal(words, words + count, own.words.data());
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            own.words.clear();
+            own.put(keys[i].getTime());
+            putValue(keys[i].getValue(), own);
+            if (!std::equal(own.words.begin(), own.words.end(), words + i * kKeyWords))
+                return false;
+        }
+        return true;
     };
     osg::ref_ptr<Keys> known = shared.find(content);
     if (known && isEqual(*known)) return known;
@@ -199,7 +207,7 @@ osgAnimation::AnimationList unpackAnimations(const std::vector<std::uint32_t>& w
     const std::uint32_t version = in.word();
     if (version != kAnimationBlockVersion)
         in.fail("it has version " + std::to_string(version) + ", expected " +
-                          std::to_string(kAnimationBlockVersion));
+                std::to_string(kAnimationBlockVersion));
     osgAnimation::AnimationList animations(in.count("animations", 1));
     for (auto& animation : animations) {
         if (in.word() == 0) continue;

@@ -32,7 +32,8 @@ bool haveEqualBytes(const osg::BufferData& a, const osg::BufferData& b) {
            std::memcmp(a.getDataPointer(), b.getDataPointer(), a.getTotalDataSize()) == 0;
 }
 
-// A buffer object each, set before other threads see the data: geometries set it where it is missing.
+// A buffer object each, set before other threads see the data: geometries set it where it is
+// missing.
 void setBufferObject(osg::Array& array) {
     if (!array.getVertexBufferObject()) array.setVertexBufferObject(new osg::VertexBufferObject);
 }

@@ -3,7 +3,6 @@
 // A model in files. Exported for the serializers; applications use osgDB.
 #pragma once
 
-#include <osgSkin/Binding>
 #include <osgSkin/Export>
 #include <osgSkin/SkinModel>
 
@@ -11,13 +10,6 @@
 #include <vector>
 
 namespace osgSkin {
-
-/// The binding that a model was made from, for the model's own vertices.
-///
-/// Ratios are exact. A vertex's region is the last joint that it follows by half or more, since
-/// models have no regions. Correctives that are 0, and gradients that SkinModel::create() drops,
-/// are left out.
-OSGSKIN_EXPORT Binding bindingOf(const SkinModel& model);
 
 /// The version that packSkinModel() writes. Versions 1 to 3 held a binding, from which everything
 /// else was computed at each load.

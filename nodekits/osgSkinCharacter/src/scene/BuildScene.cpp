@@ -247,9 +247,10 @@ namespace {
 
 void attach(const CharacterSource& source, Character& character) {
     const SkinMesh& mesh = character.body.mesh;
-    const std::vector<std::string> rigid =
-        source.bind.rigid ? *source.bind.rigid
-                          : automaticRigidJoints(character.rest, source.bind.names);
+    std::vector<std::string> rigid;
+    if (!source.options.mergeRigid)
+        rigid = source.bind.rigid ? *source.bind.rigid
+                                  : automaticRigidJoints(character.rest, source.bind.names);
     character.skeleton = source.skeleton ? source.skeleton : makeSkeleton(character.rest);
     character.skin = attachSkin(*character.skeleton, mesh, character.body.parts, character.binding,
                                 splitRigid(mesh, character.binding, rigid));
