@@ -122,6 +122,17 @@ TEST(MergedParts, OfASavedCharacterMoveAsBefore) {
     expectEqual(*saved, *separate.root);
 }
 
+TEST(SharedLoads, OfASkinFileHaveOneModel) {
+    const Character first = loadThrower(false), second = loadThrower(false);
+    const DeformableSkin &a = *first.skin.skins.front().drawable,
+                         &b = *second.skin.skins.front().drawable;
+    EXPECT_EQ(a.getModel(), b.getModel());
+    EXPECT_EQ(a.getRestGeometry()->getVertexArray(), b.getRestGeometry()->getVertexArray());
+    EXPECT_EQ(first.skin.rigids.front().part.geometry->getVertexArray(),
+              second.skin.rigids.front().part.geometry->getVertexArray());
+    EXPECT_NE(loadThrower(true).skin.skins.front().drawable->getModel(), a.getModel());
+}
+
 TEST(MergedParts, WithAnotherStateStayWhereTheyAre) {
     const Character character = loadThrower(false);
     const auto parts = test::findNodes<RigidPart>(*character.root);

@@ -6,6 +6,7 @@
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/RigidPart>
+#include <osgSkin/ShareEqualData>
 
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
@@ -30,9 +31,9 @@ namespace {
 struct Part {
     osg::ref_ptr<RigidPart> node;
     osg::ref_ptr<osgAnimation::Bone> bone;
-    const osg::Geometry* geometry;     ///< at rest
-    const osg::StateSet* stateSet;     ///< may be null
-    const DeformableSkin* morphed;     ///< where the drawable is one, with morph targets
+    const osg::Geometry* geometry; ///< at rest
+    const osg::StateSet* stateSet; ///< may be null
+    const DeformableSkin* morphed; ///< where the drawable is one, with morph targets
 };
 
 bool isPlain(const osg::Node& node) {
@@ -115,8 +116,8 @@ void visitArrays(const osg::Geometry& a, const osg::Geometry& b, const Visit& vi
     for (unsigned int i = 0; i < std::max(a.getNumTexCoordArrays(), b.getNumTexCoordArrays()); ++i)
         visit(a.getTexCoordArray(i), b.getTexCoordArray(i),
               [i](Target& to, osg::Array* array) { to.setTexCoordArray(i, array); });
-    for (unsigned int i = 0; i < std::max(a.getNumVertexAttribArrays(), b.getNumVertexAttribArrays());
-         ++i)
+    for (unsigned int i = 0;
+         i < std::max(a.getNumVertexAttribArrays(), b.getNumVertexAttribArrays()); ++i)
         visit(a.getVertexAttribArray(i), b.getVertexAttribArray(i),
               [i](Target& to, osg::Array* array) { to.setVertexAttribArray(i, array); });
 }
@@ -146,7 +147,8 @@ bool hasTrianglesAlone(const osg::Geometry& geometry) {
     const osg::Geometry::PrimitiveSetList& sets = geometry.getPrimitiveSetList();
     return std::all_of(sets.begin(), sets.end(), [](const osg::ref_ptr<osg::PrimitiveSet>& set) {
         return set->getMode() == GL_TRIANGLES &&
-               (set->getDrawElements() || set->getType() == osg::PrimitiveSet::DrawArraysPrimitiveType);
+               (set->getDrawElements() ||
+                set->getType() == osg::PrimitiveSet::DrawArraysPrimitiveType);
     });
 }
 
@@ -163,9 +165,8 @@ bool haveEqualInitials(const MorphTargets* a, const MorphTargets* b) {
 }
 
 int jointOf(const SkinModel& model, const std::string& name) {
-    const auto found =
-        std::find_if(model.joints().begin(), model.joints().end(),
-                     [&](const BoundJoint& joint) { return joint.name == name; });
+    const auto found = std::find_if(model.joints().begin(), model.joints().end(),
+                                    [&](const BoundJoint& joint) { return joint.name == name; });
     return found == model.joints().end() ? -1 : static_cast<int>(found - model.joints().begin());
 }
 
@@ -198,11 +199,14 @@ public:
     void apply() {
         std::vector<std::uint32_t> all(_positions.size());
         std::iota(all.begin(), all.end(), 0u);
-        const auto [model, order] =
+        const auto [own, order] =
             SkinModel::createInBestOrder(_binding, _positions, _normals, all);
+        // Characters of one file that are merged one by one share these, too.
+        const osg::ref_ptr<const SkinModel> model = shareEqualModel(own);
         std::vector<std::uint32_t> places(order.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) places[order[i]] = i;
         const osg::ref_ptr<osg::Geometry> rest = makeGeometry(order, places);
+        shareEqualArrays(*rest);
         const osg::ref_ptr<const MorphTargets> targets = makeTargets(places);
         const std::vector<glm::dmat4> skinning = _skin.getPose().skinning();
         const osg::ref_ptr<osg::StateSet> stateSet = _skin.getStateSet();
@@ -292,10 +296,11 @@ private:
         // Merged arrays: each geometry's in turn, at their new places.
         std::uint32_t first = 0;
         for (const osg::Geometry* from : _geometries) {
-            visitArrays(*made, *from, [&](const osg::Array* to, const osg::Array* array,
-                                          const auto&) {
-                if (array) copyElements(*array, first, places, const_cast<osg::Array&>(*to));
-            });
+            visitArrays(*made, *from,
+                        [&](const osg::Array* to, const osg::Array* array, const auto&) {
+                            if (array)
+                                copyElements(*array, first, places, const_cast<osg::Array&>(*to));
+                        });
             first += from->getVertexArray()->getNumElements();
         }
         std::vector<std::uint32_t> indices;
@@ -304,11 +309,9 @@ private:
         const auto count = static_cast<unsigned int>(indices.size());
         if (order.size() <= 0xffffu)
             made->addPrimitiveSet(new osg::DrawElementsUShort(
-                GL_TRIANGLES, count,
-                std::vector<GLushort>(indices.begin(), indices.end()).data()));
+                GL_TRIANGLES, count, std::vector<GLushort>(indices.begin(), indices.end()).data()));
         else
-            made->addPrimitiveSet(
-                new osg::DrawElementsUInt(GL_TRIANGLES, count, indices.data()));
+            made->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, count, indices.data()));
         return made;
     }
 

@@ -123,7 +123,7 @@ Option rigidOption() {
                              "head, hands and feet, by name; not those with fingers, toes or other "
                              "joints that a motion moves",
                              "joints that move as rigid bodies with all joints below them; merged: "
-                             "the default ones, drawn with the skin instead of as nodes below "
+                             "these joints, drawn with the skin instead of as nodes below "
                              "bones"},
                             "joint,joint|none|merged", In::Files);
     option.expected = "none, merged, or names of joints with commas between them";

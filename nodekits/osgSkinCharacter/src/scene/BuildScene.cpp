@@ -10,6 +10,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkin/ShareEqualData>
 #include <osgSkin/UpdateMorphs>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/NonUniformScale>
@@ -291,6 +292,7 @@ void play(Character& character) {
     if (character.motions.empty()) return;
     osgAnimation::AnimationList clips;
     for (const CharacterMotion& motion : character.motions) clips.push_back(motion.animation);
+    shareEqualKeys(clips);
     const osg::ref_ptr<AutoPlayManager> manager =
         new AutoPlayManager; // plays again when saved and read
     manager->registerAnimations(clips);
