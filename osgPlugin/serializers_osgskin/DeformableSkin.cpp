@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: MIT
+#include "BlockRows.h"
 #include "RegisterWrapper.h"
 #include "SavedPose.h"
+#include "serialize/BlockWords.h"
+#include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/DeformableSkin>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/ShareEqualData>
 
 #include <osgDB/InputStream>
 #include <osgDB/OutputStream>
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <exception>
+#include <string>
+#include <typeinfo>
 #include <vector>
 
 namespace {
@@ -24,6 +34,83 @@ bool fail(osgDB::InputStream& is, const osgSkin::DeformableSkin& skin, const std
 bool checkSkin(const osgSkin::DeformableSkin& skin) {
     return skin.getModel() != nullptr;
 }
+
+/// Whether an array is a model's vectors, one per vertex, and nothing else.
+bool isVectors(const osg::Array* array, const std::vector<glm::vec3>& vectors) {
+    const auto* const same = dynamic_cast<const osg::Vec3Array*>(array);
+    return same && same->getBinding() == osg::Array::BIND_PER_VERTEX && !same->getNormalize() &&
+           same->getName().empty() && !same->getUserDataContainer() &&
+           same->size() == vectors.size() &&
+           std::memcmp(same->getDataPointer(), vectors.data(), same->getTotalDataSize()) == 0;
+}
+
+osg::ref_ptr<osg::Vec3Array> makeArray(const std::vector<glm::vec3>& vectors) {
+    osg::ref_ptr<osg::Vec3Array> array =
+        new osg::Vec3Array(osg::Array::BIND_PER_VERTEX, static_cast<unsigned int>(vectors.size()));
+    std::copy(vectors.begin(), vectors.end(), osgSkin::asGlm(array->asVector().data()));
+    return array;
+}
+
+/// Indexed primitives as words: mode, whether indices have 32 bits, their number, the indices.
+/// \return false where a primitive set is another one
+bool packPrimitives(const osg::Geometry& geometry, osgSkin::BlockWriter& out) {
+    out.put(std::size_t{geometry.getNumPrimitiveSets()});
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList()) {
+        const bool isLong = typeid(*set) == typeid(osg::DrawElementsUInt);
+        if ((!isLong && typeid(*set) != typeid(osg::DrawElementsUShort)) ||
+            set->getNumInstances() != 0 || set->getUserDataContainer() || !set->getName().empty())
+            return false;
+        out.put(std::uint32_t{set->getMode()});
+        out.put(std::uint32_t{isLong ? 1u : 0u});
+        out.put(std::size_t{set->getNumIndices()});
+        for (unsigned int i = 0; i < set->getNumIndices(); ++i)
+            out.put(std::uint32_t{set->index(i)});
+    }
+    return true;
+}
+
+osg::Geometry::PrimitiveSetList unpackPrimitives(const std::vector<std::uint32_t>& words) {
+    osgSkin::BlockReader in(words, "rest geometry's block");
+    osg::Geometry::PrimitiveSetList sets(in.count("primitive sets", 3));
+    for (osg::ref_ptr<osg::PrimitiveSet>& set : sets) {
+        const std::uint32_t mode = in.word();
+        const bool isLong = in.word() != 0;
+        const std::uint32_t count = in.count("indices", 1);
+        const osg::ref_ptr<osg::DrawElementsUInt> wide = new osg::DrawElementsUInt(mode, count);
+        if (count > 0) in.copy(wide->asVector().data(), count);
+        set = wide;
+        if (isLong) continue;
+        const osg::ref_ptr<osg::DrawElementsUShort> narrow = new osg::DrawElementsUShort(mode);
+        for (const GLuint index : *wide) narrow->push_back(static_cast<GLushort>(index));
+        set = narrow;
+    }
+    return sets;
+}
+
+/// Takes away what a model and packPrimitives() have of a rest geometry, until it is destroyed. A
+/// copy would not do: skins that share a rest geometry share it again after reading.
+class Stripped {
+public:
+    explicit Stripped(const osg::Geometry& rest)
+        : _rest(const_cast<osg::Geometry&>(rest)), _vertices(_rest.getVertexArray()),
+          _normals(_rest.getNormalArray()), _primitives(_rest.getPrimitiveSetList()) {
+        _rest.setVertexArray(nullptr);
+        _rest.setNormalArray(nullptr);
+        _rest.setPrimitiveSetList({});
+    }
+    Stripped(const Stripped&) = delete;
+    Stripped& operator=(const Stripped&) = delete;
+    ~Stripped() {
+        _rest.setVertexArray(_vertices);
+        _rest.setNormalArray(_normals);
+        _rest.setPrimitiveSetList(_primitives);
+    }
+
+private:
+    osg::Geometry& _rest;
+    const osg::ref_ptr<osg::Array> _vertices, _normals;
+    const osg::Geometry::PrimitiveSetList _primitives;
+};
 
 /// From this file version on, osg::Node writes properties that osg::Drawable wrote before.
 constexpr int kNodesWriteCallbacks = 156;
@@ -42,10 +129,14 @@ bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
     return true;
 }
 
-bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
+/// \param words see SkinSerializer
+bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin, bool words) {
     is >> is.BEGIN_BRACKET;
     const osg::ref_ptr<osg::Geometry> rest = is.readObjectOfType<osg::Geometry>();
-    const osg::ref_ptr<const osgSkin::SkinModel> model = is.readObjectOfType<osgSkin::SkinModel>();
+    const osg::ref_ptr<const osgSkin::SkinModel> model =
+        osgSkin::unpackedModel(is.readObjectOfType<osgSkin::SkinModel>().get());
+    std::vector<std::uint32_t> primitives;
+    if (words && !readWords(is, primitives)) return false;
     is >> is.END_BRACKET;
     if (is.getException()) return false;
     if (!rest) return fail(is, skin, "no rest geometry");
@@ -53,6 +144,13 @@ bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     // The state set was read with osg::Node's properties, and may differ from the geometry's.
     const osg::ref_ptr<osg::StateSet> stateSet = skin.getStateSet();
     try {
+        // One that another skin shares is complete already.
+        if (words && !rest->getVertexArray()) {
+            rest->setVertexArray(makeArray(model->positions()));
+            rest->setNormalArray(makeArray(model->normals()));
+            rest->setPrimitiveSetList(unpackPrimitives(primitives));
+        }
+        osgSkin::shareEqualArrays(*rest);
         skin.setSkin(rest, model);
     } catch (const std::exception& error) {
         return fail(is, skin, std::string("parts that do not fit: ") + error.what());
@@ -60,6 +158,48 @@ bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     skin.setStateSet(stateSet);
     return true;
 }
+
+bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
+    return readSkin(is, skin, false);
+}
+
+/// Binary files have a number where a checked property has a bool. 2: the rest geometry's vertices
+/// and normals are the model's, and its primitives are words, which are much faster to read.
+class SkinSerializer : public osgDB::UserSerializer<osgSkin::DeformableSkin> {
+public:
+    SkinSerializer() : UserSerializer("Skin", &checkSkin, &readSkin, &writeSkin) {}
+
+    bool read(osgDB::InputStream& is, osg::Object& object) override {
+        if (!is.isBinary()) return UserSerializer::read(is, object);
+        char layout = 0;
+        is >> layout;
+        return layout == 0 ||
+               readSkin(is, static_cast<osgSkin::DeformableSkin&>(object), layout == kWords);
+    }
+
+    bool write(osgDB::OutputStream& os, const osg::Object& object) override {
+        const auto& skin = static_cast<const osgSkin::DeformableSkin&>(object);
+        osgSkin::BlockWriter primitives;
+        if (!os.isBinary() || !checkSkin(skin) ||
+            !isVectors(skin.getRestGeometry()->getVertexArray(), skin.getModel()->positions()) ||
+            !isVectors(skin.getRestGeometry()->getNormalArray(), skin.getModel()->normals()) ||
+            !packPrimitives(*skin.getRestGeometry(), primitives))
+            return UserSerializer::write(os, object);
+        os << kWords;
+        os << os.BEGIN_BRACKET << std::endl;
+        {
+            const Stripped stripped(*skin.getRestGeometry());
+            os << skin.getRestGeometry();
+        }
+        os << skin.getModel();
+        writeWords(os, primitives.words);
+        os << os.END_BRACKET << std::endl;
+        return true;
+    }
+
+private:
+    static constexpr char kWords = 2;
+};
 
 bool checkTangents(const osgSkin::DeformableSkin& skin) {
     return skin.getTangentAttribute() >= 0;
@@ -133,7 +273,7 @@ REGISTER_OSGSKIN_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
                          osgSkin::DeformableSkin,
                          "osg::Object osg::Node osg::Drawable osgSkin::DeformableSkin") {
     ADD_BOOL_SERIALIZER(Eager, false);
-    ADD_USER_SERIALIZER(Skin);
+    wrapper->addSerializer(new SkinSerializer, osgDB::BaseSerializer::RW_USER);
     ADD_USER_SERIALIZER(Tangents);
     ADD_USER_SERIALIZER(Pose);
 }

@@ -2,6 +2,7 @@
 // For programs that link the wrappers statically, by USE_SERIALIZER_WRAPPER_LIBRARY(osgSkin).
 #include <osgDB/Registry>
 
+USE_SERIALIZER_WRAPPER(osgSkin_AutoPlayClips)
 USE_SERIALIZER_WRAPPER(osgSkin_AutoPlayManager)
 USE_SERIALIZER_WRAPPER(osgSkin_CullPlayedSkeleton)
 USE_SERIALIZER_WRAPPER(osgSkin_DeformableSkin)

@@ -83,6 +83,18 @@ TEST(Options, OfTheCallerGoBeforeTheFiles) {
     EXPECT_EQ(options.surfaceNormals, std::nullopt);
 }
 
+TEST(Options, MergedRigidPartsAreThoseOfTheFile) {
+    const osgSkin::LoadOptions file = test::loadOptions("rigid=head");
+    osgSkin::LoadOptions options = test::loadOptions("rigid=merged");
+    EXPECT_TRUE(options.mergeRigid);
+    osgSkin::completeOptions(options, file);
+    EXPECT_TRUE(options.mergeRigid);
+    EXPECT_EQ(options.rigid, std::vector<std::string>{"head"});
+    options = test::loadOptions("rigid=hand");
+    osgSkin::completeOptions(options, test::loadOptions("rigid=merged"));
+    EXPECT_FALSE(options.mergeRigid);
+}
+
 TEST(Options, OfFilesAreOptionsOfPrograms) {
     std::filesystem::create_directories(OSGSKIN_TEST_OUTPUT);
     for (const std::string program : {OSGSKIN_BAKE, OSGSKIN_VIEWER}) {

@@ -310,6 +310,7 @@ TEST(PseudoLoader, OptionsChangeTheBinding) {
     EXPECT_NE(positionsAt("bind=paper"), positionsAt("bind=smooth"));
     EXPECT_EQ(Parts(*readCharacter(kTubeSkin, "rigid=none")).rigid, 0u);
     EXPECT_EQ(Parts(*readCharacter(kTubeSkin, "rigid=arm")).rigid, 1u);
+    EXPECT_EQ(Parts(*readCharacter(kTubeSkin, "rigid=merged")).rigid, 0u);
 }
 
 TEST(PseudoLoader, ShowRegionsColoursThem) {

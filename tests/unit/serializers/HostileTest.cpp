@@ -3,6 +3,7 @@
 // A skin model's block is untrusted: refused with a reason, never a crash.
 //
 // Files truncated or altered within our own classes: no crash, and no incomplete character.
+#include "OlderBlock.h"
 #include "SavedScene.h"
 #include "SlopedTube.h"
 #include "SomeCorrectives.h"
@@ -10,6 +11,8 @@
 #include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/Pose>
+#include <osgSkin/PoseBounds>
 
 #include <gtest/gtest.h>
 #include <osg/Notify>
@@ -48,7 +51,7 @@ std::ostream& operator<<(std::ostream& out, const BadBlock& bad) {
 
 const std::vector<BadBlock> kBad = {
     {"Empty", "ends too early", [](Words& w) { w.clear(); }},
-    {"Version", "version 4", [](Words& w) { w[0] = 4; }},
+    {"Version", "version 5", [](Words& w) { w[0] = 5; }},
     {"VersionNought", "version 0", [](Words& w) { w[0] = 0; }},
     {"NoCorrectives", "ends too early", [](Words& w) { w[0] = 2; }},
     {"NoGradients", "ends too early", [](Words& w) { w[0] = 3; }},
@@ -82,23 +85,106 @@ const std::vector<BadBlock> kBad = {
     {"TooLong", "more in it", [](Words& w) { w.push_back(0); }},
 };
 
+void expectRefused(const Words& words, const std::string& reason) {
+    try {
+        osgSkin::unpackSkinModel(words);
+        FAIL() << "accepted";
+    } catch (const osgSkin::Error& error) {
+        EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+}
+
 class HostileBlock : public testing::TestWithParam<BadBlock> {};
 
 } // namespace
 
 TEST_P(HostileBlock, IsRefused) {
-    Words words = osgSkin::packSkinModel(*test::Tube().model());
+    Words words = test::packOlderModel(*test::Tube().model());
     GetParam().spoil(words);
-    try {
-        osgSkin::unpackSkinModel(words);
-        FAIL() << "accepted";
-    } catch (const osgSkin::Error& error) {
-        EXPECT_NE(std::string(error.what()).find(GetParam().reason), std::string::npos)
-            << error.what();
-    }
+    expectRefused(words, GetParam().reason);
 }
 
 INSTANTIATE_TEST_SUITE_P(Blocks, HostileBlock, testing::ValuesIn(kBad),
+                         [](const auto& bad) { return std::string(bad.param.name); });
+
+namespace {
+
+/// The places in a block of today's version.
+struct Places {
+    explicit Places(const osgSkin::SkinModel& model, const Words& words)
+        : vertices(vertexCountAt()), order(vertices + 1 + 6 * model.vertexCount()),
+          groups(order + model.vertexCount()), parts(groups + 1) {
+        for (const osgSkin::SkinModel::Group& group : model.groups()) parts += 2 + group.linkCount;
+        ratios = parts;
+        parts += 1 + 2 * model.ratios().size();
+        EXPECT_EQ(words[vertices], model.vertexCount());
+        EXPECT_EQ(words[groups], model.groups().size());
+    }
+    std::size_t vertices, order, groups, ratios = 0, parts;
+};
+
+struct BadArrangement {
+    const char* name;
+    const char* reason;
+    std::function<void(Words&, const Places&)> spoil;
+};
+std::ostream& operator<<(std::ostream& out, const BadArrangement& bad) {
+    return out << bad.name;
+}
+
+const std::vector<BadArrangement> kBadArrangements = {
+    {"ManyVertices", "vertices have no room",
+     [](Words& w, const Places& at) { w[at.vertices] = 0x80000000u; }},
+    {"PositionNan", "position that is not finite",
+     [](Words& w, const Places& at) { w[at.vertices + 1] = kNan; }},
+    {"OrderTwice", "order is not that of its vertices",
+     [](Words& w, const Places& at) { w[at.order] = w[at.order + 1]; }},
+    {"OrderBeyond", "order is not that of its vertices",
+     [](Words& w, const Places& at) { w[at.order] = 0xffffffffu; }},
+    {"ManyGroups", "groups have no room",
+     [](Words& w, const Places& at) { w[at.groups] = 0x70000000u; }},
+    {"EmptyGroup", "groups do not fit", [](Words& w, const Places& at) { w[at.groups + 1] = 0; }},
+    {"LongGroup", "groups do not fit",
+     [](Words& w, const Places& at) { w[at.groups + 1] = 0xffffffffu; }},
+    {"NoRoot", "does not follow the root",
+     [](Words& w, const Places& at) { w[at.groups + 3] = 1; }},
+    {"PartialRoot", "does not follow the root",
+     [](Words& w, const Places& at) { w[at.groups + 3] = 0x80000000u; }},
+    {"ManyRatios", "ratios have no room",
+     [](Words& w, const Places& at) { w[at.ratios] = 0x70000000u; }},
+    {"RatioAboveOne", "outside [0, 1]",
+     [](Words& w, const Places& at) { w[at.ratios + 1] = kTwo; }},
+    {"RatioNan", "outside [0, 1]", [](Words& w, const Places& at) { w[at.ratios + 2] = kNan; }},
+    {"PartNotKnown", "a part that is not known",
+     [](Words& w, const Places& at) { w[at.parts] |= 4; }},
+    {"GradientUnit", "gradient is not finite",
+     [](Words& w, const Places& at) { w[at.parts + 2] = 0x7ff00000u; }},
+    {"GradientAcross", "gradient is not finite",
+     [](Words& w, const Places& at) { w[at.parts + 3] = kNan; }},
+    {"CutShort", "", [](Words& w, const Places&) { w.pop_back(); }},
+    {"TooLong", "more in it", [](Words& w, const Places&) { w.push_back(0); }},
+    // The last block of the bounds: pieces, shares with weights, all shares, reaches.
+    {"PiecesBeyond", "bounds do not fit", [](Words& w, const Places&) { w[w.size() - 4] = 9; }},
+    {"NoPiece", "bounds do not fit", [](Words& w, const Places&) { w[w.size() - 4] = 0; }},
+    {"SharesBeyond", "bounds do not fit",
+     [](Words& w, const Places&) { w[w.size() - 2] = 0x80000000u; }},
+    {"ReachesBeyond", "bounds do not fit", [](Words& w, const Places&) { ++w.back(); }},
+};
+
+class HostileArrangement : public testing::TestWithParam<BadArrangement> {};
+
+} // namespace
+
+TEST_P(HostileArrangement, IsRefused) {
+    test::SlopedTube tube(21, 7);
+    tube.binding.correctives = test::someCorrectives(tube.binding, 0.3, 2, true);
+    const auto model = tube.model();
+    Words words = osgSkin::packSkinModel(*model);
+    GetParam().spoil(words, Places(*model, words));
+    expectRefused(words, GetParam().reason);
+}
+
+INSTANTIATE_TEST_SUITE_P(Blocks, HostileArrangement, testing::ValuesIn(kBadArrangements),
                          [](const auto& bad) { return std::string(bad.param.name); });
 
 TEST(HostileBlockAtRandom, NeverCrashes) {
@@ -110,15 +196,20 @@ TEST(HostileBlockAtRandom, NeverCrashes) {
     test::SlopedTube slopedTube(5, 6);
     slopedTube.binding.correctives = tube.binding.correctives;
     const Words sloped = osgSkin::packSkinModel(*slopedTube.model());
+    const Words older = test::packOlderModel(*slopedTube.model());
     const std::uint32_t extreme[] = {0, 1, 0x7fffffffu, 0x80000000u, 0xffffffffu, kNan, kTwo};
     for (int round = 0; round < 20000; ++round) {
-        Words words = round % 3 == 0 ? plain : round % 3 == 1 ? corrected : sloped;
+        Words words = round % 4 == 0   ? plain
+                      : round % 4 == 1 ? corrected
+                      : round % 4 == 2 ? sloped
+                                       : older;
         for (int change = 0; change < 1 + round % 3; ++change)
             words[random() % words.size()] =
                 random() % 2 ? extreme[random() % 7] : static_cast<std::uint32_t>(random());
         if (round % 5 == 0) words.resize(random() % words.size());
         try {
-            osgSkin::unpackSkinModel(words);
+            const auto model = osgSkin::unpackSkinModel(words);
+            osgSkin::computePoseBounds(*model, osgSkin::Pose(model->joints()));
         } catch (const osgSkin::Error&) { // the expected exception
         }
     }
@@ -181,7 +272,7 @@ TEST_P(HostileFile, ReasonIsNamed) {
     if (std::string(GetParam()) == "osgb") GTEST_SKIP() << "text formats only";
     std::string bad = test::save(*test::makeScene(), GetParam());
     // The first row of the block: its length, then the version.
-    const std::size_t row = bad.find("16 1 3 ", ourPart(bad));
+    const std::size_t row = bad.find("16 4 3 ", ourPart(bad));
     ASSERT_NE(row, std::string::npos);
     bad[row + 3] = '7';
     std::string reason;

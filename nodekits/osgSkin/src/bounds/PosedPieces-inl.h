@@ -41,7 +41,7 @@ HWY_INLINE void storeFour(Motions x, Motions y, Motions z, Motions w, JointMotio
                           std::size_t at) {
     char* const to = reinterpret_cast<char*>(joints) + at;
     constexpr std::size_t kNext = sizeof(JointMotion);
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX2
     _MM_TRANSPOSE4_PS(x.raw, y.raw, z.raw, w.raw);
     std::memcpy(to, &x.raw, sizeof x.raw);
     std::memcpy(to + kNext, &y.raw, sizeof y.raw);

@@ -44,7 +44,7 @@ HWY_INLINE void cross(const V (&a)[3], const V (&b)[3], V (&to)[3]) {
 /// \param from one array per lane
 HWY_INLINE void loadFour(const double* const* from, std::size_t at, Doubles (&to)[4]) {
     const DoubleTag d;
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX2
     const Doubles a = hn::LoadU(d, from[0] + at), b = hn::LoadU(d, from[1] + at),
                   e = hn::LoadU(d, from[2] + at), f = hn::LoadU(d, from[3] + at);
     const Doubles even = hn::InterleaveLower(d, a, b), odd = hn::InterleaveUpper(d, a, b);
@@ -75,7 +75,7 @@ HWY_INLINE void loadFour(const double* const* from, std::size_t at, Doubles (&to
 HWY_INLINE void storeFour(const Doubles& x, const Doubles& y, const Doubles& z, const Doubles& w,
                           double* to, std::size_t next) {
     const DoubleTag d;
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX2
     const Doubles even = hn::InterleaveLower(d, x, y), odd = hn::InterleaveUpper(d, x, y);
     const Doubles even2 = hn::InterleaveLower(d, z, w), odd2 = hn::InterleaveUpper(d, z, w);
     hn::StoreU(hn::ConcatLowerLower(d, even2, even), d, to);
@@ -96,7 +96,7 @@ HWY_INLINE void storeFour(const Doubles& x, const Doubles& y, const Doubles& z, 
 /// Gathers row[at[lane]].
 HWY_INLINE Doubles loadEach(const double* row, const int* at) {
     const DoubleTag d;
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX2
     // About as fast as the gather instruction, and much faster where that is slow.
     return Doubles{_mm256_setr_pd(row[at[0]], row[at[1]], row[at[2]], row[at[3]])};
 #else

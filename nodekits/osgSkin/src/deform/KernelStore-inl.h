@@ -28,7 +28,7 @@ HWY_INLINE void storeTriples(V x, V y, V z, float* HWY_RESTRICT to) {
     to[0] = hn::GetLane(x);
     to[1] = hn::GetLane(y);
     to[2] = hn::GetLane(z);
-#elif HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#elif HWY_TARGET <= HWY_AVX3
     // First the lanes of x and y, then z's between them (index 16 and up: the second operand).
     const __m512i xy0 = _mm512_setr_epi32(0, 16, 0, 1, 17, 0, 2, 18, 0, 3, 19, 0, 4, 20, 0, 5);
     const __m512i xy1 = _mm512_setr_epi32(21, 0, 6, 22, 0, 7, 23, 0, 8, 24, 0, 9, 25, 0, 10, 26);

@@ -4,6 +4,7 @@
 #include "model/CorrectiveBlocks.h"
 #include "model/SkinBlocks.h"
 
+#include <osgSkin/Error>
 #include <osgSkin/SkinModel>
 
 #include <glm/common.hpp>
@@ -737,22 +738,30 @@ void orderByJoints(CutPieces& pieces) {
     }
 }
 
+/// Copies the cylinders of a block's pieces to its lanes.
+void setShapes(const BoundsProxy& proxy, BoundsProxy::Block& block) {
+    for (std::size_t lane = 0; lane < BoundsProxy::kAtOnce; ++lane) {
+        const std::size_t i = lane < block.pieceCount ? lane : 0;
+        const BoundsProxy::Piece& piece = proxy.pieces[block.firstPiece + i];
+        for (int axis = 0; axis < 3; ++axis) {
+            block.centre[axis].lane[lane] = piece.centre[axis];
+            for (int side = 0; side < 3; ++side)
+                block.axes[side][axis].lane[lane] = piece.axes[side][axis];
+        }
+    }
+}
+
 /// Adds pieces `first` to `first + count` of the proxy as a block.
 void addBlock(const std::unique_ptr<CutPiece>* pieces, std::size_t count, std::size_t first,
               BoundsProxy& proxy) {
     BoundsProxy::Block block{};
     block.firstPiece = static_cast<std::uint32_t>(first);
     block.pieceCount = static_cast<std::uint32_t>(count);
+    setShapes(proxy, block);
     std::map<std::uint32_t, BoundsProxy::Share> shares;
     std::map<std::uint32_t, BoundsProxy::Reach> reaches;
     for (std::size_t lane = 0; lane < BoundsProxy::kAtOnce; ++lane) {
         const std::size_t i = lane < count ? lane : 0;
-        const BoundsProxy::Piece& piece = proxy.pieces[first + i];
-        for (int axis = 0; axis < 3; ++axis) {
-            block.centre[axis].lane[lane] = piece.centre[axis];
-            for (int side = 0; side < 3; ++side)
-                block.axes[side][axis].lane[lane] = piece.axes[side][axis];
-        }
         for (const auto& [weight, length] : pieces[i]->reaches) {
             BoundsProxy::Reach& reach = reaches[weight];
             reach.weight = weight;
@@ -800,6 +809,65 @@ void addJoints(const SkinModel& model, BoundsProxy& proxy) {
 }
 
 } // namespace
+
+void completeBoundsProxy(const SkinModel& model, BoundsProxy& proxy) {
+    const auto check = [](bool fits) {
+        if (!fits) throw Error("skin model: its bounds do not fit it");
+    };
+    const auto checkLanes = [&](const BoundsProxy::Lanes& lanes) {
+        for (const float lane : lanes.lane) check(std::isfinite(lane));
+    };
+    const auto checkVector = [&](const Four& vector) {
+        for (int axis = 0; axis < 3; ++axis) check(std::isfinite(vector[axis]));
+    };
+    const std::size_t joints = model.joints().size();
+    const CorrectiveBlocks* const correctives = SkinModelAccess::correctives(model);
+    check(!proxy.blocks.empty() && proxy.pieces.size() <= BoundsProxy::kMost &&
+          std::isfinite(proxy.noTravel) && std::isfinite(proxy.rounding));
+    std::size_t terms = 0, pieces = 0, shares = 0, reaches = 0;
+    for (BoundsProxy::Piece& piece : proxy.pieces) {
+        check(piece.anchor < joints && piece.termCount <= proxy.terms.size() - terms);
+        piece.firstTerm = static_cast<std::uint32_t>(terms);
+        terms += piece.termCount;
+        checkVector(piece.centre);
+        for (const Four& axis : piece.axes) checkVector(axis);
+    }
+    for (const BoundsProxy::Term& term : proxy.terms) {
+        check(term.joint < joints);
+        for (const float number : {term.bend, term.twist, term.bendSpread, term.twistSpread,
+                                   term.mostBend, term.mostTwist, term.bendReach, term.twistReach,
+                                   term.bendMove, term.twistMove, term.mostHigh})
+            check(std::isfinite(number));
+    }
+    for (BoundsProxy::Block& block : proxy.blocks) {
+        check(block.pieceCount >= 1 && block.pieceCount <= BoundsProxy::kAtOnce &&
+              block.pieceCount <= proxy.pieces.size() - pieces &&
+              block.shareCount <= proxy.shares.size() - shares &&
+              block.weighted <= block.shareCount &&
+              block.reachCount <= proxy.reaches.size() - reaches);
+        block.firstPiece = static_cast<std::uint32_t>(pieces);
+        block.firstShare = static_cast<std::uint32_t>(shares);
+        block.firstReach = static_cast<std::uint32_t>(reaches);
+        pieces += block.pieceCount;
+        shares += block.shareCount;
+        reaches += block.reachCount;
+        setShapes(proxy, block);
+    }
+    check(terms == proxy.terms.size() && pieces == proxy.pieces.size() &&
+          shares == proxy.shares.size() && reaches == proxy.reaches.size());
+    for (const BoundsProxy::Share& share : proxy.shares) {
+        check(share.joint < joints);
+        for (const auto* lanes : {&share.weight, &share.bend, &share.twist, &share.square})
+            checkLanes(*lanes);
+    }
+    for (const BoundsProxy::Reach& reach : proxy.reaches) {
+        const std::size_t joint = reach.weight / CorrectiveJoint::kMaxModes;
+        check(correctives && joint < correctives->joints.size() &&
+              reach.weight % CorrectiveJoint::kMaxModes < correctives->joints[joint].modes);
+        checkLanes(reach.length);
+    }
+    addJoints(model, proxy);
+}
 
 std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
     if (model.vertexCount() == 0) return nullptr;

@@ -111,6 +111,12 @@ struct BoundsProxy {
     float rounding; ///< a bound of a vertex's rounding error, near the origin
 };
 
+/// Completes a proxy from a file: it has all but `joints`, and of blocks and pieces no first
+/// indices.
+///
+/// \throw osgSkin::Error where it does not fit the model, or a number is not finite
+void completeBoundsProxy(const SkinModel& model, BoundsProxy& proxy);
+
 /// Cuts a model's vertices into pieces; null for a model without vertices.
 std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model);
 

@@ -4,10 +4,14 @@
 #include "model/GradientBlocks.h"
 #include "model/SkinBlocks.h"
 
+#include <osgSkin/Error>
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -79,13 +83,7 @@ CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& bindin
     : joints(binding.correctives.joints), inputs(binding.correctives.inputs),
       hasNormals(binding.correctives.hasNormals()) {
     const Correctives& from = binding.correctives;
-    for (const CorrectiveJoint& joint : joints) tables.emplace_back(joint, binding.joints);
-    for (const glm::dmat3& axes : SkinModelAccess::blocks(model).jointFrames) {
-        KernelMap& frame = frames.emplace_back(KernelMap{});
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 3; ++column)
-                frame.column[column][row] = roundedToFloat(axes[row][column]);
-    }
+    addTables(model);
     firstRange.push_back(0);
     for (const SkinModel::Group& group : model.groups()) {
         for (std::uint32_t joint = 0; joint < joints.size(); ++joint) {
@@ -110,6 +108,51 @@ CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, const Binding& bindin
         }
         firstRange.push_back(static_cast<std::uint32_t>(ranges.size()));
     }
+    addCorrected(model);
+}
+
+void CorrectiveBlocks::addTables(const SkinModel& model) {
+    for (const CorrectiveJoint& joint : joints) tables.emplace_back(joint, model.joints());
+    for (const glm::dmat3& axes : SkinModelAccess::blocks(model).jointFrames) {
+        KernelMap& frame = frames.emplace_back(KernelMap{});
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column)
+                frame.column[column][row] = roundedToFloat(axes[row][column]);
+    }
+}
+
+CorrectiveBlocks::CorrectiveBlocks(const SkinModel& model, Stored&& from)
+    : joints(std::move(from.joints)), inputs(std::move(from.inputs)), hasNormals(from.hasNormals),
+      ranges(std::move(from.ranges)), firstRange(std::move(from.firstRange)),
+      rows(std::move(from.rows)), normalRows(std::move(from.normalRows)) {
+    const auto refuse = [] { throw Error("skin model: its correctives do not fit its groups"); };
+    if (firstRange.size() != model.groups().size() + 1) refuse();
+    std::size_t rowCount = 0;
+    for (std::size_t g = 0; g < model.groups().size(); ++g) {
+        const std::size_t blocks = (model.groups()[g].vertexCount + kBlock - 1) / kBlock;
+        for (std::size_t i = firstRange[g]; i < firstRange[g + 1]; ++i) {
+            Range& range = ranges[i];
+            if (range.joint >= joints.size() ||
+                (i > firstRange[g] && range.joint <= ranges[i - 1].joint) ||
+                range.blockCount == 0 || range.blockCount > blocks ||
+                range.firstBlock > blocks - range.blockCount)
+                refuse();
+            range.firstRow = rowCount;
+            rowCount += range.blockCount * rowsPerBlock(range.joint);
+        }
+    }
+    if (rows.size() != rowCount || normalRows.size() != (hasNormals ? rowCount : 0)) refuse();
+    for (const std::vector<CorrectiveRow>* list : {&rows, &normalRows})
+        for (const CorrectiveRow& row : *list)
+            if (*std::min_element(row.lane, row.lane + kBlock) < -Correctives::kUnit)
+                throw Error("skin model: a share of its correctives is less than " +
+                            std::to_string(-Correctives::kUnit));
+    addTables(model);
+    for (std::size_t g = 0; g < model.groups().size(); ++g)
+        for (std::size_t i = firstRange[g]; i < firstRange[g + 1]; ++i) {
+            ranges[i].firstTilt = tilts.size();
+            addTilts(model, g, ranges[i]);
+        }
     addCorrected(model);
 }
 

@@ -84,6 +84,19 @@ struct CorrectiveBlocks {
     /// \param source as SkinModel::create() takes it
     CorrectiveBlocks(const SkinModel& model, const Binding& binding,
                      const std::vector<std::uint32_t>& source);
+    /// What files have of it.
+    struct Stored {
+        std::vector<CorrectiveJoint> joints; ///< valid
+        std::vector<std::string> inputs;
+        bool hasNormals;
+        std::vector<Range> ranges;             ///< `joint`, `firstBlock` and `blockCount` count
+        std::vector<std::uint32_t> firstRange; ///< groups + 1
+        std::vector<CorrectiveRow> rows, normalRows;
+    };
+    /// Of data from a file.
+    ///
+    /// \throw osgSkin::Error where it does not fit the model
+    CorrectiveBlocks(const SkinModel& model, Stored&& from);
     CorrectiveBlocks(const CorrectiveBlocks&) = delete; // has pointers to its own data
     CorrectiveBlocks& operator=(const CorrectiveBlocks&) = delete;
 
@@ -119,6 +132,7 @@ struct CorrectiveBlocks {
     }
 
 private:
+    void addTables(const SkinModel& model);
     void addCorrected(const SkinModel& model);
     bool keepsTurned(const SkinModel& model, std::size_t group) const;
     void addTurned(const glm::dmat3& frame, const Range& range);

@@ -3,6 +3,8 @@
 
 #include "model/SkinBlocks.h"
 
+#include <osgSkin/Error>
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
@@ -231,6 +233,26 @@ GradientBlocks::GradientBlocks(const SkinModel& model, const Binding& binding,
             }
         }
     }
+}
+
+GradientBlocks::GradientBlocks(const SkinModel& model, GradientBlocks&& from)
+    : GradientBlocks(std::move(from)) {
+    std::size_t rowCount = 0, reachCount = 0;
+    for (const SkinModel::Group& group : model.groups()) {
+        firstRow.push_back(rowCount);
+        firstReach.push_back(reachCount);
+        rowCount += (group.vertexCount + kBlock - 1) / kBlock * rowsPerBlock(group.partialCount);
+        reachCount += group.partialCount;
+    }
+    if (across.size() != SkinModelAccess::blocks(model).firstBlock.back() ||
+        rows.size() != rowCount || reach.size() != reachCount)
+        throw Error("skin model: its gradients do not fit its groups");
+    bool isFinite = unit > 0.0 && std::isfinite(unit);
+    for (const BlockAcross& direction : across)
+        for (const float number : direction.across) isFinite = isFinite && std::isfinite(number);
+    for (const Reach& most : reach)
+        isFinite = isFinite && std::isfinite(most.bend) && std::isfinite(most.twist);
+    if (!isFinite) throw Error("skin model: a gradient is not finite");
 }
 
 std::vector<RatioGradient> gradientsOf(const SkinModel& model) {

@@ -57,6 +57,11 @@ struct GradientBlocks {
     /// \param source as SkinModel::create() takes it; the binding is valid and the model's
     GradientBlocks(const SkinModel& model, const Binding& binding,
                    const std::vector<std::uint32_t>& source);
+    /// Of data from a file, without `firstRow` and `firstReach`.
+    ///
+    /// \throw osgSkin::Error where it does not fit the model, or a number is not finite
+    GradientBlocks(const SkinModel& model, GradientBlocks&& from);
+    GradientBlocks() = default;
 
     static std::size_t rowsPerBlock(std::size_t partialCount) { return 4 * partialCount; }
 

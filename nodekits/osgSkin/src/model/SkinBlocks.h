@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -201,6 +203,30 @@ const Influence* influenceOf(const Binding& binding, std::uint32_t vertex, std::
 
 /// The internal data of a model and its tangents.
 struct SkinModelAccess {
+    /// A model as files have it. Of a group, `vertexCount` and `linkCount` count.
+    struct Arranged {
+        std::vector<BoundJoint> joints; ///< valid
+        std::vector<glm::vec3> positions, normals;
+        std::vector<std::uint32_t> order;
+        std::vector<SkinModel::Group> groups;
+        std::vector<SkinModel::Link> links;
+        std::vector<SkinModel::Ratio> ratios;
+    };
+    /// A model of such data, with its blocks but nothing else.
+    ///
+    /// \throw osgSkin::Error where it cannot come from a model
+    static osg::ref_ptr<SkinModel> make(Arranged&& from);
+
+    static void setGradients(SkinModel& model, std::shared_ptr<const GradientBlocks> gradients) {
+        model._gradients = std::move(gradients);
+    }
+    static void setCorrectives(SkinModel& model, std::shared_ptr<const CorrectiveBlocks> blocks) {
+        model._correctives = std::move(blocks);
+    }
+    static void setBoundsProxy(SkinModel& model, std::shared_ptr<const BoundsProxy> proxy) {
+        model._boundsProxy = std::move(proxy);
+    }
+
     /// The vertices as DeformJob's fast path reads them.
     static const SkinBlocks& blocks(const SkinModel& model) { return *model._blocks; }
 
@@ -222,8 +248,12 @@ struct SkinModelAccess {
     /// The tangents, SkinBlocks::kTangentRows rows for each of the model's blocks.
     static const BlockRow* blocks(const SkinTangents& tangents) { return tangents._rows.data(); }
 
+    /// The model that fill() has copied to this one; null where there is none.
+    static const SkinModel* original(const SkinModel& model) { return model._original.get(); }
+
     /// Copies `model` to `empty`, for file readers, which create the object first.
     static void fill(SkinModel& empty, const SkinModel& model) {
+        empty._original = &model;
         empty._joints = model._joints;
         empty._positions = model._positions;
         empty._normals = model._normals;

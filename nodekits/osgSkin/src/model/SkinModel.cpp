@@ -233,8 +233,8 @@ constexpr float kLongestNormal = 10.0f;
 
 /// Written so that NaN is refused.
 void checkVertices(const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
-                   const std::vector<std::uint32_t>& source) {
-    if (positions.size() != source.size() || normals.size() != source.size())
+                   std::size_t sources) {
+    if (positions.size() != sources || normals.size() != sources)
         throw Error("skin model: expected one position, one normal and one source per vertex");
     for (std::size_t v = 0; v < positions.size(); ++v) {
         const bool isPlace = isInRange(positions[v]);
@@ -306,7 +306,7 @@ osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
                                                 std::vector<glm::vec3> positions,
                                                 std::vector<glm::vec3> normals,
                                                 const std::vector<std::uint32_t>& source) {
-    checkVertices(positions, normals, source);
+    checkVertices(positions, normals, source.size());
     const osg::ref_ptr<SkinModel> model =
         arrange(VertexGroups(binding, source), std::move(positions), std::move(normals));
     model->_boundsProxy = makeBoundsProxy(*model);
@@ -328,7 +328,7 @@ SkinModel::Ordered SkinModel::createInBestOrder(const Binding& binding,
                                                 const std::vector<glm::vec3>& positions,
                                                 const std::vector<glm::vec3>& normals,
                                                 const std::vector<std::uint32_t>& source) {
-    checkVertices(positions, normals, source);
+    checkVertices(positions, normals, source.size());
     VertexGroups vertices(binding, source);
     const std::vector<std::uint32_t> order = vertices.order();
     vertices.reorder();
@@ -336,6 +336,81 @@ SkinModel::Ordered SkinModel::createInBestOrder(const Binding& binding,
         arrange(vertices, gather(positions, order), gather(normals, order));
     model->_boundsProxy = makeBoundsProxy(*model);
     return {model, order};
+}
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw Error("skin model: " + what);
+}
+
+void checkOrder(const std::vector<std::uint32_t>& order, std::size_t vertices) {
+    std::vector<bool> isThere(vertices, false);
+    if (order.size() != vertices) refuse("its order is not that of its vertices");
+    for (const std::uint32_t v : order) {
+        if (v >= vertices || isThere[v]) refuse("its order is not that of its vertices");
+        isThere[v] = true;
+    }
+}
+
+/// \param links of the group, outermost first
+/// \param places of the joints in the product
+void checkLinks(const SkinModel::Link* links, std::size_t count,
+                const std::vector<std::uint32_t>& places) {
+    if (count == 0 || links[0].joint != 0 || links[0].partial)
+        refuse("a group does not follow the root with ratio 1");
+    std::size_t partial = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (links[i].joint >= places.size()) refuse("a group names a joint that is not there");
+        if (i > 0 && places[links[i].joint] <= places[links[i - 1].joint])
+            refuse("a group lists its joints out of order");
+        partial += links[i].partial ? 1u : 0u;
+    }
+    if (partial > SkinModel::kMaxPartialInfluences)
+        refuse("a group follows " + std::to_string(partial) + " joints partly, expected at most " +
+               std::to_string(SkinModel::kMaxPartialInfluences));
+}
+
+} // namespace
+
+osg::ref_ptr<SkinModel> SkinModelAccess::make(Arranged&& from) {
+    checkVertices(from.positions, from.normals, from.positions.size());
+    checkOrder(from.order, from.positions.size());
+    const std::vector<std::uint32_t> places = productPlaces(productOrder(from.joints));
+    std::size_t vertices = 0, links = 0, ratios = 0;
+    for (SkinModel::Group& group : from.groups) {
+        if (group.vertexCount == 0 || group.vertexCount > from.positions.size() - vertices ||
+            group.linkCount > from.links.size() - links)
+            refuse("its groups do not fit its vertices");
+        const SkinModel::Link* const own = from.links.data() + links;
+        checkLinks(own, group.linkCount, places);
+        group.firstVertex = static_cast<std::uint32_t>(vertices);
+        group.firstLink = static_cast<std::uint32_t>(links);
+        group.firstRatio = static_cast<std::uint32_t>(ratios);
+        group.partialCount = static_cast<std::uint32_t>(std::count_if(
+            own, own + group.linkCount, [](const SkinModel::Link& l) { return l.partial; }));
+        vertices += group.vertexCount;
+        links += group.linkCount;
+        ratios += std::size_t{group.vertexCount} * group.partialCount;
+        if (ratios > from.ratios.size()) break;
+    }
+    if (vertices != from.positions.size() || links != from.links.size() ||
+        ratios != from.ratios.size())
+        refuse("its groups do not fit its vertices");
+    for (const SkinModel::Ratio& ratio : from.ratios)
+        if (!(ratio.bend >= 0.0f && ratio.bend <= 1.0f) ||
+            !(ratio.twist >= 0.0f && ratio.twist <= 1.0f))
+            refuse("a ratio is outside [0, 1]");
+    osg::ref_ptr<SkinModel> model = new SkinModel;
+    model->_joints = std::move(from.joints);
+    model->_positions = std::move(from.positions);
+    model->_normals = std::move(from.normals);
+    model->_order = std::move(from.order);
+    model->_groups = std::move(from.groups);
+    model->_links = std::move(from.links);
+    model->_ratios = std::move(from.ratios);
+    model->_blocks = std::make_shared<SkinBlocks>(*model);
+    return model;
 }
 
 osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,

@@ -31,7 +31,7 @@ HWY_INLINE Joints each(double x) {
 
 /// loadFour() of all lanes.
 HWY_INLINE void loadFourOf(const double* const* from, std::size_t at, Joints (&to)[4]) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX3
     Doubles low[4], high[4];
     loadFour(from, at, low);
     loadFour(from + 4, at, high);
@@ -43,7 +43,7 @@ HWY_INLINE void loadFourOf(const double* const* from, std::size_t at, Joints (&t
 
 /// loadEach() of all lanes.
 HWY_INLINE Joints loadEachOf(const double* row, const int* at) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX3
     return hn::Combine(JointTag(), loadEach(row, at + 4), loadEach(row, at));
 #else
     return loadEach(row, at);
@@ -51,7 +51,7 @@ HWY_INLINE Joints loadEachOf(const double* row, const int* at) {
 }
 
 /// Reads the parents' numbers of the joints from `first` on.
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX3
 /// Most joints directly follow their parents, whose numbers are then adjacent; others are inserted.
 class ParentRows {
 public:
@@ -144,7 +144,7 @@ struct Root {
 
 /// The root of a normal number, to the last digits.
 HWY_INLINE Root rootOf(const Joints& square) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX3
     // Two Newton steps: the exact instructions take three times as long.
     Joints inverse{_mm512_rsqrt14_pd(square.raw)};
     const Joints half = hn::Mul(each(0.5), square), more = each(1.5);

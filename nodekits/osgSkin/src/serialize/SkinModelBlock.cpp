@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "serialize/SkinModelBlock.h"
 
+#include "model/BoundsProxy.h"
 #include "model/CorrectiveBlocks.h"
 #include "model/GradientBlocks.h"
 #include "model/SkinBlocks.h"
+#include "serialize/BlockWords.h"
+#include "serialize/SharedObjects.h"
 
 #include <osgSkin/Correctives>
 #include <osgSkin/Error>
+#include <osgSkin/ShareEqualData>
 
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,96 +26,12 @@
 namespace osgSkin {
 namespace {
 
-/// Reads words, never past the end, and never allocates more than the words need.
-class BlockReader {
-public:
-    explicit BlockReader(const std::vector<std::uint32_t>& words) : _words(words) {}
-
-    std::uint32_t word() {
-        if (_next == _words.size()) fail("it ends too early");
-        return _words[_next++];
-    }
-    /// A count of items of at least `size` words each.
-    std::uint32_t count(const char* what, std::size_t size) {
-        const std::uint32_t number = word();
-        if (number > (_words.size() - _next) / size)
-            fail(std::to_string(number) + " " + what + " have no room in it");
-        return number;
-    }
-    float real() {
-        const std::uint32_t bits = word();
-        float value;
-        std::memcpy(&value, &bits, sizeof value);
-        return value;
-    }
-    double longReal() {
-        const std::uint64_t low = word();
-        const std::uint64_t bits = low | (std::uint64_t{word()} << 32);
-        double value;
-        std::memcpy(&value, &bits, sizeof value);
-        return value;
-    }
-    glm::dvec3 longVector() {
-        const double x = longReal();
-        const double y = longReal();
-        return {x, y, longReal()};
-    }
-    std::string text() {
-        const std::uint32_t size = word();
-        if (size > 4 * (_words.size() - _next)) fail("a name has no room in it");
-        std::string result;
-        std::uint32_t bytes = 0;
-        for (std::uint32_t i = 0; i < size; ++i, bytes >>= 8) {
-            if (i % 4 == 0) bytes = word();
-            result.push_back(static_cast<char>(bytes & 0xffu));
-        }
-        return result;
-    }
-    [[noreturn]] static void fail(const std::string& what) {
-        throw Error("skin model block: " + what);
-    }
-    bool atEnd() const { return _next == _words.size(); }
-
-private:
-    const std::vector<std::uint32_t>& _words;
-    std::size_t _next = 0;
-};
-
-/// Writes numbers and text as 32-bit words, without loss.
-class BlockWriter {
-public:
-    std::vector<std::uint32_t> words;
-
-    void put(std::uint32_t word) { words.push_back(word); }
-    void put(std::size_t count) { words.push_back(static_cast<std::uint32_t>(count)); }
-    void put(float value) {
-        std::uint32_t word;
-        std::memcpy(&word, &value, sizeof word);
-        words.push_back(word);
-    }
-    void put(double value) {
-        std::uint64_t bits;
-        std::memcpy(&bits, &value, sizeof bits);
-        words.push_back(static_cast<std::uint32_t>(bits));
-        words.push_back(static_cast<std::uint32_t>(bits >> 32));
-    }
-    template <typename Vector>
-    void putVector(const Vector& v) {
-        put(v.x);
-        put(v.y);
-        put(v.z);
-    }
-    void put(const std::string& text) {
-        put(text.size());
-        for (std::size_t i = 0; i < text.size(); ++i) {
-            if (i % 4 == 0) words.push_back(0);
-            words.back() |= std::uint32_t{static_cast<unsigned char>(text[i])} << (8 * (i % 4));
-        }
-    }
-};
-
 // Flags of correctives.
 constexpr std::uint32_t kNormals = 1, kInputs = 2;
+// Parts that a model may lack.
+constexpr std::uint32_t kGradients = 1, kCorrectives = 2;
+// A flag of links.
+constexpr std::uint32_t kPartial = 0x80000000u;
 
 void putList(const std::vector<double>& numbers, BlockWriter& out) {
     out.put(numbers.size());
@@ -121,23 +42,6 @@ std::vector<double> takeList(BlockReader& in, const char* what) {
     std::vector<double> numbers(in.count(what, 2));
     for (double& number : numbers) number = in.longReal();
     return numbers;
-}
-
-/// Two per word, the lower half first.
-void putShares(const std::int16_t* shares, std::size_t count, BlockWriter& out) {
-    for (std::size_t i = 0; i < count; i += 2) {
-        std::uint32_t word = static_cast<std::uint16_t>(shares[i]);
-        if (i + 1 < count) word |= std::uint32_t{static_cast<std::uint16_t>(shares[i + 1])} << 16;
-        out.put(word);
-    }
-}
-
-void takeShares(BlockReader& in, std::size_t count, std::vector<std::int16_t>& shares) {
-    std::uint32_t word = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        word = i % 2 == 0 ? in.word() : word >> 16;
-        shares.push_back(static_cast<std::int16_t>(static_cast<std::uint16_t>(word & 0xffffu)));
-    }
 }
 
 CorrectiveJoint takeJoint(BlockReader& in) {
@@ -154,13 +58,14 @@ CorrectiveJoint takeJoint(BlockReader& in) {
     joint.coefficients = takeList(in, "coefficients");
     joint.normalScales = takeList(in, "scales of normals");
     if (joint.modes > CorrectiveJoint::kMaxModes)
-        BlockReader::fail("correctives have " + std::to_string(joint.modes) + " modes, expected " +
-                          std::to_string(CorrectiveJoint::kMaxModes) + " at most");
+        in.fail("correctives have " + std::to_string(joint.modes) + " modes, expected " +
+                std::to_string(CorrectiveJoint::kMaxModes) + " at most");
     return joint;
 }
 
-void putCorrectives(const Correctives& correctives, BlockWriter& out) {
-    out.put(std::uint32_t{(correctives.hasNormals() ? kNormals : 0u) |
+/// Flags, inputs and joints.
+void putHead(const CorrectiveBlocks& correctives, BlockWriter& out) {
+    out.put(std::uint32_t{(correctives.hasNormals ? kNormals : 0u) |
                           (correctives.inputs.empty() ? 0u : kInputs)});
     if (!correctives.inputs.empty()) out.put(correctives.inputs.size());
     for (const std::string& input : correctives.inputs) out.put(input);
@@ -178,39 +83,40 @@ void putCorrectives(const Correctives& correctives, BlockWriter& out) {
         putList(joint.coefficients, out);
         putList(joint.normalScales, out);
     }
-    for (std::size_t v = 0; v + 1 < correctives.firstEntry.size(); ++v) {
-        const std::uint32_t first = correctives.firstEntry[v], end = correctives.firstEntry[v + 1];
-        out.put(end - first);
-        for (std::uint32_t i = first; i < end; ++i) {
-            const Correctives::Entry& entry = correctives.entries[i];
-            const std::size_t count = correctives.sharesOf(entry.joint);
-            out.put(entry.joint);
-            putShares(&correctives.shares[entry.firstShare], count, out);
-            if (correctives.hasNormals())
-                putShares(&correctives.normalShares[entry.firstShare], count, out);
-        }
-    }
 }
 
-/// \throw osgSkin::Error where there are too few words; Correctives::validate() checks the numbers
-Correctives takeCorrectives(BlockReader& in, std::uint32_t vertexCount) {
+/// Reads the same into correctives without entries.
+/// \param[out] hasNormals what the flags say
+Correctives takeHead(BlockReader& in, bool& hasNormals) {
     Correctives result;
     const std::uint32_t flags = in.word();
-    if (flags & ~(kNormals | kInputs))
-        BlockReader::fail("its correctives have a flag that is not known");
+    if (flags & ~(kNormals | kInputs)) in.fail("its correctives have a flag that is not known");
+    hasNormals = (flags & kNormals) != 0;
     const std::uint32_t inputs = flags & kInputs ? in.count("inputs", 1) : 0;
     for (std::uint32_t i = 0; i < inputs; ++i) result.inputs.push_back(in.text());
     const std::uint32_t joints = in.count("correctives' joints", 20);
     for (std::uint32_t j = 0; j < joints; ++j) result.joints.push_back(takeJoint(in));
     result.firstEntry.push_back(0);
+    return result;
+}
+
+/// \throw osgSkin::Error where there are too few words; Correctives::validate() checks the numbers
+Correctives takeVertexCorrectives(BlockReader& in, std::uint32_t vertexCount) {
+    bool hasNormals = false;
+    Correctives result = takeHead(in, hasNormals);
+    const auto takeShares = [&](std::uint32_t joint, std::vector<std::int16_t>& shares) {
+        const std::size_t first = shares.size();
+        shares.resize(first + result.sharesOf(joint));
+        in.shorts(shares.data() + first, shares.size() - first);
+    };
     for (std::uint32_t v = 0; v < vertexCount; ++v) {
         const std::uint32_t entries = in.count("correctives", 2);
         for (std::uint32_t i = 0; i < entries; ++i) {
             const std::uint32_t joint = in.word();
-            if (joint >= joints) BlockReader::fail("correctives name no joint's modes");
+            if (joint >= result.joints.size()) in.fail("correctives name no joint's modes");
             result.entries.push_back({joint, static_cast<std::uint32_t>(result.shares.size())});
-            takeShares(in, result.sharesOf(joint), result.shares);
-            if (flags & kNormals) takeShares(in, result.sharesOf(joint), result.normalShares);
+            takeShares(joint, result.shares);
+            if (hasNormals) takeShares(joint, result.normalShares);
         }
         result.firstEntry.push_back(static_cast<std::uint32_t>(result.entries.size()));
     }
@@ -219,8 +125,7 @@ Correctives takeCorrectives(BlockReader& in, std::uint32_t vertexCount) {
 
 std::vector<glm::vec3> readVectors(BlockReader& in, std::uint32_t count) {
     std::vector<glm::vec3> vectors(count);
-    for (glm::vec3& vector : vectors)
-        for (glm::length_t axis = 0; axis < 3; ++axis) vector[axis] = in.real();
+    in.copy(reinterpret_cast<float*>(vectors.data()), std::size_t{3} * count);
     return vectors;
 }
 
@@ -234,16 +139,8 @@ BoundJoint readJoint(BlockReader& in) {
     return joint;
 }
 
-void putGradients(const Binding& binding, BlockWriter& out) {
-    for (std::size_t i = 0; i < binding.influences.size(); ++i) {
-        if (!binding.influences[i].isPartial()) continue;
-        out.putVector(binding.gradients[i].bend);
-        out.putVector(binding.gradients[i].twist);
-    }
-}
-
-std::vector<RatioGradient> takeGradients(BlockReader& in,
-                                         const std::vector<Influence>& influences) {
+std::vector<RatioGradient> takeVertexGradients(BlockReader& in,
+                                               const std::vector<Influence>& influences) {
     std::vector<RatioGradient> gradients(influences.size());
     for (std::size_t i = 0; i < influences.size(); ++i) {
         if (!influences[i].isPartial()) continue;
@@ -253,87 +150,8 @@ std::vector<RatioGradient> takeGradients(BlockReader& in,
     return gradients;
 }
 
-} // namespace
-
-Binding bindingOf(const SkinModel& model) {
-    // By vertex first: groups have their own order of vertices, and of joints (productOrder()).
-    std::vector<std::vector<std::pair<Influence, RatioGradient>>> influences(model.vertexCount());
-    const std::vector<RatioGradient> grouped = gradientsOf(model);
-    auto gradient = grouped.begin();
-    for (const SkinModel::Group& group : model.groups()) {
-        const SkinModel::Ratio* ratio = model.ratios().data() + group.firstRatio;
-        for (std::uint32_t i = 0; i < group.vertexCount; ++i) {
-            auto& list = influences[model.order()[group.firstVertex + i]];
-            for (std::uint32_t k = 0; k < group.linkCount; ++k) {
-                const SkinModel::Link& link = model.links()[group.firstLink + k];
-                const SkinModel::Ratio own = link.partial ? *ratio++ : SkinModel::Ratio{1.0f, 1.0f};
-                const RatioGradient slope = grouped.empty() ? RatioGradient{} : *gradient++;
-                if (own.bend == 0.0f && own.twist == 0.0f) continue; // an influence of others
-                list.push_back({{link.joint, own.bend, own.twist}, slope});
-            }
-            std::sort(list.begin(), list.end(),
-                      [](const auto& a, const auto& b) { return a.first.joint < b.first.joint; });
-        }
-    }
-    Binding binding;
-    binding.joints = model.joints();
-    binding.firstInfluence.push_back(0);
-    for (const auto& list : influences) {
-        std::uint32_t region = 0;
-        for (const auto& [influence, slope] : list) {
-            if (influence.bend >= 0.5f) region = influence.joint;
-            binding.influences.push_back(influence);
-            if (!grouped.empty()) binding.gradients.push_back(slope);
-        }
-        binding.regions.push_back(region);
-        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
-    }
-    binding.correctives = correctivesOf(model);
-    return binding;
-}
-
-std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
-    const Binding binding = bindingOf(model);
-    BlockWriter out;
-    // The earliest version that suffices, for older programs.
-    const bool corrected = !binding.correctives.empty();
-    const bool sloped = !binding.gradients.empty();
-    out.put(sloped ? kSkinModelBlockVersion : std::uint32_t{corrected ? 2u : 1u});
-    out.put(binding.joints.size());
-    for (const BoundJoint& joint : binding.joints) {
-        out.put(static_cast<std::uint32_t>(joint.parent));
-        out.put(joint.name);
-        out.putVector(joint.centre);
-        out.putVector(joint.boneAxis);
-        out.putVector(joint.twistAxis);
-    }
-    out.put(model.vertexCount());
-    for (const glm::vec3& position : model.positions()) out.putVector(position);
-    for (const glm::vec3& normal : model.normals()) out.putVector(normal);
-    for (std::size_t v = 0; v < model.vertexCount(); ++v) {
-        const std::uint32_t first = binding.firstInfluence[v];
-        const std::uint32_t end = binding.firstInfluence[v + 1];
-        out.put(end - first);
-        for (std::uint32_t i = first; i < end; ++i) {
-            out.put(binding.influences[i].joint);
-            out.put(binding.influences[i].bend);
-            out.put(binding.influences[i].twist);
-        }
-    }
-    if (sloped) {
-        putGradients(binding, out);
-        out.put(std::uint32_t{corrected ? 1u : 0u});
-    }
-    if (corrected) putCorrectives(binding.correctives, out);
-    return out.words;
-}
-
-osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& words) {
-    BlockReader in(words);
-    const std::uint32_t version = in.word();
-    if (version < 1 || version > kSkinModelBlockVersion)
-        in.fail("it has version " + std::to_string(version) + ", expected 1 to " +
-                std::to_string(kSkinModelBlockVersion));
+/// Reads versions 1 to 3 behind the version: a binding, of which all else is computed.
+osg::ref_ptr<const SkinModel> takeOlder(BlockReader& in, std::uint32_t version) {
     Binding binding;
     const std::uint32_t joints = in.count("joints", 20);
     for (std::uint32_t j = 0; j < joints; ++j) binding.joints.push_back(readJoint(in));
@@ -357,20 +175,306 @@ osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& 
         source.push_back(v);
     }
     if (version >= 3) {
-        binding.gradients = takeGradients(in, binding.influences);
+        binding.gradients = takeVertexGradients(in, binding.influences);
         const std::uint32_t corrected = in.word();
         if (corrected > 1) in.fail("it has neither correctives nor none");
-        if (corrected == 1) binding.correctives = takeCorrectives(in, vertices);
+        if (corrected == 1) binding.correctives = takeVertexCorrectives(in, vertices);
     }
-    if (version == 2) binding.correctives = takeCorrectives(in, vertices);
-    if (!in.atEnd()) in.fail("there is more in it than a model");
+    if (version == 2) binding.correctives = takeVertexCorrectives(in, vertices);
     // create() checks numbers, indices, ratios, axes and the joints' hierarchy.
     return SkinModel::create(binding, std::move(positions), std::move(normals), source);
 }
 
+/// Writes the gradients.
+void put(const GradientBlocks& gradients, BlockWriter& out) {
+    out.put(gradients.unit);
+    out.copy(gradients.across.data()->across, 3 * gradients.across.size());
+    for (const GradientBlocks::Reach& reach : gradients.reach) {
+        out.put(reach.bend);
+        out.put(reach.twist);
+    }
+    for (const GradientRow& row : gradients.rows) out.shorts(row.lane, kBlock);
+}
+
+constexpr std::size_t kShortRow = kBlock / 2; // words of a row of 16-bit numbers
+
+void takeGradients(BlockReader& in, SkinModel& model) {
+    GradientBlocks from;
+    std::size_t rows = 0, reaches = 0;
+    for (const SkinModel::Group& group : model.groups()) {
+        rows += (group.vertexCount + kBlock - 1) / kBlock *
+                GradientBlocks::rowsPerBlock(group.partialCount);
+        reaches += group.partialCount;
+    }
+    from.unit = in.longReal();
+    from.across.resize(SkinModelAccess::blocks(model).firstBlock.back());
+    in.copy(from.across.data()->across, 3 * from.across.size());
+    for (std::size_t i = 0; i < reaches; ++i) {
+        const float bend = in.real();
+        from.reach.push_back({bend, in.real()});
+    }
+    in.expect(rows, kShortRow);
+    from.rows.resize(rows);
+    for (GradientRow& row : from.rows) in.shorts(row.lane, kBlock);
+    SkinModelAccess::setGradients(model,
+                                  std::make_shared<const GradientBlocks>(model, std::move(from)));
+}
+
+void put(const CorrectiveBlocks& correctives, BlockWriter& out) {
+    putHead(correctives, out);
+    for (std::size_t g = 0; g + 1 < correctives.firstRange.size(); ++g) {
+        out.put(correctives.firstRange[g + 1] - correctives.firstRange[g]);
+        for (std::uint32_t i = correctives.firstRange[g]; i < correctives.firstRange[g + 1]; ++i) {
+            const CorrectiveBlocks::Range& range = correctives.ranges[i];
+            out.put(range.joint);
+            out.put(range.firstBlock);
+            out.put(range.blockCount);
+        }
+    }
+    for (const std::vector<CorrectiveRow>* rows : {&correctives.rows, &correctives.normalRows})
+        for (const CorrectiveRow& row : *rows) out.shorts(row.lane, kBlock);
+}
+
+void takeCorrectives(BlockReader& in, SkinModel& model) {
+    CorrectiveBlocks::Stored from{};
+    Binding head; // to be checked, without vertices
+    head.joints = model.joints();
+    head.firstInfluence.push_back(0);
+    head.correctives = takeHead(in, from.hasNormals);
+    if (from.hasNormals) head.correctives.shares = head.correctives.normalShares = {0};
+    head.validate();
+    from.joints = std::move(head.correctives.joints);
+    from.inputs = std::move(head.correctives.inputs);
+    std::size_t rows = 0;
+    from.firstRange.push_back(0);
+    for (std::size_t g = 0; g < model.groups().size(); ++g) {
+        const std::uint32_t count = in.count("correctives' ranges", 3);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            CorrectiveBlocks::Range range{};
+            range.joint = in.word();
+            range.firstBlock = in.word();
+            range.blockCount = in.word();
+            if (range.joint >= from.joints.size()) in.fail("correctives name no joint's modes");
+            rows += std::size_t{range.blockCount} * 3 * from.joints[range.joint].modes;
+            from.ranges.push_back(range);
+        }
+        from.firstRange.push_back(static_cast<std::uint32_t>(from.ranges.size()));
+    }
+    in.expect(rows, kShortRow * (from.hasNormals ? 2 : 1));
+    from.rows.resize(rows);
+    from.normalRows.resize(from.hasNormals ? rows : 0);
+    for (std::vector<CorrectiveRow>* list : {&from.rows, &from.normalRows})
+        for (CorrectiveRow& row : *list) in.shorts(row.lane, kBlock);
+    SkinModelAccess::setCorrectives(
+        model, std::make_shared<const CorrectiveBlocks>(model, std::move(from)));
+}
+
+/// The numbers of a term, as files have them.
+template <typename Term>
+auto numbersOf(Term& term) {
+    return std::array{&term.bend,     &term.twist,     &term.bendSpread, &term.twistSpread,
+                      &term.mostBend, &term.mostTwist, &term.bendReach,  &term.twistReach,
+                      &term.bendMove, &term.twistMove, &term.mostHigh};
+}
+
+void put(const BoundsProxy& proxy, BlockWriter& out) {
+    const auto putLanes = [&](const BoundsProxy::Lanes& lanes) {
+        out.copy(lanes.lane, BoundsProxy::kAtOnce);
+    };
+    out.put(proxy.noTravel);
+    out.put(proxy.rounding);
+    out.put(proxy.terms.size());
+    for (const BoundsProxy::Term& term : proxy.terms) {
+        out.put(term.joint);
+        out.put(std::uint32_t{term.turns ? 1u : 0u});
+        for (const float* number : numbersOf(term)) out.put(*number);
+    }
+    out.put(proxy.pieces.size());
+    for (const BoundsProxy::Piece& piece : proxy.pieces) {
+        out.put(piece.anchor);
+        out.put(piece.termCount);
+        out.putVector(piece.centre.xyz());
+        for (const Four& axis : piece.axes) out.putVector(axis.xyz());
+    }
+    out.put(proxy.shares.size());
+    for (const BoundsProxy::Share& share : proxy.shares) {
+        out.put(share.joint);
+        for (const auto* lanes : {&share.weight, &share.bend, &share.twist, &share.square})
+            putLanes(*lanes);
+    }
+    out.put(proxy.reaches.size());
+    for (const BoundsProxy::Reach& reach : proxy.reaches) {
+        out.put(reach.weight);
+        putLanes(reach.length);
+    }
+    out.put(proxy.blocks.size());
+    for (const BoundsProxy::Block& block : proxy.blocks)
+        for (const std::uint32_t count :
+             {block.pieceCount, block.weighted, block.shareCount, block.reachCount})
+            out.put(count);
+}
+
+void takeBoundsProxy(BlockReader& in, SkinModel& model) {
+    const auto proxy = std::make_shared<BoundsProxy>();
+    const auto takeLanes = [&](BoundsProxy::Lanes& lanes) {
+        in.copy(lanes.lane, BoundsProxy::kAtOnce);
+    };
+    const auto takeVector = [&](Four& vector) {
+        float axes[3];
+        in.copy(axes, 3);
+        vector = four(axes[0], axes[1], axes[2], 0.0f);
+    };
+    proxy->noTravel = in.real();
+    proxy->rounding = in.real();
+    proxy->terms.resize(in.count("terms of bounds", 13));
+    for (BoundsProxy::Term& term : proxy->terms) {
+        term.joint = in.word();
+        term.turns = in.word() != 0;
+        for (float* number : numbersOf(term)) *number = in.real();
+    }
+    proxy->pieces.resize(in.count("pieces of bounds", 14));
+    for (BoundsProxy::Piece& piece : proxy->pieces) {
+        piece.anchor = in.word();
+        piece.termCount = in.word();
+        takeVector(piece.centre);
+        for (Four& axis : piece.axes) takeVector(axis);
+    }
+    proxy->shares.resize(in.count("shares of bounds", 33));
+    for (BoundsProxy::Share& share : proxy->shares) {
+        share.joint = in.word();
+        for (auto* lanes : {&share.weight, &share.bend, &share.twist, &share.square})
+            takeLanes(*lanes);
+    }
+    proxy->reaches.resize(in.count("reaches of bounds", 9));
+    for (BoundsProxy::Reach& reach : proxy->reaches) {
+        reach.weight = in.word();
+        takeLanes(reach.length);
+    }
+    proxy->blocks.resize(in.count("blocks of bounds", 4));
+    for (BoundsProxy::Block& block : proxy->blocks)
+        for (std::uint32_t* count :
+             {&block.pieceCount, &block.weighted, &block.shareCount, &block.reachCount})
+            *count = in.word();
+    completeBoundsProxy(model, *proxy);
+    SkinModelAccess::setBoundsProxy(model, proxy);
+}
+
+/// Reads version 4 behind the version: a model as it is in memory.
+osg::ref_ptr<const SkinModel> takeArranged(BlockReader& in) {
+    SkinModelAccess::Arranged from;
+    Binding head; // to be checked, without vertices
+    const std::uint32_t joints = in.count("joints", 20);
+    for (std::uint32_t j = 0; j < joints; ++j) head.joints.push_back(readJoint(in));
+    head.firstInfluence.push_back(0);
+    head.validate();
+    from.joints = std::move(head.joints);
+    const std::uint32_t vertices = in.count("vertices", 7);
+    if (vertices == 0) in.fail("it has no vertex");
+    from.positions = readVectors(in, vertices);
+    from.normals = readVectors(in, vertices);
+    from.order.resize(vertices);
+    in.copy(from.order.data(), vertices);
+    from.groups.resize(in.count("groups", 3));
+    for (SkinModel::Group& group : from.groups) {
+        group.vertexCount = in.word();
+        group.linkCount = in.count("links", 1);
+        for (std::uint32_t i = 0; i < group.linkCount; ++i) {
+            const std::uint32_t link = in.word();
+            from.links.push_back({link & ~kPartial, (link & kPartial) != 0});
+        }
+    }
+    from.ratios.resize(in.count("ratios", 2));
+    in.copy(&from.ratios.data()->bend, 2 * from.ratios.size());
+    const osg::ref_ptr<SkinModel> model = SkinModelAccess::make(std::move(from));
+    const std::uint32_t parts = in.word();
+    if (parts & ~(kGradients | kCorrectives)) in.fail("it has a part that is not known");
+    if (parts & kGradients) takeGradients(in, *model);
+    if (parts & kCorrectives) takeCorrectives(in, *model);
+    takeBoundsProxy(in, *model);
+    return model;
+}
+
+ContentHash hashOf(const std::vector<std::uint32_t>& words) {
+    ContentHash hash;
+    hash.add(words.data(), words.size() * sizeof(std::uint32_t));
+    return hash;
+}
+
+/// Has the process share a model by the block that it was read from.
+osg::ref_ptr<const SkinModel> share(const ContentHash& block,
+                                    const osg::ref_ptr<const SkinModel>& model) {
+    // Nobody changes it: the table's type alone is not const.
+    return SharedObjects<SkinModel>::instance().add(block, const_cast<SkinModel*>(model.get()),
+                                                    [](const SkinModel&) { return true; });
+}
+
+} // namespace
+
+std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
+    BlockWriter out;
+    out.put(kSkinModelBlockVersion);
+    out.put(model.joints().size());
+    for (const BoundJoint& joint : model.joints()) {
+        out.put(static_cast<std::uint32_t>(joint.parent));
+        out.put(joint.name);
+        out.putVector(joint.centre);
+        out.putVector(joint.boneAxis);
+        out.putVector(joint.twistAxis);
+    }
+    out.put(model.vertexCount());
+    for (const std::vector<glm::vec3>* vectors : {&model.positions(), &model.normals()})
+        out.copy(&vectors->data()->x, 3 * vectors->size());
+    out.copy(model.order().data(), model.order().size());
+    out.put(model.groups().size());
+    for (const SkinModel::Group& group : model.groups()) {
+        out.put(group.vertexCount);
+        out.put(group.linkCount);
+        for (std::uint32_t i = 0; i < group.linkCount; ++i) {
+            const SkinModel::Link& link = model.links()[group.firstLink + i];
+            out.put(link.joint | (link.partial ? kPartial : 0u));
+        }
+    }
+    out.put(model.ratios().size());
+    out.copy(&model.ratios().data()->bend, 2 * model.ratios().size());
+    const GradientBlocks* const gradients = SkinModelAccess::gradients(model);
+    const CorrectiveBlocks* const correctives = SkinModelAccess::correctives(model);
+    out.put((gradients ? kGradients : 0u) | (correctives ? kCorrectives : 0u));
+    if (gradients) put(*gradients, out);
+    if (correctives) put(*correctives, out);
+    if (const BoundsProxy* const proxy = SkinModelAccess::boundsProxy(model)) put(*proxy, out);
+    return out.words;
+}
+
+osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& words) {
+    const ContentHash block = hashOf(words);
+    if (osg::ref_ptr<const SkinModel> known = SharedObjects<SkinModel>::instance().find(block))
+        return known;
+    BlockReader in(words, "skin model block");
+    const std::uint32_t version = in.word();
+    if (version < 1 || version > kSkinModelBlockVersion)
+        in.fail("it has version " + std::to_string(version) + ", expected 1 to " +
+                std::to_string(kSkinModelBlockVersion));
+    const osg::ref_ptr<const SkinModel> model =
+        version < 4 ? takeOlder(in, version) : takeArranged(in);
+    if (!in.atEnd()) in.fail("there is more in it than a model");
+    return share(block, model);
+}
+
 void unpackSkinModel(const std::vector<std::uint32_t>& words, SkinModel& empty) {
-    if (empty.vertexCount() > 0) BlockReader::fail("the model to be filled is not empty");
+    if (empty.vertexCount() > 0)
+        throw Error("skin model block: the model to be filled is not empty");
     SkinModelAccess::fill(empty, *unpackSkinModel(words));
+}
+
+osg::ref_ptr<const SkinModel> shareEqualModel(const osg::ref_ptr<const SkinModel>& model) {
+    if (!model->getName().empty() || model->getUserDataContainer()) return model;
+    return share(hashOf(packSkinModel(*model)), model);
+}
+
+osg::ref_ptr<const SkinModel> unpackedModel(const osg::ref_ptr<const SkinModel>& read) {
+    if (!read || !read->getName().empty() || read->getUserDataContainer()) return read;
+    const SkinModel* const original = SkinModelAccess::original(*read);
+    return original ? original : read.get();
 }
 
 } // namespace osgSkin

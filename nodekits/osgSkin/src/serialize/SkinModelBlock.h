@@ -3,7 +3,6 @@
 // A model in files. Exported for the serializers; applications use osgDB.
 #pragma once
 
-#include <osgSkin/Binding>
 #include <osgSkin/Export>
 #include <osgSkin/SkinModel>
 
@@ -12,35 +11,32 @@
 
 namespace osgSkin {
 
-/// The binding that a model was made from, for the model's own vertices.
-///
-/// Ratios are exact. A vertex's region is the last joint that it follows by half or more, since
-/// models have no regions. Correctives that are 0, and gradients that SkinModel::create() drops,
-/// are left out.
-OSGSKIN_EXPORT Binding bindingOf(const SkinModel& model);
-
-/// The latest version. packSkinModel() writes it for a model with gradients, 2 for one with
-/// correctives alone, and 1 for any other.
-constexpr std::uint32_t kSkinModelBlockVersion = 3;
+/// The version that packSkinModel() writes. Versions 1 to 3 held a binding, from which everything
+/// else was computed at each load.
+constexpr std::uint32_t kSkinModelBlockVersion = 4;
 
 /// A model as 32-bit words, without loss: the same in each file format.
 ///
 /// Version; number of joints, and of each: parent, bytes of the name, the name (four bytes a word,
 /// the first lowest), centre, bone axis, twist axis (doubles, low word first); number of vertices,
-/// all positions, all normals (floats); of each vertex: number of influences, and of each: joint,
-/// bend, twist.
+/// all positions, all normals (floats), order(); number of groups, and of each: number of vertices,
+/// number of links, of each link its joint, with the highest bit where it is partial; number of
+/// ratios, and of each: bend, twist. Then 1 where gradients follow, plus 2 where correctives do.
 ///
-/// Version 2 goes on with the correctives: 1 where they have normals, else 0; number of their
-/// joints, and of each: joint, basis, axis, low x and y, high x and y; number of knots, the knots;
-/// modes; number of coefficients, the coefficients; number of normals' scales, those (all doubles);
-/// of each vertex: number of entries, and of each: which of the correctives' joints, its shares
-/// (two a word, the first lower; of an odd number the last alone), the same of normals.
+/// Gradients: as GradientBlocks, `unit` (double), `across`, `reach`, `rows` (two numbers a word,
+/// the first lower).
 ///
-/// Version 3 goes on after the influences with the gradients of those that are partial: bend x, y
-/// and z, twist x, y and z (floats). Then 1 where the correctives follow, else 0.
+/// Correctives: 1 where they have normals, plus 2 where they have inputs; of these the number and
+/// the names; number of joints, and of each: joint, basis, axis, low x and y, high x and y; number
+/// of knots, the knots; modes; number of coefficients, the coefficients; number of normals' scales,
+/// those (all doubles); of each group the number of ranges, and of each: joint, first block, number
+/// of blocks; `rows`, then `normalRows`.
+///
+/// Bounds: as BoundsProxy, without what follows from the rest.
 OSGSKIN_EXPORT std::vector<std::uint32_t> packSkinModel(const SkinModel& model);
 
-/// The model in `words`, which need not be trusted.
+/// The model in `words`, which need not be trusted. As long as a model lives, the same words are
+/// that model: loads of one file share it. Thread safe.
 ///
 /// \return never null
 /// \throw osgSkin::Error that names the first error
@@ -53,5 +49,12 @@ unpackSkinModel(const std::vector<std::uint32_t>& words);
 /// \param empty a new model; unchanged where this throws
 /// \throw osgSkin::Error as above, and where the model is not empty
 OSGSKIN_EXPORT void unpackSkinModel(const std::vector<std::uint32_t>& words, SkinModel& empty);
+
+/// The model that osgDB should use in place of one that it has read: the one that unpackSkinModel()
+/// has filled it from, unless it has a name or user data of its own.
+///
+/// \param read may be null
+OSGSKIN_EXPORT osg::ref_ptr<const SkinModel>
+unpackedModel(const osg::ref_ptr<const SkinModel>& read);
 
 } // namespace osgSkin

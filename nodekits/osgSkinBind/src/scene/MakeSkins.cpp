@@ -5,6 +5,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/ShareEqualData>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkinBind/AttachSkin>
 #include <osgSkinBind/RigidJoints>
@@ -229,10 +230,13 @@ SkinParts::Skin makeSkin(const MeshPart& unordered, const Binding& binding,
     const auto& normals = static_cast<const osg::Vec3Array&>(*unordered.geometry->getNormalArray());
     const glm::vec3* positions = asGlm(vertices.asVector().data());
     const glm::vec3* directions = asGlm(normals.asVector().data());
-    const auto [model, order] =
+    const auto [own, order] =
         SkinModel::createInBestOrder(binding, {positions, positions + vertices.size()},
                                      {directions, directions + normals.size()}, source);
+    // Loads of one file share what does not change.
+    const osg::ref_ptr<const SkinModel> model = shareEqualModel(own);
     const MeshPart part = reorderedPart(unordered, order);
+    shareEqualArrays(*part.geometry);
     const osg::ref_ptr<DeformableSkin> skin = new DeformableSkin;
     skin->setName(part.geometry->getName());
     const auto* tangents = dynamic_cast<const osg::Vec4Array*>(
@@ -342,6 +346,7 @@ AttachedSkin placeSkins(osgAnimation::Skeleton& skeleton, const SkinParts& parts
     for (std::size_t i = 0; i < bones.size(); ++i) {
         const MeshPart& part = parts.rigids[i].part;
         if (part.morphs.empty()) {
+            shareEqualArrays(*part.geometry);
             result.rigids.push_back({new RigidPart(part.geometry, *bones[i]), bones[i], part});
             continue;
         }

@@ -36,6 +36,7 @@ public:
 
     bool isObject() const { return _value.is_object(); }
     bool isNumber() const { return _value.is_number(); }
+    bool isString() const { return _value.is_string(); }
     std::string string() const;
     double number() const;
     bool boolean() const;

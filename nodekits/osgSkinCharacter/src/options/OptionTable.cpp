@@ -122,14 +122,25 @@ Option rigidOption() {
     Option option = textsOf({"rigid",
                              "head, hands and feet, by name; not those with fingers, toes or other "
                              "joints that a motion moves",
-                             "joints that move as rigid bodies with all joints below them"},
-                            "joint,joint|none", In::Files);
-    option.expected = "none, or names of joints with commas between them";
+                             "joints that move as rigid bodies with all joints below them; merged: "
+                             "these joints, drawn with the skin instead of as nodes below "
+                             "bones"},
+                            "joint,joint|none|merged", In::Files);
+    option.expected = "none, merged, or names of joints with commas between them";
     option.set = [](LoadOptions& options, const std::string& text) {
-        options.rigid = text == "none" ? std::vector<std::string>() : listOf(text);
-        return text == "none" || !options.rigid->empty();
+        options.mergeRigid = text == "merged";
+        options.rigid.reset();
+        if (!options.mergeRigid)
+            options.rigid = text == "none" ? std::vector<std::string>() : listOf(text);
+        return options.mergeRigid || text == "none" || !options.rigid->empty();
     };
     option.read = [](LoadOptions& options, const JsonReader& member, const ReadLimits& limits) {
+        if (member.isString()) {
+            if (member.string() != "merged")
+                member.failWith("expected a list of joints' names, or \"merged\"");
+            options.mergeRigid = true;
+            return;
+        }
         if (member.size() > limits.joints)
             member.failWith(std::to_string(member.size()) + " names, expected at most " +
                             std::to_string(limits.joints) + " (option maxJoints)");
@@ -137,7 +148,11 @@ Option rigidOption() {
         member.forEachItem(
             [&](const JsonReader& name) { options.rigid->push_back(name.string()); });
     };
-    option.complete = completeBy(&LoadOptions::rigid);
+    option.complete = [](LoadOptions& options, const LoadOptions& file) {
+        if (options.rigid) return;
+        options.rigid = file.rigid; // of which merged parts are, too
+        options.mergeRigid = options.mergeRigid || file.mergeRigid;
+    };
     return option;
 }
 

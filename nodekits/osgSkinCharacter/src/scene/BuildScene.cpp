@@ -10,6 +10,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkin/ShareEqualData>
 #include <osgSkin/UpdateMorphs>
 #include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinBind/Bind>
@@ -249,9 +250,10 @@ namespace {
 
 void attach(const CharacterSource& source, Character& character) {
     const SkinMesh& mesh = character.body.mesh;
-    const std::vector<std::string> rigid =
-        source.bind.rigid ? *source.bind.rigid
-                          : automaticRigidJoints(character.rest, source.bind.names);
+    std::vector<std::string> rigid;
+    if (!source.options.mergeRigid)
+        rigid = source.bind.rigid ? *source.bind.rigid
+                                  : automaticRigidJoints(character.rest, source.bind.names);
     character.skeleton = source.skeleton ? source.skeleton : makeSkeleton(character.rest);
     character.skin = attachSkin(*character.skeleton, mesh, character.body.parts, character.binding,
                                 splitRigid(mesh, character.binding, rigid));
@@ -292,6 +294,7 @@ void play(Character& character) {
     if (character.motions.empty()) return;
     osgAnimation::AnimationList clips;
     for (const CharacterMotion& motion : character.motions) clips.push_back(motion.animation);
+    shareEqualKeys(clips);
     const osg::ref_ptr<AutoPlayManager> manager =
         new AutoPlayManager; // plays again when saved and read
     manager->registerAnimations(clips);
