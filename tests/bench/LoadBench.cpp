@@ -122,8 +122,8 @@ public:
         _cull->pushProjectionMatrix(new osg::RefMatrix(osg::Matrix::ortho(-r, r, -r, r, 0, 4 * r)));
         const osg::Vec3d centre = _bound.center();
         _cull->pushModelViewMatrix(
-            new osg::RefMatrix(osg::Matrix::lookAt(centre + osg::Vec3d(0, 0, 2 * r), centre,
-                                                   osg::Vec3d(0, 1, 0))),
+            new osg::RefMatrix(
+                osg::Matrix::lookAt(centre + osg::Vec3d(0, 0, 2 * r), centre, osg::Vec3d(0, 1, 0))),
             osg::Transform::ABSOLUTE_RF);
         _scene->accept(*_cull);
         _cull->popModelViewMatrix();
