@@ -4,7 +4,6 @@
 // below bones and merged into the skin: update and cull traversals, deformation included; nothing
 // is drawn.
 #include <osgSkin/DeformableSkin>
-#include <osgSkin/MergeRigidParts>
 
 #include <benchmark/benchmark.h>
 #include <osg/FrameStamp>
@@ -27,7 +26,7 @@
 
 namespace {
 
-std::string saved; ///< the thrower as .osgb
+std::string saved, savedMerged; ///< the thrower as .osgb, and with rigid=merged
 
 osg::ref_ptr<osg::Node> load(const std::string& file, osgDB::Options* options = nullptr) {
     osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file, options);
@@ -94,11 +93,7 @@ void memory(benchmark::State& state) {
 class Frames {
 public:
     explicit Frames(bool merged) {
-        for (int i = 0; i < 100; ++i) {
-            const osg::ref_ptr<osg::Node> node = load(saved);
-            if (merged) osgSkin::mergeRigidParts(*node);
-            _scene->addChild(node);
-        }
+        for (int i = 0; i < 100; ++i) _scene->addChild(load(merged ? savedMerged : saved));
         _update->setFrameStamp(_stamp);
         _cull->setFrameStamp(_stamp);
         for (int i = 0; i < 3; ++i) { // these frames still allocate
@@ -127,8 +122,8 @@ public:
         _cull->pushProjectionMatrix(new osg::RefMatrix(osg::Matrix::ortho(-r, r, -r, r, 0, 4 * r)));
         const osg::Vec3d centre = _bound.center();
         _cull->pushModelViewMatrix(
-            new osg::RefMatrix(osg::Matrix::lookAt(centre + osg::Vec3d(0, 0, 2 * r), centre,
-                                                   osg::Vec3d(0, 1, 0))),
+            new osg::RefMatrix(
+                osg::Matrix::lookAt(centre + osg::Vec3d(0, 0, 2 * r), centre, osg::Vec3d(0, 1, 0))),
             osg::Transform::ABSOLUTE_RF);
         _scene->accept(*_cull);
         _cull->popModelViewMatrix();
@@ -169,8 +164,13 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
     const std::string skin = OSGSKIN_DATA "/thrower.skin";
-    saved = (std::filesystem::temp_directory_path() / "osgskin_load_bench.osgb").string();
-    if (!osgDB::writeNodeFile(*load(skin), saved)) return 1;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path();
+    saved = (folder / "osgskin_load_bench.osgb").string();
+    savedMerged = (folder / "osgskin_load_bench_merged.osgb").string();
+    const osg::ref_ptr<osgDB::Options> merged = new osgDB::Options("rigid=merged");
+    if (!osgDB::writeNodeFile(*load(skin), saved) ||
+        !osgDB::writeNodeFile(*load(skin, merged), savedMerged))
+        return 1;
     const auto add = [](const char* name, auto run, auto... more) {
         return benchmark::RegisterBenchmark(name, run, more...)
             ->Unit(benchmark::kMillisecond)
@@ -186,5 +186,6 @@ int main(int argc, char** argv) {
     add("memory of 1000", memory)->Iterations(1);
     benchmark::RunSpecifiedBenchmarks();
     std::filesystem::remove(saved);
+    std::filesystem::remove(savedMerged);
     return 0;
 }

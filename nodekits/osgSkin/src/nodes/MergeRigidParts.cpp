@@ -199,8 +199,7 @@ public:
     void apply() {
         std::vector<std::uint32_t> all(_positions.size());
         std::iota(all.begin(), all.end(), 0u);
-        const auto [own, order] =
-            SkinModel::createInBestOrder(_binding, _positions, _normals, all);
+        const auto [own, order] = SkinModel::createInBestOrder(_binding, _positions, _normals, all);
         // Characters of one file that are merged one by one share these, too.
         const osg::ref_ptr<const SkinModel> model = shareEqualModel(own);
         std::vector<std::uint32_t> places(order.size());
