@@ -20,7 +20,7 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -28,10 +28,14 @@
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+/// Seconds of this thread's processor time, or of the clock where other threads work, too.
+double now(bool isThreaded) {
+    if (isThreaded)
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+            .count();
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
 class Skins : public osg::NodeVisitor {
@@ -161,13 +165,13 @@ void loaded(benchmark::State& state, Mode mode) {
     Scene scene(count, mode);
     double update = 0.0, deform = 0.0, cull = 0.0;
     for ([[maybe_unused]] auto iteration : state) {
-        const auto start = Clock::now();
+        const double start = now(mode.threads > 0);
         scene.update();
-        const double updated = since(start);
+        const double updated = now(mode.threads > 0) - start;
         scene.deform();
-        const double deformed = since(start);
+        const double deformed = now(mode.threads > 0) - start;
         scene.cull();
-        const double culled = since(start);
+        const double culled = now(mode.threads > 0) - start;
         update += updated;
         deform += deformed - updated;
         cull += culled - deformed;
