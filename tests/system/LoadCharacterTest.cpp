@@ -8,10 +8,12 @@
 #include "FindNodes.h"
 #include "ProgressLine.h"
 #include "QuadRig.h"
+#include "UpdateAt.h"
 #include "WhyRefused.h"
 
 #include <osgSkin/DeformJob>
 #include <osgSkin/Error>
+#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinCharacter/ProgressOption>
 
@@ -44,6 +46,7 @@ namespace {
 using osgSkin::Character;
 using osgSkin::loadCharacter;
 using osgSkin::LoadOptions;
+using osgSkin::UpdatePlayedSkeleton;
 
 const std::string kGood = OSGSKIN_TEST_DATA "/character/good.skin";
 const std::string kTube = OSGSKIN_TEST_DATA "/rig/tube.gltf";
@@ -569,4 +572,66 @@ TEST(ProgressLine, IsSilentOnShortWork) {
         line.show({"done", 1.0});
     }
     EXPECT_EQ(terminal.text(), "");
+}
+
+namespace {
+
+/// Two updates: the first one moves bones.
+void playTo(Character& character, double time) {
+    test::updateAt(*character.root, 0.0);
+    test::updateAt(*character.root, time);
+}
+
+} // namespace
+
+TEST(LoadCharacter, BonesFollowWhereTheyAreAskedFor) {
+    LoadOptions always;
+    always.bonesFollow = true;
+    for (const std::string& file : {std::string(OSGSKIN_DATA "/thrower.skin"), kTube}) {
+        Character character = loadCharacter(file);
+        Character following = loadCharacter(file, always);
+        playTo(character, 0.5);
+        playTo(following, 0.5);
+        EXPECT_TRUE(UpdatePlayedSkeleton::of(*character.skeleton)->skipsBones()) << file;
+        EXPECT_FALSE(UpdatePlayedSkeleton::of(*following.skeleton)->skipsBones()) << file;
+        const auto a = drawn(following);
+        const std::string name = character.rest.joints.back().name;
+        EXPECT_EQ(character.bone("nobody"), nullptr);
+        const osg::ref_ptr<osgAnimation::Bone> bone = character.bone(name);
+        ASSERT_NE(bone, nullptr) << name;
+        const auto b = drawn(character); // reads rigid parts by their bones
+        ASSERT_EQ(a.size(), b.size());
+        double size = 0.0;
+        for (const osg::Vec3d& p : a) size = std::max(size, (p - a.front()).length());
+        for (std::size_t i = 0; i < a.size(); ++i)
+            ASSERT_LT((a[i] - b[i]).length(), 1e-6 * size) << i;
+        for (const double time : {0.6, 0.7}) {
+            test::updateAt(*character.root, time);
+            test::updateAt(*following.root, time);
+            EXPECT_LT((bone->getMatrixInSkeletonSpace().getTrans() -
+                       following.bone(name)->getMatrixInSkeletonSpace().getTrans())
+                          .length(),
+                      1e-9 * size);
+        }
+    }
+}
+
+TEST(LoadCharacter, PosesOfAPlayingCharacterAreThoseOfAnother) {
+    Character character = loadCharacter(OSGSKIN_DATA "/thrower.skin");
+    Character still = loadCharacter(OSGSKIN_DATA "/thrower.skin");
+    playTo(character, 0.5);
+    const auto expectSame = [&] {
+        const auto a = drawn(character), b = drawn(still);
+        for (std::size_t i = 0; i < a.size(); ++i) ASSERT_LT((a[i] - b[i]).length(), 2e-6) << i;
+    };
+    for (const double seconds : {0.0, 0.4, 0.5}) {
+        character.poseAt(character.motions.front(), seconds);
+        still.poseAt(still.motions.front(), seconds);
+        expectSame();
+        playTo(character, 0.3);
+        ASSERT_TRUE(UpdatePlayedSkeleton::of(*character.skeleton)->skipsBones());
+    }
+    character.pose(character.motions.front(), 50);
+    still.pose(still.motions.front(), 50);
+    expectSame();
 }

@@ -15,6 +15,7 @@
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/BoneReader>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinRig/ApplyFrame>
@@ -464,6 +465,7 @@ TEST_P(OwnAxes, PlayWhatAClipSays) {
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->setUpdateCallback(manager);
     scene->addChild(own);
+    osgSkin::setBonesFollow(*own, true);
     for (std::size_t frame = 0; frame < clip.frames; ++frame) {
         osgSkin::applyFrame(clip, rig, frame, *plain);
         test::updateAt(*scene, 0.1 * static_cast<double>(frame));

@@ -5,6 +5,7 @@
 //
 // tests/data/saved holds makeScene(Tube(9, 6)) as written when files called a model
 // osgSkin::SharedSkinModel. Such files can still be read, and are written with today's names.
+#include "FindNodes.h"
 #include "SavedScene.h"
 #include "SomeMorphs.h"
 #include "TextFile.h"
@@ -15,6 +16,7 @@
 #include <osgSkin/RigidPart>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkin/UpdateMorphs>
+#include <osgSkin/UpdatePlayedSkeleton>
 
 #include <gtest/gtest.h>
 #include <osg/Material>
@@ -190,6 +192,66 @@ TEST_P(RoundTrip, PlaysByItself) {
         if (time == 0.0) first = a;
     }
     EXPECT_NE(first, vertices(*is[0]->getDeformedGeometry()).asVector());
+}
+
+namespace {
+
+template <typename T>
+test::FoundNode<T> only(osg::Node& scene) {
+    const auto found = test::findNodes<T>(scene);
+    EXPECT_GE(found.size(), 1u);
+    return found.front();
+}
+
+osgSkin::UpdatePlayedSkeleton* playedOf(osg::Node& scene) {
+    return osgSkin::UpdatePlayedSkeleton::of(*only<osgAnimation::Skeleton>(scene).node);
+}
+
+} // namespace
+
+/// Saved while the skeleton's bones are not moved.
+TEST_P(RoundTrip, PlayedSkeleton) {
+    const auto playing = test::makeScene();
+    only<osgAnimation::Skeleton>(*playing).node->setUpdateCallback(
+        new osgSkin::UpdatePlayedSkeleton);
+    for (osg::Node* scene : {before.get(), static_cast<osg::Node*>(playing.get())})
+        for (const double time : {0.0, 0.25, 0.5}) test::updateAt(*scene, time);
+    ASSERT_TRUE(playedOf(*playing)->skipsBones());
+    const auto saved = test::load(test::save(*playing, GetParam()), GetParam());
+    ASSERT_NE(saved, nullptr);
+    ASSERT_NE(playedOf(*saved), nullptr);
+    EXPECT_FALSE(playedOf(*saved)->getBonesFollow());
+
+    // Bones and rigid parts are as if the former had followed, and the saved scene shows the pose.
+    EXPECT_EQ(only<osgSkin::RigidPart>(*saved).node->getMatrix(),
+              only<osgSkin::RigidPart>(*before).node->getMatrix());
+    for (int i = 0; i < 16; ++i)
+        EXPECT_NEAR(only<osgSkin::RigidPart>(*saved).toWorld.ptr()[i],
+                    only<osgSkin::RigidPart>(*before).toWorld.ptr()[i], 1e-9);
+    const auto bones = test::findNodes<osgAnimation::Bone>(*saved);
+    const auto expected = test::findNodes<osgAnimation::Bone>(*before);
+    ASSERT_EQ(bones.size(), expected.size());
+    for (std::size_t b = 0; b < bones.size(); ++b)
+        for (int i = 0; i < 16; ++i)
+            EXPECT_NEAR(bones[b].node->getMatrixInSkeletonSpace().ptr()[i],
+                        expected[b].node->getMatrixInSkeletonSpace().ptr()[i], 1e-9);
+
+    // It plays on in the same way.
+    for (const double time : {0.0, 0.25, 0.5, 0.75}) {
+        test::updateAt(*before, time);
+        test::updateAt(*saved, time);
+        const auto a = vertices(*was[0]->getDeformedGeometry()).asVector();
+        const auto b = vertices(*test::skinsOf(*saved)[0]->getDeformedGeometry()).asVector();
+        for (std::size_t v = 0; v < a.size(); ++v) ASSERT_LT((a[v] - b[v]).length(), 1e-5f) << time;
+    }
+    EXPECT_TRUE(playedOf(*saved)->skipsBones());
+    EXPECT_NE(dynamic_cast<osgSkin::UpdatePlayedSkeleton::CullPlayedSkeleton*>(
+                  only<osgAnimation::Skeleton>(*saved).node->getCullCallback()),
+              nullptr);
+
+    playedOf(*playing)->setBonesFollow(true);
+    const auto following = test::load(test::save(*playing, GetParam()), GetParam());
+    EXPECT_TRUE(playedOf(*following)->getBonesFollow());
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip, testing::Values("osgt", "osgb", "osgx"),

@@ -42,6 +42,9 @@ struct TargetState : osgAnimation::Target {
     }
 };
 
+/// Keys that are looked at one by one before all are searched.
+constexpr std::size_t kNearKeys = 4;
+
 /// Asks for memory that is read soon. The address may be any.
 void fetch([[maybe_unused]] std::uintptr_t address) {
 #ifdef __GNUC__
@@ -110,26 +113,29 @@ struct Element {
 
     Kind kind = kUnknown;
     bool isStepped = false;
-    std::uint32_t cursor = 0; ///< the first one of the two keys that were used last
+    std::size_t cursor = 0; ///< the first one of the two keys that were used last
     osgAnimation::StackedTransformElement* element;
     osgAnimation::Target* target; ///< the element's; null: no channel has been linked with it
     osg::ref_ptr<const osgAnimation::KeyframeContainer> keys; ///< of the clip; may be null
-    const void* lastKey = nullptr;                            ///< at `cursor`; may be gone
+    std::uintptr_t lastKey = 0;                               ///< at `cursor`; may be gone
 };
 
 /// The value of an element's keys at a time, as osgAnimation's channels compute it.
+///
+/// \param step how many keys the other elements have gone on since the last time: a guess
 template <typename Value, typename Keys>
-Value sample(Element& element, double time) {
+Value sample(Element& element, double time, std::ptrdiff_t step) {
     const auto& container = static_cast<const Keys&>(*element.keys);
     const auto* const keys = &container.front();
     const std::size_t count = container.size();
     const auto isAt = [&](std::size_t k) {
-        return k + 1 < count && keys[k].getTime() < time && time <= keys[k + 1].getTime();
+        return k < count - 1 && keys[k].getTime() < time && time <= keys[k + 1].getTime();
     };
-    // The last one of all and the first are in other memory: they are looked at only if the time is
-    // neither where it was nor after the next key.
-    std::size_t k = element.cursor;
-    if (!isAt(k) && !isAt(++k)) {
+    // The last key of all and the first are in other memory: they are looked at only if the time is
+    // not near the last one's.
+    std::size_t k = element.cursor + static_cast<std::size_t>(step);
+    for (std::size_t near = 0; near < kNearKeys && !isAt(k); ++near) ++k;
+    if (!isAt(k)) {
         if (time >= keys[count - 1].getTime()) return keys[count - 1].getValue();
         if (time <= keys[0].getTime()) return keys[0].getValue();
         const auto* const after =
@@ -137,14 +143,14 @@ Value sample(Element& element, double time) {
                              [](const auto& key, double wanted) { return key.getTime() < wanted; });
         k = static_cast<std::size_t>(after - keys) - 1;
     }
-    element.cursor = static_cast<std::uint32_t>(k);
-    element.lastKey = keys + k;
+    element.cursor = k;
+    element.lastKey = reinterpret_cast<std::uintptr_t>(keys + k);
     if (element.isStepped) {
         // On a key, osgAnimation takes the one before, but for the last.
         return keys[k + 2 == count && time >= keys[k + 1].getTime() ? k + 1 : k].getValue();
     }
-    const double step = keys[k + 1].getTime() - keys[k].getTime();
-    const auto share = static_cast<float>((time - keys[k].getTime()) / step);
+    const double interval = keys[k + 1].getTime() - keys[k].getTime();
+    const auto share = static_cast<float>((time - keys[k].getTime()) / interval);
     return between(keys[k].getValue(), keys[k + 1].getValue(), share);
 }
 
@@ -154,20 +160,23 @@ Value valueOf(const Element& element, const Get& get) {
     return static_cast<const osgAnimation::TemplateTarget<Value>*>(element.target)->getValue();
 }
 
-void apply(Element& e, double time, glm::dmat4& m) {
+void apply(Element& e, double time, std::ptrdiff_t step, glm::dmat4& m) {
     switch (e.kind) {
     case Element::kTranslate:
-        preTranslate(m, e.keys ? sample<osg::Vec3, Vec3Keys>(e, time) : valueOf<osg::Vec3>(e, [&] {
-                         return static_cast<StackedTranslateElement*>(e.element)->getTranslate();
-                     }));
+        preTranslate(
+            m, e.keys ? sample<osg::Vec3, Vec3Keys>(e, time, step) : valueOf<osg::Vec3>(e, [&] {
+                return static_cast<StackedTranslateElement*>(e.element)->getTranslate();
+            }));
         break;
     case Element::kRotate:
-        preRotate(m, e.keys ? sample<osg::Quat, QuatKeys>(e, time) : valueOf<osg::Quat>(e, [&] {
+        preRotate(m,
+                  e.keys ? sample<osg::Quat, QuatKeys>(e, time, step) : valueOf<osg::Quat>(e, [&] {
                       return static_cast<StackedQuaternionElement*>(e.element)->getQuaternion();
                   }));
         break;
     case Element::kScale:
-        preScale(m, e.keys ? sample<osg::Vec3, Vec3Keys>(e, time) : valueOf<osg::Vec3>(e, [&] {
+        preScale(m,
+                 e.keys ? sample<osg::Vec3, Vec3Keys>(e, time, step) : valueOf<osg::Vec3>(e, [&] {
                      return static_cast<StackedScaleElement*>(e.element)->getScale();
                  }));
         break;
@@ -273,6 +282,7 @@ struct UpdatePlayedSkeleton::Playing {
     }
     void startSkipping();
     void poseBones(osg::Group& parent) const;
+    std::ptrdiff_t prefetchKeys();
     void pose();
 
     osg::observer_ptr<Skeleton> skeleton;
@@ -440,21 +450,49 @@ void UpdatePlayedSkeleton::Playing::startSkipping() {
     }
 }
 
-void UpdatePlayedSkeleton::Playing::pose() {
-    // Among many characters all this has left the caches, and each key would be waited for.
+/// Asks for the keys and elements that pose() needs. Among many characters they have left the
+/// caches, and each would be waited for.
+///
+/// \return how many keys the time has gone on, by the first channel: clips mostly have keys of all
+///         bones at the same times
+std::ptrdiff_t UpdatePlayedSkeleton::Playing::prefetchKeys() {
+    const auto first = std::find_if(elements.begin(), elements.end(),
+                                    [](const Element& element) { return element.keys.valid(); });
+    if (first == elements.end()) return 0;
+    const std::size_t before = first->cursor;
+    glm::dmat4 unused(1.0);
+    apply(*first, time, 0, unused);
+    const auto step = static_cast<std::ptrdiff_t>(first->cursor - before);
+    first->cursor = before;
     constexpr std::size_t kLine = 64;
-    const auto at = [](const void* pointer) { return reinterpret_cast<std::uintptr_t>(pointer); };
-    for (const Element& element : elements) {
-        fetch(at(element.keys ? static_cast<const void*>(element.keys.get()) : element.element));
-        fetch(at(element.keys ? element.lastKey : element.target));
-        if (element.keys) fetch(at(element.lastKey) + kLine);
+    for (const Element& e : elements) {
+        const auto at = reinterpret_cast<std::uintptr_t>(
+            e.keys ? static_cast<const void*>(e.keys.get()) : e.element);
+        fetch(at);
+        if (e.keys) {
+            const std::size_t size = e.kind == Element::kRotate
+                                         ? sizeof(osgAnimation::QuatKeyframe)
+                                         : sizeof(osgAnimation::Vec3Keyframe);
+            const std::uintptr_t key = e.lastKey + static_cast<std::size_t>(step) * size;
+            fetch(key);
+            fetch(key + kLine);
+        } else if (e.target) {
+            fetch(reinterpret_cast<std::uintptr_t>(e.target));
+        } else {
+            fetch(at + kLine);
+        }
     }
+    return step;
+}
+
+void UpdatePlayedSkeleton::Playing::pose() {
+    const std::ptrdiff_t step = prefetchKeys();
     for (std::size_t b = 0; b < bones.size(); ++b) {
         const PlayedBone& bone = bones[b];
         glm::dmat4& m = inSkeleton[b];
         m = bone.parent < 0 ? glm::dmat4(1.0) : inSkeleton[static_cast<std::size_t>(bone.parent)];
         for (std::size_t e = 0; e < bone.elementCount; ++e)
-            apply(elements[bone.firstElement + e], time, m);
+            apply(elements[bone.firstElement + e], time, step, m);
         skinning[b] = m * bone.inverseBind;
     }
     for (const PlayedPart& part : parts) {
