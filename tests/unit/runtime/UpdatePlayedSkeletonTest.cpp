@@ -306,7 +306,10 @@ TEST_F(Played, OsgsRigsReadTheBones) {
     const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     figure.skeleton->addChild(geode);
     expectSkipping(0.08);
-    geode->addDrawable(new osgAnimation::RigGeometry);
+    const osg::ref_ptr<osgAnimation::RigGeometry> rig = new osgAnimation::RigGeometry;
+    rig->setSourceGeometry(quad(1.0));
+    rig->setInfluenceMap(new osgAnimation::VertexInfluenceMap);
+    geode->addDrawable(rig);
     expectFollowing(0.1);
 }
 
@@ -370,22 +373,24 @@ TEST_F(Played, ADeepCopyShowsThePoseAndPlaysOn) {
         figure.scene.get(), osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_CALLBACKS |
                                 osg::CopyOp::DEEP_COPY_DRAWABLES);
     expectSame(figure, following, 0.04);
-    const auto& part = test::findNodes<osgSkin::RigidPart>(*copy).at(0);
+    const auto part = test::findNodes<osgSkin::RigidPart>(*copy).at(0);
     EXPECT_LT(difference(part.toWorld, following.toWorld(*following.rigid)), kRounding);
     EXPECT_LT(difference(verticesOf(played::skinOf(*copy)), verticesOf(*following.skin)),
               kRounding);
+    const osg::ref_ptr<osg::Group> original = figure.scene;
     figure.scene = copy;
     for (const double time : {0.0, 0.1, 0.2}) figure.update(time);
     following.manager->playAnimation(following.animation);
     following.animation->setStartTime(0.0);
     following.update(0.2);
-    const auto& moved = test::findNodes<osgSkin::RigidPart>(*copy).at(0);
+    const auto moved = test::findNodes<osgSkin::RigidPart>(*copy).at(0);
     EXPECT_LT(difference(moved.toWorld, following.toWorld(*following.rigid)), kRounding);
     EXPECT_LT(difference(verticesOf(played::skinOf(*copy)), verticesOf(*following.skin)),
               kRounding);
-    const auto& skeleton = test::findNodes<osgAnimation::Skeleton>(*copy).at(0);
+    const auto skeleton = test::findNodes<osgAnimation::Skeleton>(*copy).at(0);
     EXPECT_TRUE(UpdatePlayedSkeleton::of(*skeleton.node)->skipsBones());
-    expectSkipping(0.25); // the original
+    figure.scene = original;
+    expectSkipping(0.25);
 }
 
 namespace {
@@ -396,6 +401,7 @@ std::map<const osg::Drawable*, osg::Matrixd> cull(osg::Group& scene) {
     const osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
     const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
     visitor->setFrameStamp(new osg::FrameStamp);
+    visitor->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     visitor->setStateGraph(graph);
     visitor->setRenderStage(stage);
     visitor->pushViewport(new osg::Viewport(0, 0, 100, 100));
@@ -419,18 +425,19 @@ TEST_F(Played, CullTraversalsDrawTheSame) {
         expectSkipping(time);
         const auto drawn = cull(*figure.scene);
         const auto expected = cull(*following.scene);
-        ASSERT_EQ(drawn.size(), 2u);
         ASSERT_EQ(expected.size(), 2u);
+        ASSERT_EQ(drawn.size(), 2u);
         EXPECT_LT(difference(drawn.at(figure.rigid->getChild(0)->asDrawable()),
                              expected.at(following.rigid->getChild(0)->asDrawable())),
                   kRounding);
     }
     figure.bone("end").setNodeMask(0);
-    expectSkipping(0.25);
+    update(0.25);
+    EXPECT_TRUE(figure.played().skipsBones());
     EXPECT_EQ(cull(*figure.scene).size(), 1u);
     figure.bone("end").setNodeMask(~0u);
     figure.rigid->setNodeMask(0);
-    expectSkipping(0.3);
+    update(0.3);
     EXPECT_EQ(cull(*figure.scene).size(), 1u);
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -104,7 +105,7 @@ void UpdateDeformableSkin::findBones(DeformableSkin& skin, osgAnimation::Skeleto
     _reader = BoneReader(model->joints(), skeleton, &skin);
     _skeleton = &skeleton;
     _model = model;
-    _played = nullptr;
+    _placesRevision = 0;
     // A root joint above several bones (readSkeleton()) has no bone and stays at rest.
     const bool toldMissing = _toldMissing;
     for (const std::string& joint : _reader.missing()) {
@@ -118,32 +119,28 @@ void UpdateDeformableSkin::findBones(DeformableSkin& skin, osgAnimation::Skeleto
     }
 }
 
-bool UpdateDeformableSkin::knowsPlaces(const UpdatePlayedSkeleton& played) const {
-    return _played == &played && _playedRevision == played.revision();
-}
-
 /// The joints' skinning matrices from those of the bones.
 const std::vector<glm::dmat4>&
 UpdateDeformableSkin::readPlayed(const UpdatePlayedSkeleton& played) {
     const std::vector<glm::dmat4>& bones = played.skinning();
     const std::size_t joints = _model->joints().size();
-    if (!knowsPlaces(played)) {
-        _played = &played;
-        _playedRevision = played.revision();
-        _places.clear();
+    if (_placesRevision != played.revision()) {
+        _placesRevision = played.revision();
+        std::vector<int> places;
         bool isSame = joints == bones.size();
         for (std::size_t j = 0; j < joints; ++j) {
-            _places.push_back(played.find(_reader.boneOf(j)));
-            isSame = isSame && _places.back() == static_cast<int>(j);
+            places.push_back(played.find(_reader.boneOf(j)));
+            isSame = isSame && places.back() == static_cast<int>(j);
         }
-        if (isSame) _places.clear();
+        _places = isSame ? nullptr : std::make_unique<const std::vector<int>>(std::move(places));
     }
-    if (_places.empty()) return bones;
+    if (!_places) return bones;
     static thread_local std::vector<glm::dmat4> skinning;
     skinning.resize(joints);
-    for (std::size_t j = 0; j < joints; ++j)
-        skinning[j] =
-            _places[j] < 0 ? glm::dmat4(1.0) : bones[static_cast<std::size_t>(_places[j])];
+    for (std::size_t j = 0; j < joints; ++j) {
+        const int place = (*_places)[j];
+        skinning[j] = place < 0 ? glm::dmat4(1.0) : bones[static_cast<std::size_t>(place)];
+    }
     return skinning;
 }
 
@@ -155,7 +152,7 @@ bool UpdateDeformableSkin::poseAs(Pose::Twist twist, DeformableSkin& skin,
     if (played && !played->skipsBones()) played = nullptr;
     // Places that are known are those of bones that have not changed.
     if (_skeleton.get() != &skeleton || _model.get() != model ||
-        (!(played && knowsPlaces(*played)) && _reader.isOutdated(&skin))) {
+        (!(played && _placesRevision == played->revision()) && _reader.isOutdated(&skin))) {
         findBones(skin, skeleton);
         twist = Pose::Twist::Shortest;
     }

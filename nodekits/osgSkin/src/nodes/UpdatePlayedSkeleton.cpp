@@ -16,6 +16,7 @@
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <typeinfo>
 #include <unordered_map>
@@ -598,7 +599,8 @@ void UpdatePlayedSkeleton::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     if (!playing.isShared && !playing.isSame(*skeleton)) {
         if (_skipsBones) stopSkipping();
         playing.find(*skeleton);
-        ++_revision;
+        static std::atomic<unsigned int> revisions{0};
+        _revision = ++revisions;
         if (playing.clip) playing.link(*playing.clip);
         if (!skeleton->getCullCallback()) skeleton->setCullCallback(new CullPlayedSkeleton);
         if (!skeleton->getComputeBoundingSphereCallback())
