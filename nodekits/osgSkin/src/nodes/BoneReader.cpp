@@ -33,18 +33,20 @@ BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skel
     for (const BoundJoint& joint : joints) {
         const auto bone = bones.find(joint.name);
         if (bone != bones.end()) {
-            _bones.emplace_back(bone->second.get());
+            _bones.emplace_back(bone->second->getOrCreateObserverSet());
         } else {
             _missing.push_back(joint.name);
-            _bones.push_back(joint.parent < 0 ? osg::observer_ptr<osgAnimation::Bone>()
-                                              : _bones[static_cast<std::size_t>(joint.parent)]);
+            _bones.emplace_back(
+                joint.parent < 0 ? nullptr : _bones[static_cast<std::size_t>(joint.parent)].get());
         }
     }
     _places = placesOf(skin);
 }
 
 const osgAnimation::Bone* BoneReader::boneOf(std::size_t joint) const {
-    return _bones[joint].get();
+    const osg::ObserverSet* const observer = _bones[joint].get();
+    return observer ? static_cast<const osgAnimation::Bone*>(observer->getObserverdObject())
+                    : nullptr;
 }
 
 std::uint64_t BoneReader::placesOf(const osg::Node* skin) const {
