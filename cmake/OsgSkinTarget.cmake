@@ -1,6 +1,13 @@
 # SPDX-License-Identifier: MIT
 # Settings shared by our own targets. They are never global, so they do not affect third-party code.
 
+# The folder of a library or program in its own INSTALL_RPATH. Windows has none: it finds DLLs beside
+# the program.
+set(osgskin_origin "$ORIGIN")
+if(APPLE)
+  set(osgskin_origin "@loader_path")
+endif()
+
 # osgskin_settings(TARGET): language level, warnings, hidden symbols, sanitizers, coverage.
 function(osgskin_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
@@ -44,7 +51,7 @@ function(osgskin_nodekit name)
   # Sources include each other by folder: "pose/PoseKernel.h".
   target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/src")
   set_target_properties(${name} PROPERTIES
-    VERSION ${PROJECT_VERSION} SOVERSION ${OSGSKIN_SOVERSION} INSTALL_RPATH "$ORIGIN")
+    VERSION ${PROJECT_VERSION} SOVERSION ${OSGSKIN_SOVERSION} INSTALL_RPATH "${osgskin_origin}")
   osgskin_kit_build(${name})
   add_library(osgSkin::${name} ALIAS ${name})
   # The same objects, for tests of symbols that the library does not export.
@@ -83,7 +90,7 @@ function(osgskin_plugin target)
   target_include_directories(${target} PRIVATE
     "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")
   set_target_properties(${target} PROPERTIES
-    PREFIX "" INSTALL_RPATH "$ORIGIN/.."
+    PREFIX "" INSTALL_RPATH "${osgskin_origin}/.."
     LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGSKIN_OSG_PLUGINS}")
 endfunction()
 

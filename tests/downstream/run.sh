@@ -54,6 +54,16 @@ c++ -std=c++17 "$folder/runtime.cpp" -o "$folder/runtime" \
 "$folder/runtime"
 
 echo "The programs and plug-ins"
-"$prefix/bin/osgskinbake" --help >"$folder/help.txt"
+version=$(sed -n 's/^#define OSGSKIN_VERSION "\(.*\)"/\1/p' "$source/nodekits/osgSkin/include/osgSkin/Version")
+for program in bake crowd figures throw twist viewer; do
+  "$prefix/bin/osgskin$program" --help >"$folder/help.txt"
+  [ "$("$prefix/bin/osgskin$program" --version)" = "osgskin$program (osgSkin) $version" ] ||
+    fail "osgskin$program --version"
+done
+mv "$prefix/share/osgskin/thrower.skin" "$folder/thrower.skin"
+OSG_LIBRARY_PATH="$lib" "$prefix/bin/osgskincrowd" --count 1 --time 1 >"$folder/crowd.txt" 2>&1 &&
+  fail "osgskincrowd does not show the installed thrower"
+mv "$folder/thrower.skin" "$prefix/share/osgskin"
+OSG_LIBRARY_PATH="$lib" "$prefix/bin/osgskincrowd" --count 1 --time 1 >"$folder/crowd.txt"
 (cd "$folder" && OSG_LIBRARY_PATH="$lib" osgconv "$source/data/thrower.skin" thrower.osgb)
 grep -q osgSkin::DeformableSkin "$folder/thrower.osgb" || fail "the character was not saved"
