@@ -16,6 +16,9 @@ include(CMakePackageConfigHelpers)
 
 set(osgskin_cmake_dir "${CMAKE_INSTALL_LIBDIR}/cmake/osgSkin")
 set(osgskin_plugin_dir "${CMAKE_INSTALL_LIBDIR}/${OSGSKIN_OSG_PLUGINS}")
+if(WIN32)
+  set(osgskin_plugin_dir "${CMAKE_INSTALL_BINDIR}/${OSGSKIN_OSG_PLUGINS}")
+endif()
 
 # osgskin_install_kit(NAME COMPONENT DEV DESCRIPTION REQUIRES): installs a node kit with its CMake
 # and pkg-config files. DEV is the component of these; REQUIRES are names of other pkg-config files.

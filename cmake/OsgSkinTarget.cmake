@@ -11,9 +11,15 @@ endif()
 # osgskin_settings(TARGET): language level, warnings, hidden symbols, sanitizers, coverage.
 function(osgskin_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
-  if(OSGSKIN_WERROR)
-    target_compile_options(${target} PRIVATE -Werror)
+  if(MSVC)
+    # C4251, C4275: members and bases from other libraries without __declspec, as OSG's and std's.
+    target_compile_options(${target} PRIVATE
+      /W4 /wd4251 /wd4275 /permissive- /utf-8 /bigobj $<$<BOOL:${OSGSKIN_WERROR}>:/WX>)
+    target_compile_definitions(${target} PRIVATE
+      NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
+  else()
+    target_compile_options(${target} PRIVATE
+      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>)
   endif()
   if(OSGSKIN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)
@@ -85,17 +91,23 @@ endfunction()
 # osgskin_plugin(TARGET): an OSG plug-in in lib/osgPlugins-x.y.z, which OSG finds by
 # OSG_LIBRARY_PATH.
 function(osgskin_plugin target)
+  set(osgskin_plugins "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
+  if(WIN32) # beside the DLLs
+    set(osgskin_plugins "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  endif()
   osgskin_settings(${target})
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
   target_include_directories(${target} PRIVATE
     "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")
   set_target_properties(${target} PROPERTIES
     PREFIX "" INSTALL_RPATH "${osgskin_origin}/.."
-    LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGSKIN_OSG_PLUGINS}")
+    LIBRARY_OUTPUT_DIRECTORY "${osgskin_plugins}/${OSGSKIN_OSG_PLUGINS}")
 endfunction()
 
 # osgskin_quickly_built(TARGET): builds a program with -O1. Its run time is spent in our kits, and
 # GCC would need ten seconds to optimise CLI11.
 function(osgskin_quickly_built target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(NOT MSVC)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
 endfunction()
