@@ -101,6 +101,7 @@ function(osgskin_plugin target)
     "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")
   set_target_properties(${target} PROPERTIES
     PREFIX "" INSTALL_RPATH "${osgskin_origin}/.."
+    DEBUG_POSTFIX "$<$<BOOL:${WIN32}>:d>" # of which a debug build of OSG asks
     LIBRARY_OUTPUT_DIRECTORY "${osgskin_plugins}/${OSGSKIN_OSG_PLUGINS}")
 endfunction()
 
