@@ -92,8 +92,9 @@ endfunction()
 # OSG_LIBRARY_PATH.
 function(osgskin_plugin target)
   set(osgskin_plugins "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
-  if(WIN32) # beside the DLLs
+  if(WIN32) # beside the DLLs; a debug build of OSG adds a d to names
     set(osgskin_plugins "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+    set_target_properties(${target} PROPERTIES DEBUG_POSTFIX d)
   endif()
   osgskin_settings(${target})
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
@@ -101,7 +102,6 @@ function(osgskin_plugin target)
     "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")
   set_target_properties(${target} PROPERTIES
     PREFIX "" INSTALL_RPATH "${osgskin_origin}/.."
-    DEBUG_POSTFIX "$<$<BOOL:${WIN32}>:d>" # of which a debug build of OSG asks
     LIBRARY_OUTPUT_DIRECTORY "${osgskin_plugins}/${OSGSKIN_OSG_PLUGINS}")
 endfunction()
 
