@@ -1,60 +1,94 @@
 # SPDX-License-Identifier: MIT
-# Install rules for `cmake --install` and packages for `cpack -G DEB`: three components, one package
-# each.
-#   runtime  libosgSkin, libosgSkinRig, libosgSkinGpu and the serializers: everything that a saved
-#            character needs (MIT)
-#   plugin   osgSkinBind, osgSkinImport, osgSkinCharacter, the .skin plug-in, osgskinbake
-#            (GPL-3.0-or-later)
-#   dev      headers, CMake and pkg-config files of the kits that were built
+# Install rules for `cmake --install` and packages for `cpack -G DEB`, one for each component; debian/
+# makes the same packages.
+#   component    package                 licence  contents
+#   runtime      libosgskin0.2           MIT      libosgSkin, libosgSkinRig, libosgSkinGpu
+#   serializers  osgskin-serializers     MIT      .osgt, .osgb, .osgx; with runtime, everything that
+#                                                 a saved character needs
+#   import       libosgskinimport0.2     MIT      libosgSkinImport
+#   dev          libosgskin-dev          MIT      headers, CMake and pkg-config files of these kits
+#   bind         libosgskinbind0.2       GPL      libosgSkinBind, libosgSkinCharacter
+#   plugin       osgskin-plugin          GPL      the .skin plug-in
+#   binddev      libosgskinbind-dev      GPL      headers, CMake and pkg-config files of these kits
+#   programs     osgskin-tools           GPL      the programs, their man pages, the thrower
 # All paths are relative, so the installed tree can be moved.
 include(CMakePackageConfigHelpers)
 
 set(osgskin_cmake_dir "${CMAKE_INSTALL_LIBDIR}/cmake/osgSkin")
 set(osgskin_plugin_dir "${CMAKE_INSTALL_LIBDIR}/${OSGSKIN_OSG_PLUGINS}")
+if(WIN32)
+  set(osgskin_plugin_dir "${CMAKE_INSTALL_BINDIR}/${OSGSKIN_OSG_PLUGINS}")
+endif()
 
-# osgskin_install_kit(NAME COMPONENT DESCRIPTION REQUIRES): installs a node kit with its CMake and
-# pkg-config files. REQUIRES are names of other pkg-config files.
-function(osgskin_install_kit name component description requires)
+# osgskin_install_kit(NAME COMPONENT DEV DESCRIPTION REQUIRES): installs a node kit with its CMake
+# and pkg-config files. DEV is the component of these; REQUIRES are names of other pkg-config files.
+function(osgskin_install_kit name component dev description requires)
   install(TARGETS ${name} EXPORT ${name}Targets
-    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-    COMPONENT ${component} NAMELINK_COMPONENT dev)
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${component} NAMELINK_COMPONENT ${dev}
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${dev} # Windows: the import library
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT ${component})
   install(EXPORT ${name}Targets NAMESPACE osgSkin:: DESTINATION "${osgskin_cmake_dir}"
-    COMPONENT dev)
+    COMPONENT ${dev})
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/nodekits/${name}/include/${name}"
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT ${dev})
   configure_file("${PROJECT_SOURCE_DIR}/cmake/kit.pc.in" "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
   install(FILES "${PROJECT_BINARY_DIR}/${name}.pc"
-    DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+    DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT ${dev})
 endfunction()
 
-# The .pc files find the installed tree relative to themselves.
-file(RELATIVE_PATH osgskin_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+# osgskin_install_program(NAME PURPOSE): installs a program, and its man page if help2man is there.
+find_program(OSGSKIN_HELP2MAN help2man)
+mark_as_advanced(OSGSKIN_HELP2MAN)
+function(osgskin_install_program name purpose)
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "${osgskin_origin}/${osgskin_lib_from_bin}")
+  install(TARGETS ${name} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
+  if(OSGSKIN_HELP2MAN AND NOT CMAKE_CROSSCOMPILING AND NOT OSGSKIN_SANITIZE)
+    set(page "${PROJECT_BINARY_DIR}/man/${name}.1")
+    file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/man")
+    add_custom_command(OUTPUT "${page}"
+      COMMAND "${OSGSKIN_HELP2MAN}" --no-info --name=${purpose} --output=${page}
+              "$<TARGET_FILE:${name}>"
+      DEPENDS ${name} VERBATIM)
+    add_custom_target(${name}_man ALL DEPENDS "${page}")
+    install(FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT programs)
+  endif()
+endfunction()
 
-osgskin_install_kit(osgSkin runtime "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation")
-osgskin_install_kit(osgSkinRig runtime "Skeletons, motions and retargeting for osgSkin" "osgSkin")
-osgskin_install_kit(osgSkinGpu runtime "Deforms on a graphics card for osgSkin" "osgSkinRig")
-if(TARGET osgSkinBind)
-  osgskin_install_kit(osgSkinBind plugin "Binds a skin to a skeleton for osgSkin" "osgSkinRig")
-endif()
+# The .pc files find the installed tree relative to themselves, the programs the libraries.
+file(RELATIVE_PATH osgskin_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+file(RELATIVE_PATH osgskin_lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+
+osgskin_install_kit(osgSkin runtime dev "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation")
+osgskin_install_kit(osgSkinRig runtime dev "Skeletons, motions and retargeting for osgSkin" "osgSkin")
+osgskin_install_kit(osgSkinGpu runtime dev "Deforms on a graphics card for osgSkin" "osgSkinRig")
 if(TARGET osgSkinImport)
-  osgskin_install_kit(osgSkinImport plugin "Reads meshes, skeletons and motions for osgSkin"
+  osgskin_install_kit(osgSkinImport import dev "Reads meshes, skeletons and motions for osgSkin"
     "osgSkinRig openscenegraph-osgDB")
 endif()
+if(TARGET osgSkinBind)
+  osgskin_install_kit(osgSkinBind bind binddev "Binds a skin to a skeleton for osgSkin" "osgSkinRig")
+endif()
 if(TARGET osgSkinCharacter)
-  osgskin_install_kit(osgSkinCharacter plugin "From a file to a character for osgSkin"
+  osgskin_install_kit(osgSkinCharacter bind binddev "From a file to a character for osgSkin"
     "osgSkinBind osgSkinImport osgSkinGpu")
 endif()
 if(TARGET osgdb_serializers_osgskin)
   install(TARGETS osgdb_serializers_osgskin
-    LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT runtime)
+    LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT serializers)
 endif()
 if(TARGET osgdb_skin)
   install(TARGETS osgdb_skin LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT plugin)
 endif()
 if(TARGET osgskinbake)
-  file(RELATIVE_PATH osgskin_lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
-  set_target_properties(osgskinbake PROPERTIES INSTALL_RPATH "$ORIGIN/${osgskin_lib_from_bin}")
-  install(TARGETS osgskinbake RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT plugin)
+  osgskin_install_program(osgskinbake "write a character's posed skin as meshes")
+  osgskin_install_program(osgskincrowd "show many characters, each in its own phase of its own clip")
+  osgskin_install_program(osgskinfigures "draw how a character is bound, beside other methods")
+  osgskin_install_program(osgskinthrow "show a figure that throws a ball")
+  osgskin_install_program(osgskintwist "compare skinning methods on a cylinder")
+  osgskin_install_program(osgskinviewer "play a character and show how its skin is bound")
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${CMAKE_INSTALL_DATADIR}/osgskin"
+    COMPONENT programs FILES_MATCHING PATTERN "*.skin" PATTERN "*.obj" PATTERN "*.bvh"
+    PATTERN generator EXCLUDE)
 endif()
 
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/osgSkinConfigVersion.cmake"
@@ -69,22 +103,41 @@ set(CPACK_PACKAGE_NAME osgskin)
 set(CPACK_PACKAGE_CONTACT "osgSkin developers <noreply@osgskin.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
-set(CPACK_COMPONENTS_ALL runtime dev)
-set(CPACK_COMPONENT_DEV_DEPENDS runtime)
+
+# osgskin_package(COMPONENT PACKAGE SECTION DEPENDENCY...): the dependencies are components.
+macro(osgskin_package component package section)
+  string(TOUPPER ${component} upper)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  set(CPACK_COMPONENT_${upper}_DEPENDS ${ARGN})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
+endmacro()
+set(CPACK_COMPONENTS_ALL "")
+osgskin_package(runtime libosgskin${OSGSKIN_SOVERSION} libs)
+osgskin_package(dev libosgskin-dev libdevel runtime)
+if(TARGET osgdb_serializers_osgskin)
+  osgskin_package(serializers osgskin-serializers graphics runtime)
+endif()
+if(TARGET osgSkinImport)
+  osgskin_package(import libosgskinimport${OSGSKIN_SOVERSION} libs runtime)
+  list(APPEND CPACK_COMPONENT_DEV_DEPENDS import)
+endif()
+if(TARGET osgSkinBind)
+  osgskin_package(bind libosgskinbind${OSGSKIN_SOVERSION} libs runtime)
+  osgskin_package(binddev libosgskinbind-dev libdevel bind dev)
+endif()
+if(TARGET osgSkinCharacter)
+  list(APPEND CPACK_COMPONENT_BIND_DEPENDS import)
+endif()
 if(TARGET osgdb_skin)
-  list(APPEND CPACK_COMPONENTS_ALL plugin)
-  set(CPACK_COMPONENT_PLUGIN_DEPENDS runtime)
-  list(APPEND CPACK_COMPONENT_DEV_DEPENDS plugin)
+  osgskin_package(plugin osgskin-plugin graphics bind)
+endif()
+if(TARGET osgskinbake)
+  osgskin_package(programs osgskin-tools graphics plugin serializers)
 endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME "libosgskin${OSGSKIN_SOVERSION}")
-set(CPACK_DEBIAN_DEV_PACKAGE_NAME libosgskin-dev)
-set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME osgskin-plugin)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_PLUGIN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libopenscenegraph-dev, libglm-dev")
 # dpkg-shlibdeps finds the libraries that ours link; our own are in the build folder.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

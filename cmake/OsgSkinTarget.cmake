@@ -1,12 +1,25 @@
 # SPDX-License-Identifier: MIT
 # Settings shared by our own targets. They are never global, so they do not affect third-party code.
 
+# The folder of a library or program in its own INSTALL_RPATH. Windows has none: it finds DLLs beside
+# the program.
+set(osgskin_origin "$ORIGIN")
+if(APPLE)
+  set(osgskin_origin "@loader_path")
+endif()
+
 # osgskin_settings(TARGET): language level, warnings, hidden symbols, sanitizers, coverage.
 function(osgskin_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
-  if(OSGSKIN_WERROR)
-    target_compile_options(${target} PRIVATE -Werror)
+  if(MSVC)
+    # C4251, C4275: members and bases from other libraries without __declspec, as OSG's and std's.
+    target_compile_options(${target} PRIVATE
+      /W4 /wd4251 /wd4275 /permissive- /utf-8 /bigobj $<$<BOOL:${OSGSKIN_WERROR}>:/WX>)
+    target_compile_definitions(${target} PRIVATE
+      NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
+  else()
+    target_compile_options(${target} PRIVATE
+      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>)
   endif()
   if(OSGSKIN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)
@@ -44,7 +57,7 @@ function(osgskin_nodekit name)
   # Sources include each other by folder: "pose/PoseKernel.h".
   target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/src")
   set_target_properties(${name} PROPERTIES
-    VERSION ${PROJECT_VERSION} SOVERSION ${OSGSKIN_SOVERSION} INSTALL_RPATH "$ORIGIN")
+    VERSION ${PROJECT_VERSION} SOVERSION ${OSGSKIN_SOVERSION} INSTALL_RPATH "${osgskin_origin}")
   osgskin_kit_build(${name})
   add_library(osgSkin::${name} ALIAS ${name})
   # The same objects, for tests of symbols that the library does not export.
@@ -78,17 +91,24 @@ endfunction()
 # osgskin_plugin(TARGET): an OSG plug-in in lib/osgPlugins-x.y.z, which OSG finds by
 # OSG_LIBRARY_PATH.
 function(osgskin_plugin target)
+  set(osgskin_plugins "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
+  if(WIN32) # beside the DLLs; a debug build of OSG adds a d to names
+    set(osgskin_plugins "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+    set_target_properties(${target} PROPERTIES DEBUG_POSTFIX d)
+  endif()
   osgskin_settings(${target})
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
   target_include_directories(${target} PRIVATE
     "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")
   set_target_properties(${target} PROPERTIES
-    PREFIX "" INSTALL_RPATH "$ORIGIN/.."
-    LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGSKIN_OSG_PLUGINS}")
+    PREFIX "" INSTALL_RPATH "${osgskin_origin}/.."
+    LIBRARY_OUTPUT_DIRECTORY "${osgskin_plugins}/${OSGSKIN_OSG_PLUGINS}")
 endfunction()
 
 # osgskin_quickly_built(TARGET): builds a program with -O1. Its run time is spent in our kits, and
 # GCC would need ten seconds to optimise CLI11.
 function(osgskin_quickly_built target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(NOT MSVC)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
 endfunction()

@@ -1,14 +1,8 @@
 # SPDX-License-Identifier: MIT
-# OpenSceneGraph's Debian package has no CMake configuration. Wrap the results of its find modules
-# in imported targets OSG::osg, OSG::osgDB, ... so that link lines contain no absolute paths.
-
-find_package(OpenThreads REQUIRED)
-if(NOT TARGET OSG::OpenThreads)
-  add_library(OSG::OpenThreads INTERFACE IMPORTED)
-  set_target_properties(OSG::OpenThreads PROPERTIES
-    INTERFACE_INCLUDE_DIRECTORIES "${OPENTHREADS_INCLUDE_DIR}"
-    INTERFACE_LINK_LIBRARIES OpenThreads)
-endif()
+# OpenSceneGraph has no CMake configuration. Wrap the results of CMake's find modules in imported
+# targets OSG::osg, OSG::osgDB, ..., which are linked by the paths that were found: CMAKE_PREFIX_PATH
+# or OSG_DIR choose among several OpenSceneGraphs. The installed package includes this file, too, and
+# its targets name OSG's only as OSG::osg, so it contains no path of the OpenSceneGraph that built it.
 
 # osgskin_osg_target(NAME DEPENDENCY...)
 function(osgskin_osg_target name)
@@ -17,16 +11,23 @@ function(osgskin_osg_target name)
   endif()
   find_package(${name} REQUIRED)
   string(TOUPPER ${name} upper)
-  add_library(OSG::${name} INTERFACE IMPORTED)
-  set(links ${name})
+  add_library(OSG::${name} UNKNOWN IMPORTED)
+  set(links "")
   foreach(dependency IN LISTS ARGN)
     list(APPEND links OSG::${dependency})
   endforeach()
   set_target_properties(OSG::${name} PROPERTIES
     INTERFACE_INCLUDE_DIRECTORIES "${${upper}_INCLUDE_DIR}"
     INTERFACE_LINK_LIBRARIES "${links}")
+  foreach(config RELEASE DEBUG)
+    if(${upper}_LIBRARY_${config})
+      set_property(TARGET OSG::${name} APPEND PROPERTY IMPORTED_CONFIGURATIONS ${config})
+      set_target_properties(OSG::${name} PROPERTIES
+        IMPORTED_LOCATION_${config} "${${upper}_LIBRARY_${config}}")
+    endif()
+  endforeach()
 endfunction()
-
+osgskin_osg_target(OpenThreads)
 osgskin_osg_target(osg OpenThreads)
 osgskin_osg_target(osgUtil osg)
 osgskin_osg_target(osgDB osg osgUtil)

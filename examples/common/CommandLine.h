@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgSkin/Version>
+
 #include <cstdio>
 #include <iostream>
 #include <string>
 
 namespace example {
+
+/// The line that `--version` prints, in the form that help2man expects.
+inline std::string versionText(const std::string& program) {
+    return program + " (osgSkin) " + osgSkin::libraryVersion();
+}
 
 /// Finds empty arguments, for example from unset shell variables. Without this check, options would
 /// ignore them.

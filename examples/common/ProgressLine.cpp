@@ -3,12 +3,25 @@
 
 #include <osgSkin/Error>
 
+#include <cstdio>
 #include <iostream>
 
+#ifdef _WIN32
+#include <io.h>
+#else
 #include <unistd.h>
+#endif
 
 namespace example {
 namespace {
+
+bool isTerminal() {
+#ifdef _WIN32
+    return _isatty(_fileno(stderr)) != 0;
+#else
+    return isatty(STDERR_FILENO) == 1;
+#endif
+}
 
 constexpr std::chrono::seconds kSilence(1); ///< shorter work prints nothing
 constexpr std::chrono::seconds kBetweenLines(5);
@@ -17,7 +30,7 @@ constexpr std::chrono::seconds kBetweenLines(5);
 
 ProgressLine::ProgressLine(std::string title, bool quiet)
     : _title(std::move(title)), _quiet(quiet), _next(_start + kBetweenLines) {
-    if (!_quiet && isatty(STDERR_FILENO) == 1) _thread = std::thread([this] { run(); });
+    if (!_quiet && isTerminal()) _thread = std::thread([this] { run(); });
 }
 
 ProgressLine::~ProgressLine() {

@@ -182,6 +182,7 @@ std::string frameName(const std::string& pattern, std::size_t frame) {
 
 std::optional<Arguments> parseArguments(int argc, char** argv) {
     CLI::App app("Writes a character's skin, posed by its motion, as meshes.", "osgskinbake");
+    app.set_version_flag("--version", example::versionText("osgskinbake"));
     app.footer(kFooter);
     Arguments arguments;
     std::string frames;
@@ -212,6 +213,9 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         std::cout << app.help();
+        return std::nullopt;
+    } catch (const CLI::CallForVersion& version) {
+        std::cout << version.what() << std::endl;
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
         throw UsageError{error.what() + example::suggestOption(app)};

@@ -3,20 +3,20 @@
 
 #include <osgSkin/Error>
 
-#include <fcntl.h>
 #include <osg/Notify>
 #include <osgDB/FileUtils>
 #include <osgDB/Options>
 #include <osgDB/Registry>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <sstream>
 #include <system_error>
 
@@ -53,12 +53,8 @@ bool isKept(const std::string& file) {
 /// Creates a new file and removes an existing one: in a folder shared with other users, that could
 /// be a link to another file.
 std::FILE* openNew(const std::string& file) {
-    ::unlink(file.c_str());
-    const int number = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (number < 0) return nullptr;
-    std::FILE* const stream = ::fdopen(number, "wb");
-    if (stream == nullptr) ::close(number);
-    return stream;
+    std::remove(file.c_str());
+    return std::fopen(file.c_str(), "wbx"); // x: a new file only
 }
 
 /// Name of the temporary file, limited to the maximum length of file names.
@@ -66,11 +62,12 @@ std::string besides(const std::string& file) {
     constexpr std::size_t kMost = 230; // out of 255 bytes
     const fs::path path(file);
     const std::string name = path.filename().string().substr(0, kMost);
-    return (path.parent_path() / (name + ".part" + std::to_string(::getpid()))).string();
+    static const unsigned int own = std::random_device()(); // other processes have other names
+    return (path.parent_path() / (name + ".part" + std::to_string(own))).string();
 }
 
 extern "C" void removeAndGo(int signal) {
-    if (hasUnfinished != 0) ::unlink(unfinished);
+    if (hasUnfinished != 0) std::remove(unfinished);
     std::signal(signal, SIG_DFL);
     std::raise(signal); // so that the shell sees the signal
 }
@@ -82,8 +79,15 @@ void keepFiles(const std::vector<std::string>& files) {
 }
 
 void removeUnfinishedOnSignals() {
+#ifdef SIGXFSZ
     std::signal(SIGXFSZ, SIG_IGN); // a file size limit then appears as a write error
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+#endif
+#ifdef SIGHUP
+    constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+#else
+    constexpr int signals[] = {SIGINT, SIGTERM}; // Windows
+#endif
+    for (const int signal : signals) {
         const auto before = std::signal(signal, removeAndGo);
         if (before == SIG_IGN) std::signal(signal, SIG_IGN); // for example under nohup
     }
@@ -98,7 +102,7 @@ WholeFile::WholeFile(const std::string& file) : _file(file), _target(file) {
     if (isKept(_target))
         throw osgSkin::Error(_file + ": a part of the character, expected another file");
     // A read-only file must not be replaced either.
-    if (fs::exists(_target, failure) && ::access(_target.c_str(), W_OK) != 0) fail();
+    if (fs::is_regular_file(_target, failure) && !std::ofstream(_target, std::ios::in)) fail();
     setUnfinished(_written); // before opening, when a signal may already arrive
     _stream = _written.empty() ? std::fopen(_target.c_str(), "wb") : openNew(_written);
     if (_stream != nullptr) return;
@@ -121,8 +125,9 @@ void WholeFile::finish() {
     if (std::ferror(_stream) != 0 || std::fflush(_stream) != 0) fail();
     const bool closed = std::fclose(_stream) == 0;
     _stream = nullptr;
-    const bool named =
-        closed && (_written.empty() || std::rename(_written.c_str(), _target.c_str()) == 0);
+    std::error_code failure;
+    if (closed && !_written.empty()) fs::rename(_written, _target, failure); // replaces the target
+    const bool named = closed && !failure;
     if (!named && !_written.empty()) std::remove(_written.c_str());
     setUnfinished({});
     if (!named) fail();

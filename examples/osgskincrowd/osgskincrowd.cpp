@@ -2,6 +2,7 @@
 #include "CardCrowd.h"
 #include "CommandLine.h"
 #include "Crowd.h"
+#include "DataFolder.h"
 #include "FrameBench.h"
 #include "Ground.h"
 #include "Snapshots.h"
@@ -79,7 +80,8 @@ int runOnCard(const std::vector<std::string>& files, std::size_t count, unsigned
 
 int main(int argc, char** argv) {
     CLI::App app("Many characters, each in its own phase of its own clip.", "osgskincrowd");
-    std::vector<std::string> files = {std::string(OSGSKIN_DATA) + "/thrower.skin"};
+    app.set_version_flag("--version", example::versionText("osgskincrowd"));
+    std::vector<std::string> files = {example::dataFolder() + "/thrower.skin"};
     // Shapes and surface normals cost time, and are not visible at a crowd's distance.
     std::string options = "shapes=none normals=rotated";
     std::string pictures;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Body.h"
 #include "CommandLine.h"
+#include "DataFolder.h"
 #include "Figures.h"
 
 #include <osgDB/FileUtils>
@@ -40,9 +41,10 @@ int main(int argc, char** argv) {
     CLI::App app("The paper's figures, and osgSkin beside linear blending and dual quaternions, "
                  "as pictures.",
                  "osgskinfigures");
+    app.set_version_flag("--version", example::versionText("osgskinfigures"));
     app.footer("Needs an X display; Xvfb will do. Exit status: 0 done, 1 failed, 2 bad usage.");
     std::string out;
-    std::string file = OSGSKIN_DATA "/thrower.skin";
+    std::string file = example::dataFolder() + "/thrower.skin";
     std::string weights;
     bool elastic = false;
     app.add_option("--out", out, "folder for the pictures, made if need be")->required();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "CommandLine.h"
+#include "DataFolder.h"
 #include "Ground.h"
 #include "Snapshots.h"
 #include "ThrowScene.h"
@@ -46,7 +47,8 @@ int show(osg::Node* scene) {
 
 int main(int argc, char** argv) {
     CLI::App app("A figure throws a ball: a scene built from the public API.", "osgskinthrow");
-    std::string data = OSGSKIN_DATA;
+    app.set_version_flag("--version", example::versionText("osgskinthrow"));
+    std::string data = example::dataFolder();
     std::string pictures;
     unsigned int count = 12;
     double from = 0.0;

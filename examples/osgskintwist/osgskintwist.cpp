@@ -130,6 +130,7 @@ int main(int argc, char** argv) {
     CLI::App app("A cylinder that bends and twists: osgSkin beside linear blending and dual "
                  "quaternions.",
                  "osgskintwist");
+    app.set_version_flag("--version", example::versionText("osgskintwist"));
     app.footer("Press h in the window for its keys.\n"
                "Exit status: 0 done, 1 failed, 2 bad usage.");
     Arguments arguments;

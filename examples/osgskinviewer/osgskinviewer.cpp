@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "CharacterOptions.h"
 #include "CommandLine.h"
+#include "DataFolder.h"
 #include "Keys.h"
 #include "Snapshots.h"
 #include "Stage.h"
@@ -69,9 +70,10 @@ constexpr double kLatest = 1e6; ///< seconds; frames are still distinct at this 
 int main(int argc, char** argv) {
     CLI::App app("Plays a character and shows how its skin is bound and deformed.",
                  "osgskinviewer");
+    app.set_version_flag("--version", example::versionText("osgskinviewer"));
     app.footer(std::string("Keys:\n") + viewer::keysHelp() +
                "\n\nExit status: 0 done, 1 failed, 2 bad usage.");
-    std::string character = OSGSKIN_DATA "/thrower.skin";
+    std::string character = example::dataFolder() + "/thrower.skin";
     std::string weights, motion, joint, keys, pictures;
     osgSkin::LoadOptions options;
     Size size;

@@ -33,6 +33,20 @@ cmake -S "$source/tests/downstream" -B "$folder/project" -DCMAKE_PREFIX_PATH="$p
 cmake --build "$folder/project" >"$folder/build.txt"
 "$folder/project/downstream" "$source/data"
 
+echo "An OpenSceneGraph in its own prefix is linked from there"
+found() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+own="$folder/own"
+mkdir -p "$own/include" "$own/lib"
+cp -rs "$(found OSG_INCLUDE_DIR)"/osg* "$(found OPENTHREADS_INCLUDE_DIR)"/OpenThreads "$own/include"
+cp -s "$(dirname "$(found OSG_LIBRARY_RELEASE)")"/lib{osg,OpenThreads}*.so "$own/lib"
+cmake -G "Unix Makefiles" -S "$source/tests/downstream/game" -B "$folder/game" \
+  -DCMAKE_PREFIX_PATH="$prefix;$own" >"$folder/own.txt"
+link=$(cat "$folder/game/CMakeFiles/game.dir/link.txt")
+for library in libosgAnimation.so libosg.so libOpenThreads.so; do
+  grep -q "$own/lib/$library" <<<"$link" || fail "$library is not linked from $own: $link"
+done
+grep -q "$own/include" "$folder/game/CMakeFiles/game.dir/flags.make" || fail "its headers are not used"
+
 echo "A component that is none is refused"
 sed 's/COMPONENTS osgSkinCharacter)$/COMPONENTS osgSkinNone)/' "$source/tests/downstream/CMakeLists.txt" \
   >"$folder/CMakeLists.txt"
@@ -54,6 +68,16 @@ c++ -std=c++17 "$folder/runtime.cpp" -o "$folder/runtime" \
 "$folder/runtime"
 
 echo "The programs and plug-ins"
-"$prefix/bin/osgskinbake" --help >"$folder/help.txt"
+version=$(sed -n 's/^#define OSGSKIN_VERSION "\(.*\)"/\1/p' "$source/nodekits/osgSkin/include/osgSkin/Version")
+for program in bake crowd figures throw twist viewer; do
+  "$prefix/bin/osgskin$program" --help >"$folder/help.txt"
+  [ "$("$prefix/bin/osgskin$program" --version)" = "osgskin$program (osgSkin) $version" ] ||
+    fail "osgskin$program --version"
+done
+mv "$prefix/share/osgskin/thrower.skin" "$folder/thrower.skin"
+OSG_LIBRARY_PATH="$lib" "$prefix/bin/osgskincrowd" --count 1 --time 1 >"$folder/crowd.txt" 2>&1 &&
+  fail "osgskincrowd does not show the installed thrower"
+mv "$folder/thrower.skin" "$prefix/share/osgskin"
+OSG_LIBRARY_PATH="$lib" "$prefix/bin/osgskincrowd" --count 1 --time 1 >"$folder/crowd.txt"
 (cd "$folder" && OSG_LIBRARY_PATH="$lib" osgconv "$source/data/thrower.skin" thrower.osgb)
 grep -q osgSkin::DeformableSkin "$folder/thrower.osgb" || fail "the character was not saved"

@@ -6,6 +6,7 @@ Prints each breach as PATH: what is wrong, and exits with 1 if there is any. roo
 own format; the other rules:
   - at most 1000 lines in any source, an SPDX line in all;
   - \\param, \\return and \\throw begin a line of their comment;
+  - debian/copyright gives each source the licence of its SPDX line;
   - a source includes the public header of its name first;
   - an internal header of a kit has two users or a test; with one user it belongs in that user's file
     (except for Highway's -inl.h parts of a kernel);
@@ -13,6 +14,7 @@ own format; the other rules:
     a file linked in that line has it; README.md shows the code that is compiled.
 """
 import collections
+import fnmatch
 import pathlib
 import re
 import sys
@@ -121,6 +123,21 @@ def check_sizes(house):
             expected = house.licence.get(parts[1])
             if is_code(path) and licence[1] != expected:
                 house.breach(path, f"{licence[1]}, in a kit that is {expected}")
+
+
+def check_copyright(house):
+    """Checks that debian/copyright, where the last matching pattern counts, agrees with the sources."""
+    page = house.root / "debian/copyright"
+    if not page.is_file():
+        return
+    names = {"Expat": "MIT", "GPL-3+": "GPL-3.0-or-later", "CC0-1.0": "CC0-1.0"}
+    stanzas = re.findall(r"^Files:(.*(?:\n .+)*)\nCopyright:.*\nLicense: (\S+)$", page.read_text(), re.M)
+    patterns = [(pattern, names[licence]) for files, licence in stanzas for pattern in files.split()]
+    for path in house.files(*FOLDERS):
+        own = re.search(r"SPDX-License-Identifier: (\S+)", "\n".join(path.read_text().splitlines()[:3]))
+        stated = [licence for pattern, licence in patterns if fnmatch.fnmatchcase(house.name(path), pattern)]
+        if own and own[1] != stated[-1]:
+            house.breach(page, f"{house.name(path)} is {own[1]}, not {stated[-1]}")
 
 
 def check_includes(house):
@@ -256,6 +273,7 @@ def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2])
     house = House(root.resolve())
     check_sizes(house)
+    check_copyright(house)
     arrows = check_includes(house)
     check_own_headers(house)
     check_users(house)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# packages.sh BUILD FOLDER: cpack makes the three Debian packages; checks each one's files.
+# packages.sh BUILD FOLDER: cpack makes the Debian packages; checks each one's files.
 set -euo pipefail
 build=$1 folder=$2
 fail() {
@@ -26,14 +26,29 @@ expect() {
   dpkg-deb -f "$deb" Depends >"$folder/$package.depends"
   echo "$package needs $(cat "$folder/$package.depends")"
 }
-expect libosgskin0.2 libosgSkin.so.0.2 libosgSkinRig.so.0.2 libosgSkinGpu.so.0.2 osgdb_serializers_osgskin.so
-expect libosgskin-dev include/osgSkin/DeformableSkin include/osgSkinBind/Bind \
-  include/osgSkinCharacter/LoadCharacter osgSkinConfig.cmake \
+expect libosgskin0.2 libosgSkin.so.0.2 libosgSkinRig.so.0.2 libosgSkinGpu.so.0.2
+expect osgskin-serializers osgdb_serializers_osgskin.so
+expect libosgskinimport0.2 libosgSkinImport.so.0.2
+expect libosgskin-dev include/osgSkin/DeformableSkin include/osgSkinImport/ImportMesh osgSkinConfig.cmake \
   OsgTargets.cmake pkgconfig/osgSkin.pc libosgSkin.so
-expect osgskin-plugin osgdb_skin.so bin/osgskinbake libosgSkinBind.so.0.2 libosgSkinImport.so.0.2 \
-  libosgSkinCharacter.so.0.2
+expect libosgskinbind0.2 libosgSkinBind.so.0.2 libosgSkinCharacter.so.0.2
+expect libosgskinbind-dev include/osgSkinBind/Bind include/osgSkinCharacter/LoadCharacter \
+  osgSkinBindTargets.cmake pkgconfig/osgSkinCharacter.pc libosgSkinBind.so
+expect osgskin-plugin osgdb_skin.so
+expect osgskin-tools bin/osgskinbake bin/osgskinviewer bin/osgskincrowd bin/osgskinthrow bin/osgskinfigures \
+  bin/osgskintwist share/osgskin/thrower.skin
 grep -qE 'gmp|mpfr|assimp|cgal' "$folder/libosgskin0.2.depends" &&
   fail "the runtime's package needs what only binding and importing need"
-grep -q 'libosgskin0.2' "$folder/osgskin-plugin.depends" || fail "the plug-ins need the runtime"
-grep -qE 'osgSkinBind|osgdb_skin\.so' "$folder/libosgskin0.2.txt" && fail "libosgskin0.2 holds more"
-echo "Three packages"
+# Packages under the MIT licence neither hold nor need one under the GPL.
+for package in libosgskin0.2 osgskin-serializers libosgskinimport0.2 libosgskin-dev; do
+  grep -qE 'osgskinbind|osgskin-plugin|osgskin-tools|gmp|mpfr' "$folder/$package.depends" &&
+    fail "$package needs a package under the GPL"
+  grep -qE 'osgSkin(Bind|Character)|osgdb_skin\.so' "$folder/$package.txt" && fail "$package holds a kit under the GPL"
+done
+grep -q 'libosgskin0.2' "$folder/libosgskinbind0.2.depends" || fail "binding needs the runtime"
+grep -q 'libosgskinbind0.2' "$folder/osgskin-plugin.depends" || fail "the plug-in needs the kits"
+grep -q generator "$folder/osgskin-tools.txt" && fail "osgskin-tools holds sources"
+if command -v help2man >/dev/null; then
+  [ "$(grep -c 'man/man1/osgskin.*\.1' "$folder/osgskin-tools.txt")" -eq 6 ] || fail "a man page is missing"
+fi
+echo "Eight packages"

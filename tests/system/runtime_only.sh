@@ -16,7 +16,9 @@ mkdir -p "$folder"
 cmake --preset runtime-only --no-warn-unused-cli -S "$source" -B "$folder/build" \
   -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_assimp=ON \
   >"$folder/configure.txt"
-cmake --install "$build" --component runtime --prefix "$folder/installed" >"$folder/install.txt"
+for component in runtime serializers; do
+  cmake --install "$build" --component $component --prefix "$folder/installed" >>"$folder/install.txt"
+done
 
 runtime=$(find "$folder/installed" -name 'libosgSkin.so.*' -type f)
 rig=$(find "$folder/installed" -name 'libosgSkinRig.so.*' -type f)

@@ -7,20 +7,48 @@
 
 namespace osgSkin {
 
-/// x, y, z and a spare number, or four numbers, in a vector register, by an extension of GCC and
-/// Clang.
-struct Four {
-    using Vector = float __attribute__((vector_size(16)));
-    using Mask = int __attribute__((vector_size(16)));
+#ifdef __GNUC__
+/// A vector register, by an extension of GCC and Clang.
+using FourFloats = float __attribute__((vector_size(16)));
+#else
+/// The same in plain C++, for other compilers.
+struct FourFloats {
+    float lane[4];
 
-    Vector v;
+    float operator[](int i) const noexcept { return lane[i]; }
+    float& operator[](int i) noexcept { return lane[i]; }
+};
+template <class F>
+FourFloats eachLane(F f) noexcept {
+    return {{f(0), f(1), f(2), f(3)}};
+}
+inline FourFloats operator+(const FourFloats& a, const FourFloats& b) noexcept {
+    return eachLane([&](int i) { return a[i] + b[i]; });
+}
+inline FourFloats operator-(const FourFloats& a, const FourFloats& b) noexcept {
+    return eachLane([&](int i) { return a[i] - b[i]; });
+}
+inline FourFloats operator-(const FourFloats& a) noexcept {
+    return eachLane([&](int i) { return -a[i]; });
+}
+inline FourFloats operator*(const FourFloats& a, const FourFloats& b) noexcept {
+    return eachLane([&](int i) { return a[i] * b[i]; });
+}
+inline FourFloats operator*(float a, const FourFloats& b) noexcept {
+    return eachLane([&](int i) { return a * b[i]; });
+}
+#endif
+
+/// x, y, z and a spare number, or four numbers.
+struct Four {
+    FourFloats v;
 
     float operator[](int lane) const noexcept { return v[lane]; }
     glm::vec3 xyz() const noexcept { return {v[0], v[1], v[2]}; }
 };
 
 inline Four four(float x, float y, float z, float w) noexcept {
-    const Four::Vector v = {x, y, z, w};
+    const FourFloats v = {x, y, z, w};
     return {v};
 }
 inline Four four(const glm::vec3& v) noexcept {
@@ -42,10 +70,18 @@ inline Four operator*(float a, const Four& b) noexcept {
     return {a * b.v};
 }
 inline Four min(const Four& a, const Four& b) noexcept {
+#ifdef __GNUC__
     return {a.v < b.v ? a.v : b.v};
+#else
+    return {eachLane([&](int i) { return a[i] < b[i] ? a[i] : b[i]; })};
+#endif
 }
 inline Four max(const Four& a, const Four& b) noexcept {
+#ifdef __GNUC__
     return {a.v > b.v ? a.v : b.v};
+#else
+    return {eachLane([&](int i) { return a[i] > b[i] ? a[i] : b[i]; })};
+#endif
 }
 inline Four abs(const Four& a) noexcept {
     return max(a, {-a.v});

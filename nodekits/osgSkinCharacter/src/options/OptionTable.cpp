@@ -10,10 +10,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
+#include <cstdio>
+#include <locale>
 #include <optional>
 #include <sstream>
-#include <system_error>
 #include <utility>
 
 namespace osgSkin {
@@ -179,9 +179,11 @@ Option unitOption() {
                 return true;
             }
         double metres = 0.0;
-        const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), metres);
+        std::istringstream in(text);
+        in.imbue(std::locale::classic()); // a decimal point, whatever the user's language
+        const bool isNumber = (in >> std::noskipws >> metres) && in.peek() == EOF;
         options.unit = FileUnit{metres, true};
-        return status == std::errc() && stop == text.data() + text.size() && isUnit(metres);
+        return isNumber && isUnit(metres);
     };
     const auto set = option.set;
     option.read = [set, expected = option.expected](LoadOptions& options, const JsonReader& member,

@@ -35,9 +35,10 @@ std::string cacheFolder() {
     fs::path base = folderFrom("XDG_CACHE_HOME");
     if (base.empty()) {
         base = folderFrom("HOME");
-        if (base.empty()) return {};
-        base /= ".cache";
+        if (!base.empty()) base /= ".cache";
     }
+    if (base.empty()) base = folderFrom("LOCALAPPDATA"); // Windows
+    if (base.empty()) return {};
     return (base / "osgSkin").string();
 }
 

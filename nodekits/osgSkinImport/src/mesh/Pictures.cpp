@@ -30,7 +30,7 @@
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
 #define STBI_ONLY_TGA
-#include <stb/stb_image.h>
+#include <stb_image.h>
 
 namespace osgSkin {
 namespace {

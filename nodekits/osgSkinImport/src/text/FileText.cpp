@@ -12,11 +12,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <system_error>
 
 namespace osgSkin {
@@ -171,10 +174,36 @@ std::string readText(const std::string& path, const ReadLimits& limits) {
     return readWholeFile(path, limits.fileMegabytes, "maxFileMB");
 }
 
+namespace {
+
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
+/// std::from_chars() for doubles without "inf" and "nan", which Clang's library lacks before
+/// LLVM 20.
+std::from_chars_result fromChars(const char* first, const char* last, double& value) {
+    const std::string_view text(first, static_cast<std::size_t>(last - first));
+    const std::string number(text.substr(0, text.find_first_not_of("+-.0123456789eE")));
+    std::istringstream in(number);
+    in.imbue(std::locale::classic());
+    in >> value;
+    const std::string mantissa = number.substr(0, number.find_first_of("eE"));
+    if (!in.eof() || number.size() != text.size() || text[0] == '+' ||
+        mantissa.find_first_of("0123456789") == std::string::npos ||
+        text.find_last_of("eE+-") == text.size() - 1)
+        return {first, std::errc::invalid_argument};
+    return {last, in && std::isfinite(value) ? std::errc() : std::errc::result_out_of_range};
+}
+#else
+std::from_chars_result fromChars(const char* first, const char* last, double& value) {
+    return std::from_chars(first, last, value);
+}
+#endif
+
+} // namespace
+
 bool parseNumber(std::string_view token, double& value) {
     if (token.size() > 1 && token[0] == '+' && token[1] != '-') token.remove_prefix(1);
     const char* const end = token.data() + token.size();
-    const auto [stop, status] = std::from_chars(token.data(), end, value);
+    const auto [stop, status] = fromChars(token.data(), end, value);
     if (token.empty() || stop != end) return false;
     if (status == std::errc::result_out_of_range) {
         // A number too small for a double is 0, a number too large infinity.
