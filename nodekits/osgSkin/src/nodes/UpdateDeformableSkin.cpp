@@ -75,7 +75,7 @@ void UpdateDeformableSkin::update(osg::NodeVisitor* nv, osg::Drawable* drawable)
     auto* skin = dynamic_cast<DeformableSkin*>(drawable);
     osgAnimation::Skeleton* skeleton = nv ? nearestSkeleton(nv->getNodePath()) : nullptr;
     if (skin && skeleton) {
-        const bool another = _skeleton.valid() && _skeleton.get() != skeleton;
+        const bool another = _reader.skeleton() && _reader.skeleton() != skeleton;
         if (another && !_toldSeveral && standsUnderAnother(*skin, *skeleton)) {
             OSG_WARN << onOneLine("osgSkin: skin \"" + skin->getName() +
                                   "\" is below several skeletons and follows only one of them, "
@@ -103,7 +103,6 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
 void UpdateDeformableSkin::findBones(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
     const SkinModel* model = skin.getModel();
     _reader = BoneReader(model->joints(), skeleton, &skin);
-    _skeleton = &skeleton;
     _model = model;
     _placesRevision = 0;
     // A root joint above several bones (readSkeleton()) has no bone and stays at rest.
@@ -151,7 +150,7 @@ bool UpdateDeformableSkin::poseAs(Pose::Twist twist, DeformableSkin& skin,
     const UpdatePlayedSkeleton* played = UpdatePlayedSkeleton::of(skeleton);
     if (played && !played->skipsBones()) played = nullptr;
     // Places that are known are those of bones that have not changed.
-    if (_skeleton.get() != &skeleton || _model.get() != model ||
+    if (_reader.skeleton() != &skeleton || _model.get() != model ||
         (!(played && _placesRevision == played->revision()) && _reader.isOutdated(&skin))) {
         findBones(skin, skeleton);
         twist = Pose::Twist::Shortest;
