@@ -56,9 +56,11 @@ osg::ref_ptr<osg::Vec3Array> makeArray(const std::vector<glm::vec3>& vectors) {
 bool packPrimitives(const osg::Geometry& geometry, osgSkin::BlockWriter& out) {
     out.put(std::size_t{geometry.getNumPrimitiveSets()});
     for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList()) {
-        const bool isLong = typeid(*set) == typeid(osg::DrawElementsUInt);
-        if ((!isLong && typeid(*set) != typeid(osg::DrawElementsUShort)) ||
-            set->getNumInstances() != 0 || set->getUserDataContainer() || !set->getName().empty())
+        const osg::PrimitiveSet& primitives = *set;
+        const std::type_info& type = typeid(primitives);
+        const bool isLong = type == typeid(osg::DrawElementsUInt);
+        if ((!isLong && type != typeid(osg::DrawElementsUShort)) || set->getNumInstances() != 0 ||
+            set->getUserDataContainer() || !set->getName().empty())
             return false;
         out.put(std::uint32_t{set->getMode()});
         out.put(std::uint32_t{isLong ? 1u : 0u});

@@ -16,7 +16,9 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <malloc.h>
 #include <new>
 #include <thread>
@@ -25,35 +27,53 @@ namespace {
 std::atomic<std::size_t> allocations{0};
 std::atomic<std::size_t> bytesInUse{0};
 
-void* counted(void* memory) {
-    if (!memory) throw std::bad_alloc();
+/// Before each block, with its size: what malloc() rounds sizes up to depends on earlier calls.
+constexpr std::size_t kHeader = alignof(std::max_align_t);
+
+void* take(std::size_t size) {
+    void* const block = std::malloc(kHeader + size);
+    if (!block) return nullptr;
     ++allocations;
-    bytesInUse += malloc_usable_size(memory);
-    return memory;
+    bytesInUse += size;
+    std::memcpy(block, &size, sizeof size);
+    return static_cast<char*>(block) + kHeader;
 }
 
 void release(void* memory) {
+    if (!memory) return;
+    void* const block = static_cast<char*>(memory) - kHeader;
+    std::size_t size = 0;
+    std::memcpy(&size, block, sizeof size);
+    bytesInUse -= size;
+    std::free(block);
+}
+
+void releaseAligned(void* memory) {
     if (memory) bytesInUse -= malloc_usable_size(memory);
     std::free(memory);
 }
 } // namespace
 
 void* operator new(std::size_t size) {
-    return counted(std::malloc(size));
+    if (void* const memory = take(size)) return memory;
+    throw std::bad_alloc();
 }
 void* operator new[](std::size_t size) {
-    return counted(std::malloc(size));
+    return operator new(size);
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { // used by std::stable_sort
-    void* memory = std::malloc(size);
-    return memory ? counted(memory) : nullptr;
+    return take(size);
 }
-void* operator new[](std::size_t size, const std::nothrow_t& nothrow) noexcept {
-    return operator new(size, nothrow);
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+    return take(size);
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
     const std::size_t step = static_cast<std::size_t>(alignment);
-    return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
+    void* const memory = std::aligned_alloc(step, (size + step - 1) / step * step);
+    if (!memory) throw std::bad_alloc();
+    ++allocations;
+    bytesInUse += malloc_usable_size(memory);
+    return memory;
 }
 void operator delete(void* memory) noexcept {
     release(memory);
@@ -68,10 +88,10 @@ void operator delete[](void* memory, std::size_t) noexcept {
     release(memory);
 }
 void operator delete(void* memory, std::align_val_t) noexcept {
-    release(memory);
+    releaseAligned(memory);
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    release(memory);
+    releaseAligned(memory);
 }
 
 TEST(Allocation, CounterWorks) {

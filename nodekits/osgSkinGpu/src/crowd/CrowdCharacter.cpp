@@ -103,6 +103,7 @@ std::vector<GLuint> simplifiedJoined(const Vertices& vertices, const std::vector
         }
         alike[place].push_back(static_cast<GLuint>(v));
     }
+    joined.reserve(indices.size());
     for (const GLuint index : indices) joined.push_back(known.at(vertices.positions[index]));
     std::vector<GLuint> result(joined.size());
     const float* first = positions.front().ptr();

@@ -404,7 +404,7 @@ void ClipCharacter::bake(const SampledClip* clip) {
 
 ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
     const osg::ref_ptr<Figure> figure = new Figure;
-    const Instance result{figure, new ClipPlayer};
+    Instance result{figure, new ClipPlayer};
     result.node->setName(_character->getName());
     for (const Skin& source : _skins) {
         const osg::ref_ptr<DeformableSkin> skin =
