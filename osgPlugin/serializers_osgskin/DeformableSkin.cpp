@@ -89,8 +89,9 @@ osg::Geometry::PrimitiveSetList unpackPrimitives(const std::vector<std::uint32_t
     return sets;
 }
 
-/// Takes away what a model and packPrimitives() have of a rest geometry, until it is destroyed. A
-/// copy would not do: skins that share a rest geometry share it again after reading.
+/// While this exists, a rest geometry lacks the arrays and primitives that the model and
+/// packPrimitives() hold. A copy would not do: skins that share a rest geometry share it again
+/// after reading.
 class Stripped {
 public:
     explicit Stripped(const osg::Geometry& rest)

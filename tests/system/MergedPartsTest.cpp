@@ -38,7 +38,7 @@ struct Drawn {
     osg::Vec3d position, normal; ///< in the world
 };
 
-/// What the body draws at a time, by the vertices' rest positions.
+/// The vertices that the body draws at a time, by their rest positions.
 std::map<std::array<float, 3>, Drawn> drawnAt(osg::Node& scene, double time) {
     test::updateAt(scene, time);
     std::map<std::array<float, 3>, Drawn> drawn;

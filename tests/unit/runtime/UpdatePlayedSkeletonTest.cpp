@@ -454,7 +454,7 @@ TEST_F(Played, BoundsHoldSkinAndParts) {
         for (const osg::Vec3& v : verticesOf(*figure.skin))
             EXPECT_LT((v * skin - bound.center()).length(), bound.radius() * 1.0001f);
     }
-    // What is added meanwhile counts from the next update on.
+    // A node that is added later counts from the next update on.
     const osg::ref_ptr<osg::MatrixTransform> away =
         new osg::MatrixTransform(osg::Matrix::translate(100, 0, 0));
     away->addChild(quad(1.0));

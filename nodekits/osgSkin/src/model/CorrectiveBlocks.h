@@ -84,7 +84,7 @@ struct CorrectiveBlocks {
     /// \param source as SkinModel::create() takes it
     CorrectiveBlocks(const SkinModel& model, const Binding& binding,
                      const std::vector<std::uint32_t>& source);
-    /// What files have of it.
+    /// The data that files hold.
     struct Stored {
         std::vector<CorrectiveJoint> joints; ///< valid
         std::vector<std::string> inputs;

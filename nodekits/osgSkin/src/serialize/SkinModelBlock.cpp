@@ -150,7 +150,7 @@ std::vector<RatioGradient> takeVertexGradients(BlockReader& in,
     return gradients;
 }
 
-/// Reads versions 1 to 3 behind the version: a binding, of which all else is computed.
+/// Reads versions 1 to 3 after the version: a binding. Everything else is computed from it.
 osg::ref_ptr<const SkinModel> takeOlder(BlockReader& in, std::uint32_t version) {
     Binding binding;
     const std::uint32_t joints = in.count("joints", 20);

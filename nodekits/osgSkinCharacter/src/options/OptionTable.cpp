@@ -150,7 +150,7 @@ Option rigidOption() {
     };
     option.complete = [](LoadOptions& options, const LoadOptions& file) {
         if (options.rigid) return;
-        options.rigid = file.rigid; // of which merged parts are, too
+        options.rigid = file.rigid; // also names the joints of merged parts
         options.mergeRigid = options.mergeRigid || file.mergeRigid;
     };
     return option;
