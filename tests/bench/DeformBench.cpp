@@ -71,7 +71,7 @@ void RatioTable::ReportRuns(const std::vector<Run>& runs) {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
         const bool isMedian = run.run_type == Run::RT_Aggregate && run.aggregate_name == "median";
-        if ((run.run_type != Run::RT_Iteration && !isMedian) || run.error_occurred) continue;
+        if ((run.run_type != Run::RT_Iteration && !isMedian) || run.iterations == 0) continue;
         const std::string& name = run.run_name.function_name;
         const std::size_t slash = name.rfind('/');
         if (slash == std::string::npos) continue;

@@ -129,7 +129,7 @@ std::map<Edge, Edge> cuts(const Subject& subject, const std::vector<double>& hei
             const std::uint32_t a = subject.triangles[t + k];
             const std::uint32_t b = subject.triangles[t + (k + 1) % 3];
             if ((height[a] >= 0.0) == (height[b] >= 0.0)) continue;
-            (height[a] >= 0.0 ? down : up) = {std::min(a, b), std::max(a, b)};
+            (height[a] >= 0.0 ? down : up) = Edge{std::min(a, b), std::max(a, b)};
             cut = true;
         }
         if (cut) next[down] = up;
