@@ -29,8 +29,7 @@ void WindowOptions::open(osgViewer::Viewer& viewer) const {
     viewer.realize();
     osgViewer::Viewer::Windows windows;
     viewer.getWindows(windows);
-    if (windows.empty())
-        throw std::runtime_error("no window can be opened: expected an X display (Xvfb will do)");
+    if (windows.empty()) throw std::runtime_error("no window can be opened; is DISPLAY set?");
 }
 
 bool hasOsgOptionString() {
