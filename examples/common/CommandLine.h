@@ -5,9 +5,15 @@
 
 #include <cstdio>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 
 namespace example {
+
+/// Bad usage: a program prints the message and exits with 2.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 /// The line that `--version` prints, in the form that help2man expects.
 inline std::string versionText(const std::string& program) {

@@ -170,12 +170,3 @@ void writePicture(const osg::Image& image, const std::string& file) {
 }
 
 } // namespace figures
-
-namespace example {
-
-void openWindow(osgViewer::Viewer& viewer) {
-    viewer.realize();
-    if (!viewer.isRealized()) throw std::runtime_error("no window can be opened; is DISPLAY set?");
-}
-
-} // namespace example

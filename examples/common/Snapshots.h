@@ -7,7 +7,6 @@
 #include <osg/Node>
 #include <osg/Vec3d>
 #include <osg/ref_ptr>
-#include <osgViewer/Viewer>
 
 #include <memory>
 #include <string>
@@ -75,14 +74,5 @@ Tile photograph(osg::Node* scene, const example::View& view, int width, int heig
 void writePicture(const osg::Image& image, const std::string& file);
 
 } // namespace figures
-
-namespace example {
-
-/// Opens a viewer's window. Without a window, osgViewer's run() would return as if the user had
-/// closed it.
-/// \throw std::runtime_error if no window can be opened
-void openWindow(osgViewer::Viewer& viewer);
-
-} // namespace example
 
 #endif

@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 #include <osgDB/FileNameUtils>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -19,50 +18,20 @@
 namespace bake {
 namespace {
 
-constexpr char kDefaultOut[] = "frame_%04d.obj";
-
 const char kFooter[] =
     "Frames are the motion file's own samples, counted from 0 after `skipFrames`; the last one of "
     "a\n"
     "range is included. A pose is that sample, not a blend. Meshes have the input mesh's own\n"
     "vertices and faces, in its order, rigid parts included.\n"
-    "Without --rest, --binding and --pose, frames are written to frame_%04d.obj; with one of "
-    "them,\n"
-    "frames are written only where --out asks for them. `--rest` without a file writes the bind\n"
-    "pose to --out in place of the frames.\n"
+    "Without --out, --rest, --binding and --pose, nothing is written. `--rest` without a file "
+    "writes\n"
+    "the bind pose to --out in place of the frames.\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage.";
 
 /// Matches the placeholder of the frame number. A pattern is never passed to printf itself.
 const std::regex& numberPattern() {
     static const std::regex pattern("%(0?)([0-9]?)d");
     return pattern;
-}
-
-std::size_t parseNumber(const std::string& text, const std::string& range) {
-    std::size_t number = 0;
-    const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
-        throw UsageError{"--frames: expected A, A:B or A:B:STEP in whole numbers, found \"" +
-                         range + "\""};
-    return number;
-}
-
-FrameRange parseRange(const std::string& text) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == ':')
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    }
-    FrameRange range;
-    range.first = parseNumber(parts[0], text);
-    range.last = parts.size() > 1 ? parseNumber(parts[1], text) : range.first;
-    range.step = parts.size() > 2 ? parseNumber(parts[2], text) : 1;
-    if (parts.size() > 3 || range.step == 0 || range.last < range.first)
-        throw UsageError{"--frames: expected A <= B and a step of 1 or more, found \"" + text +
-                         "\""};
-    return range;
 }
 
 /// The file name in a path. Folder names may contain a %.
@@ -222,7 +191,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     }
     if (arguments.rate && !std::isfinite(*arguments.rate)) // CLI::Range accepts NaN
         throw UsageError{"--rate: expected a number from 0.001 to 1000000"};
-    if (!frames.empty()) arguments.frames = parseRange(frames);
+    if (!frames.empty()) arguments.frames = example::FrameRange::parse(frames);
     for (const std::string& word : tensed)
         arguments.activations.push_back(parseNamed("--tense", word));
     for (const std::string& word : morphs) arguments.morphs.push_back(parseNamed("--morph", word));
@@ -230,8 +199,6 @@ std::optional<Arguments> parseArguments(int argc, char** argv) {
     settleRest(*rest, arguments);
     if (arguments.character.empty())
         throw UsageError{"expected a CHARACTER, a .skin file or a rigged model"};
-    const bool other = rest->count() > 0 || !arguments.binding.empty() || !arguments.pose.empty();
-    if (arguments.out.empty() && !other) arguments.out = kDefaultOut;
     const std::string kind = extensionOf(arguments.rest);
     if (kind == "ply" || kind == "glb" || kind == "gltf" || kind == "pc2" || kind == "mtl")
         throw UsageError{"--rest: expected a file whose name ends in .obj, found \"" +

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "CommandLine.h"
+#include "FrameRange.h"
+
 #include <osgSkinCharacter/LoadOptions>
 
 #include <cstddef>
@@ -11,18 +14,11 @@
 
 namespace bake {
 
-/// Samples first, first + step, ... up to and including last.
-struct FrameRange {
-    std::size_t first = 0;
-    std::size_t last = 0;
-    std::size_t step = 1;
-};
-
 /// The parsed command line.
 struct Arguments {
     std::string character;
     std::string motion; ///< if empty, the first one
-    std::optional<FrameRange> frames;
+    std::optional<example::FrameRange> frames;
     std::optional<double> rate;   ///< samples per second of a rigged model's clips
     osgSkin::LoadOptions options; ///< override the character file's
     std::vector<std::pair<std::string, float>> activations; ///< of inputs, by name
@@ -35,10 +31,7 @@ struct Arguments {
     bool quiet = false;
 };
 
-/// Bad usage: the program prints the message and exits with 2.
-struct UsageError {
-    std::string message;
-};
+using example::UsageError;
 
 /// Reads the command line. Returns nothing if the user asked for the help, after printing it.
 /// \throw UsageError for bad usage

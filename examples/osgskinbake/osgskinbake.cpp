@@ -237,7 +237,7 @@ SampledMotion chooseMotion(Character& character, const Arguments& arguments) {
                      osgSkin::expectedNames(arguments.motion, known)};
 }
 
-bake::FrameRange chooseFrames(const Arguments& arguments, const SampledMotion& motion) {
+example::FrameRange chooseFrames(const Arguments& arguments, const SampledMotion& motion) {
     if (!arguments.frames) return {0, motion.frames - 1, 1};
     if (arguments.frames->last >= motion.frames)
         throw UsageError{"--frames: motion \"" + motion.name + "\" has frames 0 to " +
@@ -267,8 +267,8 @@ void addMorphs(Character& character, bake::FrameWriter& writer) {
 
 void bakeFrames(const Arguments& arguments, Character& character) {
     const SampledMotion motion = chooseMotion(character, arguments);
-    const bake::FrameRange range = chooseFrames(arguments, motion);
-    const std::size_t total = (range.last - range.first) / range.step + 1;
+    const example::FrameRange range = chooseFrames(arguments, motion);
+    const std::size_t total = range.count();
     if (total > 1 && !arguments.out.empty() && bake::FrameWriter::isSequence(arguments.out) &&
         !bake::hasNumber(arguments.out))
         throw UsageError{"--out: " + std::to_string(total) +
@@ -365,8 +365,20 @@ void tense(Character& character, const Arguments& arguments) {
     }
 }
 
+/// Bad usage where nothing was asked for: says how many frames there are.
+UsageError nothingToWrite(Character& character, const Arguments& arguments) {
+    const SampledMotion motion = chooseMotion(character, arguments);
+    return UsageError("nothing to write: expected --out, --rest, --binding or --pose; \"" +
+                      motion.name + "\" has " +
+                      std::to_string(chooseFrames(arguments, motion).count()) +
+                      " frames, for example for --out frame_%04d.obj or --out frames.glb");
+}
+
 int run(const Arguments& arguments) {
     Character character = load(arguments);
+    if (arguments.out.empty() && arguments.rest.empty() && arguments.binding.empty() &&
+        arguments.pose.empty())
+        throw nothingToWrite(character, arguments);
     bake::keepFiles(character.files);
     tense(character, arguments);
     morph(character, arguments);
@@ -395,7 +407,7 @@ int main(int argc, char** argv) {
         bake::removeUnfinishedOnSignals();
         return arguments ? run(*arguments) : 0;
     } catch (const UsageError& error) {
-        std::cerr << "osgskinbake: " << osgSkin::onOneLine(error.message)
+        std::cerr << "osgskinbake: " << osgSkin::onOneLine(error.what())
                   << "\nTry osgskinbake --help." << std::endl;
         return 2;
     } catch (const std::exception& error) {

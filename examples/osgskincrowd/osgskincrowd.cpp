@@ -4,8 +4,10 @@
 #include "Crowd.h"
 #include "DataFolder.h"
 #include "FrameBench.h"
+#include "FrameRange.h"
 #include "Ground.h"
 #include "Snapshots.h"
+#include "WindowOptions.h"
 
 #include <osgDB/Registry>
 #include <osgGA/TrackballManipulator>
@@ -16,9 +18,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -28,51 +33,56 @@ example::View viewOf(const AnyCrowd& crowd) {
     return {{0.15 * r, -1.5 * r - 4.0, 0.45 * r + 1.5}, {0.0, -0.15 * r, 0.5}};
 }
 
-/// Takes pictures at 60 frames per second, and prints the mean times of the updates.
-void takePictures(const Crowd& crowd, osg::Node* scene, unsigned int frames,
-                  const std::string& folder) {
-    example::Snapshots snapshots(scene, viewOf(crowd), 1000, 800);
-    double pose = 0.0, deform = 0.0;
-    for (unsigned int i = 0; i < frames; ++i) {
-        snapshots.write(i / 60.0, example::pictureName(folder, "crowd", i));
-        pose += crowd.getPoseTime() / frames;
-        deform += crowd.getDeformTime() / frames;
+/// Where pictures go, and which ones.
+struct Pictures {
+    std::string folder;
+    example::FrameRange frames; ///< of 60 a second
+};
+
+/// Takes pictures of any crowd.
+///
+/// \param after called with the number of the pictures so far after each
+template <typename AnyCrowd, typename After>
+void takePictures(const AnyCrowd& crowd, osg::Node* scene, const Pictures& pictures,
+                  const example::WindowOptions& window, const After& after) {
+    example::Snapshots snapshots(scene, viewOf(crowd), window.width(), window.height());
+    unsigned int count = 0;
+    for (std::size_t f = pictures.frames.first; f <= pictures.frames.last;
+         f += pictures.frames.step) {
+        snapshots.write(static_cast<double>(f) / 60.0,
+                        example::pictureName(pictures.folder, "crowd", count++));
+        after(count);
     }
-    std::printf("%u frames in %s; in an update, poses took %.2f ms and skins %.2f ms\n", frames,
-                folder.c_str(), pose, deform);
 }
 
-int show(osg::Group* scene, const example::View& view) {
-    osgViewer::Viewer viewer;
-    viewer.setUpViewInWindow(100, 100, 1000, 800);
+int show(osg::Group* scene, const example::View& view, osgViewer::Viewer& viewer,
+         const example::WindowOptions& window) {
     viewer.setSceneData(scene);
     viewer.addEventHandler(new osgViewer::StatsHandler);
     const osg::ref_ptr<osgGA::TrackballManipulator> camera = new osgGA::TrackballManipulator;
     camera->setHomePosition(view.eye, view.centre, view.up);
     viewer.setCameraManipulator(camera);
-    example::openWindow(viewer);
+    window.open(viewer);
     return viewer.run();
 }
 
 /// Runs the crowd on the graphics card.
-int runOnCard(const std::vector<std::string>& files, std::size_t count, unsigned int frames,
-              const std::string& folder) {
+int runOnCard(const std::vector<std::string>& files, std::size_t count, const Pictures& pictures,
+              osgViewer::Viewer& viewer, const example::WindowOptions& window) {
     const osg::ref_ptr<CardCrowd> crowd = new CardCrowd(files, count);
     std::cout << crowd->summary() << std::endl;
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->addChild(crowd->getScene());
     scene->addChild(example::makeFloor(std::ceil(1.5f * crowd->getRadius())));
-    if (folder.empty()) return show(scene, viewOf(*crowd));
-    example::Snapshots snapshots(scene, viewOf(*crowd), 1000, 800);
+    if (pictures.folder.empty()) return show(scene, viewOf(*crowd), viewer, window);
     double least = 0.0;
-    for (unsigned int i = 0; i < frames; ++i) {
-        snapshots.write(i / 60.0, example::pictureName(folder, "crowd", i));
+    takePictures(*crowd, scene, pictures, window, [&](unsigned int taken) {
         const double took = crowd->getProcessorTime();
-        least = i == 0 ? took : std::min(least, took);
-    }
+        least = taken == 1 ? took : std::min(least, took);
+    });
     std::printf(
-        "%u frames in %s; the crowd's update and cull took the processor %.3f ms at least\n",
-        frames, folder.c_str(), least);
+        "%zu frames in %s; the crowd's update and cull took the processor %.3f ms at least\n",
+        pictures.frames.count(), pictures.folder.c_str(), least);
     return 0;
 }
 
@@ -81,27 +91,24 @@ int runOnCard(const std::vector<std::string>& files, std::size_t count, unsigned
 int main(int argc, char** argv) {
     CLI::App app("Many characters, each in its own phase of its own clip.", "osgskincrowd");
     app.set_version_flag("--version", example::versionText("osgskincrowd"));
+    app.footer("Characters are loaded with -O \"shapes=none normals=rotated\" unless -O says "
+               "otherwise: more\nis not visible at a crowd's distance.\n" +
+               std::string(example::kWindowHelp) + "\nExit status: 0 done, 1 failed, 2 bad usage.");
     std::vector<std::string> files = {example::dataFolder() + "/thrower.skin"};
-    // Shapes and surface normals cost time, and are not visible at a crowd's distance.
-    std::string options = "shapes=none normals=rotated";
-    std::string pictures;
+    std::string out, frames = "0:11";
     std::size_t count = 1000;
     unsigned int threads = 0;
-    unsigned int frames = 12;
     unsigned int timed = 0;
     bool gpu = false;
-    app.add_option("characters", files,
-                   ".skin or any file with a deformable skin; they take turns");
-    app.add_option("-O,--options", options, "the plug-in's options for the characters")
-        ->capture_default_str();
+    app.add_option("CHARACTER", files, ".skin or any file with a deformable skin; they take turns");
     app.add_option("--count", count, "how many characters")->check(CLI::Range(1, 100000));
     app.add_option("--threads", threads, "most threads that pose and deform; 0: all processors");
     CLI::Option* const onCard = app.add_flag(
         "--gpu", gpu, "everything on the graphics card (OpenGL 3.3; 4.3 culls there, too)");
     CLI::Option* const toFolder = app.add_option(
-        "--pictures", pictures, "write pictures to this folder; no window to look at");
-    app.add_option("--frames", frames, "how many pictures")
-        ->check(CLI::Range(1u, 99u))
+        "--out", out, "write crowd_00.png, ... to this folder; no window to look at");
+    app.add_option("--frames", frames, "frames to write, 60 a second: A, A:B or A:B:STEP")
+        ->capture_default_str()
         ->needs(toFolder);
     app.add_option("--time", timed, "time so many frames without drawing; no window")
         ->check(CLI::Range(1u, 10000u))
@@ -109,13 +116,17 @@ int main(int argc, char** argv) {
         ->excludes(toFolder);
     if (!example::hasNoEmptyWord("osgskincrowd", argc, argv)) return 2;
     try {
+        osg::ArgumentParser words(&argc, argv);
+        const example::WindowOptions window(words, 1000, 800);
+        osgViewer::Viewer viewer(words);
         app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    try {
-        osgDB::Registry::instance()->setOptions(new osgDB::Options(options));
-        if (gpu) return example::finish("osgskincrowd", runOnCard(files, count, frames, pictures));
+        const Pictures pictures{out, example::FrameRange::parse(frames)};
+        if (!example::hasOsgOptionString())
+            osgDB::Registry::instance()->setOptions(
+                new osgDB::Options("shapes=none normals=rotated"));
+        if (gpu)
+            return example::finish("osgskincrowd",
+                                   runOnCard(files, count, pictures, viewer, window));
         std::vector<CrowdCharacter> characters;
         characters.reserve(files.size());
         for (const std::string& file : files) characters.emplace_back(file);
@@ -130,12 +141,24 @@ int main(int argc, char** argv) {
         const osg::ref_ptr<osg::Group> scene = new osg::Group;
         scene->addChild(crowd->getScene());
         scene->addChild(example::makeFloor(std::ceil(1.5f * crowd->getRadius())));
-        if (pictures.empty()) {
+        if (out.empty()) {
             scene->addChild(makeFrameTime(*crowd, pool->getThreadCount()));
-            return show(scene, viewOf(*crowd));
+            return show(scene, viewOf(*crowd), viewer, window);
         }
-        takePictures(*crowd, scene, frames, pictures);
+        double pose = 0.0, deform = 0.0;
+        takePictures(*crowd, scene, pictures, window, [&](unsigned int) {
+            pose += crowd->getPoseTime();
+            deform += crowd->getDeformTime();
+        });
+        const auto taken = static_cast<double>(pictures.frames.count());
+        std::printf("%.0f frames in %s; in an update, poses took %.2f ms and skins %.2f ms\n",
+                    taken, out.c_str(), pose / taken, deform / taken);
         return example::finish("osgskincrowd", 0);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const example::UsageError& error) {
+        std::cerr << "osgskincrowd: " << error.what() << std::endl;
+        return 2;
     } catch (const std::exception& error) {
         std::cerr << "osgskincrowd: " << error.what() << std::endl;
         return 1;

@@ -32,7 +32,8 @@ osg::ref_ptr<osg::Group> makeThrowScene(const std::string& folder, ThrowFacts* f
     manager->registerAnimation(animation);
     // [readme]
     if (facts) {
-        facts->seconds = clip.frameTime * static_cast<double>(clip.frames);
+        facts->frames = clip.frames;
+        facts->frameTime = clip.frameTime;
         facts->feet = report.feetText();
     }
 

@@ -4,12 +4,14 @@
 #include <osg/Group>
 #include <osg/ref_ptr>
 
+#include <cstddef>
 #include <string>
 
 /// Facts about a throw.
 struct ThrowFacts {
-    double seconds = 0.0; ///< length of the motion
-    std::string feet;     ///< how far the feet slide, one line per foot
+    std::size_t frames = 0; ///< of the motion
+    double frameTime = 0.0; ///< seconds per frame
+    std::string feet;       ///< how far the feet slide, one line per foot
 };
 
 /// Builds the thrower from its files with the public API alone. These are the steps that the

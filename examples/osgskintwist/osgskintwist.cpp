@@ -2,6 +2,7 @@
 #include "CommandLine.h"
 #include "Snapshots.h"
 #include "TwistScene.h"
+#include "WindowOptions.h"
 
 #include <CLI/CLI.hpp>
 #include <osgGA/StateSetManipulator>
@@ -77,11 +78,12 @@ constexpr twist::TwistPose kPictures[] = {{0, 0},   {0, 90},  {0, 180},   {0, 33
 struct Arguments {
     twist::TwistPose pose;
     bool report = false;
-    std::string pictures;
+    std::string out; ///< folder
 };
 
-void takePictures(twist::TwistScene& scene, const std::string& folder) {
-    example::Snapshots snapshots(scene.root(), twist::sceneView(), kWidth, kHeight);
+void takePictures(twist::TwistScene& scene, const std::string& folder,
+                  const example::WindowOptions& window) {
+    example::Snapshots snapshots(scene.root(), twist::sceneView(), window.width(), window.height());
     double time = 0.0;
     for (const twist::TwistPose& pose : kPictures) {
         scene.setPose(pose);
@@ -93,34 +95,34 @@ void takePictures(twist::TwistScene& scene, const std::string& folder) {
     std::cout << std::size(kPictures) << " pictures in " << folder << std::endl;
 }
 
-int show(twist::TwistScene& scene) {
+int show(twist::TwistScene& scene, osgViewer::Viewer& viewer,
+         const example::WindowOptions& window) {
     const example::View view = twist::sceneView();
-    osgViewer::Viewer viewer;
     // The copies are measured between frames, when no thread may be drawing them.
     viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
-    viewer.setUpViewInWindow(60, 60, kWidth, kHeight);
     viewer.setSceneData(scene.root());
     viewer.addEventHandler(new twist::TwistKeys(scene)); // before handlers that use b, t or space
     viewer.addEventHandler(new osgViewer::StatsHandler);
     viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getStateSet()));
     osg::Camera& camera = *viewer.getCamera();
     camera.setClearColor(osg::Vec4(0.13f, 0.145f, 0.16f, 1.0f));
-    camera.setProjectionMatrixAsPerspective(view.fieldOfView, double(kWidth) / kHeight, 0.1,
-                                            1000.0);
+    camera.setProjectionMatrixAsPerspective(view.fieldOfView,
+                                            double(window.width()) / window.height(), 0.1, 1000.0);
     const osg::ref_ptr<osgGA::TrackballManipulator> trackball = new osgGA::TrackballManipulator;
     trackball->setHomePosition(view.eye, view.centre, view.up);
     viewer.setCameraManipulator(trackball);
-    example::openWindow(viewer);
+    window.open(viewer);
     return viewer.run();
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, osgViewer::Viewer& viewer,
+        const example::WindowOptions& window) {
     if (arguments.report) twist::printReport(std::cout);
-    if (arguments.report && arguments.pictures.empty()) return 0;
+    if (arguments.report && arguments.out.empty()) return 0;
     twist::TwistScene scene;
     scene.setPose(arguments.pose);
-    if (arguments.pictures.empty()) return show(scene);
-    takePictures(scene, arguments.pictures);
+    if (arguments.out.empty()) return show(scene, viewer, window);
+    takePictures(scene, arguments.out, window);
     return 0;
 }
 
@@ -131,29 +133,36 @@ int main(int argc, char** argv) {
                  "quaternions.",
                  "osgskintwist");
     app.set_version_flag("--version", example::versionText("osgskintwist"));
-    app.footer("Press h in the window for its keys.\n"
-               "Exit status: 0 done, 1 failed, 2 bad usage.");
+    app.footer("Press h in the window for its keys. Frames are drawn SingleThreaded.\n" +
+               std::string(example::kWindowHelp) + "\nExit status: 0 done, 1 failed, 2 bad usage.");
     Arguments arguments;
     app.add_option("--bend", arguments.pose.bend, "degrees to start with")
         ->check(CLI::Range(-150.0, 150.0));
     app.add_option("--twist", arguments.pose.twist, "degrees to start with")
         ->check(CLI::Range(-330.0, 330.0));
-    app.add_option("--pictures", arguments.pictures,
+    app.add_option("--out", arguments.out,
                    "write pictures of a set of poses to this folder; no window to look at");
     app.add_flag("--report", arguments.report, "print the methods' figures; needs no display");
     if (!example::hasNoEmptyWord("osgskintwist", argc, argv)) return 2;
     try {
+        osg::ArgumentParser words(&argc, argv);
+        const example::WindowOptions window(words, kWidth, kHeight);
+        osgViewer::Viewer viewer(words);
+        if (example::hasOsgOptionString())
+            throw example::UsageError("-O: no files are read by osgDB");
+        if (viewer.getThreadingModel() != osgViewer::Viewer::AutomaticSelection &&
+            viewer.getThreadingModel() != osgViewer::Viewer::SingleThreaded)
+            throw example::UsageError("expected no threading model but --SingleThreaded");
         app.parse(argc, argv);
+        if (!std::isfinite(arguments.pose.bend) ||
+            !std::isfinite(arguments.pose.twist)) // CLI::Range accepts NaN
+            throw example::UsageError("--bend and --twist: expected finite numbers");
+        return example::finish("osgskintwist", run(arguments, viewer, window));
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (!std::isfinite(arguments.pose.bend) ||
-        !std::isfinite(arguments.pose.twist)) { // CLI::Range accepts NaN
-        std::cerr << "osgskintwist: --bend and --twist: expected finite numbers" << std::endl;
+    } catch (const example::UsageError& error) {
+        std::cerr << "osgskintwist: " << error.what() << std::endl;
         return 2;
-    }
-    try {
-        return example::finish("osgskintwist", run(arguments));
     } catch (const std::exception& error) {
         std::cerr << "osgskintwist: " << error.what() << std::endl;
         return 1;

@@ -5,9 +5,12 @@
 #include "Keys.h"
 #include "Snapshots.h"
 #include "Stage.h"
+#include "WindowOptions.h"
 
 #include <osgSkin/Error>
+#include <osgSkinCharacter/OptionString>
 
+#include <osgDB/Registry>
 #include <osgGA/StateSetManipulator>
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
@@ -21,14 +24,20 @@
 
 namespace {
 
-struct Size {
-    int width = 900;
-    int height = 800;
+/// A viewer whose frames are at a stage's own time, which may stand still or run backwards.
+struct StageViewer : osgViewer::Viewer {
+    explicit StageViewer(osg::ArgumentParser& words) : osgViewer::Viewer(words) {}
+    void frame(double) override {
+        stage->clock.advance(real.elapsedTime());
+        real.reset();
+        osgViewer::Viewer::frame(stage->simulationTime());
+    }
+    viewer::Stage* stage = nullptr;
+    osg::ElapsedTime real;
 };
 
-int show(viewer::Stage& stage, const Size& size) {
-    osgViewer::Viewer window;
-    window.setUpViewInWindow(80, 80, size.width, size.height);
+int show(viewer::Stage& stage, StageViewer& window, const example::WindowOptions& options) {
+    window.stage = &stage;
     window.setSceneData(stage.root());
     window.addEventHandler(new viewer::Keys(stage));
     window.addEventHandler(new osgViewer::StatsHandler);
@@ -36,20 +45,15 @@ int show(viewer::Stage& stage, const Size& size) {
     const osg::ref_ptr<osgGA::TrackballManipulator> camera = new osgGA::TrackballManipulator;
     camera->setHomePosition(view.eye, view.centre, view.up);
     window.setCameraManipulator(camera);
-    example::openWindow(window);
-    osg::ElapsedTime real;
-    while (!window.done()) {
-        stage.clock.advance(real.elapsedTime());
-        real.reset();
-        window.frame(stage.simulationTime());
-    }
-    return 0;
+    options.open(window);
+    window.real.reset();
+    return window.run();
 }
 
 /// Takes a picture of the start, then one after each of `keys`, and prints a summary of each.
 void takePictures(viewer::Stage& stage, const std::string& keys, const std::string& folder,
-                  const Size& size, bool times) {
-    example::Snapshots snapshots(stage.root(), stage.view(), size.width, size.height);
+                  const example::WindowOptions& window, bool times) {
+    example::Snapshots snapshots(stage.root(), stage.view(), window.width(), window.height());
     for (std::size_t i = 0; i <= keys.size(); ++i) {
         if (i > 0 && !viewer::press(stage, keys[i - 1]))
             throw std::runtime_error(std::string("--keys: no key '") + keys[i - 1] +
@@ -71,12 +75,11 @@ int main(int argc, char** argv) {
     CLI::App app("Plays a character and shows how its skin is bound and deformed.",
                  "osgskinviewer");
     app.set_version_flag("--version", example::versionText("osgskinviewer"));
-    app.footer(std::string("Keys:\n") + viewer::keysHelp() +
-               "\n\nExit status: 0 done, 1 failed, 2 bad usage.");
+    app.footer(std::string("Keys:\n") + viewer::keysHelp() + "\n\n" + example::kWindowHelp +
+               "\nExit status: 0 done, 1 failed, 2 bad usage.");
     std::string character = example::dataFolder() + "/thrower.skin";
-    std::string weights, motion, joint, keys, pictures;
+    std::string weights, motion, joint, keys, out;
     osgSkin::LoadOptions options;
-    Size size;
     double at = 0.0;
     bool paused = false, times = false;
     app.add_option("CHARACTER", character,
@@ -88,39 +91,44 @@ int main(int argc, char** argv) {
     app.add_option("--joint", joint, "name of the joint whose ratios b and t show");
     app.add_option("--at", at, "seconds into the motion to start at");
     app.add_flag("--paused", paused, "start paused");
-    app.add_option("--keys", keys, "keys to press first; with --pictures, one before each picture");
+    app.add_option("--keys", keys, "keys to press first; with --out, one before each picture");
     CLI::Option* const toFolder =
-        app.add_option("--pictures", pictures,
+        app.add_option("--out", out,
                        "write viewer_00.png, ... to this folder: no window to look at, but an X "
                        "display (Xvfb will do)");
-    app.add_flag("--times", times, "with --pictures: say how long each frame and its skin took")
+    app.add_flag("--times", times, "with --out: say how long each frame and its skin took")
         ->needs(toFolder);
-    app.add_option("--width", size.width, "of the window, pixels")->check(CLI::Range(100, 8000));
-    app.add_option("--height", size.height, "of the window, pixels")->check(CLI::Range(100, 8000));
     if (!example::hasNoEmptyWord("osgskinviewer", argc, argv)) return 2;
     try {
+        osg::ArgumentParser words(&argc, argv);
+        const example::WindowOptions place(words, 900, 800);
+        StageViewer window(words);
+        try {
+            options = osgSkin::toLoadOptions(osgDB::Registry::instance()->getOptions());
+        } catch (const osgSkin::Error& error) {
+            throw example::UsageError(std::string("-O: ") + error.what());
+        }
         app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        const std::string meant = example::suggestOption(app);
-        if (!meant.empty()) std::cerr << "osgskinviewer: unknown option" << meant << std::endl;
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (!(std::abs(at) <= kLatest)) { // also rejects NaN
-        std::cerr << "osgskinviewer: --at: expected at most a million seconds" << std::endl;
-        return 2;
-    }
-    try {
-        viewer::Stage stage(character, weights, options, size.width, size.height);
+        if (!(std::abs(at) <= kLatest)) // also rejects NaN
+            throw example::UsageError("--at: expected at most a million seconds");
+        viewer::Stage stage(character, weights, options, place.width(), place.height());
         if (!motion.empty()) stage.setMotion(motion);
         if (!joint.empty()) stage.setJoint(joint);
         stage.clock.seek(at);
         stage.clock.playing = !paused;
-        if (!pictures.empty()) {
-            takePictures(stage, keys, pictures, size, times);
+        if (!out.empty()) {
+            takePictures(stage, keys, out, place, times);
             return example::finish("osgskinviewer", 0);
         }
         for (const char key : keys) viewer::press(stage, key);
-        return show(stage, size);
+        return show(stage, window, place);
+    } catch (const CLI::ParseError& error) {
+        const std::string meant = example::suggestOption(app);
+        if (!meant.empty()) std::cerr << "osgskinviewer: unknown option" << meant << std::endl;
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const example::UsageError& error) {
+        std::cerr << "osgskinviewer: " << error.what() << std::endl;
+        return 2;
     } catch (const std::exception& error) {
         std::cerr << "osgskinviewer: " << error.what() << std::endl;
         return 1;

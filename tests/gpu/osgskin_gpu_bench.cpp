@@ -273,7 +273,7 @@ int main(int argc, char** argv) {
     CLI::App app(
         "Times compute shaders over a number of vertices, in as many characters as needed, "
         "each in its own pose: our deformation, copying the same bytes, and linear blending "
-        "of four matrices. With --frames, times whole frames. Needs no display.",
+        "of four matrices. With --draw, times whole frames. Needs no display.",
         "osgskin_gpu_bench");
     std::string file = std::string(OSGSKIN_DATA) + "/thrower.skin";
     GLuint wanted = 500000;
@@ -283,7 +283,7 @@ int main(int argc, char** argv) {
     app.add_option("character", file, "any file with a deformable skin")->capture_default_str();
     app.add_option("vertices", wanted, "how many vertices to deform")->capture_default_str();
     CLI::Option* const whole =
-        app.add_flag("--frames", frames, "draw whole frames of 1920 x 1080 pixels instead");
+        app.add_flag("--draw", frames, "draw whole frames of 1920 x 1080 pixels instead");
     app.add_option("--crowd", crowds, "members of the crowds, one crowd after the other")
         ->check(CLI::Range(1, 10000000))
         ->needs(whole);

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# `PROGRAM --pictures FOLDER` draws a picture of every pose, none of them blank.
+# `PROGRAM --out FOLDER` draws a picture of every pose, none of them blank.
 file(REMOVE_RECURSE ${FOLDER})
 execute_process(
-  COMMAND ${WITH_DISPLAY} 1280x1024 ${PROGRAM} --pictures ${FOLDER}
+  COMMAND ${WITH_DISPLAY} 1280x1024 ${PROGRAM} --out ${FOLDER}
   RESULT_VARIABLE status)
 if(NOT status STREQUAL "0")
   message(FATAL_ERROR "exit status ${status}, expected 0")

@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #ifdef OSGSKIN_HAS_TBB
 #include <tbb/global_control.h>
@@ -85,6 +86,33 @@ struct DeformPool::Arena {
             more.emplace(tbb::global_control::max_allowed_parallelism, count);
         arena.initialize();
     }
+
+    /// Calls function(0) to function(count - 1) and waits for them.
+    template <typename Function>
+    void share(std::size_t count, const Function& function) {
+#ifdef OSGSKIN_SANITIZE_THREADS
+        // The sanitizer sees only what orders threads here, as oneTBB is not built with it.
+        // Relaxed: taking a number must not order tasks that nothing else orders.
+        std::atomic<std::size_t> next{0};
+        const auto work = [&] {
+            for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;)
+                function(i);
+        };
+        [[maybe_unused]] const Unpinned unpinned;
+        std::vector<std::thread> others(std::min<std::size_t>(threads, count) - 1);
+        for (std::thread& other : others) other = std::thread(work);
+        work();
+        for (std::thread& other : others) other.join();
+#else
+        // Isolated: a thread waiting for the rest of a skin must not start another one, whose lock
+        // may be held by a waiting thread.
+        arena.execute([&] {
+            tbb::this_task_arena::isolate(
+                [&] { tbb::parallel_for(std::size_t{0}, count, function); });
+        });
+#endif
+    }
+
     unsigned int threads;
     std::optional<tbb::global_control> more;
     tbb::task_arena arena;
@@ -136,15 +164,9 @@ void DeformPool::callEach(std::size_t count, Call call, const void* function) co
         for (std::size_t i = 0; i < count; ++i) call(function, i);
         return;
     }
-    // Isolated: a thread waiting for the rest of a skin must not start another one, whose lock may
-    // be held by a waiting thread.
-    own->arena.execute([&] {
-        tbb::this_task_arena::isolate([&] {
-            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-                const AtWork here(own);
-                call(function, i);
-            });
-        });
+    own->share(count, [&](std::size_t i) {
+        const AtWork here(own);
+        call(function, i);
     });
     if (!within) own->taken = false;
 }

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -119,10 +120,12 @@ Character loadFrom(const std::string& path, const LoadOptions& options) {
 
 } // namespace
 
-Character loadCharacter(const std::string& path, const LoadOptions& options) {
+Character loadCharacter(const std::string& path, const LoadOptions& options) try {
     Character character = loadFrom(path, options);
     if (options.gpu && character.root) setGpu(*character.root, true);
     return character;
+} catch (const std::bad_alloc&) {
+    throw Error(path + ": out of memory");
 }
 
 } // namespace osgSkin

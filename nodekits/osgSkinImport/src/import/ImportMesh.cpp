@@ -10,6 +10,7 @@
 
 #include <osgDB/FileNameUtils>
 
+#include <new>
 #include <string>
 #include <utility>
 
@@ -40,10 +41,12 @@ CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
 
 } // namespace
 
-ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) {
+ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) try {
     CornerMesh read = readMesh(path, options);
     checkMaterials(read, path, ReadLimits::of(options));
     return finishMesh(std::move(read), path);
+} catch (const std::bad_alloc&) {
+    failFile(path, "out of memory");
 }
 
 double importUnit(const std::string& path, const osgDB::Options* options) {

@@ -28,6 +28,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <new>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -382,7 +383,7 @@ void dropFirst(Motion& motion, std::size_t count) {
 } // namespace
 
 Motion importMotion(const std::string& path, std::size_t skipFrames, const std::string& clip,
-                    const osgDB::Options* options) {
+                    const osgDB::Options* options) try {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
     const bool isBvh = osgDB::getLowerCaseFileExtension(path) == "bvh";
@@ -394,6 +395,8 @@ Motion importMotion(const std::string& path, std::size_t skipFrames, const std::
                            std::to_string(skipFrames) + " to skip");
     dropFirst(motion, skipFrames);
     return motion;
+} catch (const std::bad_alloc&) {
+    failFile(path, "out of memory");
 }
 
 } // namespace osgSkin

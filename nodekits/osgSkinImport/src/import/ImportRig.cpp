@@ -30,6 +30,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <new>
 #include <set>
 #include <string>
 #include <string_view>
@@ -336,7 +337,7 @@ bool isReadByAssimp(const std::string& path) {
     return hasSceneReader(path);
 }
 
-ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
+ImportedRig importRig(const std::string& path, const osgDB::Options* options) try {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
     const std::string none = "no mesh with bones, expected a rigged character";
@@ -365,6 +366,8 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) {
     result.toWorld = scene.toWorld;
     result.metresPerUnit = scene.metresPerUnit;
     return result;
+} catch (const std::bad_alloc&) {
+    failFile(path, "out of memory");
 }
 
 } // namespace osgSkin

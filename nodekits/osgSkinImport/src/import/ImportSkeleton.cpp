@@ -12,9 +12,11 @@
 
 #include <osgDB/FileNameUtils>
 
+#include <new>
+
 namespace osgSkin {
 
-RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* options) {
+RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* options) try {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
     if (osgDB::getLowerCaseFileExtension(path) == "bvh")
@@ -26,6 +28,8 @@ RestSkeleton importSkeleton(const std::string& path, const osgDB::Options* optio
     }
     const std::shared_ptr<const SourceScene> scene = readSourceScene(path, options);
     return readSceneSkeleton(*scene, path, limits).rest;
+} catch (const std::bad_alloc&) {
+    failFile(path, "out of memory");
 }
 
 } // namespace osgSkin
