@@ -86,8 +86,8 @@ TEST_P(Reach, TurnsTheMiddleToThePole) {
     const auto& [name, limb, way, pole, reaches] = GetParam();
     const Vec3d side = pole - way * ((pole * way) / way.length2());
     if (!reaches || !(side.length() > 1e-9)) return; // no pole, or along the limb
-    const Limb moved = limb.moved(
-        reachRotations(limb.first, limb.middle, limb.end, limb.first + way, pole));
+    const Limb moved =
+        limb.moved(reachRotations(limb.first, limb.middle, limb.end, limb.first + way, pole));
     const Vec3d middle = moved.middle - moved.first;
     const Vec3d bent = middle - way * ((middle * way) / way.length2());
     EXPECT_GT(bent.length(), 0.1);

@@ -27,8 +27,9 @@ double angleBetween(const osg::Vec3d& a, const osg::Vec3d& b) {
 }
 
 osg::Vec3d anyPerpendicular(const osg::Vec3d& direction) {
-    const osg::Vec3d axis = std::abs(direction.x()) < 0.5 * direction.length() ? osg::Vec3d(1, 0, 0)
-                                                                              : osg::Vec3d(0, 1, 0);
+    const osg::Vec3d axis = std::abs(direction.x()) < 0.5 * direction.length()
+                                ? osg::Vec3d(1, 0, 0)
+                                : osg::Vec3d(0, 1, 0);
     return unit(direction ^ axis);
 }
 
@@ -121,8 +122,7 @@ bool reach(osgAnimation::Bone& upper, osgAnimation::Bone& lower, osgAnimation::B
     const auto joint = [](const osgAnimation::Bone& bone) {
         return osg::Matrixd(bone.getMatrixInSkeletonSpace()).getTrans();
     };
-    const LimbRotations limb =
-        reachRotations(joint(upper), joint(lower), joint(end), target, pole);
+    const LimbRotations limb = reachRotations(joint(upper), joint(lower), joint(end), target, pole);
     rotateBone(lower, limb.lower);
     rotateBone(upper, limb.upper);
     return limb.reaches;
