@@ -249,8 +249,7 @@ void writeRig(const std::string& walker, const std::string& file) {
     character.skeleton->setComputeBoundingSphereCallback(nullptr);
     const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
         new osgAnimation::BasicAnimationManager;
-    for (const auto& clip : character.manager->getAnimationList())
-        manager->registerAnimation(clip);
+    for (const auto& clip : character.manager->getAnimationList()) manager->registerAnimation(clip);
     character.root->setUpdateCallback(manager);
     write(file, *character.root);
 }

@@ -9,8 +9,10 @@ namespace {
 /// A sword along +Z, its grip at the origin.
 osg::ref_ptr<osg::Node> makeSword() {
     osg::ref_ptr<osg::Group> sword = new osg::Group;
-    sword->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, 0.5f), 0.05f, 0.012f, 0.8f)));
-    sword->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, 0.1f), 0.2f, 0.03f, 0.03f)));
+    sword->addChild(
+        new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, 0.5f), 0.05f, 0.012f, 0.8f)));
+    sword->addChild(
+        new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, 0.1f), 0.2f, 0.03f, 0.03f)));
     sword->addChild(new osg::ShapeDrawable(new osg::Cylinder(osg::Vec3(), 0.017f, 0.2f)));
     return sword;
 }

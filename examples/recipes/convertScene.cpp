@@ -23,11 +23,12 @@ osg::ref_ptr<osg::Node> convertScene(const std::string& file) {
             std::cout << report.skins.size() << " skins\n";
             for (const std::string& note : report.notes) std::cout << note << '\n';
         }
-        using Manager = osgAnimation::BasicAnimationManager; // of OSG, which plays nothing by itself
+        using Manager =
+            osgAnimation::BasicAnimationManager; // of OSG, which plays nothing by itself
         auto& manager = dynamic_cast<Manager&>(*scene->getUpdateCallback());
         manager.playAnimation(manager.getAnimationList().back());
-        const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
-            osg::Matrix::translate(isConverted ? 0.6 : -0.6, 0.0, 0.0));
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrix::translate(isConverted ? 0.6 : -0.6, 0.0, 0.0));
         place->addChild(scene);
         both->addChild(place);
     }

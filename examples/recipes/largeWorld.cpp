@@ -13,8 +13,8 @@ osg::ref_ptr<osg::Node> largeWorld(const std::string& file) {
     // East, north and up at a place, in double precision: x, y and z of everything below.
     osg::Matrixd place;
     const osg::EllipsoidModel earth;
-    earth.computeLocalToWorldTransformFromLatLongHeight(
-        osg::DegreesToRadians(37.57), osg::DegreesToRadians(126.98), 38.0, place);
+    earth.computeLocalToWorldTransformFromLatLongHeight(osg::DegreesToRadians(37.57),
+                                                        osg::DegreesToRadians(126.98), 38.0, place);
     const osg::ref_ptr<osg::MatrixTransform> here = new osg::MatrixTransform(place);
     here->addChild(character.root);
     here->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, -0.1f), 3, 3, 0.2f)));

@@ -17,7 +17,8 @@ osg::ref_ptr<osg::Node> makeLevels(const std::string& fineFile, const std::strin
     const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
     for (const osgSkin::Character* body : {&fine, &coarse})
         for (const osgSkin::AttachedSkin::Skin& skin : body->skin.skins) {
-            levels->addChild(skin.drawable, body == &fine ? 0.0f : 4.0f, body == &fine ? 4.0f : 50.0f);
+            levels->addChild(skin.drawable, body == &fine ? 0.0f : 4.0f,
+                             body == &fine ? 4.0f : 50.0f);
             skin.drawable->getParent(0)->removeChild(skin.drawable);
         }
     fine.skeleton->addChild(levels); // the last child: skins are updated after the bones

@@ -82,7 +82,8 @@ int main(int argc, char** argv) {
         }
         if (file.empty() || !pictures.empty()) writeSamples(data, samples);
         if (pictures.empty())
-            return show(chosen.front(), file.empty() ? samples + "/" + chosen.front().sample : file);
+            return show(chosen.front(),
+                        file.empty() ? samples + "/" + chosen.front().sample : file);
         takePictures(chosen, samples, pictures);
         return example::finish("osgskinrecipes", 0);
     } catch (const std::exception& error) {

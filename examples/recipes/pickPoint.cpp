@@ -4,7 +4,7 @@
 
 #include <osg/MatrixTransform>
 #include <osg/ShapeDrawable>
-#include <osgUtil/IntersectionVisitor>
+
 #include <iostream>
 
 namespace {
@@ -13,8 +13,8 @@ namespace {
 struct Pick : osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         traverse(node, nv); // the figure is now posed for this frame
-        const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
-            new osgUtil::LineSegmentIntersector(osg::Vec3d(-0.1, -5, 1.25), osg::Vec3d(-0.1, 5, 1.25));
+        const osg::Vec3d from(-0.1, -5, 1.25), to(-0.1, 5, 1.25);
+        const osg::ref_ptr line = new osgUtil::LineSegmentIntersector(from, to);
         osgUtil::IntersectionVisitor visitor(line);
         node->accept(visitor);
         const auto at = line->getFirstIntersection();

@@ -70,7 +70,7 @@ BROKEN = [
      "README.md: lacks a line of examples/osgskinthrow/ThrowScene.cpp: int a = 1;"),
     ({"tests/downstream/main.cpp": MIT}, "README.md: shows #include <osgSkin/A>, which tests/downstream"),
     ({"debian/copyright": "Files: *\nCopyright: us\nLicense: GPL-3+\n\n"
-                          "Files:\n nodekits/low/*\n tests/*\n examples/osgskinthrow/*\nCopyright: us\nLicense: Expat\n"},
+                          "Files:\n nodekits/low/*\n nodekits/osg*\n tests/*\n examples/osgskinthrow/*\n examples/recipes/*\nCopyright: us\nLicense: Expat\n"},
      "debian/copyright: examples/Plain.cpp is MIT, not GPL-3.0-or-later"),
     ({"nodekits/README.md": ROWS + "[gone](low/Gone.h)\n"}, "nodekits/README.md: links low/Gone.h, which does not exist"),
     ({"nodekits/README.md": ROWS + "# House\n[there](#hut)\n"}, "nodekits/README.md: links #hut, which has no such heading"),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every recipe's picture is the one on its page, and the page has every recipe.
-#include "Pixels.h"
 #include "Recipes.h"
+#include "Pixels.h"
 #include "Samples.h"
 
 #include <osgSkin/SetMorph>
