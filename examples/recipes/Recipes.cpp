@@ -136,6 +136,6 @@ osg::ref_ptr<osg::Image> pictureOf(const Recipe& recipe, const std::string& fold
             .take(recipe.time);
     // Fewer shades, for small files.
     for (unsigned int i = 0; i < picture->getTotalSizeInBytes(); ++i)
-        picture->data()[i] = static_cast<unsigned char>(picture->data()[i] / 12 * 12 + 2);
+        picture->data()[i] = static_cast<unsigned char>(picture->data()[i] / 8 * 8 + 4);
     return picture;
 }

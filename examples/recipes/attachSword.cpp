@@ -25,9 +25,9 @@ osg::ref_ptr<osg::Node> attachSword(const std::string& file) {
     const osg::ref_ptr<osgAnimation::Bone> hand = character.bone("RightHand");
 
     // Where the sword is when the figure stands as its mesh does, in the mesh's space: in the
-    // palm, which is between the wrist and the fingers, and upright across the fingers.
-    const osg::Matrixd rest = osg::Matrixd::rotate(osg::Vec3d(0, 0, 1), osg::Vec3d(0.45, 0.25, 1)) *
-                              osg::Matrixd::translate(osg::Vec3d(-0.695, 1.05, 0.085));
+    // palm, which is between the wrist and the fingers, and across the fingers.
+    const osg::Matrixd rest = osg::Matrixd::rotate(osg::Vec3d(0, 0, 1), osg::Vec3d(0.33, 0.37, 1)) *
+                              osg::Matrixd::translate(osg::Vec3d(-0.65, 1.01, 0.03));
     // The inverse bind matrix leads from there to the bone.
     const osg::ref_ptr<osg::MatrixTransform> inHand =
         new osg::MatrixTransform(rest * hand->getInvBindMatrixInSkeletonSpace());

@@ -16,7 +16,7 @@ osg::ref_ptr<osg::Node> castShadow(const std::string& file) {
     scene->setCastsShadowTraversalMask(casts);
 
     const osg::ref_ptr<osg::LightSource> light = new osg::LightSource;
-    light->getLight()->setPosition(osg::Vec4(-2, -3, 5, 0));
+    light->getLight()->setPosition(osg::Vec4(-2, -5, 4, 0));
     map->setLight(light);
     scene->addChild(light);
 
