@@ -12,6 +12,7 @@
 #include <osgAnimation/VertexInfluence>
 #include <osgDB/FileUtils>
 #include <osgDB/ReadFile>
+#include <osgDB/Registry>
 #include <osgDB/WriteFile>
 #include <osgUtil/Simplifier>
 #include <osgUtil/SmoothingVisitor>
@@ -260,6 +261,11 @@ void writeSamples(const std::string& data, const std::string& folder) {
     const auto path = [](const std::string& in, const char* name) {
         return std::filesystem::absolute(in + "/" + name).generic_string();
     };
+    // Without them OSG writes characters without their skins, and reports success.
+    if (!osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(
+            "osgSkin::DeformableSkin"))
+        throw std::runtime_error("the serializers are missing: expected OSG_LIBRARY_PATH to name "
+                                 "the folder of osgSkin's plug-ins");
     if (!osgDB::makeDirectory(folder)) throw std::runtime_error(folder + ": cannot be made");
     const std::string throwFile = path(data, "throw.bvh"), skeleton = path(data, "thrower.bvh");
     writeClip(throwFile, folder + "/walk.bvh", walk);
