@@ -30,23 +30,24 @@ osg::ref_ptr<osg::Group> makeThrowScene(const std::string& folder, ThrowFacts* f
     const osg::ref_ptr<osgAnimation::Animation> animation = osgSkin::makeAnimation(clip, rig);
     const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
     manager->registerAnimation(animation);
+
+    // The files are in metres, have Y up and face +Z; OSG's world has Z up.
+    const osg::ref_ptr<osg::MatrixTransform> upright =
+        new osg::MatrixTransform(osg::Matrix::rotate(osg::PI_2, osg::Vec3(1, 0, 0)));
+    upright->setDataVariance(osg::Object::DYNAMIC);
+    upright->addChild(skeleton);
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setUpdateCallback(manager);
+    scene->addChild(upright); // a standing figure that throws towards +X
     // [readme]
+
+    upright->addChild(osgSkin::makeProp("ball", osgSkin::importMesh(folder + "/ball.obj").parts,
+                                        osgSkin::importMotion(folder + "/ball.bvh"), report,
+                                        *animation));
     if (facts) {
         facts->frames = clip.frames;
         facts->frameTime = clip.frameTime;
         facts->feet = report.feetText();
     }
-
-    // The files have Y up and face +Z; OSG's world has Z up.
-    const osg::ref_ptr<osg::MatrixTransform> upright =
-        new osg::MatrixTransform(osg::Matrix::rotate(osg::PI_2, osg::Vec3(1, 0, 0)));
-    upright->setDataVariance(osg::Object::DYNAMIC);
-    upright->addChild(skeleton);
-    upright->addChild(osgSkin::makeProp("ball", osgSkin::importMesh(folder + "/ball.obj").parts,
-                                        osgSkin::importMotion(folder + "/ball.bvh"), report,
-                                        *animation));
-    osg::ref_ptr<osg::Group> scene = new osg::Group;
-    scene->setUpdateCallback(manager);
-    scene->addChild(upright);
     return scene;
 }

@@ -5,7 +5,6 @@
 #include "FindNodes.h"
 #include "GpuStage.h"
 #include "Pixels.h"
-#include "recipes/makeCrowd.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/RigidPart>
@@ -17,7 +16,6 @@
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
-#include <fstream>
 #include <sstream>
 
 namespace {
@@ -107,26 +105,6 @@ struct CountTriangles {
 };
 
 } // namespace
-
-TEST(CrowdOfALoadedCharacter, IsTheRecipesTenLines) {
-    std::ifstream file(OSGSKIN_EXAMPLES "/recipes/makeCrowd.h");
-    int lines = -1;
-    bool counts = false;
-    for (std::string line; std::getline(file, line);) {
-        if (line.find("[readme]") != std::string::npos) counts = !counts;
-        if (counts) ++lines;
-    }
-    EXPECT_GT(lines, 0);
-    EXPECT_LE(lines, 10);
-    const osg::ref_ptr<osg::Node> loaded = loadThrower();
-    const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    const osg::ref_ptr<GpuCrowd> crowd = recipes::makeCrowd(*loaded, *scene);
-    EXPECT_EQ(crowd->getInstanceCount(), 1000u);
-    const auto before = pictureOf(scene, scene->getBound());
-    EXPECT_GT(test::seenPixels(*before), 10000u);
-    crowd->setTime(0.2);
-    EXPECT_GT(test::unlikePixels(*pictureOf(scene, scene->getBound()), *before), 1000u);
-}
 
 TEST(CrowdOfALoadedCharacter, HasItsClipsByName) {
     const osg::ref_ptr<osg::Node> loaded = loadThrower();

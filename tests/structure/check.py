@@ -20,6 +20,7 @@ import re
 import sys
 
 MAX_LINES = 1000
+MAX_RECIPE_LINES = 40
 FOLDERS = ("nodekits", "osgPlugin", "examples", "tests", "data", "cmake", ".ci")
 SCRIPTS = {".cmake", ".sh", ".py", ".txt"}
 
@@ -262,11 +263,41 @@ def check_example(house):
     if not example.is_file() or not readme.is_file():
         return
     check_shown(house, example, readme)
-    check_shown(house, house.root / "examples/recipes/makeCrowd.h", house.root / "nodekits/osgSkinGpu/README.md")
     downstream = house.root / "tests/downstream/main.cpp"
     for include in re.findall(r"^#include <osgSkin.*>$", readme.read_text(), re.M):
         if include not in downstream.read_text():
             house.breach(readme, f"shows {include}, which {house.name(downstream)} does not compile")
+
+
+def check_blocks(house, page, text, source):
+    """Checks that a source has the lines of a text's C++ blocks."""
+    known = set(map(str.strip, source.read_text().splitlines()))
+    for block in re.findall(r"^```cpp\n(.*?)^```", text, re.M | re.S):
+        for line in filter(None, map(str.strip, block.splitlines())):
+            if line not in known:
+                house.breach(page, f"shows a line that {house.name(source)} lacks: {line}")
+
+
+def check_recipes(house):
+    """Checks that each recipe is short, and has a picture and a section that shows its own lines."""
+    folder = house.root / "examples/recipes"
+    page, table = folder / "README.md", folder / "Recipes.cpp"
+    if not page.is_file():
+        return
+    sections = page.read_text().split("\n## ")
+    for name in re.findall(r'^ +\{"(\w+)",', table.read_text(), re.M):
+        source = folder / f"{name}.cpp"
+        lines = len(source.read_text().splitlines())
+        if lines > MAX_RECIPE_LINES:
+            house.breach(source, f"has {lines} lines; at most {MAX_RECIPE_LINES}")
+        section = [text for text in sections if f"\n[{name}.cpp]({name}.cpp)" in text]
+        if len(section) != 1 or f"](../pictures/recipes/{name}.png)" not in section[0]:
+            house.breach(page, f"has no section with a picture for {house.name(source)}")
+        else:
+            check_blocks(house, page, section[0], source)
+    crowds = house.root / "nodekits/osgSkinGpu/README.md"
+    check_blocks(house, crowds, crowds.read_text().split("\n## Crowds")[1].split("To make a character by hand")[0],
+                 folder / "makeCrowd.cpp")
 
 
 def main():
@@ -279,6 +310,7 @@ def main():
     check_users(house)
     check_pages(house)
     check_example(house)
+    check_recipes(house)
     for line in house.breaches:
         print(line)
     rooms = sum(map(len, house.rooms.values()))

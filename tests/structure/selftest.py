@@ -11,6 +11,8 @@ GPL = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
 
 ROWS = "| low | `ground`, `first` |\n| high | `only` |\n"
 
+RECIPE = "# Recipes\n\n## A crowd\n![it](../pictures/recipes/makeCrowd.png)\n\n[makeCrowd.cpp](makeCrowd.cpp).\n"
+
 SOUND = {
     "nodekits/rooms.txt": "kit low MIT\n  ground  Export\n  first\n"
                           "kit high GPL-3.0-or-later needs low\n  only\n"
@@ -36,6 +38,11 @@ SOUND = {
     "examples/Plain.cpp": MIT + "int main() {}\n",
     "examples/osgskinthrow/ThrowScene.cpp": MIT + "// [readme] Shown.\n int a = 1;\n// [readme]\n",
     "tests/downstream/main.cpp": MIT + "#include <osgSkin/A>\n",
+    "examples/recipes/Recipes.cpp": MIT + '    {"makeCrowd", makeCrowd}\n',
+    "examples/recipes/makeCrowd.cpp": MIT + "int crowd;\n",
+    "examples/recipes/README.md": RECIPE + "```cpp\nint crowd;\n```\n",
+    "examples/pictures/recipes/makeCrowd.png": "",
+    "nodekits/osgSkinGpu/README.md": "\n## Crowds\n```cpp\nint crowd;\n```\nTo make a character by hand: ...\n",
 }
 
 # The change, and the start of the expected complaint.
@@ -63,7 +70,7 @@ BROKEN = [
      "README.md: lacks a line of examples/osgskinthrow/ThrowScene.cpp: int a = 1;"),
     ({"tests/downstream/main.cpp": MIT}, "README.md: shows #include <osgSkin/A>, which tests/downstream"),
     ({"debian/copyright": "Files: *\nCopyright: us\nLicense: GPL-3+\n\n"
-                          "Files:\n nodekits/low/*\n tests/*\n examples/osgskinthrow/*\nCopyright: us\nLicense: Expat\n"},
+                          "Files:\n nodekits/low/*\n nodekits/osg*\n tests/*\n examples/osgskinthrow/*\n examples/recipes/*\nCopyright: us\nLicense: Expat\n"},
      "debian/copyright: examples/Plain.cpp is MIT, not GPL-3.0-or-later"),
     ({"nodekits/README.md": ROWS + "[gone](low/Gone.h)\n"}, "nodekits/README.md: links low/Gone.h, which does not exist"),
     ({"nodekits/README.md": ROWS + "# House\n[there](#hut)\n"}, "nodekits/README.md: links #hut, which has no such heading"),
@@ -71,6 +78,14 @@ BROKEN = [
      "nodekits/README.md: its table does not end low's row"),
     ({"nodekits/README.md": ROWS + "[the base](low/src/ground/Base.cpp): `S::g()`\n"},
      "nodekits/README.md: line 3: no file linked in it has S::g()"),
+    ({"examples/recipes/makeCrowd.cpp": MIT + "int crowd;\n" + "\n" * 39},
+     "examples/recipes/makeCrowd.cpp: has 41 lines; at most 40"),
+    ({"examples/recipes/README.md": "# Recipes\n"},
+     "examples/recipes/README.md: has no section with a picture for examples/recipes/makeCrowd.cpp"),
+    ({"examples/recipes/README.md": RECIPE + "```cpp\nint people;\n```\n"},
+     "examples/recipes/README.md: shows a line that examples/recipes/makeCrowd.cpp lacks: int people;"),
+    ({"nodekits/osgSkinGpu/README.md": "\n## Crowds\n```cpp\nint people;\n```\nTo make a character by hand: ...\n"},
+     "nodekits/osgSkinGpu/README.md: shows a line that examples/recipes/makeCrowd.cpp lacks: int people;"),
 ]
 
 

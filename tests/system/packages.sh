@@ -35,7 +35,7 @@ expect libosgskinbind0.2 libosgSkinBind.so.0.2 libosgSkinCharacter.so.0.2
 expect libosgskinbind-dev include/osgSkinBind/Bind include/osgSkinCharacter/LoadCharacter \
   osgSkinBindTargets.cmake pkgconfig/osgSkinCharacter.pc libosgSkinBind.so
 expect osgskin-plugin osgdb_skin.so
-expect osgskin-tools bin/osgskinbake bin/osgskinviewer bin/osgskincrowd bin/osgskinthrow bin/osgskinfigures \
+expect osgskin-tools bin/osgskinbake bin/osgskinviewer bin/osgskincrowd bin/osgskinrecipes bin/osgskinthrow bin/osgskinfigures \
   bin/osgskintwist share/osgskin/thrower.skin
 grep -qE 'gmp|mpfr|assimp|cgal' "$folder/libosgskin0.2.depends" &&
   fail "the runtime's package needs what only binding and importing need"

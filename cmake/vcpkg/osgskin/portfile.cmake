@@ -15,7 +15,7 @@ vcpkg_cmake_config_fixup(PACKAGE_NAME osgskin CONFIG_PATH lib/cmake/osgSkin)
 vcpkg_fixup_pkgconfig()
 if("bind" IN_LIST FEATURES)
   vcpkg_copy_tools(AUTO_CLEAN TOOL_NAMES
-    osgskinbake osgskincrowd osgskinfigures osgskinthrow osgskintwist osgskinviewer)
+    osgskinbake osgskincrowd osgskinfigures osgskinrecipes osgskinthrow osgskintwist osgskinviewer)
 endif()
 file(REMOVE_RECURSE "${CURRENT_PACKAGES_DIR}/debug/include" "${CURRENT_PACKAGES_DIR}/debug/share")
 vcpkg_install_copyright(FILE_LIST "${SOURCE_PATH}/LICENSE" "${SOURCE_PATH}/LICENSES/MIT.txt"

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "Recipes.h"
+#include "Ground.h"
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Group>
+#include <osg/Math>
+#include <osg/PolygonMode>
+
+using File = const std::string&;
+using Scene = osg::ref_ptr<osg::Node>;
+
+// Each is in the file of its name.
+Scene attachSword(File);
+Scene blendClips(File);
+Scene castShadow(File);
+Scene chooseClip(File);
+Scene convertScene(File);
+Scene deformOnCard(File);
+Scene driveBone(File);
+Scene largeWorld(File);
+Scene levelsOfDetail(File);
+Scene loadAndPlay(File);
+Scene lookAtTarget(File);
+Scene makeCrowd(File);
+Scene makeFace(File);
+Scene ownShader(File);
+Scene pickPoint(File);
+Scene reachTarget(File);
+Scene shipAsOsgb(File);
+
+namespace {
+
+using osg::Vec3d;
+
+const example::View kFigure{Vec3d(-1.9, -4.6, 1.5), Vec3d(0, 0, 0.93)};
+const example::View kWide{Vec3d(-0.9, -5.6, 1.6), Vec3d(0, 0, 0.93)};
+
+osg::Matrixd onEarth() {
+    osg::Matrixd place;
+    osg::EllipsoidModel().computeLocalToWorldTransformFromLatLongHeight(
+        osg::DegreesToRadians(37.57), osg::DegreesToRadians(126.98), 38.0, place);
+    return place;
+}
+
+} // namespace
+
+const std::vector<Recipe>& recipes() {
+    static const std::vector<Recipe> all{
+        {"loadAndPlay", loadAndPlay, "walker.skin", 0.25, kFigure},
+        {"chooseClip", chooseClip, "walker.skin", 0.15, kFigure},
+        {"blendClips", blendClips, "walker.skin", 0.1, kWide},
+        {"driveBone", driveBone, "walker.skin", 0.5, kFigure},
+        {"lookAtTarget",
+         lookAtTarget,
+         "walker.skin",
+         0.3,
+         {Vec3d(-0.2, -2.6, 1.5), Vec3d(0.2, 0, 1.35)}},
+        {"reachTarget",
+         reachTarget,
+         "walker.skin",
+         0.3,
+         {Vec3d(-1.6, -2.6, 1.5), Vec3d(-0.1, 0, 1.15)}},
+        {"attachSword",
+         attachSword,
+         "walker.skin",
+         0.0,
+         {Vec3d(-2.2, -3.6, 1.4), Vec3d(-0.1, 0, 1.0)}},
+        {"pickPoint", pickPoint, "walker.skin", 0.25, {Vec3d(-1.8, -3.2, 1.6), Vec3d(0, 0, 1.1)}},
+        {"castShadow",
+         castShadow,
+         "walker.skin",
+         0.25,
+         {Vec3d(-1.2, -4.4, 2.2), Vec3d(0.2, 0, 0.8)},
+         Floor::Own},
+        {"levelsOfDetail",
+         levelsOfDetail,
+         "walker.skin",
+         0.25,
+         {Vec3d(-0.4, -3.4, 1.6), Vec3d(0.3, 0, 1.2)},
+         Floor::Plain,
+         true},
+        {"makeFace", makeFace, "face.osgb", 1.5, {Vec3d(-0.28, -0.75, 1.68), Vec3d(0, 0, 1.655)}},
+        {"makeCrowd",
+         makeCrowd,
+         "walker.skin",
+         0.4,
+         {Vec3d(9, -5, 1.6), Vec3d(11, 3, 0.95)},
+         Floor::Own},
+        {"deformOnCard", deformOnCard, "walker.skin", 0.25, kFigure, Floor::Plain},
+        {"ownShader", ownShader, "walker.skin", 0.25, {Vec3d(-1.3, -3.3, 1.5), Vec3d(0, 0, 0.98)}},
+        {"shipAsOsgb", shipAsOsgb, "walker.skin", 0.75, kFigure},
+        {"convertScene",
+         convertScene,
+         "rig.osgt",
+         0.15,
+         {Vec3d(-0.7, -3.5, 1.7), Vec3d(-0.2, 0, 1.55)}},
+        {"largeWorld",
+         largeWorld,
+         "walker.skin",
+         0.5,
+         {Vec3d(-0.8, -4.6, 2.4), Vec3d(0, 0, 0.8)},
+         Floor::Own,
+         false,
+         onEarth()},
+    };
+    return all;
+}
+
+osg::ref_ptr<osg::Node> onStage(const Recipe& recipe, const std::string& file) {
+    const osg::ref_ptr<osg::Node> scene = recipe.make(file);
+    if (recipe.isWireframe)
+        scene->getOrCreateStateSet()->setAttribute(
+            new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+    if (recipe.floor == Floor::Own) return scene;
+    osg::ref_ptr<osg::Group> stage = new osg::Group;
+    if (recipe.floor == Floor::Shadowed)
+        stage = example::withShadow(scene);
+    else
+        stage->addChild(scene);
+    stage->addChild(example::makeFloor(4.0f));
+    return stage;
+}
+
+example::View viewOf(const Recipe& recipe) {
+    example::View view = recipe.view;
+    view.up = osg::Matrixd::transform3x3(view.up, recipe.place);
+    view.eye = view.eye * recipe.place;
+    view.centre = view.centre * recipe.place;
+    return view;
+}
+
+osg::ref_ptr<osg::Image> pictureOf(const Recipe& recipe, const std::string& folder) {
+    osg::ref_ptr<osg::Image> picture =
+        example::Snapshots(onStage(recipe, folder + "/" + recipe.sample), viewOf(recipe), 320, 240)
+            .take(recipe.time);
+    // Fewer shades, for small files.
+    for (unsigned int i = 0; i < picture->getTotalSizeInBytes(); ++i)
+        picture->data()[i] = static_cast<unsigned char>(picture->data()[i] / 8 * 8 + 4);
+    return picture;
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Snapshots.h"
+
+#include <osg/Node>
+#include <osg/ref_ptr>
+
+#include <string>
+#include <vector>
+
+/// The ground of a recipe's picture.
+enum class Floor { Own, Plain, Shadowed };
+
+/// A recipe, and how it is shown.
+struct Recipe {
+    const char* name; ///< of its function and its file
+    osg::ref_ptr<osg::Node> (*make)(const std::string& file);
+    const char* sample; ///< the character that it shows, see writeSamples()
+    double time;        ///< of its picture, seconds
+    example::View view; ///< of its picture, in metres above `place`
+    Floor floor = Floor::Shadowed;
+    bool isWireframe = false;
+    osg::Matrixd place{}; ///< from the view to the world
+};
+
+/// All recipes, in the order of the page.
+const std::vector<Recipe>& recipes();
+
+/// A recipe's scene on its stage: a light, and a floor where it has none of its own.
+/// \param file of the character
+osg::ref_ptr<osg::Node> onStage(const Recipe& recipe, const std::string& file);
+
+/// The camera of a recipe's picture, in the world.
+example::View viewOf(const Recipe& recipe);
+
+/// A recipe's picture, of 320 x 240 pixels.
+/// \param folder of writeSamples()
+osg::ref_ptr<osg::Image> pictureOf(const Recipe& recipe, const std::string& folder);

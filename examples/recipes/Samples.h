@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+/// Writes the characters that recipes show, made of the thrower in `data`, into `folder`:
+///
+/// | file | contents |
+/// |---|---|
+/// | `walker.skin`, `walk.bvh`, `wave.bvh` | the thrower's body with two clips that loop |
+/// | `coarse.skin`, `coarse.obj` | the same with a fifth of the triangles |
+/// | `face.osgb` | a standing figure with the morph targets "smile" and "blink" |
+/// | `rig.osgt` | an osgAnimation::RigGeometry with weights, and its clip |
+///
+/// \throw std::exception where a file cannot be read or written
+void writeSamples(const std::string& data, const std::string& folder);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinCharacter/LoadCharacter>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
+#include <osgText/Text>
+
+/// A figure that stands on the Earth, 6,371 kilometres from the origin of the world.
+osg::ref_ptr<osg::Node> largeWorld(const std::string& file) {
+    const osgSkin::Character character = osgSkin::loadCharacter(file);
+
+    // East, north and up at a place, in double precision: x, y and z of everything below.
+    osg::Matrixd place;
+    const osg::EllipsoidModel earth;
+    earth.computeLocalToWorldTransformFromLatLongHeight(osg::DegreesToRadians(37.57),
+                                                        osg::DegreesToRadians(126.98), 38.0, place);
+    const osg::ref_ptr<osg::MatrixTransform> here = new osg::MatrixTransform(place);
+    here->addChild(character.root);
+    here->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, -0.1f), 3, 3, 0.2f)));
+
+    const osg::ref_ptr<osgText::Text> text = new osgText::Text;
+    text->setText(std::to_string(int(place.getTrans().length())) + " m");
+    text->setPosition(osg::Vec3(-0.7f, -0.9f, 0.02f)); // in floats: near to its transform's origin
+    text->setCharacterSize(0.25f);
+    here->addChild(text);
+
+    const osg::ref_ptr<osg::Group> world = new osg::Group;
+    world->addChild(here);
+    return world;
+}

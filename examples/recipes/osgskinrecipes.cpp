@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "CommandLine.h"
+#include "DataFolder.h"
+#include "Recipes.h"
+#include "Samples.h"
+#include "WindowOptions.h"
+
+#include <osgGA/TrackballManipulator>
+#include <osgViewer/Viewer>
+#include <osgViewer/ViewerEventHandlers>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+namespace {
+
+int show(const Recipe& recipe, const std::string& file, osgViewer::Viewer& viewer,
+         const example::WindowOptions& window) {
+    viewer.setSceneData(onStage(recipe, file));
+    viewer.addEventHandler(new osgViewer::StatsHandler);
+    const example::View view = viewOf(recipe);
+    const osg::ref_ptr<osgGA::TrackballManipulator> camera = new osgGA::TrackballManipulator;
+    camera->setHomePosition(view.eye, view.centre, view.up);
+    viewer.setCameraManipulator(camera);
+    window.open(viewer);
+    return viewer.run();
+}
+
+void takePictures(const std::vector<Recipe>& chosen, const std::string& samples,
+                  const std::string& folder) {
+    for (const Recipe& recipe : chosen) {
+        const std::string file = folder + "/" + recipe.name + ".png";
+        example::writePicture(*pictureOf(recipe, samples), file);
+        std::cout << file << std::endl;
+    }
+}
+
+std::vector<Recipe> choose(const std::string& name) {
+    std::vector<Recipe> chosen;
+    std::string names;
+    for (const Recipe& recipe : recipes()) {
+        if (name.empty() || name == recipe.name) chosen.push_back(recipe);
+        names += names.empty() ? recipe.name : std::string(", ") + recipe.name;
+    }
+    if (chosen.empty())
+        throw std::runtime_error("no recipe is called \"" + name + "\"; expected one of " + names);
+    return chosen;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Shows a recipe: a short program for a usual task.", "osgskinrecipes");
+    app.set_version_flag("--version", example::versionText("osgskinrecipes"));
+    app.footer(std::string(example::kWindowHelp) +
+               "\nExit status: 0 done, 1 failed, 2 bad usage.");
+    std::string name, file, out, data = example::dataFolder();
+    bool list = false;
+    std::string samples =
+        (std::filesystem::temp_directory_path() / "osgskin-recipes").generic_string();
+    app.add_option("RECIPE", name, "the recipe; all with --out if none is named");
+    app.add_option("CHARACTER", file, "a character to show in place of the recipe's own");
+    app.add_flag("--list", list, "list the recipes");
+    app.add_option("--out", out, "write pictures to this folder; no window to look at");
+    app.add_option("--samples", samples, "folder for the characters that recipes show")
+        ->capture_default_str();
+    app.add_option("--data", data, "folder of the thrower, of whom they are made");
+    if (!example::hasNoEmptyWord("osgskinrecipes", argc, argv)) return 2;
+    try {
+        osg::ArgumentParser words(&argc, argv);
+        const example::WindowOptions window(words, 960, 720);
+        osgViewer::Viewer viewer(words);
+        app.parse(argc, argv);
+        const std::vector<Recipe> chosen = choose(name);
+        if (list || (name.empty() && out.empty())) {
+            for (const Recipe& recipe : chosen) std::cout << recipe.name << '\n';
+            return example::finish("osgskinrecipes", 0);
+        }
+        if (file.empty() || !out.empty()) writeSamples(data, samples);
+        if (out.empty())
+            return show(chosen.front(),
+                        file.empty() ? samples + "/" + chosen.front().sample : file, viewer,
+                        window);
+        takePictures(chosen, samples, out);
+        return example::finish("osgskinrecipes", 0);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const example::UsageError& error) {
+        std::cerr << "osgskinrecipes: " << error.what() << std::endl;
+        return 2;
+    } catch (const std::exception& error) {
+        std::cerr << "osgskinrecipes: " << error.what() << std::endl;
+        return 1;
+    }
+}

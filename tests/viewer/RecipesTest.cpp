@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Every recipe's picture is the one on its page, and the page has every recipe.
+#include "Recipes.h"
+#include "Pixels.h"
+#include "Samples.h"
+
+#include <osgSkin/SetMorph>
+#include <osgSkinCharacter/LoadCharacter>
+
+#include <gtest/gtest.h>
+#include <osgDB/ReadFile>
+
+#include <string>
+
+namespace {
+
+const std::string kPictures = OSGSKIN_EXAMPLES "/pictures/recipes/";
+const std::string kSamples = OSGSKIN_TEST_OUTPUT "/recipes";
+
+class Recipes : public testing::TestWithParam<Recipe> {
+protected:
+    static void SetUpTestSuite() { writeSamples(OSGSKIN_DATA, kSamples); }
+};
+
+} // namespace
+
+std::ostream& operator<<(std::ostream& out, const Recipe& recipe) {
+    return out << recipe.name;
+}
+
+TEST_P(Recipes, LookAsOnTheirPage) {
+    const osg::ref_ptr<osg::Image> expected =
+        osgDB::readRefImageFile(kPictures + GetParam().name + ".png");
+    ASSERT_TRUE(expected);
+    const osg::ref_ptr<osg::Image> picture = pictureOf(GetParam(), kSamples);
+    ASSERT_EQ(expected->s(), picture->s());
+    ASSERT_EQ(expected->t(), picture->t());
+    ASSERT_EQ(expected->getPixelFormat(), GLenum(GL_RGB));
+    // Drivers may smooth edges and rasterise shadows otherwise.
+    EXPECT_LE(test::unlikePixels(*picture, *expected), test::pixelCount(*expected) / 300);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Recipes, testing::ValuesIn(recipes()),
+                         [](const auto& each) { return std::string(each.param.name); });
+
+TEST(RecipeSamples, AreTheCharactersThatTheRecipesNeed) {
+    writeSamples(OSGSKIN_DATA, kSamples);
+    const osgSkin::Character walker = osgSkin::loadCharacter(kSamples + "/walker.skin");
+    ASSERT_EQ(walker.motions.size(), 2u);
+    EXPECT_EQ(walker.motions[0].name(), "walk");
+    EXPECT_EQ(walker.motions[1].name(), "wave");
+    for (const osgSkin::CharacterMotion& motion : walker.motions)
+        EXPECT_NEAR(motion.duration(), 1.0, 1e-4);
+    const osgSkin::Character coarse = osgSkin::loadCharacter(kSamples + "/coarse.skin");
+    EXPECT_LT(coarse.body.mesh.positions.size(), walker.body.mesh.positions.size() / 3);
+    EXPECT_TRUE(coarse.notes.empty());
+    const osg::ref_ptr<osg::Node> face = osgDB::readRefNodeFile(kSamples + "/face.osgb");
+    ASSERT_TRUE(face);
+    EXPECT_EQ(osgSkin::morphNames(*face), (std::vector<std::string>{"smile", "surprise"}));
+}
