@@ -161,8 +161,8 @@ public:
             if (!_body) return "the body has no known front";
             const double way = known.side == Options::Side::Flexor ? 1.0 : -1.0;
             options.towards = way * palm(*above, *hinge);
-            std::string reason = makeOfLimb(_skeleton, _joints, _bound, options, *above, *hinge,
-                                            known.peak, muscle);
+            std::string reason =
+                makeOfLimb(_skeleton, _joints, _bound, options, *above, *hinge, known.peak, muscle);
             if (reason.empty()) muscle.side = way * forearmSide(*above, *hinge);
             return withJoint(*hinge, reason);
         }
@@ -179,8 +179,8 @@ public:
         muscle.name = _side + "Deltoid";
         moveByTurning(_joints[*arm], _bound[*arm], *arm, _body->up, _body->front, 90.0, 150.0,
                       muscle);
-        setLine(centre(*arm) - 0.3 * bone, centre(*arm) + 0.55 * bone,
-                _outwards + 0.6 * _body->up, muscle);
+        setLine(centre(*arm) - 0.3 * bone, centre(*arm) + 0.55 * bone, _outwards + 0.6 * _body->up,
+                muscle);
         muscle.peak = 0.5;
         muscle.reach = 0.6 * length;
         muscle.growth = 0.03 * length;
@@ -243,8 +243,8 @@ public:
         muscle.peak = 0.5;
         muscle.widthAtOrigin = muscle.widthAtInsertion = 1.0 * aside;
         muscle.reach = 0.7 * length;
-        muscle.growth = 0.03 * length;
-        muscle.tension = 0.035 * length;
+        muscle.growth = 0.015 * length;
+        muscle.tension = 0.026 * length;
         return {};
     }
 
@@ -275,8 +275,7 @@ private:
                         const glm::dvec3& side, Muscle& muscle) {
         muscle.origin = origin;
         muscle.insertion = insertion;
-        muscle.side =
-            glm::normalize(perpendicular(side, glm::normalize(insertion - origin)));
+        muscle.side = glm::normalize(perpendicular(side, glm::normalize(insertion - origin)));
     }
 
     /// The thumb's direction from the hand, or the front without one; perpendicular to the forearm.
@@ -292,8 +291,7 @@ private:
 
     /// The direction that the palm faces, unit.
     glm::dvec3 palm(std::size_t elbow, std::size_t hand) const {
-        const glm::dvec3 across =
-            glm::cross(centre(hand) - centre(elbow), thumb(elbow, hand));
+        const glm::dvec3 across = glm::cross(centre(hand) - centre(elbow), thumb(elbow, hand));
         return glm::normalize(_isLeft ? across : -across);
     }
 

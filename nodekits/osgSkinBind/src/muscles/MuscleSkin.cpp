@@ -13,8 +13,8 @@
 namespace osgSkin {
 namespace {
 
-/// Cosines of the angle to the belly's side: from kBesides on, skin begins to lie over a muscle that
-/// wraps around its line, and from kOver on it lies fully over it.
+/// Cosines of the angle to the belly's side: from kBesides on, skin begins to lie over a muscle
+/// that wraps around its line, and from kOver on it lies fully over it.
 constexpr double kBesides = -0.25;
 constexpr double kOver = 0.9;
 
@@ -63,13 +63,12 @@ MuscleSkin::MuscleSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& 
                 distance > 0.0 ? glm::dot(fromLine, muscle.side) / distance : -1.0;
             return over * hermiteRatio((cosine - kBesides) / (kOver - kBesides));
         }
-        const double width = glm::mix(muscle.widthAtOrigin, muscle.widthAtInsertion,
-                                      glm::clamp(place, 0.0, 1.0));
+        const double width =
+            glm::mix(muscle.widthAtOrigin, muscle.widthAtInsertion, glm::clamp(place, 0.0, 1.0));
         const double aside = std::min(1.0, std::abs(glm::dot(fromLine, across)) / width);
         const double cosine = std::cos(glm::half_pi<double>() * aside);
         const double facing = glm::dot(normal, muscle.side);
-        return over * cosine * cosine *
-               hermiteRatio((facing - kFacesAway) / (kFaces - kFacesAway));
+        return over * cosine * cosine * hermiteRatio((facing - kFacesAway) / (kFaces - kFacesAway));
     };
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> indexOf(mesh.vertexCount(), kNone);
@@ -79,8 +78,7 @@ MuscleSkin::MuscleSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& 
         double over = overAt(d, mesh.normals[v], place) * bellyAt(place, muscle.peak) *
                       (1.0 - ratios.rigid(v, joints));
         if (muscle.isOfLimb()) {
-            const double limb =
-                ratios.bend(v, muscle.above) * (1.0 - ratios.bend(v, muscle.hinge));
+            const double limb = ratios.bend(v, muscle.above) * (1.0 - ratios.bend(v, muscle.hinge));
             if (!(limb > 0.0)) continue;
             over *= limb;
         } else if (!(over > 0.0)) {
