@@ -5,9 +5,10 @@
 #include <osgSkin/DeformJob>
 #include <osgSkin/Error>
 #include <osgSkinBind/Bind>
+#include <osgSkinRig/JointRoles>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
@@ -16,6 +17,8 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <tuple>
+#include <utility>
 
 using namespace osgSkin;
 
@@ -31,8 +34,8 @@ const CorrectiveJoint* driverOf(const Binding& binding, const std::string& joint
 /// A bound body that is posed by one joint and its inputs.
 class MuscleBody {
 public:
-    explicit MuscleBody(const BindOptions& options)
-        : binding(bind(body.mesh, body.truth, options)) {
+    explicit MuscleBody(const BindOptions& options, KnownBody of = KnownBody::thrower())
+        : body(std::move(of)), binding(bind(body.mesh, body.truth, options, &report)) {
         std::vector<std::uint32_t> source(body.mesh.positions.size());
         std::iota(source.begin(), source.end(), 0u);
         _model =
@@ -77,24 +80,29 @@ public:
         return result;
     }
 
-    /// The girth of the limb above a joint, halfway along its bone.
-    double girth(const std::string& name, const std::vector<glm::vec3>& skin) const {
+    /// The length of the loop of skin that is around the limb above a joint at rest, at this
+    /// fraction of the bone.
+    double girth(const std::string& name, const std::vector<glm::vec3>& skin,
+                 double fraction = 0.55) const {
         const BoundJoint& hinge = binding.joints[joint(name)];
         const glm::dvec3 begin = binding.joints[std::size_t(hinge.parent)].centre;
-        const glm::dvec3 middle = 0.5 * (begin + hinge.centre);
+        const glm::dvec3 middle = glm::mix(begin, hinge.centre, fraction);
         const glm::dvec3 along = glm::normalize(hinge.centre - begin);
         const double near = 0.45 * glm::length(hinge.centre - begin);
         double girth = 0.0;
         const std::vector<std::uint32_t> corners = body.mesh.triangles();
         for (std::size_t t = 0; t < corners.size(); t += 3) {
-            glm::dvec3 cut[2];
+            glm::dvec3 cut[2], atRest[2];
             int found = 0;
             for (std::size_t c = 0; c < 3 && found < 2; ++c) {
-                const glm::dvec3 p(skin[corners[t + c]]), q(skin[corners[t + (c + 1) % 3]]);
+                const std::uint32_t a = corners[t + c], b = corners[t + (c + 1) % 3];
+                const glm::dvec3 p = body.mesh.positions[a], q = body.mesh.positions[b];
                 const double h = glm::dot(p - middle, along), k = glm::dot(q - middle, along);
-                if ((h < 0.0) != (k < 0.0)) cut[found++] = p + (q - p) * (h / (h - k));
+                if ((h < 0.0) == (k < 0.0)) continue;
+                atRest[found] = glm::mix(p, q, h / (h - k));
+                cut[found++] = glm::mix(glm::dvec3(skin[a]), glm::dvec3(skin[b]), h / (h - k));
             }
-            if (found == 2 && glm::length(cut[0] - middle) < near)
+            if (found == 2 && glm::length(atRest[0] - middle) < near)
                 girth += glm::length(cut[1] - cut[0]);
         }
         return girth;
@@ -111,14 +119,8 @@ public:
         return volume;
     }
 
-    /// Volume of the limb above a joint, as a cylinder.
-    double limbVolume(const std::string& name, double girth) const {
-        const BoundJoint& hinge = binding.joints[joint(name)];
-        return girth * girth / (4.0 * glm::pi<double>()) *
-               glm::length(hinge.centre - binding.joints[std::size_t(hinge.parent)].centre);
-    }
-
-    KnownBody body = KnownBody::thrower();
+    KnownBody body;
+    BindReport report;
     Binding binding;
 
 private:
@@ -154,6 +156,9 @@ protected:
     }
 };
 
+/// MakeHuman's bodies, each with one of its rigs.
+class MusclesOfBodies : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
 } // namespace
 
 TEST_P(Biceps, GrowsAsArmsDo) {
@@ -171,13 +176,32 @@ TEST_P(Biceps, GrowsAsArmsDo) {
     }
 }
 
-TEST_P(Biceps, KeepsItsVolume) {
+TEST_P(Biceps, TapersIntoTendonsThatDoNotShrinkTheArm) {
+    const auto flexed = muscles.posed(elbow, axis, 120.0), still = plain.posed(elbow, axis, 120.0);
+    double most = 0.0;
+    int thick = 0;
+    for (int percent = 20; percent <= 85; percent += 5) {
+        const double at = 0.01 * percent;
+        const double growth =
+            muscles.girth(elbow, flexed, at) / plain.girth(elbow, still, at) - 1.0;
+        EXPECT_GE(growth, -1e-6) << percent;
+        most = std::max(most, growth);
+        if (growth > 0.05) ++thick;
+    }
+    // The belly is over most of the bone, not a ball on it.
+    EXPECT_GE(thick, 8);
+    for (const double end : {0.1, 0.97})
+        EXPECT_NEAR(muscles.girth(elbow, flexed, end) / plain.girth(elbow, still, end), 1.0,
+                    0.25 * most)
+            << end;
+}
+
+TEST_P(Biceps, KeepsTheBodysVolume) {
     for (const double degrees : {20.0, 60.0, 90.0, 120.0, 140.0})
         for (const float tensed : {0.0f, 1.0f}) {
-            const auto with = muscles.posed(elbow, axis, degrees, {{name, tensed}});
-            const auto still = plain.posed(elbow, axis, degrees);
-            EXPECT_NEAR(muscles.volume(with), plain.volume(still),
-                        0.01 * plain.limbVolume(elbow, plain.girth(elbow, still)))
+            const double with =
+                muscles.volume(muscles.posed(elbow, axis, degrees, {{name, tensed}}));
+            EXPECT_NEAR(with / plain.volume(plain.posed(elbow, axis, degrees)), 1.0, 0.01)
                 << degrees << ", " << tensed;
         }
 }
@@ -201,15 +225,115 @@ TEST_P(Biceps, SwellsWhereItIsTensed) {
 INSTANTIATE_TEST_SUITE_P(Arms, Biceps, testing::Values("Left", "Right"),
                          [](const auto& arm) { return std::string(arm.param); });
 
-TEST(Muscles, AreMadeForArmsAndLegs) {
-    const Correctives correctives = MuscleBody(withMuscles()).binding.correctives;
+TEST_P(MusclesOfBodies, GrowAsArmsDo) {
+    const std::string shape = std::get<0>(GetParam()), rig = std::get<1>(GetParam());
+    const KnownBody body = KnownBody::shared("body4k_" + shape, rig + "_" + shape);
+    if (body.mesh.positions.empty())
+        GTEST_SKIP() << "needs MakeHuman's bodies in " << OSGSKIN_SHARED_DATA;
+    const MuscleBody muscles(withMuscles(), body), plain(without(), body);
+    const JointRoles roles = recogniseJoints(body.truth);
+    EXPECT_EQ(muscles.binding.correctives.inputs.size(), 22u);
+    for (const std::string side : {"Left", "Right"}) {
+        const std::string elbow =
+            body.truth.joints[std::size_t(roles.joints.at(side + "LowerArm").front())].name;
+        const CorrectiveJoint* driver =
+            driverOf(muscles.binding, elbow, CorrectiveJoint::Basis::Hinge);
+        ASSERT_TRUE(driver);
+        const auto flexed = muscles.posed(elbow, driver->axis, 120.0);
+        const auto still = plain.posed(elbow, driver->axis, 120.0);
+        double most = 0.0;
+        for (int percent = 20; percent <= 85; percent += 5) {
+            const double at = 0.01 * percent;
+            const double growth =
+                muscles.girth(elbow, flexed, at) / plain.girth(elbow, still, at) - 1.0;
+            EXPECT_GE(growth, -1e-6) << side << percent;
+            most = std::max(most, growth);
+        }
+        EXPECT_GT(most, 0.08) << side;
+        EXPECT_LT(most, 0.15) << side;
+        const auto tensed = muscles.posed(elbow, driver->axis, 75.0, {{side + "Biceps", 1.0f}});
+        const auto loose = muscles.posed(elbow, driver->axis, 75.0);
+        EXPECT_GT(muscles.girth(elbow, tensed) / muscles.girth(elbow, loose), 1.05) << side;
+        EXPECT_NEAR(muscles.volume(flexed) / plain.volume(still), 1.0, 0.01) << side;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, MusclesOfBodies,
+                         testing::Combine(testing::Values("neutral", "male", "female", "child",
+                                                          "female_old", "male_heavy"),
+                                          testing::Values("cmu_mb", "game_engine")),
+                         [](const auto& body) {
+                             return std::string(std::get<0>(body.param)) + "_" +
+                                    std::get<1>(body.param);
+                         });
+
+TEST(Muscles, AreMadeForArmsLegsAndTrunk) {
+    const MuscleBody body(withMuscles());
+    const Correctives& correctives = body.binding.correctives;
     for (const char* side : {"Left", "Right"})
-        for (const char* name : {"Biceps", "Triceps", "Quadriceps", "Hamstrings", "Calf"})
+        for (const char* name :
+             {"Biceps", "Triceps", "ForearmFlexors", "ForearmExtensors", "Quadriceps", "Hamstrings",
+              "Calf", "Deltoid", "Pectoral", "Trapezius", "Gluteus"})
             EXPECT_EQ(std::count(correctives.inputs.begin(), correctives.inputs.end(),
                                  std::string(side) + name),
                       1)
                 << side << name;
-    EXPECT_EQ(correctives.inputs.size(), 10u);
+    EXPECT_EQ(correctives.inputs.size(), 22u);
+    for (const char* joint :
+         {"LeftShoulder", "RightShoulder", "LeftArm", "RightArm", "LeftUpLeg", "RightUpLeg"})
+        EXPECT_TRUE(driverOf(body.binding, joint, CorrectiveJoint::Basis::Round)) << joint;
+    for (const char* joint : {"LeftHand", "RightHand", "LeftFoot", "RightFoot"})
+        EXPECT_TRUE(driverOf(body.binding, joint, CorrectiveJoint::Basis::Hinge)) << joint;
+}
+
+TEST(Muscles, LiftTheSkinOverThemOnTheirOwnSide) {
+    const MuscleBody body(withMuscles());
+    const glm::dvec3 any(1.0, 0.0, 0.0);
+    const double elbow = 0.0; // its bend does not matter
+    const auto relaxed = body.posed("LeftForeArm", any, elbow);
+    const struct {
+        const char* name;
+        glm::dvec3 way; ///< of a body that faces +z
+    } kTrunk[] = {{"Deltoid", {0, 1, 0}},
+                  {"Pectoral", {0, 0, 1}},
+                  {"Trapezius", {0, 1, 0}},
+                  {"Gluteus", {0, 0, -1}}};
+    for (const auto& muscle : kTrunk) {
+        double sizes[2];
+        for (const int side : {0, 1}) {
+            const std::string name = (side ? "Right" : "Left") + std::string(muscle.name);
+            const auto tensed = body.posed("LeftForeArm", any, elbow, {{name, 1.0f}});
+            glm::dvec3 moved(0.0);
+            sizes[side] = 0.0;
+            for (std::size_t v = 0; v < tensed.size(); ++v) {
+                const glm::dvec3 d = glm::dvec3(tensed[v]) - glm::dvec3(relaxed[v]);
+                const double x = body.body.mesh.positions[v].x * (side ? -1.0 : 1.0);
+                EXPECT_TRUE(glm::length(d) < 1e-6 || x > -0.02) << name;
+                moved += d;
+                sizes[side] = std::max(sizes[side], glm::length(d));
+            }
+            EXPECT_GT(glm::dot(glm::normalize(moved), muscle.way), 0.4) << name;
+        }
+        EXPECT_GT(sizes[0], 1e-3) << muscle.name;
+        EXPECT_NEAR(sizes[1] / sizes[0], 1.0, 0.1) << muscle.name;
+    }
+}
+
+TEST(Muscles, NoMoreAreMadeThanASkinHasRoomFor) {
+    BindOptions options = withMuscles();
+    for (int i = 0; i < 30; ++i)
+        options.ownMuscles.push_back(
+            {"Own" + std::to_string(i), "LeftForeArm", {}, {}, 0.1, 0.9, 0.1, 0.1});
+    const MuscleBody body(options);
+    EXPECT_LE(body.binding.correctives.joints.size(), Correctives::kMaxJoints);
+    const auto isLeftOut = [&](const std::string& name) {
+        return std::any_of(body.report.notes.begin(), body.report.notes.end(),
+                           [&](const std::string& note) {
+                               return note.find("muscle " + name + " is left out: a skin has") == 0;
+                           });
+    };
+    EXPECT_FALSE(isLeftOut("Own0"));
+    EXPECT_TRUE(isLeftOut("RightGluteus"));
 }
 
 TEST(Muscles, AreOffByDefault) {

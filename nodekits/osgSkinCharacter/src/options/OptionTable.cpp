@@ -236,7 +236,7 @@ std::vector<Option> makeTable() {
              "10 to 30 seconds, and is kept in the cache folder"},
             &LoadOptions::shapes,
             {{"none", Shapes::None}, {"fast", Shapes::Fast}, {"elastic", Shapes::Elastic}}),
-        onOff({"muscles", "off", "biceps, triceps, quadriceps, hamstrings and calves swell"},
+        onOff({"muscles", "off", "muscles of arms, legs, chest, shoulders and buttocks swell"},
               &LoadOptions::muscles),
         withFormerValue(choice<std::optional<bool>, bool>(
                             {"normals", "surface; rotated with paper and weights",
