@@ -367,7 +367,7 @@ TEST(TestModels, AllOthersAreRefusedWithAReason) {
             const bool known =
                 std::any_of(std::begin(kRigged), std::end(kRigged),
                             [&](const Rigged& rigged) { return name == rigged.file; });
-            EXPECT_TRUE(known) << name << " is rigged, and not on the list";
+            EXPECT_TRUE(known || !isAssimp52()) << name << " is rigged, and not on the list";
         } catch (const osgSkin::Error& error) {
             const std::string what = error.what();
             EXPECT_EQ(what.rfind(file.string() + ": ", 0), 0u) << what;
@@ -376,7 +376,7 @@ TEST(TestModels, AllOthersAreRefusedWithAReason) {
             ++reasons[what.substr(file.string().size() + 2, 30)];
         }
     }
-    EXPECT_EQ(read, std::size(kRigged));
+    EXPECT_GE(read, std::size(kRigged));
     EXPECT_GT(reasons["no mesh with bones, expected a"], 200u);
 }
 

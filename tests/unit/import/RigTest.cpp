@@ -213,6 +213,8 @@ TEST_P(RigRoundTrip, BonesAgreeWithAssimpsNodes) {
     const Case& c = GetParam();
     const std::string path = c.file[0] == '/' ? c.file : testData(c.file);
     OSGSKIN_NEEDS(path);
+    if (path.find(".gltf") != std::string::npos && !isAssimp52())
+        GTEST_SKIP() << "needs Assimp 5.2, which keeps the order of vertices";
     const osgSkin::ImportedRig rig = osgSkin::importRig(path);
     Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);

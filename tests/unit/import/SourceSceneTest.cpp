@@ -115,6 +115,7 @@ void expectSame(const SourceScene& a, const SourceScene& b) {
 } // namespace
 
 TEST(SourceScene, GltfIsWhatAssimpReads) {
+    if (!isAssimp52()) GTEST_SKIP() << "needs Assimp 5.2, which keeps the order of vertices";
     const std::string models = "/usr/share/assimp/models/glTF2/";
     for (const std::string& file :
          {testData("rig/tube.gltf"), testData("rig/posed.gltf"), testData("rig/unskinned.gltf"),

@@ -116,9 +116,9 @@ HWY_INLINE V angleOf(const V& y, const V& x) {
     // Into the middle half of an eighth of a turn: tan(a - pi / 4) = (tan a - 1) / (tan a + 1).
     const auto steep = hn::Gt(up, x);
     const V low = hn::Min(up, x), high = hn::Max(up, x);
-    const auto far = hn::Gt(low, hn::Mul(all(0.41421356237309503), high));
-    const V t = hn::Div(hn::IfThenElse(far, hn::Sub(low, high), low),
-                        hn::IfThenElse(far, hn::Add(low, high), high));
+    const auto beyond = hn::Gt(low, hn::Mul(all(0.41421356237309503), high));
+    const V t = hn::Div(hn::IfThenElse(beyond, hn::Sub(low, high), low),
+                        hn::IfThenElse(beyond, hn::Add(low, high), high));
     // Chebyshev's fit of atan(t) / t to t^2 there, within 4e-17; even and odd powers at a time.
     const V z = hn::Mul(t, t), zz = hn::Mul(z, z);
     const auto sum = [&](std::initializer_list<double> terms) HWY_ATTR {
@@ -132,7 +132,7 @@ HWY_INLINE V angleOf(const V& y, const V& x) {
     const V even = sum({-0.04348052215716462478, -0.06640233930429408589, -0.0909077307480841379,
                         -0.1428571418097646683, -0.3333333333332843857});
     V angle = hn::MulAdd(t, hn::Mul(z, hn::MulAdd(odd, z, even)), t);
-    angle = hn::Add(angle, hn::IfThenElseZero(far, all(0.78539816339744831)));
+    angle = hn::Add(angle, hn::IfThenElseZero(beyond, all(0.78539816339744831)));
     angle = hn::IfThenElse(steep, hn::Sub(all(1.5707963267948966), angle), angle);
     return hn::CopySign(angle, y);
 }

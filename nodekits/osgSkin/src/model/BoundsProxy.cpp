@@ -562,19 +562,19 @@ private:
             _vertices.ratiosOf(_rows[i], _ranges, _ratios.data() + i * count);
             // Rotations keep the distances between neighbouring centres.
             glm::vec3 from = _vertices.position(_rows[i]);
-            float far = 0.0f;
+            float reach = 0.0f;
             for (std::size_t k = count; k-- > 0;) {
                 const glm::vec3 centre(_joints[_ranges[k].joint].centre);
-                far += glm::distance(centre, from);
+                reach += glm::distance(centre, from);
                 from = centre;
-                _far[i * count + k] = far;
+                _far[i * count + k] = reach;
             }
         }
     }
     /// Adds how far vertices deviate by the k-th joint, alone and with others.
     void addStrays(std::size_t k, const std::vector<float>& ratios, std::vector<Share>& all) const {
         const BoundJoint& joint = _joints[_ranges[k].joint];
-        float high = 0.0f, far = 0.0f;
+        float high = 0.0f, reach = 0.0f;
         std::vector<float> pairs(_ranges.size(), 0.0f); // with other joints
         for (std::size_t row = 0; row < _rows.size(); ++row) {
             const glm::vec3& x = _vertices.position(_rows[row]);
@@ -585,13 +585,13 @@ private:
             all[k].bend = std::max(all[k].bend, bend * fromCentre(joint, x));
             all[k].twist = std::max(all[k].twist, twist * fromTwistAxis(joint, x));
             high = std::max(high, fromCentre(joint, x));
-            far = std::max(far, most[k]);
+            reach = std::max(reach, most[k]);
             if (bend == 0.0f && twist == 0.0f) continue;
             for (std::size_t i = k + 1; i < _ranges.size(); ++i)
                 pairs[i] = std::max(pairs[i], std::max(bend, twist) *
                                                   std::max(own[i].bend, own[i].twist) * most[i]);
         }
-        all[k].square += 0.5f * ratios[k] * (1.0f - ratios[k]) * far;
+        all[k].square += 0.5f * ratios[k] * (1.0f - ratios[k]) * reach;
         std::vector<bool> isAbove(k, false);
         for (std::size_t i = _above[k]; i < k; i = _above[i]) isAbove[i] = true;
         for (std::size_t i = 1; i < k; ++i)
@@ -601,19 +601,19 @@ private:
             all[k].square += 0.5f * pairs[i];
         }
     }
-    /// Limits _far by how far the joints applied before can move a vertex by its own ratios or the
-    /// piece's (a bend is at most pi, a twist 2 pi).
+    /// Limits _far by how far the joints applied before can move a vertex by its own ratios or
+    /// the piece's (a bend is at most pi, a twist 2 pi).
     void limitFar(const std::vector<float>& ratios) {
         for (std::size_t row = 0; row < _rows.size(); ++row) {
             const glm::vec3& x = _vertices.position(_rows[row]);
             const SkinModel::Ratio* const own = ratiosOf(row);
-            float* const far = _far.data() + row * _ranges.size();
+            float* const reach = _far.data() + row * _ranges.size();
             float moved = 0.0f;
             for (std::size_t k = _ranges.size(); k-- > 0;) {
-                far[k] = std::min(far[k], fromCentre(_joints[_ranges[k].joint], x) + moved);
+                reach[k] = std::min(reach[k], fromCentre(_joints[_ranges[k].joint], x) + moved);
                 const float bend = std::max(own[k].bend, ratios[k]);
                 const float twist = std::max(own[k].twist, ratios[k]);
-                moved += std::min(2.0f, 3.15f * bend + 6.3f * twist) * far[k];
+                moved += std::min(2.0f, 3.15f * bend + 6.3f * twist) * reach[k];
             }
         }
     }
@@ -876,11 +876,11 @@ std::shared_ptr<const BoundsProxy> makeBoundsProxy(const SkinModel& model) {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    const glm::vec3 size = high - low, far = glm::max(glm::abs(low), glm::abs(high));
+    const glm::vec3 size = high - low, outermost = glm::max(glm::abs(low), glm::abs(high));
     const float extent = std::max({size.x, size.y, size.z});
     const std::shared_ptr<BoundsProxy> proxy = std::make_shared<BoundsProxy>();
-    const float largest =
-        std::max({extent, far.x, far.y, far.z, std::numeric_limits<float>::min()});
+    const float largest = std::max(
+        {extent, outermost.x, outermost.y, outermost.z, std::numeric_limits<float>::min()});
     proxy->noTravel = 2e-6f * largest;
     proxy->rounding = 1.5e-5f * largest;
     const PieceVertices vertices(model);

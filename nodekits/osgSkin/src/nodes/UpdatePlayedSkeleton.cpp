@@ -135,7 +135,7 @@ Value sample(Element& element, double time, std::ptrdiff_t step) {
     // The last key of all and the first are in other memory: they are looked at only if the time is
     // not near the last one's.
     std::size_t k = element.cursor + static_cast<std::size_t>(step);
-    for (std::size_t near = 0; near < kNearKeys && !isAt(k); ++near) ++k;
+    for (std::size_t tried = 0; tried < kNearKeys && !isAt(k); ++tried) ++k;
     if (!isAt(k)) {
         if (time >= keys[count - 1].getTime()) return keys[count - 1].getValue();
         if (time <= keys[0].getTime()) return keys[0].getValue();

@@ -266,12 +266,12 @@ HWY_INLINE Angles split(const PoseCall& call, std::size_t first, const Quaternio
 
 /// `twist` or 2 pi more or less, see Pose::Twist.
 HWY_INLINE Joints continued(const Joints& before, const Joints& twist) {
-    const Joints turn = each(6.283185307179586477), near = each(0.25 * 6.283185307179586477);
+    const Joints turn = each(6.283185307179586477), quarter = each(0.25 * 6.283185307179586477);
     const Joints limit = each(0.75 * 6.283185307179586477); // else twists would wind up
     Joints result = twist;
     const auto choose = [&](const Joints& angle) HWY_ATTR {
-        const JointMask good =
-            hn::And(hn::Lt(hn::Abs(angle), limit), hn::Le(hn::Abs(hn::Sub(angle, before)), near));
+        const JointMask good = hn::And(hn::Lt(hn::Abs(angle), limit),
+                                       hn::Le(hn::Abs(hn::Sub(angle, before)), quarter));
         result = hn::IfThenElse(good, angle, result);
     };
     // The last one in range wins.

@@ -242,7 +242,7 @@ public:
         wanted.reserve(targets.size());
         for (const aiAnimMesh* target : targets)
             wanted.push_back(target->mName.length > 0
-                                 ? target->mName.C_Str()
+                                 ? nameOf(*target)
                                  : mesh.name + "-" + std::to_string(wanted.size()));
         const std::vector<std::string> names =
             _names.of(wanted, std::vector<float>(wanted.size(), 0.0f));
@@ -291,6 +291,13 @@ public:
     }
 
 private:
+    /// Assimp 5.4 calls an FBX shape "smile" of a channel "smile" "smile.smile".
+    static std::string nameOf(const aiAnimMesh& target) {
+        const std::string name = target.mName.C_Str();
+        const std::string half = name.substr(0, name.size() / 2);
+        return name == half + "." + half ? half : name;
+    }
+
     /// An FBX channel may have several shapes, all with its name, of which the last one is that of
     /// its full weight. Channels are numbered without the others.
     std::vector<const aiAnimMesh*> targetsOf(const aiMesh& source) {
