@@ -49,6 +49,6 @@ grep -q 'libosgskin0.2' "$folder/libosgskinbind0.2.depends" || fail "binding nee
 grep -q 'libosgskinbind0.2' "$folder/osgskin-plugin.depends" || fail "the plug-in needs the kits"
 grep -q generator "$folder/osgskin-tools.txt" && fail "osgskin-tools holds sources"
 if command -v help2man >/dev/null; then
-  [ "$(grep -c 'man/man1/osgskin.*\.1' "$folder/osgskin-tools.txt")" -eq 6 ] || fail "a man page is missing"
+  [ "$(grep -c 'man/man1/osgskin.*\.1' "$folder/osgskin-tools.txt")" -eq 7 ] || fail "a man page is missing"
 fi
 echo "Eight packages"
