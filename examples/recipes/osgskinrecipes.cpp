@@ -57,8 +57,7 @@ std::vector<Recipe> choose(const std::string& name) {
 int main(int argc, char** argv) {
     CLI::App app("Shows a recipe: a short program for a usual task.", "osgskinrecipes");
     app.set_version_flag("--version", example::versionText("osgskinrecipes"));
-    app.footer(std::string(example::kWindowHelp) +
-               "\nExit status: 0 done, 1 failed, 2 bad usage.");
+    app.footer(std::string(example::kWindowHelp) + "\nExit status: 0 done, 1 failed, 2 bad usage.");
     std::string name, file, out, data = example::dataFolder();
     bool list = false;
     std::string samples =
@@ -83,9 +82,8 @@ int main(int argc, char** argv) {
         }
         if (file.empty() || !out.empty()) writeSamples(data, samples);
         if (out.empty())
-            return show(chosen.front(),
-                        file.empty() ? samples + "/" + chosen.front().sample : file, viewer,
-                        window);
+            return show(chosen.front(), file.empty() ? samples + "/" + chosen.front().sample : file,
+                        viewer, window);
         takePictures(chosen, samples, out);
         return example::finish("osgskinrecipes", 0);
     } catch (const CLI::ParseError& error) {
