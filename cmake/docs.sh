@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# docs.sh FOLDER: writes the reference as HTML to FOLDER/html, with Doxygen. Fails on a warning. The
-# build target `docs` calls it.
+# docs.sh FOLDER: writes the site to FOLDER/html: the pages, and in FOLDER/html/reference the reference by
+# Doxygen. Fails on a warning of Doxygen, and on a link that leads nowhere. The build target `docs` calls it.
 set -euo pipefail
 osgskin_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 folder=${1:?expected a folder}
-mkdir -p "$folder"
+rm -rf "$folder/html"
+mkdir -p "$folder/html"
 folder=$(cd "$folder" && pwd)
 cd "$osgskin_root"
 . cmake/setup.sh
-osgskin_install doxygen
+osgskin_install doxygen python3-markdown-it
 
 headers='' includes='' exports=''
 for kit in nodekits/*/include/*; do
@@ -20,4 +21,5 @@ done
 sed -e "s|@output@|$folder|" -e "s|@headers@|$headers|" -e "s|@includes@|$includes|" \
   -e "s|@exports@|$exports|" cmake/Doxyfile.in >"$folder/Doxyfile"
 doxygen "$folder/Doxyfile"
-echo "The reference: $folder/html/index.html"
+/usr/bin/python3 cmake/site.py . "$folder/html" # Debian's Python has the package
+echo "The site: $folder/html/index.html"

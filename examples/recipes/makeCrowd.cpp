@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinGpu/GpuCrowd>
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
+#include <osgDB/ReadFile>
+
+#include <stdexcept>
 
 namespace {
 
@@ -19,9 +21,12 @@ struct PlayCrowd : osg::NodeCallback {
 } // namespace
 
 /// A thousand members of one character, each in its own phase of one of two clips.
+///
+/// \param file any character, such as a .skin, a .glb.skin or a saved one
 osg::ref_ptr<osg::Node> makeCrowd(const std::string& file) {
-    const osgSkin::Character loaded = osgSkin::loadCharacter(file);
-    const auto character = osgSkin::CrowdCharacter::create(*loaded.root);
+    const osg::ref_ptr<osg::Node> loaded = osgDB::readRefNodeFile(file);
+    if (!loaded) throw std::runtime_error(file + ": cannot be read");
+    const auto character = osgSkin::CrowdCharacter::create(*loaded);
     const osg::ref_ptr<osgSkin::GpuCrowd> crowd = new osgSkin::GpuCrowd(character);
     std::vector<osgSkin::CrowdInstance> members(1000);
     for (std::size_t i = 0; i < members.size(); ++i) {

@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     app.add_option("CHARACTER", file, "a character to show in place of the recipe's own");
     app.add_flag("--list", list, "list the recipes");
     app.add_option("--out", out, "write pictures to this folder; no window to look at");
-    app.add_option("--samples", samples, "folder for the characters that recipes show")
+    app.add_option("--characters", samples, "folder for the characters that recipes show")
         ->capture_default_str();
     app.add_option("--data", data, "folder of the thrower, of whom they are made");
     if (!example::hasNoEmptyWord("osgskinrecipes", argc, argv)) return 2;
