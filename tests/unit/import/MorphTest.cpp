@@ -539,7 +539,10 @@ Connections:  {
     const test::Notices notices;
     const ImportedRig rig = osgSkin::importRig(path);
     EXPECT_EQ(notices.lines(), 0u) << notices.text();
-    EXPECT_EQ(namesOf(rig.body), (std::vector<std::string>{"wide", "tall"}));
+    // Assimp 5.4 keeps channels in a set of pointers, in any order.
+    std::vector<std::string> names = namesOf(rig.body);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{"tall", "wide"}));
     // Assimp gives each corner a vertex of its own.
     const auto wide = offsetsOf(rig.body, "wide"), tall = offsetsOf(rig.body, "tall");
     EXPECT_EQ(wide.size(), 3u);

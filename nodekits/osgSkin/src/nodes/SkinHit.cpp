@@ -71,7 +71,8 @@ std::string jointOf(const SkinModel& model, const SkinHit& hit) {
     for (std::size_t i = 0; i < 3; ++i) addBends(model, hit.vertices[i], hit.ratios[i], bends);
     const auto last =
         std::find_if(bends.rbegin(), bends.rend(), [](double bend) { return bend >= 0.5; });
-    return last == bends.rend() ? "" : model.joints()[bends.rend() - last - 1].name;
+    if (last == bends.rend()) return "";
+    return model.joints()[static_cast<std::size_t>(bends.rend() - last - 1)].name;
 }
 
 /// From the drawable at the end of a path to rest space, by its bone.
