@@ -41,10 +41,13 @@ const struct LimbMuscle {
     {"Calf", "LowerLeg", "Foot", Options::Side::Extensor, 0.0, 0.8, 0.3, 0.05, 0.05},
 };
 
-/// Bends at which growth is given, in degrees: of a flexor's hinge from straight, but not nearer to
-/// the rest pose than kLeastFlexion; of other hinges from the rest pose.
+/// A flexor reaches its growth where its hinge is bent by this angle from straight, in degrees.
 constexpr double kFlexion = 120.0;
+
+/// The least angle between that bend and the rest pose, in degrees.
 constexpr double kLeastFlexion = 45.0;
+
+/// Other muscles reach their growth at this angle from the rest pose, in degrees.
 constexpr double kBend = 45.0;
 
 /// A muscle goes on to contract beyond that bend, up to this multiple of it.
