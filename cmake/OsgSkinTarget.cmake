@@ -19,7 +19,9 @@ function(osgskin_settings target)
       NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
   else()
     target_compile_options(${target} PRIVATE
-      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>)
+      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>
+      # Kernels ask for -O3: elsewhere it takes time to compile and gains nothing.
+      $<$<CONFIG:Release>:-O2>)
   endif()
   if(OSGSKIN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)
@@ -46,10 +48,33 @@ function(osgskin_settings target)
     POSITION_INDEPENDENT_CODE ON)
 endfunction()
 
+# osgskin_unity(TARGET): with OSGSKIN_UNITY, compiles the sources of each folder of src as one unit. Most
+# of a source's time is spent in OSG's headers. Sources that include CGAL or Highway stay alone: these
+# are slow to compile, and should be compiled on several processors.
+function(osgskin_unity target)
+  if(NOT OSGSKIN_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # A unit has no main file, whose private classes may have members from unnamed namespaces.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    if(source MATCHES "^src/(.+)/[^/]+[.]cpp$")
+      set(folder "${CMAKE_MATCH_1}")
+      file(STRINGS "${source}" alone REGEX "#include [<\"](CGAL|hwy)/" LIMIT_COUNT 1)
+      if(NOT alone)
+        set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}")
+      endif()
+    endif()
+  endforeach()
+endfunction()
+
 # osgskin_nodekit(NAME): settings of the shared library nodekits/NAME with the headers include/NAME.
 function(osgskin_nodekit name)
   string(TOUPPER ${name} upper)
   osgskin_settings(${name})
+  osgskin_unity(${name})
   target_compile_definitions(${name} PRIVATE ${upper}_LIBRARY)
   target_include_directories(${name} PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
