@@ -27,6 +27,13 @@ function(osgskin_test name)
     PROPERTIES LABELS ${label} ENVIRONMENT "OSG_LIBRARY_PATH=${PROJECT_BINARY_DIR}/lib")
 endfunction()
 
+# osgskin_slow_tests(NAME...): at the end of a folder, makes its tests by add_test() slow, except those named.
+function(osgskin_slow_tests)
+  get_property(tests DIRECTORY PROPERTY TESTS)
+  list(REMOVE_ITEM tests "" ${ARGN})
+  set_property(TEST ${tests} APPEND PROPERTY LABELS slow)
+endfunction()
+
 # osgskin_precompile(TARGET): saves GCC half of the time that it needs for a test program, which is
 # more than that needs to run: -O1, and the headers that take most of it, precompiled once for all.
 function(osgskin_precompile target)
