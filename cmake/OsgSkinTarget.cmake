@@ -19,9 +19,7 @@ function(osgskin_settings target)
       NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
   else()
     target_compile_options(${target} PRIVATE
-      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>
-      # Kernels ask for -O3: elsewhere it takes time to compile and gains nothing.
-      $<$<CONFIG:Release>:-O2>)
+      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>)
   endif()
   if(OSGSKIN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "CommandLine.h"
 
+#include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/Version>
 
