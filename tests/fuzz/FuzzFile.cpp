@@ -26,6 +26,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::attempt([&] { osgSkin::importMesh(path); });
     fuzz::attempt([&] { osgSkin::importSkeleton(path); });
     fuzz::attempt([&] { osgSkin::importMotion(path); });
-    if (osgSkin::isReadByAssimp(path)) fuzz::attempt([&] { osgSkin::importRig(path); });
+    if (osgSkin::hasImporter(path)) fuzz::attempt([&] { osgSkin::importRig(path); });
     return 0;
 }

@@ -113,9 +113,9 @@ const Dialect kSame[] = {
      [](const std::string& t) { return replaced(t, " 40 50 60", " +40 50. +60.0"); }},
 };
 
-class SameMotion : public testing::TestWithParam<Dialect> {};
+class BvhVariant : public testing::TestWithParam<Dialect> {};
 
-TEST_P(SameMotion, IsRead) {
+TEST_P(BvhVariant, ReadsTheSameMotion) {
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
     const TemporaryBvh file(GetParam().write(plainText()));
     const osgSkin::Motion motion = osgSkin::importMotion(file.path);
@@ -130,7 +130,7 @@ TEST_P(SameMotion, IsRead) {
     EXPECT_EQ(motion.rootPositions, plain.rootPositions);
 }
 
-INSTANTIATE_TEST_SUITE_P(Dialects, SameMotion, testing::ValuesIn(kSame),
+INSTANTIATE_TEST_SUITE_P(Dialects, BvhVariant, testing::ValuesIn(kSame),
                          [](const auto& dialect) { return std::string(dialect.param.name); });
 
 struct Refused {
@@ -159,9 +159,9 @@ const Refused kRefused[] = {
     {"Hexadecimal", " 40 50 60", " 0x40 50 60", "line 20: frame 1, joint \"Spine\" has \"0x40\""},
     {"FourRotations", "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation",
      "CHANNELS 6 Xposition Yposition Zrotation Yrotation Xrotation Zrotation",
-     "line 5: joint \"Hips\" has CHANNELS of another kind than supported"},
+     "line 5: joint \"Hips\" has unsupported CHANNELS"},
     {"PositionTwice", "Xposition Yposition Zposition", "Xposition Xposition Zposition",
-     "line 5: joint \"Hips\" has CHANNELS of another kind than supported"},
+     "line 5: joint \"Hips\" has unsupported CHANNELS"},
     {"SevenChannels", "CHANNELS 6", "CHANNELS 7", "line 5: joint \"Hips\"'s number of CHANNELS"},
     {"ChannelsTwice", "    CHANNELS 3 Xrotation Yrotation Zrotation\n",
      "    CHANNELS 1 Xrotation\n    CHANNELS 2 Yrotation Zrotation\n",
@@ -170,18 +170,18 @@ const Refused kRefused[] = {
     {"JointsAfterAnEndSite", "End Site", "EndSite", "line 10: found \"EndSite\" in joint"},
 };
 
-class OtherMotion : public testing::TestWithParam<Refused> {};
+class BrokenBvh : public testing::TestWithParam<Refused> {};
 
-TEST_P(OtherMotion, IsRefusedWithTheLine) {
+TEST_P(BrokenBvh, ErrorNamesTheLine) {
     const TemporaryBvh file(replaced(plainText(), GetParam().from, GetParam().to));
     expectError([&] { osgSkin::importMotion(file.path); }, file.path + ": " + GetParam().message);
     expectError([&] { osgSkin::importSkeleton(file.path); }, file.path + ": " + GetParam().message);
 }
 
-INSTANTIATE_TEST_SUITE_P(Dialects, OtherMotion, testing::ValuesIn(kRefused),
+INSTANTIATE_TEST_SUITE_P(Dialects, BrokenBvh, testing::ValuesIn(kRefused),
                          [](const auto& refused) { return std::string(refused.param.name); });
 
-TEST(BvhDialect, ARestPoseNeedsNoTime) {
+TEST(BvhDialect, AllowsZeroFrameTimeForOneFrame) {
     std::string text = replaced(plainText(), "Time: 0.025", "Time: 0");
     expectError([&] { osgSkin::importMotion(TemporaryBvh(text).path); },
                 "the frame time is 0.000000");
@@ -191,7 +191,7 @@ TEST(BvhDialect, ARestPoseNeedsNoTime) {
     EXPECT_GT(osgSkin::importMotion(file.path).frameTime, 0.0);
 }
 
-TEST(BvhDialect, ARootMayMoveAndNotTurn) {
+TEST(BvhDialect, RootMayHavePositionsOnly) {
     std::string text = replaced(plainText(), " Zrotation Yrotation Xrotation", "");
     text = replaced(text, "CHANNELS 6", "CHANNELS 3");
     std::istringstream in(text);
@@ -217,7 +217,7 @@ TEST(BvhDialect, ARootMayMoveAndNotTurn) {
 }
 
 /// Props and cameras rotate about one axis; some figures only rise and sink.
-TEST(BvhDialect, ARootMayMoveAndTurnInPart) {
+TEST(BvhDialect, RootMayHaveSomeChannels) {
     const auto motionOf = [](const std::string& channels, const std::string& numbers) {
         const TemporaryBvh file("HIERARCHY\nROOT base\n{\nOFFSET 7 8 9\nCHANNELS " + channels +
                                 "\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\n" +
@@ -252,7 +252,7 @@ TEST(BvhDialect, SmallNumbersHaveExponents) {
     EXPECT_EQ(osgSkin::importMotion(file.path).rootPositions[1], glm::dvec3(1e-5, -2.5e-3, 0.0));
 }
 
-TEST(BvhDialect, FramesThatTakeSecondsAreToldOf) {
+TEST(BvhDialect, WarnsAboutFrameTimesInMilliseconds) {
     for (const auto& [time, isTold] : {std::pair("33.3333", true), std::pair("0.5", false)}) {
         std::string text = plainText();
         const std::size_t at = text.find("Frame Time:") + 11;
@@ -265,13 +265,13 @@ TEST(BvhDialect, FramesThatTakeSecondsAreToldOf) {
 }
 
 /// QAvimator, an editor for Second Life, appends the numbers of its key frames.
-TEST(BvhDialect, LinesAfterTheFramesAreSkipped) {
+TEST(BvhDialect, WarnsAboutExtraFrames) {
     const TemporaryBvh file(plainText() + "2 0 1\n8 0 1 29 59 60\n");
     const test::Notices notices;
     const osgSkin::Motion motion = osgSkin::importMotion(file.path);
     EXPECT_EQ(motion.frames, 2u);
     EXPECT_EQ(motion.rootPositions[1], glm::dvec3(1, 11, 2));
-    EXPECT_TRUE(notices.say("line 21: 2 line(s) beyond the declared 2 frames, skipped"))
+    EXPECT_TRUE(notices.say("line 21: 2 line(s) beyond the declared 2 frames ignored"))
         << notices.text();
 }
 
@@ -283,7 +283,7 @@ TEST(BvhDialect, PositionsMayComeInAnyOrder) {
 
 /// Exporters that write positions for every joint mean its offset, or a stretch that no skin
 /// follows.
-TEST(BvhDialect, PositionsOfOtherJointsAreReadAndOnlyTheRootsAreUsed) {
+TEST(BvhDialect, UsesPositionsOfTheRootOnly) {
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
     const std::string more = "CHANNELS 6 Xposition Yposition Zposition Xrotation";
     std::string text = replaced(plainText(), "CHANNELS 3 Xrotation", more);
@@ -295,7 +295,7 @@ TEST(BvhDialect, PositionsOfOtherJointsAreReadAndOnlyTheRootsAreUsed) {
     const TemporaryBvh file(text);
     const test::Notices notices;
     const osgSkin::Motion motion = osgSkin::importMotion(file.path);
-    EXPECT_TRUE(notices.say("joint \"Spine\" moves from its place; only moves of \"Hips\""))
+    EXPECT_TRUE(notices.say("joint \"Spine\" is translated; only translations of \"Hips\""))
         << notices.text();
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
     ASSERT_EQ(motion.skeleton.joints.size(), 3u);
@@ -337,7 +337,7 @@ TEST(BvhDialect, RotationsAreExact) {
 
 class BadBvh : public testing::TestWithParam<BadFile> {};
 
-TEST_P(BadBvh, IsRefusedWithFileAndPlace) {
+TEST_P(BadBvh, ErrorNamesFileAndLine) {
     const std::string path = testData(std::string("bvh/") + GetParam().file);
     ASSERT_TRUE(std::filesystem::exists(path));
     expectError([&] { osgSkin::importMotion(path); }, path + ": " + GetParam().message);
@@ -350,7 +350,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"no_root.bvh", "line 2: found \"MOTION\", expected a ROOT"},
         BadFile{"second_root.bvh", "line 16: found \"ROOT\", expected \"MOTION\""},
         BadFile{"truncated_hierarchy.bvh", "line 10: found the end of the file in joint \"Spine\""},
-        BadFile{"duplicate_joint.bvh", "line 6: second joint called \"Hips\""},
+        BadFile{"duplicate_joint.bvh", "line 6: a second joint called \"Hips\""},
         BadFile{"missing_offset.bvh", "line 13: joint \"Spine\" has no OFFSET"},
         BadFile{"second_offset.bvh", "line 9: joint \"Spine\" has OFFSET twice"},
         BadFile{"infinite_offset.bvh", "line 8: joint \"Spine\"'s OFFSET y is \"inf\""},
@@ -378,17 +378,17 @@ TEST(MotionErrors, MissingFileNamesTheReason) {
     expectError([&] { osgSkin::importSkeleton(path); }, path + ": cannot open: No such file");
 }
 
-TEST(MotionErrors, DirectoryIsNoFile) {
+TEST(MotionErrors, RejectsDirectory) {
     expectError([] { osgSkin::importMotion(testData("bvh")); }, "cannot open: it is a directory");
 }
 
-TEST(MotionErrors, SkippingEverySampleIsRefused) {
+TEST(MotionErrors, RejectsSkippingAllFrames) {
     const std::string path = testData("bvh/two_joints.bvh");
     EXPECT_EQ(osgSkin::importMotion(path, 1).frames, 1u);
     expectError([&] { osgSkin::importMotion(path, 2); }, path + ": 2 frame(s), expected more than");
 }
 
-TEST(MotionErrors, DeepNestingIsRefusedAndDoesNotCrash) {
+TEST(MotionErrors, RejectsDeepNesting) {
     const std::string path = testing::TempDir() + "osgskin_deep.bvh";
     std::ofstream file(path);
     file << "HIERARCHY\nROOT j\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
@@ -398,7 +398,7 @@ TEST(MotionErrors, DeepNestingIsRefusedAndDoesNotCrash) {
     std::filesystem::remove(path);
 }
 
-TEST(MotionErrors, OtherFormatsFailWithTheFile) {
+TEST(MotionErrors, RejectsMeshFormats) {
     const std::string path = testData("mesh/square.ply");
     expectError([&] { osgSkin::importSkeleton(path); },
                 path + ": files of this format have no skeleton");
@@ -448,7 +448,7 @@ TEST(ImportMotion, RootWithoutPositionChannelsStaysAtItsOffset) {
 
 /// If the hips move relative to a root on the ground, the path is that of the hips: rotated by the
 /// root, from its position.
-TEST(ImportMotion, BeginsWithTheJointThatMoves) {
+TEST(ImportMotion, RootIsTheFirstMovingJoint) {
     const test::Notices notices;
     const osgSkin::Motion motion = osgSkin::importMotion(testData("root_on_ground.bvh"));
     EXPECT_EQ(notices.text(), ""); // the root's own movement is used as well
@@ -464,7 +464,7 @@ TEST(ImportMotion, BeginsWithTheJointThatMoves) {
     EXPECT_LT(difference(motion.rotation(1, 1), {1, 0, 0, 0}), 1e-12);
 }
 
-TEST(ImportMotion, LineEndsAndWrappedFramesDoNotMatter) {
+TEST(ImportMotion, ReadsAllLineEndsAndWrappedFrames) {
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
     for (const char* name : {"bvh/two_joints_crlf.bvh", "bvh/wrapped_rows.bvh"}) {
         const osgSkin::Motion other = osgSkin::importMotion(testData(name));
@@ -473,7 +473,7 @@ TEST(ImportMotion, LineEndsAndWrappedFramesDoNotMatter) {
     }
 }
 
-TEST(ImportMotion, SkipsSamples) {
+TEST(ImportMotion, SkipsFrames) {
     const osgSkin::Motion all = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
     const osgSkin::Motion last = osgSkin::importMotion(testData("bvh/two_joints.bvh"), 1);
     ASSERT_EQ(last.frames, 1u);
@@ -494,7 +494,7 @@ TEST(ImportSkeleton, HasCentresParentsAndTips) {
     EXPECT_EQ(*skeleton.joints[1].tip, glm::dvec3(0, 19, 1));
 }
 
-TEST(ImportSkeleton, NeedsNoFrame) {
+TEST(ImportSkeleton, ReadsFileWithoutFrames) {
     EXPECT_EQ(osgSkin::importSkeleton(testData("bvh/no_frames.bvh")).joints.size(), 2u);
 }
 
@@ -510,13 +510,13 @@ TEST(ImportSkeleton, ReadsAMakeHumanRig) {
     EXPECT_NEAR(rig.joints[static_cast<std::size_t>(head)].tip->y, 8.4044, 1e-4);
 }
 
-TEST(ImportMotion, PassesOverFramesBeyondTheDeclared) {
+TEST(ImportMotion, IgnoresExtraFrames) {
     const osgSkin::Motion motion = osgSkin::importMotion(testData("bvh/more_rows.bvh"));
     EXPECT_EQ(motion.frames, 2u);
 }
 
 /// A motion made in code, from GLM's types and from OSG's.
-TEST(Motion, IsMadeOfSamples) {
+TEST(Motion, AddFrameTakesGlmAndOsgTypes) {
     osgSkin::RestSkeleton skeleton;
     EXPECT_EQ(skeleton.add("Hips", -1, glm::dvec3(0, 1, 0)), 0);
     EXPECT_EQ(skeleton.add("Spine", 0, osg::Vec3d(0, 2, 0.5)), 1);

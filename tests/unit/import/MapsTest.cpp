@@ -2,6 +2,7 @@
 // Normal, occlusion and emission maps: tangents, texture units, and what is left out.
 #include "ColouredMap.h"
 #include "GltfBuilder.h"
+#include "MeshParts.h"
 #include "Notices.h"
 
 #include <osgSkinImport/ImportMesh>
@@ -129,14 +130,14 @@ bool hasTexture(const ImportedMesh& mesh, unsigned unit) {
 
 } // namespace
 
-TEST(Maps, TangentsAreThoseOfTheTextureCoordinates) {
+TEST(Maps, ComputesTangentsFromTextureCoordinates) {
     EXPECT_EQ(expectAround(HalfTube(along).read(), 1.0f, 1.0f), 26u);
     EXPECT_EQ(expectAround(HalfTube(against).read(), -1.0f, -1.0f), 26u);
     // Only vertices between both halves are duplicated.
     EXPECT_EQ(expectAround(HalfTube(mirrored).read(), 1.0f, -1.0f), 28u);
 }
 
-TEST(Maps, TangentsOfTheFileAreTaken) {
+TEST(Maps, UsesTangentsOfTheFile) {
     for (const bool isMirrored : {false, true}) {
         HalfTube tube(against);
         // Of coordinates that grow with the angle; not those of the texture.
@@ -155,7 +156,7 @@ TEST(Maps, TangentsOfTheFileAreTaken) {
     for (const osg::Vec4& t : *tangentsOf(mesh)) EXPECT_LT(t.x(), 1e-6f);
 }
 
-TEST(Maps, TangentsThatCannotBeUsedAreComputed) {
+TEST(Maps, RecomputesInvalidTangents) {
     for (const double wrong : {0.0, std::nan("")}) {
         HalfTube tube(along);
         std::vector<double> tangents = tube.tangents;
@@ -166,8 +167,7 @@ TEST(Maps, TangentsThatCannotBeUsedAreComputed) {
     // Texture coordinates that are all the same give no direction.
     const ImportedMesh mesh = HalfTube([](double) { return 0.5; }).read();
     ASSERT_NE(tangentsOf(mesh), nullptr);
-    const auto& normals =
-        dynamic_cast<const osg::Vec3Array&>(*mesh.parts[0].geometry->getNormalArray());
+    const auto& normals = normalsOf(mesh);
     for (std::size_t v = 0; v < normals.size(); ++v) {
         const osg::Vec4& t = tangentsOf(mesh)->at(v);
         const osg::Vec3 direction(t.x(), t.y(), t.z());
@@ -176,7 +176,7 @@ TEST(Maps, TangentsThatCannotBeUsedAreComputed) {
     }
 }
 
-TEST(Maps, MaterialsWithoutThemStayOnTheFixedPipeline) {
+TEST(Maps, MaterialsWithoutMapsUseTheFixedPipeline) {
     HalfTube tube(mirrored);
     tube.attributes()["TANGENT"] = tube.accessor("VEC4", tube.tangents);
     tube.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}};
@@ -189,7 +189,7 @@ TEST(Maps, MaterialsWithoutThemStayOnTheFixedPipeline) {
     EXPECT_EQ(notices.text(), "");
 }
 
-TEST(Maps, EachHasItsUnit) {
+TEST(Maps, EachHasItsTextureUnit) {
     HalfTube tube(along);
     const json texture = {{"index", 0}};
     tube.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", texture}}},
@@ -223,7 +223,7 @@ TEST(Maps, EachHasItsUnit) {
     EXPECT_EQ(notices.text(), "");
 }
 
-TEST(Maps, WhatIsLeftOutIsReportedOnce) {
+TEST(Maps, ReportsUnusedTexturesOnce) {
     HalfTube tube(along);
     const json texture = {{"index", 0}}, other = {{"index", 0}, {"texCoord", 1}};
     const json rough = {{"baseColorTexture", texture}, {"metallicRoughnessTexture", texture}};
@@ -253,7 +253,7 @@ TEST(Maps, WhatIsLeftOutIsReportedOnce) {
               osg::Vec4(0, 0, 0, 1));
 }
 
-TEST(Maps, AnEmissionTextureThatCannotBeReadDoesNotGlow) {
+TEST(Maps, MissingEmissionTextureDoesNotGlow) {
     HalfTube tube(along);
     tube.json["images"].push_back({{"uri", "missing.png"}});
     tube.json["textures"].push_back({{"source", 1}});
@@ -267,7 +267,7 @@ TEST(Maps, AnEmissionTextureThatCannotBeReadDoesNotGlow) {
     EXPECT_EQ(attributeOf<osg::Program>(mesh, osg::StateAttribute::PROGRAM), nullptr);
 }
 
-TEST(Maps, OfObjFilesAreDrawn) {
+TEST(Maps, ReadsObjMaps) {
     const std::string folder = testing::TempDir(), path = folder + named(".obj");
     const std::string map = named(".bmp");
     test::writeMap(map, {});
@@ -286,7 +286,7 @@ TEST(Maps, OfObjFilesAreDrawn) {
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
 }
 
-TEST(Maps, OfAssimpsFormatsAreDrawn) {
+TEST(Maps, ReadsColladaMaps) {
     const std::string map = named(".bmp");
     test::writeMap(map, {});
     const std::string texture = R"(<texture texture="sampler" texcoord="uv"/>)";
@@ -331,7 +331,7 @@ TEST(Maps, OfAssimpsFormatsAreDrawn) {
 }
 
 /// Tangents of saved scenes are not read as a mesh; they are computed.
-TEST(Maps, OfSavedScenesHaveTangentsAgain) {
+TEST(Maps, RecomputesTangentsOfSavedScenes) {
     const ImportedMesh mesh = HalfTube(along).read();
     for (const char* ending : {".osgt", ".osgb", ".osgx"}) {
         const std::string path = testing::TempDir() + named(ending);

@@ -243,14 +243,14 @@ std::string collada(const std::string& name, const std::string& morphOf, const s
 
 } // namespace
 
-TEST(WildRig, FbxFilesMayConnectPropertiesToObjects) {
+TEST(WildRig, FbxPropertyConnections) {
     for (const std::vector<Record>& connections : {std::vector<Record>(), kDriven}) {
         expectStrip(importRig(binaryFbx("properties_binary.fbx", connections)));
         expectStrip(importRig(textFbx("properties_text.fbx", connections)));
     }
 }
 
-TEST(WildRig, ColladaSkinsMayBeOfMorphs) {
+TEST(WildRig, ColladaSkinOfMorph) {
     for (const auto& [morphOf, skinOf, shown] :
          {std::array<const char*, 3>{"#base", "#base", "#bound"},
           {"#base", "#face", "#bound"},
@@ -263,12 +263,12 @@ TEST(WildRig, ColladaSkinsMayBeOfMorphs) {
     }
 }
 
-TEST(WildRig, ColladaControllersOfEachOtherAreNoRig) {
+TEST(WildRig, RejectsCyclicColladaControllers) {
     expectError([] { importRig(collada("cycle.dae", "#bound", "#face", "#bound")); },
                 "expected one of a mesh");
 }
 
-TEST(WildRig, JointsMayLieOutsideTheScene) {
+TEST(WildRig, JointsOutsideTheScene) {
     test::GltfColumn column;
     column.bend();
     column.json["scenes"][0]["nodes"] = {column.meshNode};
@@ -281,7 +281,7 @@ TEST(WildRig, JointsMayLieOutsideTheScene) {
 }
 
 /// Assimp lists all bones of such a model as children of one node.
-TEST(WildRig, HalfLifeBonesHangOnEachOther) {
+TEST(WildRig, HalfLifeBoneHierarchy) {
     const std::string path = std::string(test::kModels) + "MDL/MDL (HL1)/man.mdl";
     OSGSKIN_NEEDS(path);
     const osgSkin::RestSkeleton rest = importRig(path).rest;

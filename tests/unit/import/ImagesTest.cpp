@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
-//
-// Material features of mesh files: colours in either range, several textures; and the warnings.
-//
-// Images of meshes: their formats, their sizes, and broken ones.
-//
-// Pictures that are named, or stored, more often than there are files.
+// Images of meshes: their formats, their sizes, broken ones, and those that are named more than
+// once.
 #include "ExpectError.h"
 #include "GltfBuilder.h"
+#include "ImageFiles.h"
 #include "Notices.h"
-#include "PictureFiles.h"
 
-#include <osgSkin/Error>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinImport/ReadLimits>
 #include <osgSkinImport/ReadScene>
 #include <osgSkinImport/ShareImages>
 
@@ -22,198 +16,10 @@
 #include <osg/Texture2D>
 #include <osgDB/WriteFile>
 
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
-
-namespace {
-
-std::string saveLooks(const std::string& name, const std::string& text) {
-    std::string path = testing::TempDir() + "osgskin_looks_" + name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-}
-
-/// A triangle whose vertices have colours.
-std::string coloured(const char* red, const char* mixed) {
-    return std::string("v 0 0 0 ") + red + "\nv 1 0 0 " + mixed + "\nv 0 1 0 0 0 0\nf 1 2 3\n";
-}
-
-osg::Vec4 colourOf(const std::string& path, std::size_t vertex) {
-    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
-    return dynamic_cast<const osg::Vec4Array&>(*mesh.parts[0].geometry->getColorArray())[vertex];
-}
-
-void saveImage(const std::string& name, unsigned char grey) {
-    const osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(2, 2, 1, GL_RGB, GL_UNSIGNED_BYTE);
-    std::fill(image->data(), image->data() + image->getTotalSizeInBytes(), grey);
-    ASSERT_TRUE(osgDB::writeImageFile(*image, testing::TempDir() + name));
-}
-
-/// The grey value of a part's texture; -1 if it has none.
-int greyOf(const osgSkin::MeshPart& part) {
-    const auto* texture = dynamic_cast<const osg::Texture2D*>(
-        part.geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
-    return texture ? int(*texture->getImage()->data()) : -1;
-}
-
-} // namespace
-
-TEST(MeshLooks, ColoursFollowTheWeightWhereThereIsOne) {
-    EXPECT_EQ(colourOf(saveLooks("seven.obj", "v 0 0 0 1 0.25 0.5 0.75\nv 1 0 0 1 0 0.5 1\n"
-                                              "v 0 1 0 1 0 0 0\nf 1 2 3\n"),
-                       0),
-              osg::Vec4(0.25f, 0.5f, 0.75f, 1.0f));
-}
-
-TEST(MeshLooks, ColoursCountTo1OrTo255) {
-    const osg::Vec4 red(1, 0, 0, 1), mixed(0, 0.5f, 1, 1);
-    const std::string ones = saveLooks("ones.obj", coloured("1 0 0", "0 0.5 1"));
-    EXPECT_EQ(colourOf(ones, 0), red);
-    EXPECT_EQ(colourOf(ones, 1), mixed);
-    const std::string bytes = saveLooks("bytes.obj", coloured("255 0 0", "0 51 102"));
-    EXPECT_EQ(colourOf(bytes, 0), red);
-    EXPECT_EQ(colourOf(bytes, 1), osg::Vec4(0.0f, 51.0f / 255.0f, 102.0f / 255.0f, 1.0f));
-    // Brighter than white is allowed, in either range.
-    EXPECT_EQ(colourOf(saveLooks("bright.obj", coloured("2.5 0 0", "0 0.5 1")), 1), mixed);
-    EXPECT_EQ(colourOf(saveLooks("brighter.obj", coloured("300 0 0", "0 1 1")), 0), red);
-    const std::string floats = saveLooks(
-        "floats.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
-                      "y\nproperty float z\nproperty float red\nproperty float green\nproperty "
-                      "float blue\nproperty float alpha\nelement face 1\nproperty list uchar int "
-                      "vertex_indices\nend_header\n0 0 0 255 0 0 255\n1 0 0 0 51 0 51\n0 1 0 0 0 0 "
-                      "0\n3 0 1 2\n");
-    EXPECT_EQ(colourOf(floats, 0), red);
-    EXPECT_EQ(colourOf(floats, 1), osg::Vec4(0.0f, 51.0f / 255.0f, 0.0f, 51.0f / 255.0f));
-}
-
-/// Integer colours range up to the maximum of their type, but up to 255 if no number is larger.
-TEST(MeshLooks, PlyColoursCountAsTheirNumbersDo) {
-    const auto second = [](const std::string& type, const char* first, const char* next) {
-        std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-                             "property float y\nproperty float z\n";
-        for (const char* part : {"red", "green", "blue"})
-            header += "property " + type + ' ' + part + '\n';
-        return colourOf(saveLooks(type + ".ply", header +
-                                                     "element face 1\nproperty list uchar int "
-                                                     "vertex_indices\nend_header\n0 0 0 " +
-                                                     first + "\n1 0 0 " + next +
-                                                     "\n0 1 0 0 0 0\n3 0 1 2\n"),
-                        1);
-    };
-    const osg::Vec4 expected(0, 51.0f / 255.0f, 1, 1);
-    for (const char* type : {"uchar", "short", "ushort", "int", "uint"})
-        EXPECT_EQ(second(type, "255 0 0", "0 51 255"), expected) << type;
-    EXPECT_EQ(second("ushort", "65535 0 0", "0 13107 65535"), expected);
-    EXPECT_EQ(second("uint", "4294967295 0 0", "0 858993459 4294967295"), expected);
-    EXPECT_EQ(second("float", "127.5 0 0", "0 51 255"), expected);
-    EXPECT_EQ(second("double", "0.5 0 0", "0 0.2 1"), osg::Vec4(0, .2f, 1, 1));
-}
-
-TEST(MeshLooks, PlyFacesHaveTheTexturesThatTheyName) {
-    saveImage("osgskin_looks_dark.png", 40);
-    saveImage("osgskin_looks_light.png", 200);
-    const std::string path = saveLooks(
-        "textures.ply",
-        "ply\nformat ascii 1.0\ncomment TextureFile osgskin_looks_dark.png\ncomment TextureFile "
-        "osgskin_looks_light.png\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
-        "float z\nelement face 5\nproperty list uchar int vertex_indices\nproperty list uchar "
-        "float texcoord\nproperty int texnumber\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
-        "3 0 1 2 6 0 0 1 0 0 1 1\n3 0 1 2 6 0 0 1 0 0 1 0\n3 0 1 2 6 0 0 1 0 0 1 -1\n"
-        "3 0 1 2 6 0 0 1 0 0 1 7\n3 0 1 2 6 0 0 1 0 0 1 1\n");
-    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
-    std::map<int, std::vector<std::uint32_t>> faces;
-    for (const osgSkin::MeshPart& part : mesh.parts) faces[greyOf(part)] = part.sourceFace;
-    EXPECT_EQ(faces[40], (std::vector<std::uint32_t>{1}));
-    EXPECT_EQ(faces[200], (std::vector<std::uint32_t>{0, 4}));
-    EXPECT_EQ(faces[-1], (std::vector<std::uint32_t>{2, 3}));
-}
-
-TEST(MeshLooks, APlyTextureWithoutANameIsNone) {
-    const std::string path = saveLooks(
-        "nameless.ply",
-        "ply\nformat ascii 1.0\ncomment TextureFile\nelement vertex 3\nproperty float x\nproperty "
-        "float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-        "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
-        "3 0 1 2 6 0 0 1 0 0 1\n");
-    const test::Notices notices;
-    EXPECT_EQ(greyOf(osgSkin::importMesh(path).parts.at(0)), -1);
-    EXPECT_EQ(notices.text(), "");
-}
-
-TEST(MeshLooks, NothingThatIsToldReachesTheTerminal) {
-    const std::string evil = "no\x1b]0;title\x07where\xc2\x9b.png";
-    saveLooks("evil.mtl", "newmtl m\nmap_Kd " + evil + "\n");
-    const std::string path =
-        saveLooks("evil.obj", "mtllib osgskin_looks_evil.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
-                              "usemtl m\nf 1 2 3\n");
-    const test::Notices notices;
-    osgSkin::importMesh(path);
-    EXPECT_TRUE(notices.say("where")) << notices.text();
-    for (const char* control : {"\x1b", "\x07", "\x9b"})
-        EXPECT_FALSE(notices.say(control)) << notices.text();
-    EXPECT_EQ(notices.lines(), 1u);
-    EXPECT_EQ(osgSkin::onOneLine("caf\xc3\xa9 \xe2\x82\xac\r\n"), "caf\xc3\xa9 \xe2\x82\xac");
-    EXPECT_STREQ(osgSkin::Error("joint \"a\x1b[2Jb\nc\x7f\"\n").what(), "joint \"a [2Jb c \"");
-}
-
-TEST(MeshLooks, QuotedValuesAreNoOptionsOfTheirOwn) {
-    const auto limitsOf = [](const char* words) {
-        const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
-        return osgSkin::ReadLimits::of(options);
-    };
-    const osgSkin::ReadLimits limits =
-        limitsOf("motion=\"run maxJoints=none formats=bvh\" maxDepth=\"7\"\tmaxUses=3\nnoise");
-    EXPECT_EQ(limits.joints, osgSkin::ReadLimits().joints);
-    EXPECT_TRUE(limits.formats.empty());
-    EXPECT_EQ(limits.depth, 7u);
-    EXPECT_EQ(limits.uses, 3u);
-    using Words = std::vector<std::pair<std::string, std::string>>;
-    EXPECT_EQ(osgSkin::optionValues(" a b= c=\"d e\"f g=\"h"),
-              (Words{{"a", ""}, {"b", ""}, {"c", "d e"}, {"f", ""}, {"g", "h"}}));
-    EXPECT_EQ(osgSkin::optionValues("a=\"").size(), 1u);
-    EXPECT_TRUE(osgSkin::optionValues(" \n").empty());
-}
-
-TEST(MeshLooks, ColoursOfMaterialsAreOnes) {
-    const std::string path = testing::TempDir() + "bright.obj";
-    std::ofstream(path) << "mtllib bright.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
-    std::ofstream(testing::TempDir() + "bright.mtl")
-        << "newmtl m\nKd 255 51 0\nKs 1.5 -1 0.5\nd -5\nmap_d hair.png\n";
-    const test::Notices notices;
-    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
-    EXPECT_TRUE(notices.say("textures left out: map_d (1)")) << notices.text();
-    const auto& material = dynamic_cast<const osg::Material&>(
-        *mesh.parts.at(0).geometry->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
-    EXPECT_EQ(material.getDiffuse(osg::Material::FRONT), osg::Vec4(1.0f, 0.2f, 0.0f, 1.0f));
-    EXPECT_EQ(material.getSpecular(osg::Material::FRONT), osg::Vec4(1.0f, 0.0f, 0.5f, 1.0f));
-}
-
-TEST(MeshLooks, AnEmissionTextureThatIsMissingDoesNotGlow) {
-    const std::string path = testing::TempDir() + "glow.obj";
-    std::ofstream(path) << "mtllib glow.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"
-                           "usemtl n\nf 3 2 1\n";
-    std::ofstream(testing::TempDir() + "glow.mtl")
-        << "newmtl m\nmap_Ke eyes.png\nKd 1 0 0\nKe 1 1 1\nnewmtl n\nKd 1 0 0\nKe 0 1 0\n";
-    const test::Notices notices;
-    const osgSkin::ImportedMesh mesh = osgSkin::importMesh(path);
-    EXPECT_TRUE(notices.say("texture \"eyes.png\" cannot be read; drawn without"))
-        << notices.text();
-    const auto emission = [&](std::size_t part) {
-        return dynamic_cast<const osg::Material&>(
-                   *mesh.parts.at(part).geometry->getStateSet()->getAttribute(
-                       osg::StateAttribute::MATERIAL))
-            .getEmission(osg::Material::FRONT);
-    };
-    EXPECT_EQ(emission(0), osg::Vec4(0, 0, 0, 1));
-    EXPECT_EQ(emission(1), osg::Vec4(0, 1, 0, 1));
-}
 
 namespace {
 
@@ -240,7 +46,7 @@ std::string tga(int kind, const std::string& pixels) {
 
 } // namespace
 
-TEST(Pictures, OfEachFormatAreDrawn) {
+TEST(Images, ReadsEachFormat) {
     for (const char* extension :
          {"png", "jpg", "jpeg", "bmp", "tga", "rgb", "ppm", "tif", "tiff", "dds"}) {
         const std::string content = written(extension);
@@ -266,7 +72,7 @@ TEST(Pictures, OfEachFormatAreDrawn) {
     }
 }
 
-TEST(Pictures, AreWhatOpenSceneGraphReads) {
+TEST(Images, MatchOpenSceneGraph) {
     for (const char* extension : {"png", "bmp", "tga", "jpg"}) {
         SCOPED_TRACE(extension);
         const std::string content = written(extension);
@@ -287,12 +93,12 @@ TEST(Pictures, AreWhatOpenSceneGraphReads) {
     }
 }
 
-TEST(Pictures, AreAsLargeAsTheirFilesAreWorth) {
+TEST(Images, LimitsPixelsByFileSize) {
     const std::string png = with(written("png"), 16, big(15000, 4) + big(15000, 4));
-    expectRefused("large.png", png, "a picture of 15000 x 15000 pixels, expected at most 1677");
+    expectRefused("large.png", png, "an image of 15000 x 15000 pixels, expected at most 1677");
     expectRefused("wide.png", with(png, 16, big(70000, 4) + big(1, 4)),
                   "of 70000 x 1 pixels, expected 1 to 65536");
-    expectRefused("none.png", with(png, 16, big(0, 4)), "cannot be decoded as a picture");
+    expectRefused("none.png", with(png, 16, big(0, 4)), "cannot be decoded as an image");
     const std::string jpg = written("jpg");
     const std::size_t frame = jpg.find("\xff\xc0");
     ASSERT_NE(frame, std::string::npos);
@@ -306,8 +112,8 @@ TEST(Pictures, AreAsLargeAsTheirFilesAreWorth) {
                   "(option maxPixels)", "maxPixels=100");
 }
 
-TEST(Pictures, ThatAreBrokenAreLeftOut) {
-    const std::string png = written("png"), reason = "cannot be decoded as a picture";
+TEST(Images, RejectsBrokenFiles) {
+    const std::string png = written("png"), reason = "cannot be decoded as an image";
     const std::size_t pixels = png.find("IDAT"), end = png.find("IEND");
     ASSERT_LT(end, png.size());
     expectRefused("text.png", "a text", reason);
@@ -328,7 +134,7 @@ TEST(Pictures, ThatAreBrokenAreLeftOut) {
     expectRefused("gif.png", "GIF89a" + little(5, 2) + little(3, 2) + "\0\0\0;"s, reason);
 }
 
-TEST(Pictures, OfAModelCountTogether) {
+TEST(Images, CountPixelsPerModel) {
     // More pixels than its file's size allows.
     const int side = 200;
     const std::string small = written("png", side, side);
@@ -360,7 +166,7 @@ TEST(Pictures, OfAModelCountTogether) {
 }
 
 /// OpenSceneGraph reads them, from trusted files.
-TEST(Pictures, OfOtherFormatsAreReadWhereFormatsAllowThem) {
+TEST(Images, ReadsOtherFormatsIfAllowed) {
     const std::string content = written("rgb");
     ASSERT_FALSE(content.empty());
     savePicture("other.rgb", content);
@@ -371,7 +177,7 @@ TEST(Pictures, OfOtherFormatsAreReadWhereFormatsAllowThem) {
     EXPECT_TRUE(drawnWith("ours.png", "formats=obj").image.valid());
 }
 
-TEST(Pictures, AreLookedAtWithinGltf) {
+TEST(Images, ChecksEmbeddedGltfImages) {
     for (const bool large : {false, true}) {
         std::string png = written("png");
         if (large) png = with(png, 16, big(15000, 4) + big(15000, 4));
@@ -391,7 +197,7 @@ TEST(Pictures, AreLookedAtWithinGltf) {
         const osg::StateSet& states = *mesh.parts.at(0).geometry->getStateSet();
         EXPECT_EQ(states.getTextureAttribute(0, osg::StateAttribute::TEXTURE) != nullptr, !large)
             << notices.text();
-        EXPECT_EQ(notices.say("a picture of 15000 x 15000 pixels"), large) << notices.text();
+        EXPECT_EQ(notices.say("an image of 15000 x 15000 pixels"), large) << notices.text();
     }
 }
 
@@ -473,7 +279,7 @@ void showImages(nlohmann::json& file) {
 
 } // namespace
 
-TEST(Pictures, SpelledInSeveralWaysAreReadOnce) {
+TEST(Images, ReadsFileOnceWhateverItsSpelling) {
     savePicture("picture_spelled.png", written("png", kSide, kSide));
     const std::vector<std::string> names = {"picture_spelled.png", "./picture_spelled.png",
                                             ".//././picture_spelled.png",
@@ -492,7 +298,7 @@ TEST(Pictures, SpelledInSeveralWaysAreReadOnce) {
     EXPECT_EQ(within.all.size(), 1u);
 }
 
-TEST(Pictures, OfASavedSceneAreReadOnce) {
+TEST(Images, ReadsImagesOfSavedSceneOnce) {
     savePicture("picture_saved.png", written("png", kSide, kSide));
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     for (const char* name : {"picture_saved.png", "./picture_saved.png", ".//picture_saved.png"}) {
@@ -522,7 +328,7 @@ TEST(Pictures, OfASavedSceneAreReadOnce) {
     EXPECT_EQ(images.count(nullptr), 0u);
 }
 
-TEST(Pictures, ThatStandInTheSameBytesAreReadOnce) {
+TEST(Images, ReadsSharedBytesOnce) {
     const std::string png = written("png", kSide, kSide);
     const osg::ref_ptr<osgDB::Options> words = new osgDB::Options(optionFor(1));
     test::GltfColumn column = columnWith(png, {5, {0, png.size()}});
@@ -534,7 +340,7 @@ TEST(Pictures, ThatStandInTheSameBytesAreReadOnce) {
 }
 
 /// Each is copied before anything checks it.
-TEST(Pictures, OfAGltfFileHaveItsBytesTogether) {
+TEST(Images, LimitsBytesOfGltfImages) {
     const std::string bytes(50000, 'x');
     std::vector<std::pair<std::size_t, std::size_t>> views;
     for (std::size_t i = 0; i < 100; ++i) views.emplace_back(i, bytes.size() - 100);
@@ -548,7 +354,7 @@ TEST(Pictures, OfAGltfFileHaveItsBytesTogether) {
     EXPECT_EQ(osgSkin::importMesh(halves.save("picture_halves.gltf")).parts.size(), 2u);
 }
 
-TEST(Pictures, OfMeshesThatAreReadTogetherCountTogether) {
+TEST(Images, SharesImagesBetweenMeshes) {
     const std::string png = written("png", kSide, kSide);
     for (const char* name : {"picture_ours.png", "picture_theirs.png"}) savePicture(name, png);
     const std::string first = saveMesh("picture_first", {"picture_ours.png"}),
@@ -568,7 +374,7 @@ TEST(Pictures, OfMeshesThatAreReadTogetherCountTogether) {
     EXPECT_EQ(imagesOf(third, words).drawn, 1u);
 }
 
-TEST(Pictures, ThatAreBrokenAreToldOfByEachMesh) {
+TEST(Images, WarnsOnceForEachMesh) {
     savePicture("picture_broken.png", "no picture");
     const osg::ref_ptr<osgDB::Options> together = osgSkin::shareImages(nullptr);
     for (const char* name : {"picture_one", "picture_other"}) {
@@ -576,6 +382,6 @@ TEST(Pictures, ThatAreBrokenAreToldOfByEachMesh) {
         const test::Notices notices;
         EXPECT_EQ(imagesOf(path, together).drawn, 0u);
         EXPECT_TRUE(notices.say("drawn without")) << notices.text();
-        EXPECT_TRUE(notices.say("cannot be decoded as a picture")) << notices.text();
+        EXPECT_TRUE(notices.say("cannot be decoded as an image")) << notices.text();
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ReadLimits>
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/Error>
 
@@ -36,7 +36,7 @@ std::vector<std::string> listOf(const std::string& key, const std::string& value
 }
 
 /// The maximum nesting of lists and objects in a JSON text; a `.skin` file has 4 levels, VRM 10.
-constexpr std::size_t kDeepestJson = 64;
+constexpr std::size_t kMaxJsonDepth = 64;
 
 bool isIn(const std::vector<std::string>& formats, const std::string& extension) {
     return std::any_of(formats.begin(), formats.end(), [&](const std::string& format) {
@@ -99,15 +99,14 @@ void ReadLimits::checkFormat(const std::string& path) const {
 void ReadLimits::checkNamedFormat(const std::string& path) const {
     const std::string format = osgSceneFormat(path);
     if (!format.empty() && !isIn(formats, format))
-        failFile(path, "a scene that OpenSceneGraph's own reader reads, from trusted files only; "
+        failFile(path, "OpenSceneGraph's own reader, which reads this scene, is for trusted files; "
                        "to trust it, name its format in the option formats (-O \"formats=skin," +
                            format + ",...\", or formats=all)");
 }
 
-std::string readWholeFile(const std::string& path, std::size_t mostMegabytes,
-                          const char* raisedBy) {
+std::string readWholeFile(const std::string& path, std::size_t maxMegabytes, const char* raisedBy) {
     std::size_t size = 0;
-    std::ifstream stream = openFile(path, mostMegabytes, raisedBy, size);
+    std::ifstream stream = openFile(path, maxMegabytes, raisedBy, size);
     std::string text(size, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(size));
     if (static_cast<std::size_t>(stream.gcount()) != size)
@@ -123,9 +122,9 @@ void checkJsonDepth(const std::string& path, std::string_view text) {
         if (c == '"') inString = !inString;
         if (inString && c == '\\') ++i; // the next character is escaped
         if (inString) continue;
-        if ((c == '[' || c == '{') && ++depth > kDeepestJson)
-            failFile(path, "lists and objects stand in each other more than " +
-                               std::to_string(kDeepestJson) + " deep");
+        if ((c == '[' || c == '{') && ++depth > kMaxJsonDepth)
+            failFile(path, "lists and objects are nested more than " +
+                               std::to_string(kMaxJsonDepth) + " deep");
         if ((c == ']' || c == '}') && depth > 0) --depth;
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_ROOTMOTION_H
-#define OSGSKINIMPORT_ROOTMOTION_H 1
+#ifndef OSGSKINIMPORT_ROOTJOINT_H
+#define OSGSKINIMPORT_ROOTJOINT_H 1
 
 #include <osgSkinRig/RestSkeleton>
 
@@ -42,8 +42,8 @@ struct ReducedSkeleton {
 /// \param moved whether the motion moves a joint from its rest position, [joint]
 /// \param carried the re-rooted skeleton
 /// \param path of the file
-void noticeUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
-                       const ReducedSkeleton& carried, const std::string& path);
+void warnUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
+                     const ReducedSkeleton& carried, const std::string& path);
 
 } // namespace osgSkin
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_PICTURES_H
-#define OSGSKINIMPORT_PICTURES_H 1
+#ifndef OSGSKINIMPORT_IMAGES_H
+#define OSGSKINIMPORT_IMAGES_H 1
 
 #include <osgSkinImport/ReadLimits>
 
@@ -19,16 +19,16 @@
 namespace osgSkin {
 
 /// Images whose sizes count together, each read once; see shareImages().
-class SharedPictures : public osg::Object {
+class SharedImages : public osg::Object {
 public:
-    SharedPictures() = default;
-    SharedPictures(const SharedPictures& other, const osg::CopyOp& copy)
+    SharedImages() = default;
+    SharedImages(const SharedImages& other, const osg::CopyOp& copy)
         : osg::Object(other, copy), pixels(other.pixels), bytes(other.bytes), _files(other._files) {
     }
-    META_Object(osgSkin, SharedPictures)
+    META_Object(osgSkin, SharedImages)
 
     /// The images that some options share; null if `options` is null or shares none.
-    static SharedPictures* of(const osgDB::Options* options);
+    static SharedImages* of(const osgDB::Options* options);
 
     /// The image of a file; null if it cannot be read.
     /// \param path of the file, in any spelling
@@ -41,7 +41,7 @@ public:
     std::size_t bytes = 0; ///< of their files
 
 protected:
-    ~SharedPictures() override = default;
+    ~SharedImages() override = default;
 
 private:
     struct Read {
@@ -55,10 +55,10 @@ private:
 ///
 /// Decodes PNG, JPEG, BMP and TGA by stb_image, with eight bits per channel, after checking their
 /// sizes (ReadLimits::pixelsOf()). OpenSceneGraph reads other formats, from trusted files.
-class PictureReader {
+class ImageReader {
 public:
     /// \param options with limits and possibly shared images; may be null
-    explicit PictureReader(const osgDB::Options* options);
+    explicit ImageReader(const osgDB::Options* options);
 
     /// Whether stb_image reads files with this extension, in any case.
     static bool decodes(const std::string& extension);
@@ -80,13 +80,13 @@ public:
     osg::ref_ptr<osg::Image> readFile(const std::string& path,
                                       const std::function<osg::ref_ptr<osg::Image>()>& otherwise);
 
-    SharedPictures& shared() { return *_shared; }
+    SharedImages& shared() { return *_shared; }
 
 private:
     osg::ref_ptr<osg::Image> decode(const std::string& name, std::string_view bytes);
 
     const ReadLimits _limits;
-    const osg::ref_ptr<SharedPictures> _shared;
+    const osg::ref_ptr<SharedImages> _shared;
 };
 
 } // namespace osgSkin

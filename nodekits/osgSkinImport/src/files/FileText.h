@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OSGSKINIMPORT_TEXT_FILETEXT_H
-#define OSGSKINIMPORT_TEXT_FILETEXT_H
+#ifndef OSGSKINIMPORT_FILES_FILETEXT_H
+#define OSGSKINIMPORT_FILES_FILETEXT_H
 
 #include <osgSkinImport/ReadLimits>
 
@@ -19,9 +19,9 @@ inline std::size_t byteOrderMark(std::string_view text) {
 }
 
 /// The maximum length of a file name (PATH_MAX).
-constexpr std::size_t kLongestPath = 4096;
+constexpr std::size_t kMaxPath = 4096;
 
-/// Throws osgSkin::Error for a name of more than kLongestPath bytes, or with a byte 0, which ends
+/// Throws osgSkin::Error for a name of more than kMaxPath bytes, or with a byte 0, which ends
 /// the name for some readers only.
 void requireName(const std::string& path);
 
@@ -54,13 +54,13 @@ std::string osgSceneFormat(const std::string& path);
 /// is too large.
 std::string readText(const std::string& path, const ReadLimits& limits);
 
-/// Opens a regular file of less than `mostMegabytes`.
+/// Opens a regular file of less than `maxMegabytes`.
 /// \param path of the file
-/// \param mostMegabytes limit on its size
+/// \param maxMegabytes limit on its size
 /// \param raisedBy the option that raises this limit, for the error
 /// \param[out] size of the file, in bytes
 /// \throw osgSkin::Error
-std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
+std::ifstream openFile(const std::string& path, std::size_t maxMegabytes, const char* raisedBy,
                        std::size_t& size);
 
 /// Throws osgSkin::Error unless `path` is a regular file that can be opened, passes
@@ -75,7 +75,7 @@ bool isRegularFile(const std::string& path);
 bool parseNumber(std::string_view token, double& value);
 
 /// Reports what is ignored or changed in a file to OSG's notify handler, on one line.
-void tellOf(const std::string& path, const std::string& message);
+void warn(const std::string& path, const std::string& message);
 
 /// `token` in quotes for an error message: truncated, and with control characters replaced.
 std::string inQuotes(std::string_view token);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // glTF material features that Assimp ignores.
 #include "GltfBuilder.h"
+#include "MeshParts.h"
 #include "Notices.h"
 #include "Paths.h"
 
@@ -58,7 +59,7 @@ const Attribute& stateOf(const ImportedMesh& mesh, std::size_t part,
 
 } // namespace
 
-TEST(GltfLooks, TexturesAreMovedAsTheirMaterialsSay) {
+TEST(GltfMaterials, AppliesTextureTransforms) {
     GltfColumn column;
     addTexture(column);
     std::vector<double> texCoords; // in 12 bits, as compressors store them
@@ -75,8 +76,7 @@ TEST(GltfLooks, TexturesAreMovedAsTheirMaterialsSay) {
                       {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}}});
     const ImportedMesh mesh = osgSkin::importMesh(column.save("moved.gltf"));
     ASSERT_EQ(mesh.parts.size(), 1u);
-    const auto& found =
-        dynamic_cast<const osg::Vec2Array&>(*mesh.parts[0].geometry->getTexCoordArray(0));
+    const auto& found = texCoordsOf(mesh);
     std::set<int> columns;
     for (const osg::Vec2& texCoord : found) {
         EXPECT_NEAR(texCoord.x(), 0.25 + 0.5, 1e-6);
@@ -90,7 +90,7 @@ TEST(GltfLooks, TexturesAreMovedAsTheirMaterialsSay) {
 
 /// With an emissive texture, of glowing eyes for example, the colour alone would make the whole
 /// figure glow.
-TEST(GltfLooks, EmissionIsThatOfItsTexture) {
+TEST(GltfMaterials, EmissionTextureReplacesEmissionColour) {
     const auto read = [](const json& pbr, bool hasTexture) {
         GltfColumn column;
         addTexture(column);
@@ -100,10 +100,7 @@ TEST(GltfLooks, EmissionIsThatOfItsTexture) {
         paint(column, material);
         return osgSkin::importMesh(column.save("glows.gltf"));
     };
-    const auto emission = [](const ImportedMesh& mesh) {
-        return stateOf<osg::Material>(mesh, 0, osg::StateAttribute::MATERIAL)
-            .getEmission(osg::Material::FRONT);
-    };
+    const auto emission = [](const ImportedMesh& mesh) { return emissionOf(mesh); };
     const json grey = {{"baseColorFactor", {0.5, 0.5, 0.5, 1.0}}};
     const json black = {{"baseColorFactor", {0.0, 0.0, 0.0, 1.0}}};
     const test::Notices notices;
@@ -116,16 +113,11 @@ TEST(GltfLooks, EmissionIsThatOfItsTexture) {
     const test::Notices none;
     const ImportedMesh lamp = read(black, true);
     EXPECT_EQ(none.text(), "");
-    EXPECT_NE(
-        lamp.parts[0].geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE),
-        nullptr);
-    EXPECT_GT(stateOf<osg::Material>(lamp, 0, osg::StateAttribute::MATERIAL)
-                  .getDiffuse(osg::Material::FRONT)
-                  .r(),
-              0.9f);
+    EXPECT_NE(imageOf(lamp.parts.at(0)), nullptr);
+    EXPECT_GT(diffuseOf(lamp).r(), 0.9f);
 }
 
-TEST(GltfLooks, ColoursWithoutOpacityAreOpaque) {
+TEST(GltfMaterials, RgbColoursAreOpaque) {
     for (const int component : {5126, 5121}) {
         GltfColumn column;
         std::vector<double> colours;
@@ -135,8 +127,7 @@ TEST(GltfLooks, ColoursWithoutOpacityAreOpaque) {
         paint(column, {{"alphaMode", "BLEND"}});
         const ImportedMesh mesh = osgSkin::importMesh(column.save("opaque.gltf"));
         ASSERT_EQ(mesh.parts.size(), 1u);
-        for (const osg::Vec4& colour :
-             dynamic_cast<const osg::Vec4Array&>(*mesh.parts[0].geometry->getColorArray())) {
+        for (const osg::Vec4& colour : coloursOf(mesh)) {
             EXPECT_NEAR(colour.r(), 1.0, 1e-5);
             EXPECT_NEAR(colour.g(), 0.0, 1e-5);
             EXPECT_EQ(colour.a(), 1.0f);
@@ -145,7 +136,7 @@ TEST(GltfLooks, ColoursWithoutOpacityAreOpaque) {
 }
 
 /// The file's numbers are linear, ours sRGB: 0.52252 is 0.75, and 0.21404 is 0.5.
-TEST(GltfLooks, ColoursOfVerticesAreTakenTimesTheMaterials) {
+TEST(GltfMaterials, MultipliesVertexAndMaterialColours) {
     GltfColumn column;
     std::vector<double> colours;
     for (int v = 0; v < 24; ++v) colours.insert(colours.end(), {0.52252, 1.0, 0.0});
@@ -154,13 +145,13 @@ TEST(GltfLooks, ColoursOfVerticesAreTakenTimesTheMaterials) {
                    {"pbrMetallicRoughness", {{"baseColorFactor", {0.21404, 0.52252, 1.0, 0.5}}}}});
     const ImportedMesh mesh = osgSkin::importMesh(column.save("times.gltf"));
     ASSERT_EQ(mesh.parts.size(), 1u);
-    const auto& all = dynamic_cast<const osg::Vec4Array&>(*mesh.parts[0].geometry->getColorArray());
+    const auto& all = coloursOf(mesh);
     ASSERT_FALSE(all.empty());
     for (const osg::Vec4& colour : all)
         EXPECT_LT((colour - osg::Vec4(0.375f, 0.75f, 0.0f, 0.5f)).length(), 1e-4f);
 }
 
-TEST(GltfLooks, GlossySurfacesHaveTheirColour) {
+TEST(GltfMaterials, ReadsSpecularGlossiness) {
     GltfColumn column;
     addTexture(column);
     const json glossy = {{"diffuseFactor", {1.0, 0.0, 0.0, 0.5}},
@@ -170,16 +161,14 @@ TEST(GltfLooks, GlossySurfacesHaveTheirColour) {
                    {"extensions", {{"KHR_materials_pbrSpecularGlossiness", glossy}}}});
     const ImportedMesh mesh = osgSkin::importMesh(column.save("glossy.gltf"));
     ASSERT_EQ(mesh.parts.size(), 1u);
-    const auto& material = stateOf<osg::Material>(mesh, 0, osg::StateAttribute::MATERIAL);
+    const auto& material = materialOf(mesh);
     const osg::Vec4 red(1.0f, 0.0f, 0.0f, 0.5f);
     EXPECT_LT((material.getDiffuse(osg::Material::FRONT) - red).length(), 1e-5f);
-    EXPECT_NE(
-        mesh.parts[0].geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE),
-        nullptr);
+    EXPECT_NE(imageOf(mesh.parts.at(0)), nullptr);
 }
 
 /// A column three units tall, and a triangle beside its joints.
-TEST(GltfLooks, ThingsBesideTheFigureAreNoneOfIt) {
+TEST(GltfMaterials, LeavesOutScenery) {
     const auto vertices = [](double size, double x) {
         test::GltfColumn column;
         column.json["meshes"].push_back(
@@ -197,7 +186,7 @@ TEST(GltfLooks, ThingsBesideTheFigureAreNoneOfIt) {
 }
 
 /// The figure consists of all parts of its skin, not only the first.
-TEST(GltfLooks, ThingsBesideThePartsOfAFigureAreNoneOfIt) {
+TEST(GltfMaterials, KeepsObjectsBetweenSkinnedParts) {
     test::GltfColumn column;
     std::vector<double> aside = column.places;
     for (std::size_t i = 0; i < aside.size(); i += 3) aside[i] += 2.0;
@@ -212,7 +201,7 @@ TEST(GltfLooks, ThingsBesideThePartsOfAFigureAreNoneOfIt) {
     EXPECT_EQ(osgSkin::importRig(column.save("parts.gltf")).body.mesh.positions.size(), 51u);
 }
 
-TEST(GltfLooks, ATextureThatMaterialsShareIsReadOnce) {
+TEST(GltfMaterials, ReadsSharedTextureOnce) {
     GltfColumn column;
     addTexture(column);
     json& primitives = column.json["meshes"][0]["primitives"];
@@ -234,7 +223,7 @@ TEST(GltfLooks, ATextureThatMaterialsShareIsReadOnce) {
 }
 
 /// These textures exist only in an extension's format, without a fallback.
-TEST(GltfLooks, TexturesOfExtensionsAreReadOrMissed) {
+TEST(GltfMaterials, ReadsTextureFormatExtensions) {
     for (const char* extension : {"MSFT_texture_dds", "EXT_texture_webp"}) {
         GltfColumn column;
         addTexture(column);
@@ -250,7 +239,7 @@ TEST(GltfLooks, TexturesOfExtensionsAreReadOrMissed) {
     }
 }
 
-TEST(GltfLooks, FormatsThatAreNotReadAreNamed) {
+TEST(GltfMaterials, NamesUnsupportedImageFormats) {
     // "RIFF....WEBP" and the first bytes of KTX 2, in base 64
     for (const auto& [bytes, format] :
          {std::pair("UklGRgAAAABXRUJQ", "webp"), std::pair("q0tUWCAyMLsNChoK", "ktx2")}) {
@@ -266,7 +255,7 @@ TEST(GltfLooks, FormatsThatAreNotReadAreNamed) {
     }
 }
 
-TEST(GltfLooks, ExtensionsThatMoveThingsAreMissed) {
+TEST(GltfMaterials, WarnsAboutInstancing) {
     for (const bool isRequired : {false, true}) {
         GltfColumn column;
         column.json["extensionsUsed"] = {"KHR_materials_unlit", "EXT_mesh_gpu_instancing"};
@@ -279,7 +268,7 @@ TEST(GltfLooks, ExtensionsThatMoveThingsAreMissed) {
     }
 }
 
-TEST(GltfLooks, MeshesMayBeCompressedByDraco) {
+TEST(GltfMaterials, DecodesDraco) {
     // Two triangles with four vertices, as draco::Encoder writes them.
     const std::string file = testing::TempDir() + "packed.gltf";
     std::ofstream(file)
@@ -315,7 +304,7 @@ TEST(GltfLooks, MeshesMayBeCompressedByDraco) {
     }
 }
 
-TEST(GltfLooks, ColoursOfOneMeshAreDrawnBesideOthersWithout) {
+TEST(GltfMaterials, OneMeshMayHaveColours) {
     GltfColumn column;
     json& primitives = column.json["meshes"][0]["primitives"];
     json red = primitives[0];
@@ -332,7 +321,7 @@ TEST(GltfLooks, ColoursOfOneMeshAreDrawnBesideOthersWithout) {
     EXPECT_EQ(found, 24u);
 }
 
-TEST(GltfLooks, PicturesAreWhatTheyBeginAs) {
+TEST(GltfMaterials, DetectsImageFormatByContent) {
     GltfColumn plain;
     addTexture(plain);
     std::ifstream file(testing::TempDir() + plain.json["images"][0]["uri"].get<std::string>(),
@@ -361,13 +350,12 @@ TEST(GltfLooks, PicturesAreWhatTheyBeginAs) {
             paint(column, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
             const test::Notices notices;
             const ImportedMesh mesh = osgSkin::importMesh(column.save("kinds.gltf"));
-            const auto* texture = mesh.parts.at(0).geometry->getStateSet()->getTextureAttribute(
-                0, osg::StateAttribute::TEXTURE);
+            const auto* texture = imageOf(mesh.parts.at(0));
             EXPECT_NE(texture, nullptr) << mime << isInText << notices.text();
         }
 }
 
-TEST(GltfLooks, NamesOfPicturesEndWhereTheyEnd) {
+TEST(GltfMaterials, EscapesZeroBytesInImageNames) {
     using namespace std::string_literals;
     for (const std::string& behind : {"%00.bmp"s, "\0.bmp"s}) {
         GltfColumn column;
@@ -377,9 +365,7 @@ TEST(GltfLooks, NamesOfPicturesEndWhereTheyEnd) {
         paint(column, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
         const test::Notices notices;
         const ImportedMesh mesh = osgSkin::importMesh(column.save("zero.gltf"));
-        EXPECT_EQ(mesh.parts.at(0).geometry->getStateSet()->getTextureAttribute(
-                      0, osg::StateAttribute::TEXTURE),
-                  nullptr);
+        EXPECT_EQ(imageOf(mesh.parts.at(0)), nullptr);
         EXPECT_TRUE(notices.say("%00.bmp\" cannot be read; drawn without")) << notices.text();
     }
 }

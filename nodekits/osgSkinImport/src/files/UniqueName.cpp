@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "text/UniqueName.h"
+#include "files/UniqueName.h"
 
 namespace osgSkin {
 

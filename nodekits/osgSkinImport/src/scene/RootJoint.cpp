@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "scene/RootMotion.h"
+#include "scene/RootJoint.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkinRig/JointRoles>
 
@@ -57,31 +57,31 @@ ReducedSkeleton::ReducedSkeleton(const RestSkeleton& skeleton, std::size_t root)
         above.push_back(static_cast<std::size_t>(a));
     std::reverse(above.begin(), above.end());
     constexpr int kOpen = -1;
-    std::vector<int> place(skeleton.joints.size(), kOpen);
-    place[root] = 0;
-    for (const std::size_t a : above) place[a] = 0; // maps to the root
+    std::vector<int> newIndex(skeleton.joints.size(), kOpen);
+    newIndex[root] = 0;
+    for (const std::size_t a : above) newIndex[a] = 0; // maps to the root
     joints.push_back(root);
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-        if (place[j] != kOpen) continue;
-        place[j] = static_cast<int>(joints.size());
+        if (newIndex[j] != kOpen) continue;
+        newIndex[j] = static_cast<int>(joints.size());
         joints.push_back(j);
     }
     for (const std::size_t j : joints) {
         rest.joints.push_back(skeleton.joints[j]);
         int& parent = rest.joints.back().parent;
-        parent = j == root ? -1 : place[static_cast<std::size_t>(parent)];
+        parent = j == root ? -1 : newIndex[static_cast<std::size_t>(parent)];
     }
 }
 
-void noticeUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
-                       const ReducedSkeleton& carried, const std::string& path) {
+void warnUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
+                     const ReducedSkeleton& carried, const std::string& path) {
     const std::vector<std::size_t>& joints = carried.joints;
     for (std::size_t i = 1; i < joints.size(); ++i) {
         const std::size_t j = joints[i];
         if (!moved[j]) continue;
-        tellOf(path, "joint \"" + skeleton.joints[j].name +
-                         "\" moves from its place; only moves of \"" +
-                         skeleton.joints[joints.front()].name + "\" are used");
+        warn(path, "joint \"" + skeleton.joints[j].name +
+                       "\" is translated; only translations of \"" +
+                       skeleton.joints[joints.front()].name + "\" are used");
         return;
     }
 }

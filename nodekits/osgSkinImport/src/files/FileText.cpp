@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/Error>
 #include <osgSkinImport/FindNamedFile>
@@ -61,17 +61,17 @@ constexpr std::size_t kMegabyte = 1 << 20;
 /// A path for messages, truncated if it is too long for a file name.
 std::string shortened(const std::string& path) {
     constexpr std::size_t longest = 200;
-    return path.size() > kLongestPath ? path.substr(0, longest) + "..." : path;
+    return path.size() > kMaxPath ? path.substr(0, longest) + "..." : path;
 }
 
 } // namespace
 
 void requireName(const std::string& path) {
-    if (path.size() > kLongestPath)
-        failFile(path, "a name of " + std::to_string(path.size()) + " bytes, expected at most " +
-                           std::to_string(kLongestPath));
+    if (path.size() > kMaxPath)
+        failFile(path, "the file's name has " + std::to_string(path.size()) +
+                           " bytes, expected at most " + std::to_string(kMaxPath));
     if (path.find('\0') != std::string::npos)
-        failFile(path, "a name with a byte 0 in it, expected none");
+        failFile(path, "the file's name contains a zero byte");
 }
 
 bool isOnlyRead(const std::string& path) {
@@ -88,8 +88,7 @@ bool isOnlyRead(const std::string& path) {
 void requireOnlyRead(const std::string& path) {
     requireName(path);
     if (isOnlyRead(path)) return;
-    failFile(path, "an archive, a script or an address by its extension, expected a file that only "
-                   "has to be read");
+    failFile(path, "archives, scripts and network formats are not read");
 }
 
 bool isPseudoLoader(const std::string& name) {
@@ -121,7 +120,7 @@ std::string findNamedFile(const std::string& name, const osgDB::Options* options
     return found.empty() ? osgDB::findFileInPath(name, registry.getDataFilePathList()) : found;
 }
 
-std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const char* raisedBy,
+std::ifstream openFile(const std::string& path, std::size_t maxMegabytes, const char* raisedBy,
                        std::size_t& size) {
     requireName(path);
     std::error_code failure;
@@ -135,9 +134,9 @@ std::ifstream openFile(const std::string& path, std::size_t mostMegabytes, const
         failFile(path, "cannot open: not a regular file");
     size = static_cast<std::size_t>(std::filesystem::file_size(path, failure));
     if (failure) failFile(path, "cannot open: " + failure.message());
-    if (size / kMegabyte >= mostMegabytes)
+    if (size / kMegabyte >= maxMegabytes)
         failFile(path, std::to_string(size) + " bytes, expected less than " +
-                           std::to_string(mostMegabytes) + " MB (option " + raisedBy + ")");
+                           std::to_string(maxMegabytes) + " MB (option " + raisedBy + ")");
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     if (!stream)
@@ -150,7 +149,7 @@ void failFile(const std::string& path, const std::string& message) {
     throw Error(shortened(path) + ": " + message);
 }
 
-void tellOf(const std::string& path, const std::string& message) {
+void warn(const std::string& path, const std::string& message) {
     OSG_NOTICE << onOneLine(shortened(path) + ": " + message) << std::endl;
 }
 

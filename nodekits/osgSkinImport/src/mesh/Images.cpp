@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/Pictures.h"
+#include "mesh/Images.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/Error>
 #include <osgSkinImport/ShareImages>
@@ -35,7 +35,7 @@
 namespace osgSkin {
 namespace {
 
-constexpr int kLongestSide = 1 << 16; ///< in pixels
+constexpr int kMaxSide = 1 << 16; ///< in pixels
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -70,19 +70,18 @@ bool hasShortTables(std::string_view bytes) {
 
 } // namespace
 
-SharedPictures* SharedPictures::of(const osgDB::Options* options) {
+SharedImages* SharedImages::of(const osgDB::Options* options) {
     const osg::UserDataContainer* all =
         options != nullptr ? options->getUserDataContainer() : nullptr;
     if (all == nullptr) return nullptr;
     for (unsigned i = 0; i < all->getNumUserObjects(); ++i)
-        if (const auto* found = dynamic_cast<const SharedPictures*>(all->getUserObject(i)))
-            return const_cast<SharedPictures*>(found); // options are const, but exist to share it
+        if (const auto* found = dynamic_cast<const SharedImages*>(all->getUserObject(i)))
+            return const_cast<SharedImages*>(found); // options are const, but exist to share it
     return nullptr;
 }
 
-osg::ref_ptr<osg::Image>
-SharedPictures::once(const std::string& path, const std::string& part,
-                     const std::function<osg::ref_ptr<osg::Image>()>& read) {
+osg::ref_ptr<osg::Image> SharedImages::once(const std::string& path, const std::string& part,
+                                            const std::function<osg::ref_ptr<osg::Image>()>& read) {
     std::error_code failure;
     const std::string file = std::filesystem::weakly_canonical(path, failure).string();
     const auto [entry, isNew] = _files.emplace((failure ? path : file) + '\n' + part, Read());
@@ -99,48 +98,48 @@ SharedPictures::once(const std::string& path, const std::string& part,
 osg::ref_ptr<osgDB::Options> shareImages(const osgDB::Options* options) {
     const osg::ref_ptr<osgDB::Options> result =
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
-    if (SharedPictures::of(result) != nullptr) return result;
+    if (SharedImages::of(result) != nullptr) return result;
     // cloneOptions() shares the container with the original.
     if (const osg::UserDataContainer* all = result->getUserDataContainer())
         result->setUserDataContainer(osg::clone(all, osg::CopyOp::SHALLOW_COPY));
-    result->getOrCreateUserDataContainer()->addUserObject(new SharedPictures);
+    result->getOrCreateUserDataContainer()->addUserObject(new SharedImages);
     return result;
 }
 
-PictureReader::PictureReader(const osgDB::Options* options)
+ImageReader::ImageReader(const osgDB::Options* options)
     : _limits(ReadLimits::of(options)),
-      _shared(SharedPictures::of(options) != nullptr ? SharedPictures::of(options)
-                                                     : new SharedPictures) {}
+      _shared(SharedImages::of(options) != nullptr ? SharedImages::of(options) : new SharedImages) {
+}
 
-bool PictureReader::decodes(const std::string& extension) {
+bool ImageReader::decodes(const std::string& extension) {
     static const char* const formats[] = {"bmp", "jpeg", "jpg", "png", "tga"};
     return std::find(std::begin(formats), std::end(formats),
                      osgDB::convertToLowerCase(extension)) != std::end(formats);
 }
 
-osg::ref_ptr<osg::Image> PictureReader::decode(const std::string& name, std::string_view bytes) {
+osg::ref_ptr<osg::Image> ImageReader::decode(const std::string& name, std::string_view bytes) {
     if (bytes.size() > std::size_t(std::numeric_limits<int>::max()))
-        failFile(name, "a picture of " + std::to_string(bytes.size()) +
-                           " bytes, expected less than 2 GB");
+        failFile(name,
+                 "an image of " + std::to_string(bytes.size()) + " bytes, expected less than 2 GB");
     const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
     if (!hasShortTables(bytes))
         failFile(name, "a JPEG image with a Huffman table of more than 256 entries");
     int width = 0, height = 0, channels = 0;
     const auto fail = [&] {
-        failFile(name, std::string("cannot be decoded as a picture: ") + stbi_failure_reason());
+        failFile(name, std::string("cannot be decoded as an image: ") + stbi_failure_reason());
     };
     if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) fail();
     const std::string sides = std::to_string(width) + " x " + std::to_string(height);
-    if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide)
-        failFile(name, "a picture of " + sides + " pixels, expected 1 to " +
-                           std::to_string(kLongestSide) + " each way");
+    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+        failFile(name, "an image of " + sides + " pixels, expected 1 to " +
+                           std::to_string(kMaxSide) + " each way");
     const double pixels = double(width) * height;
-    const double most =
+    const double limit =
         std::max(0.0, double(_limits.pixelsOf(_shared->bytes + bytes.size())) - _shared->pixels);
-    if (pixels > most)
-        failFile(name, "a picture of " + sides + " pixels, expected at most " +
-                           std::to_string(static_cast<std::size_t>(most)) + " of four bytes" +
+    if (pixels > limit)
+        failFile(name, "an image of " + sides + " pixels, expected at most " +
+                           std::to_string(static_cast<std::size_t>(limit)) + " of four bytes" +
                            (_shared->bytes > 0 ? " beside those before it" : "") +
                            " (option maxPixels)");
     _shared->pixels += pixels;
@@ -159,11 +158,11 @@ osg::ref_ptr<osg::Image> PictureReader::decode(const std::string& name, std::str
     return image;
 }
 
-osg::ref_ptr<osg::Image> PictureReader::read(const std::string& name, const std::string& extension,
-                                             std::string_view bytes) {
+osg::ref_ptr<osg::Image> ImageReader::read(const std::string& name, const std::string& extension,
+                                           std::string_view bytes) {
     if (decodes(extension)) return decode(name, bytes);
     if (!contains(_limits.images, osgDB::convertToLowerCase(extension)))
-        failFile(name, "a picture within it in the format " + inQuotes(extension) +
+        failFile(name, "an embedded image in the format " + inQuotes(extension) +
                            ", expected PNG, JPEG, BMP or TGA (option images)");
     osgDB::ReaderWriter* reader =
         osgDB::Registry::instance()->getReaderWriterForExtension(extension);
@@ -173,8 +172,8 @@ osg::ref_ptr<osg::Image> PictureReader::read(const std::string& name, const std:
 }
 
 osg::ref_ptr<osg::Image>
-PictureReader::readFile(const std::string& path,
-                        const std::function<osg::ref_ptr<osg::Image>()>& otherwise) {
+ImageReader::readFile(const std::string& path,
+                      const std::function<osg::ref_ptr<osg::Image>()>& otherwise) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     if (decodes(extension))
         return decode(path, readWholeFile(path, _limits.fileMegabytes, "maxFileMB"));
