@@ -91,11 +91,11 @@ TEST(AssimpModels, ReadsEmbeddedTextures) {
     const osgSkin::ImportedRig rig =
         osgSkin::importRig(std::string(kModels) + "MDL/MDL (HL1)/alpha_test.mdl");
     ASSERT_EQ(rig.body.parts.size(), 1u);
-    const auto* texture = dynamic_cast<const osg::Texture2D*>(rig.imageOf(body.parts.at(0)));
-    ASSERT_NE(texture, nullptr);
-    ASSERT_EQ(texture->getImage()->s(), 512);
-    EXPECT_EQ(texture->getImage()->getColor(0, 0), osg::Vec4(0.0f, 0.0f, 1.0f, 1.0f));
-    EXPECT_GT(texture->getImage()->getColor(256, 256).r(), 0.7f);
+    const osg::Image* const image = imageOf(rig.body.parts[0]);
+    ASSERT_NE(image, nullptr);
+    ASSERT_EQ(image->s(), 512);
+    EXPECT_EQ(image->getColor(0, 0), osg::Vec4(0.0f, 0.0f, 1.0f, 1.0f));
+    EXPECT_GT(image->getColor(256, 256).r(), 0.7f);
 }
 
 TEST(AssimpModels, RejectsOthersWithReason) {

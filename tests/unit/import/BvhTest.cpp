@@ -6,6 +6,7 @@
 #include "NamedCase.h"
 #include "Notices.h"
 #include "Paths.h"
+#include "TextFile.h"
 
 #include <osgSkin/Error>
 #include <osgSkinImport/ImportMotion>
@@ -28,10 +29,7 @@
 namespace {
 
 std::string plainText() {
-    std::ifstream file(testData("bvh/two_joints.bvh"), std::ios::binary);
-    std::ostringstream content;
-    content << file.rdbuf();
-    return content.str();
+    return test::fileText(testData("bvh/two_joints.bvh"));
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -42,26 +40,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text;
 }
 
-/// A BVH file that exists while this lives.
-class TemporaryBvh {
-public:
-    explicit TemporaryBvh(const std::string& text)
-        : path(testing::TempDir() + "osgskin_" + testName() + ".bvh") {
-        std::ofstream(path, std::ios::binary) << text;
-    }
-    ~TemporaryBvh() { std::filesystem::remove(path); }
-    TemporaryBvh(const TemporaryBvh&) = delete;
-    TemporaryBvh& operator=(const TemporaryBvh&) = delete;
-
-    std::string path;
-
-private:
-    static std::string testName() {
-        std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::replace(name.begin(), name.end(), '/', '_');
-        return name;
-    }
-};
+std::string saveBvh(const std::string& text) {
+    return test::saveText("dialect.bvh", text);
+}
 
 struct Dialect {
     const char* name;
@@ -117,8 +98,8 @@ class BvhVariant : public testing::TestWithParam<Dialect> {};
 
 TEST_P(BvhVariant, ReadsTheSameMotion) {
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
-    const TemporaryBvh file(GetParam().write(plainText()));
-    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    const std::string path = saveBvh(GetParam().write(plainText()));
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
     ASSERT_EQ(motion.skeleton.joints.size(), plain.skeleton.joints.size());
     for (std::size_t j = 0; j < plain.skeleton.joints.size(); ++j) {
         EXPECT_EQ(motion.skeleton.joints[j].name, plain.skeleton.joints[j].name);
@@ -173,9 +154,9 @@ const Refused kRefused[] = {
 class BrokenBvh : public testing::TestWithParam<Refused> {};
 
 TEST_P(BrokenBvh, ErrorNamesTheLine) {
-    const TemporaryBvh file(replaced(plainText(), GetParam().from, GetParam().to));
-    expectError([&] { osgSkin::importMotion(file.path); }, file.path + ": " + GetParam().message);
-    expectError([&] { osgSkin::importSkeleton(file.path); }, file.path + ": " + GetParam().message);
+    const std::string path = saveBvh(replaced(plainText(), GetParam().from, GetParam().to));
+    expectError([&] { osgSkin::importMotion(path); }, path + ": " + GetParam().message);
+    expectError([&] { osgSkin::importSkeleton(path); }, path + ": " + GetParam().message);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, BrokenBvh, testing::ValuesIn(kRefused),
@@ -183,12 +164,11 @@ INSTANTIATE_TEST_SUITE_P(Dialects, BrokenBvh, testing::ValuesIn(kRefused),
 
 TEST(BvhDialect, AllowsZeroFrameTimeForOneFrame) {
     std::string text = replaced(plainText(), "Time: 0.025", "Time: 0");
-    expectError([&] { osgSkin::importMotion(TemporaryBvh(text).path); },
-                "the frame time is 0.000000");
+    expectError([&] { osgSkin::importMotion(saveBvh(text)); }, "the frame time is 0.000000");
     text = replaced(text, "Frames: 2", "Frames: 1");
-    const TemporaryBvh file(text);
-    EXPECT_EQ(osgSkin::importSkeleton(file.path).joints.size(), 2u);
-    EXPECT_GT(osgSkin::importMotion(file.path).frameTime, 0.0);
+    const std::string path = saveBvh(text);
+    EXPECT_EQ(osgSkin::importSkeleton(path).joints.size(), 2u);
+    EXPECT_GT(osgSkin::importMotion(path).frameTime, 0.0);
 }
 
 TEST(BvhDialect, RootMayHavePositionsOnly) {
@@ -207,8 +187,8 @@ TEST(BvhDialect, RootMayHavePositionsOnly) {
         kept += line + "\n";
     }
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
-    const TemporaryBvh file(kept);
-    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    const std::string path = saveBvh(kept);
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
     EXPECT_EQ(motion.rootPositions, plain.rootPositions);
     for (std::size_t f = 0; f < motion.frames; ++f) {
         EXPECT_EQ(motion.rotation(f, 0), glm::dquat(1, 0, 0, 0));
@@ -219,10 +199,11 @@ TEST(BvhDialect, RootMayHavePositionsOnly) {
 /// Props and cameras rotate about one axis; some figures only rise and sink.
 TEST(BvhDialect, RootMayHaveSomeChannels) {
     const auto motionOf = [](const std::string& channels, const std::string& numbers) {
-        const TemporaryBvh file("HIERARCHY\nROOT base\n{\nOFFSET 7 8 9\nCHANNELS " + channels +
-                                "\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\n" +
-                                "Frame Time: 0.1\n" + numbers + "\n");
-        return osgSkin::importMotion(file.path);
+        const std::string path =
+            saveBvh("HIERARCHY\nROOT base\n{\nOFFSET 7 8 9\nCHANNELS " + channels +
+                    "\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\n" + "Frame Time: 0.1\n" +
+                    numbers + "\n");
+        return osgSkin::importMotion(path);
     };
     const osgSkin::Motion turns = motionOf("4 Xposition Yposition Zposition Yrotation", "1 2 3 90");
     EXPECT_EQ(turns.rootPositions[0], glm::dvec3(1, 2, 3));
@@ -233,9 +214,10 @@ TEST(BvhDialect, RootMayHaveSomeChannels) {
 }
 
 TEST(BvhDialect, NamesMayHaveBlanks) {
-    const TemporaryBvh file(replaced(replaced(plainText(), "JOINT Spine", "JOINT Bip01  L Thigh "),
-                                     "ROOT Hips\n{", "ROOT Bip01 Pelvis {"));
-    const osgSkin::RestSkeleton skeleton = osgSkin::importSkeleton(file.path);
+    const std::string path =
+        saveBvh(replaced(replaced(plainText(), "JOINT Spine", "JOINT Bip01  L Thigh "),
+                         "ROOT Hips\n{", "ROOT Bip01 Pelvis {"));
+    const osgSkin::RestSkeleton skeleton = osgSkin::importSkeleton(path);
     ASSERT_EQ(skeleton.joints.size(), 2u);
     EXPECT_EQ(skeleton.joints[0].name, "Bip01 Pelvis");
     EXPECT_EQ(skeleton.joints[1].name, "Bip01  L Thigh");
@@ -243,13 +225,13 @@ TEST(BvhDialect, NamesMayHaveBlanks) {
 
 TEST(BvhDialect, LongNamesAreKept) {
     const std::string name(5000, 'n');
-    const TemporaryBvh file(replaced(plainText(), "Spine", name));
-    EXPECT_EQ(osgSkin::importSkeleton(file.path).find(name), 1);
+    const std::string path = saveBvh(replaced(plainText(), "Spine", name));
+    EXPECT_EQ(osgSkin::importSkeleton(path).find(name), 1);
 }
 
 TEST(BvhDialect, SmallNumbersHaveExponents) {
-    const TemporaryBvh file(replaced(plainText(), "1 11 2", "1e-05 -2.5E-3 1e-400"));
-    EXPECT_EQ(osgSkin::importMotion(file.path).rootPositions[1], glm::dvec3(1e-5, -2.5e-3, 0.0));
+    const std::string path = saveBvh(replaced(plainText(), "1 11 2", "1e-05 -2.5E-3 1e-400"));
+    EXPECT_EQ(osgSkin::importMotion(path).rootPositions[1], glm::dvec3(1e-5, -2.5e-3, 0.0));
 }
 
 TEST(BvhDialect, WarnsAboutFrameTimesInMilliseconds) {
@@ -257,18 +239,18 @@ TEST(BvhDialect, WarnsAboutFrameTimesInMilliseconds) {
         std::string text = plainText();
         const std::size_t at = text.find("Frame Time:") + 11;
         text.replace(at, text.find('\n', at) - at, std::string(" ") + time);
-        const TemporaryBvh file(text);
+        const std::string path = saveBvh(text);
         const test::Notices notices;
-        osgSkin::importMotion(file.path);
+        osgSkin::importMotion(path);
         EXPECT_EQ(notices.say("a frame takes 33.333300 seconds"), isTold) << notices.text();
     }
 }
 
 /// QAvimator, an editor for Second Life, appends the numbers of its key frames.
 TEST(BvhDialect, WarnsAboutExtraFrames) {
-    const TemporaryBvh file(plainText() + "2 0 1\n8 0 1 29 59 60\n");
+    const std::string path = saveBvh(plainText() + "2 0 1\n8 0 1 29 59 60\n");
     const test::Notices notices;
-    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
     EXPECT_EQ(motion.frames, 2u);
     EXPECT_EQ(motion.rootPositions[1], glm::dvec3(1, 11, 2));
     EXPECT_TRUE(notices.say("line 21: 2 line(s) beyond the declared 2 frames ignored"))
@@ -276,9 +258,9 @@ TEST(BvhDialect, WarnsAboutExtraFrames) {
 }
 
 TEST(BvhDialect, PositionsMayComeInAnyOrder) {
-    const TemporaryBvh file(
+    const std::string path = saveBvh(
         replaced(plainText(), "Xposition Yposition Zposition", "Zposition Xposition Yposition"));
-    EXPECT_EQ(osgSkin::importMotion(file.path).rootPositions[1], glm::dvec3(11, 2, 1));
+    EXPECT_EQ(osgSkin::importMotion(path).rootPositions[1], glm::dvec3(11, 2, 1));
 }
 
 /// Exporters that write positions for every joint mean its offset, or a stretch that no skin
@@ -292,9 +274,9 @@ TEST(BvhDialect, UsesPositionsOfTheRootOnly) {
         replaced(text, "  JOINT Spine", "  JOINT Leg\n  {\n    OFFSET 0 -5 0\n  }\n  JOINT Spine");
     text = replaced(text, "0 10 0 0 0 0 0 0 0", "0 10 0 0 0 0 0 5 1 0 0 0");
     text = replaced(text, "10 20 30 40", "10 20 30 7 7 7 40");
-    const TemporaryBvh file(text);
+    const std::string path = saveBvh(text);
     const test::Notices notices;
-    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
     EXPECT_TRUE(notices.say("joint \"Spine\" is translated; only translations of \"Hips\""))
         << notices.text();
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
@@ -389,13 +371,10 @@ TEST(MotionErrors, RejectsSkippingAllFrames) {
 }
 
 TEST(MotionErrors, RejectsDeepNesting) {
-    const std::string path = testing::TempDir() + "osgskin_deep.bvh";
-    std::ofstream file(path);
-    file << "HIERARCHY\nROOT j\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
-    for (int i = 0; i < 100000; ++i) file << "JOINT j" << i << "\n{\nOFFSET 0 1 0\n";
-    file.close();
+    std::string text = "HIERARCHY\nROOT j\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
+    for (int i = 0; i < 100000; ++i) text += "JOINT j" + std::to_string(i) + "\n{\nOFFSET 0 1 0\n";
+    const std::string path = saveBvh(text);
     expectError([&] { osgSkin::importSkeleton(path); }, "is nested more than 1000 deep");
-    std::filesystem::remove(path);
 }
 
 TEST(MotionErrors, RejectsMeshFormats) {
@@ -406,13 +385,7 @@ TEST(MotionErrors, RejectsMeshFormats) {
                 path + ": files of this format have no animation");
 }
 
-const glm::dvec3 kX(1, 0, 0);
-const glm::dvec3 kY(0, 1, 0);
-const glm::dvec3 kZ(0, 0, 1);
-
-glm::dquat turn(double degrees, const glm::dvec3& axis) {
-    return glm::angleAxis(glm::radians(degrees), axis);
-}
+const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 
 double difference(const glm::dquat& a, const glm::dquat& b) {
     return glm::length(a * glm::conjugate(b) * glm::dvec3(1, 2, 3) - glm::dvec3(1, 2, 3)) +
@@ -426,9 +399,15 @@ TEST(ImportMotion, ReadsTheDeclaredChannelOrderOfEachJoint) {
     EXPECT_EQ(motion.name, "two_joints");
     EXPECT_EQ(motion.frameTime, 0.025);
     EXPECT_LT(difference(motion.rotation(0, 0), {1, 0, 0, 0}), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(10, kZ) * turn(20, kY) * turn(30, kX)), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 1), turn(40, kX) * turn(50, kY) * turn(60, kZ)), 1e-12);
-    EXPECT_GT(difference(motion.rotation(1, 1), turn(60, kZ) * turn(50, kY) * turn(40, kX)), 0.1);
+    EXPECT_LT(difference(motion.rotation(1, 0),
+                         turnDegrees(10, kZ) * turnDegrees(20, kY) * turnDegrees(30, kX)),
+              1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 1),
+                         turnDegrees(40, kX) * turnDegrees(50, kY) * turnDegrees(60, kZ)),
+              1e-12);
+    EXPECT_GT(difference(motion.rotation(1, 1),
+                         turnDegrees(60, kZ) * turnDegrees(50, kY) * turnDegrees(40, kX)),
+              0.1);
 }
 
 TEST(ImportMotion, PositionChannelsReplaceTheRootsOffset) {
@@ -443,7 +422,9 @@ TEST(ImportMotion, RootWithoutPositionChannelsStaysAtItsOffset) {
     ASSERT_EQ(motion.frames, 1u);
     EXPECT_EQ(motion.frameTime, 0.5);
     EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
-    EXPECT_LT(difference(motion.rotation(0, 0), turn(10, kY) * turn(20, kX) * turn(30, kZ)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(0, 0),
+                         turnDegrees(10, kY) * turnDegrees(20, kX) * turnDegrees(30, kZ)),
+              1e-12);
 }
 
 /// If the hips move relative to a root on the ground, the path is that of the hips: rotated by the
@@ -460,7 +441,7 @@ TEST(ImportMotion, RootIsTheFirstMovingJoint) {
     ASSERT_EQ(motion.rotations.size(), 6u);
     EXPECT_LT(glm::distance(motion.rootPositions[0], glm::dvec3(0, 10, 0)), 1e-12);
     EXPECT_LT(glm::distance(motion.rootPositions[1], glm::dvec3(5 + 3, 11, 0)), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, kY)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turnDegrees(90, kY)), 1e-12);
     EXPECT_LT(difference(motion.rotation(1, 1), {1, 0, 0, 0}), 1e-12);
 }
 
@@ -529,10 +510,10 @@ TEST(Motion, AddFrameTakesGlmAndOsgTypes) {
     motion.skeleton = skeleton;
     const osg::Quat bow(osg::PI_2, osg::X_AXIS);
     motion.addFrame(osg::Vec3d(1, 2, 3), {osg::Quat(), bow});
-    motion.addFrame(glm::dvec3(4, 5, 6), {turn(90, kX), glm::dquat(1, 0, 0, 0)});
+    motion.addFrame(glm::dvec3(4, 5, 6), {turnDegrees(90, kX), glm::dquat(1, 0, 0, 0)});
     ASSERT_EQ(motion.frames, 2u);
-    EXPECT_LT(difference(motion.rotation(0, 1), turn(90, kX)), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, kX)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(0, 1), turnDegrees(90, kX)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turnDegrees(90, kX)), 1e-12);
     EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
     EXPECT_EQ(motion.rootPositions[1], glm::dvec3(4, 5, 6));
 

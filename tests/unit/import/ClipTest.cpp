@@ -5,6 +5,7 @@
 #include "FindNodes.h"
 #include "UpdateAt.h"
 
+#include <osgSkin/GlmOsg>
 #include <osgSkinRig/ApplyFrame>
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/MakeAnimation>

@@ -8,6 +8,7 @@
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinRig/JointNames>
+#include <osgSkinRig/JointRoles>
 #include <osgSkinRig/Retarget>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 
 namespace {
 
+using osgSkin::Clip;
 using osgSkin::Motion;
 using osgSkin::RestSkeleton;
 using osgSkin::RetargetOptions;

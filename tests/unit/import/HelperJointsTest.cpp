@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+using namespace osgSkin;
+
 namespace {
 
 /// makeFigure() with its right side.

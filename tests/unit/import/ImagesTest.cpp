@@ -4,6 +4,7 @@
 #include "ExpectError.h"
 #include "GltfBuilder.h"
 #include "ImageFiles.h"
+#include "MeshParts.h"
 #include "Notices.h"
 
 #include <osgSkinImport/ImportMesh>
@@ -29,11 +30,11 @@ using test::Drawn;
 using test::drawnWith;
 using test::expectRefused;
 using test::little;
-using test::savePicture;
+using test::saveText;
 using test::with;
 using test::written;
 
-/// A TGA picture of 5 x 3 pixels.
+/// A TGA image of 5 x 3 pixels.
 /// \param kind 1: palette of two colours, 2: true colour; plus 8: compressed
 /// \param pixels data
 std::string tga(int kind, const std::string& pixels) {
@@ -52,7 +53,7 @@ TEST(Images, ReadsEachFormat) {
         const std::string content = written(extension);
         if (content.empty()) continue; // no such writer
         const std::string name = std::string("whole.") + extension;
-        savePicture(name, content);
+        saveText(name, content);
         const Drawn drawn = drawnWith(name);
         ASSERT_TRUE(drawn.image.valid()) << drawn.notices;
         EXPECT_EQ(drawn.image->s(), 5) << extension;
@@ -65,7 +66,7 @@ TEST(Images, ReadsEachFormat) {
         {"packed.tga", tga(10, row + row + row)},
         {"mapped.tga", tga(1, std::string(15, '\1'))}};
     for (const auto& [name, content] : others) {
-        savePicture(name, content);
+        saveText(name, content);
         const Drawn drawn = drawnWith(name);
         ASSERT_TRUE(drawn.image.valid()) << drawn.notices;
         EXPECT_EQ(drawn.image->s(), 5) << name;
@@ -78,7 +79,7 @@ TEST(Images, MatchOpenSceneGraph) {
         const std::string content = written(extension);
         if (content.empty()) continue; // no such writer
         const std::string name = std::string("same.") + extension;
-        savePicture(name, content);
+        saveText(name, content);
         const Drawn drawn = drawnWith(name);
         ASSERT_TRUE(drawn.image.valid()) << drawn.notices;
         const osg::ref_ptr<osg::Image> theirs = osgDB::readRefImageFile(testing::TempDir() + name);
@@ -106,7 +107,7 @@ TEST(Images, LimitsPixelsByFileSize) {
                   "60000 x 60000 pixels, expected at most");
     expectRefused("large.tga", with(tga(2, {}), 12, little(60000, 2) + little(60000, 2)),
                   "60000 x 60000 pixels, expected at most");
-    savePicture("small.png", written("png"));
+    saveText("small.png", written("png"));
     EXPECT_TRUE(drawnWith("small.png", "maxPixels=1").image.valid());
     expectRefused("option.png", with(written("png"), 16, big(300, 4) + big(300, 4)),
                   "(option maxPixels)", "maxPixels=100");
@@ -129,7 +130,7 @@ TEST(Images, RejectsBrokenFiles) {
     expectRefused("table.jpg", with(jpg, table + 5, std::string(16, '\x7f')),
                   "a Huffman table of more than 256 entries");
     // The decoder is chosen by content, not by name; there is none for GIF.
-    savePicture("named.png", written("jpg"));
+    saveText("named.png", written("jpg"));
     EXPECT_TRUE(drawnWith("named.png").image.valid());
     expectRefused("gif.png", "GIF89a" + little(5, 2) + little(3, 2) + "\0\0\0;"s, reason);
 }
@@ -139,22 +140,21 @@ TEST(Images, CountPixelsPerModel) {
     const int side = 200;
     const std::string small = written("png", side, side);
     ASSERT_LT(16 * small.size(), std::size_t(side) * side);
-    std::string materials, text = "mtllib picture_many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
+    std::string materials, text = "mtllib image_many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
     for (const std::string name : {"first", "second", "third"}) {
-        savePicture("picture_" + name + ".png", small);
-        materials += "newmtl " + name + "\nmap_Kd picture_" + name + ".png\n";
+        saveText("image_" + name + ".png", small);
+        materials += "newmtl " + name + "\nmap_Kd image_" + name + ".png\n";
         text += "usemtl " + name + "\nf 1/1 2/1 3/1\n";
     }
-    savePicture("picture_many.mtl", materials);
-    savePicture("picture_many.obj", text);
+    saveText("image_many.mtl", materials);
+    saveText("image_many.obj", text);
     const auto drawn = [&](std::size_t pixels) {
         const osg::ref_ptr<osgDB::Options> words =
             new osgDB::Options("maxPixels=" + std::to_string(pixels));
         std::size_t count = 0;
         for (const osgSkin::MeshPart& part :
-             osgSkin::importMesh(testing::TempDir() + "picture_many.obj", words).parts)
-            if (part.geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE))
-                ++count;
+             osgSkin::importMesh(testing::TempDir() + "image_many.obj", words).parts)
+            count += imageOf(part) != nullptr;
         return count;
     };
     const std::size_t each = std::size_t(side) * side - 16 * small.size();
@@ -169,11 +169,11 @@ TEST(Images, CountPixelsPerModel) {
 TEST(Images, ReadsOtherFormatsIfAllowed) {
     const std::string content = written("rgb");
     ASSERT_FALSE(content.empty());
-    savePicture("other.rgb", content);
+    saveText("other.rgb", content);
     for (const char* words : {"", "formats=obj,rgb", "formats=all", "formats=obj pictures=rgb"})
         EXPECT_TRUE(drawnWith("other.rgb", words).image.valid()) << words;
     expectRefused("other.rgb", content, "the format \"rgb\" is not allowed", "formats=obj");
-    savePicture("ours.png", written("png"));
+    saveText("ours.png", written("png"));
     EXPECT_TRUE(drawnWith("ours.png", "formats=obj").image.valid());
 }
 
@@ -193,36 +193,34 @@ TEST(Images, ChecksEmbeddedGltfImages) {
         column.json["meshes"][0]["primitives"][0]["material"] = 0;
         const test::Notices notices;
         const osgSkin::ImportedMesh mesh =
-            osgSkin::importMesh(column.save(large ? "picture_large.gltf" : "picture_whole.gltf"));
-        const osg::StateSet& states = *mesh.parts.at(0).geometry->getStateSet();
-        EXPECT_EQ(states.getTextureAttribute(0, osg::StateAttribute::TEXTURE) != nullptr, !large)
-            << notices.text();
+            osgSkin::importMesh(column.save(large ? "image_large.gltf" : "image_whole.gltf"));
+        EXPECT_EQ(imageOf(mesh.parts.at(0)) != nullptr, !large) << notices.text();
         EXPECT_EQ(notices.say("an image of 15000 x 15000 pixels"), large) << notices.text();
     }
 }
 
 namespace {
 
-using test::savePicture;
+using test::saveText;
 using test::written;
 
 constexpr int kSide = 200;
 
-/// The value of maxPixels that allows exactly this many pictures by written("png", kSide, kSide).
-std::string optionFor(std::size_t pictures) {
+/// The value of maxPixels that allows exactly this many images by written("png", kSide, kSide).
+std::string optionFor(std::size_t images) {
     const std::size_t each = std::size_t(kSide) * kSide - 16 * written("png", kSide, kSide).size();
-    return "maxPixels=" + std::to_string(pictures * each);
+    return "maxPixels=" + std::to_string(images * each);
 }
 
-/// Writes a mesh whose materials name pictures; returns its path.
-std::string saveMesh(const std::string& name, const std::vector<std::string>& pictures) {
+/// Writes a mesh whose materials name images; returns its path.
+std::string saveMesh(const std::string& name, const std::vector<std::string>& images) {
     std::string materials, text = "mtllib " + name + ".mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-        materials += "newmtl m" + std::to_string(i) + "\nmap_Kd " + pictures[i] + "\n";
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        materials += "newmtl m" + std::to_string(i) + "\nmap_Kd " + images[i] + "\n";
         text += "usemtl m" + std::to_string(i) + "\nf 1/1 2/1 3/1\n";
     }
-    savePicture(name + ".mtl", materials);
-    savePicture(name + ".obj", text);
+    saveText(name + ".mtl", materials);
+    saveText(name + ".obj", text);
     return testing::TempDir() + name + ".obj";
 }
 
@@ -234,11 +232,9 @@ struct Images {
 Images imagesOf(const std::string& path, const osgDB::Options* options) {
     Images result;
     for (const osgSkin::MeshPart& part : osgSkin::importMesh(path, options).parts) {
-        const auto* texture = dynamic_cast<const osg::Texture2D*>(
-            part.geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
-        if (texture == nullptr) continue;
+        if (imageOf(part) == nullptr) continue;
         ++result.drawn;
-        result.all.insert(texture->getImage());
+        result.all.insert(imageOf(part));
     }
     return result;
 }
@@ -280,12 +276,12 @@ void showImages(nlohmann::json& file) {
 } // namespace
 
 TEST(Images, ReadsFileOnceWhateverItsSpelling) {
-    savePicture("picture_spelled.png", written("png", kSide, kSide));
-    const std::vector<std::string> names = {"picture_spelled.png", "./picture_spelled.png",
-                                            ".//././picture_spelled.png",
-                                            testing::TempDir() + "picture_spelled.png"};
+    saveText("image_spelled.png", written("png", kSide, kSide));
+    const std::vector<std::string> names = {"image_spelled.png", "./image_spelled.png",
+                                            ".//././image_spelled.png",
+                                            testing::TempDir() + "image_spelled.png"};
     const osg::ref_ptr<osgDB::Options> words = new osgDB::Options(optionFor(1));
-    const Images images = imagesOf(saveMesh("picture_spelled", names), words);
+    const Images images = imagesOf(saveMesh("image_spelled", names), words);
     EXPECT_EQ(images.drawn, names.size());
     EXPECT_EQ(images.all.size(), 1u);
 
@@ -293,15 +289,15 @@ TEST(Images, ReadsFileOnceWhateverItsSpelling) {
     for (const std::string& name : {names[0], names[1], names[2]})
         column.json["images"].push_back({{"uri", name}});
     showImages(column.json);
-    const Images within = imagesOf(column.save("picture_spelled.gltf"), words);
+    const Images within = imagesOf(column.save("image_spelled.gltf"), words);
     EXPECT_EQ(within.drawn, 3u);
     EXPECT_EQ(within.all.size(), 1u);
 }
 
 TEST(Images, ReadsImagesOfSavedSceneOnce) {
-    savePicture("picture_saved.png", written("png", kSide, kSide));
+    saveText("image_saved.png", written("png", kSide, kSide));
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    for (const char* name : {"picture_saved.png", "./picture_saved.png", ".//picture_saved.png"}) {
+    for (const char* name : {"image_saved.png", "./image_saved.png", ".//image_saved.png"}) {
         const osg::ref_ptr<osg::Image> image = new osg::Image;
         image->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
         image->setFileName(name);
@@ -311,7 +307,7 @@ TEST(Images, ReadsImagesOfSavedSceneOnce) {
         quad->getOrCreateStateSet()->setTextureAttribute(0, new osg::Texture2D(image));
         scene->addChild(quad);
     }
-    const std::string path = testing::TempDir() + "picture_saved.osgt";
+    const std::string path = testing::TempDir() + "image_saved.osgt";
     const osg::ref_ptr<osgDB::Options> external = new osgDB::Options("WriteImageHint=UseExternal");
     ASSERT_TRUE(osgDB::writeNodeFile(*scene, path, external));
     const osg::ref_ptr<osgDB::Options> words = new osgDB::Options(optionFor(1));
@@ -334,7 +330,7 @@ TEST(Images, ReadsSharedBytesOnce) {
     test::GltfColumn column = columnWith(png, {5, {0, png.size()}});
     column.json["images"].push_back(column.json["images"].back()); // the view, too
     showImages(column.json);
-    const Images images = imagesOf(column.save("picture_same.gltf"), words);
+    const Images images = imagesOf(column.save("image_same.gltf"), words);
     EXPECT_EQ(images.drawn, 6u);
     EXPECT_EQ(images.all.size(), 1u);
 }
@@ -346,20 +342,20 @@ TEST(Images, LimitsBytesOfGltfImages) {
     for (std::size_t i = 0; i < 100; ++i) views.emplace_back(i, bytes.size() - 100);
     test::GltfColumn column = columnWith(bytes, views);
     showImages(column.json);
-    expectError([&] { osgSkin::importMesh(column.save("picture_views.gltf")); },
+    expectError([&] { osgSkin::importMesh(column.save("image_views.gltf")); },
                 "expected images of at most");
     const test::Notices notices;
     test::GltfColumn halves = columnWith(bytes, {{0, 25000}, {25000, 25000}});
     showImages(halves.json);
-    EXPECT_EQ(osgSkin::importMesh(halves.save("picture_halves.gltf")).parts.size(), 2u);
+    EXPECT_EQ(osgSkin::importMesh(halves.save("image_halves.gltf")).parts.size(), 2u);
 }
 
 TEST(Images, SharesImagesBetweenMeshes) {
     const std::string png = written("png", kSide, kSide);
-    for (const char* name : {"picture_ours.png", "picture_theirs.png"}) savePicture(name, png);
-    const std::string first = saveMesh("picture_first", {"picture_ours.png"}),
-                      second = saveMesh("picture_second", {"./picture_ours.png"}),
-                      third = saveMesh("picture_third", {"picture_theirs.png"});
+    for (const char* name : {"image_ours.png", "image_theirs.png"}) saveText(name, png);
+    const std::string first = saveMesh("image_first", {"image_ours.png"}),
+                      second = saveMesh("image_second", {"./image_ours.png"}),
+                      third = saveMesh("image_third", {"image_theirs.png"});
     const osg::ref_ptr<osgDB::Options> words = new osgDB::Options(optionFor(1));
     const osg::ref_ptr<osgDB::Options> together = osgSkin::shareImages(words);
     EXPECT_EQ(osgSkin::shareImages(nullptr)->getOptionString(), "");
@@ -375,10 +371,10 @@ TEST(Images, SharesImagesBetweenMeshes) {
 }
 
 TEST(Images, WarnsOnceForEachMesh) {
-    savePicture("picture_broken.png", "no picture");
+    saveText("image_broken.png", "no image");
     const osg::ref_ptr<osgDB::Options> together = osgSkin::shareImages(nullptr);
-    for (const char* name : {"picture_one", "picture_other"}) {
-        const std::string path = saveMesh(name, {"picture_broken.png"});
+    for (const char* name : {"image_one", "image_other"}) {
+        const std::string path = saveMesh(name, {"image_broken.png"});
         const test::Notices notices;
         EXPECT_EQ(imagesOf(path, together).drawn, 0u);
         EXPECT_TRUE(notices.say("drawn without")) << notices.text();

@@ -4,6 +4,8 @@
 #include "GltfBuilder.h"
 #include "MeshParts.h"
 #include "Notices.h"
+#include "Paths.h"
+#include "TextFile.h"
 
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ReadScene>
@@ -124,8 +126,7 @@ const Attribute* attributeOf(const ImportedMesh& mesh, osg::StateAttribute::Type
 }
 
 bool hasTexture(const ImportedMesh& mesh, unsigned unit) {
-    return mesh.parts.at(0).geometry->getStateSet()->getTextureAttribute(
-               unit, osg::StateAttribute::TEXTURE) != nullptr;
+    return imageOf(mesh.parts.at(0), unit) != nullptr;
 }
 
 } // namespace
@@ -217,9 +218,7 @@ TEST(Maps, EachHasItsTextureUnit) {
     osg::Vec3 glow;
     state.getUniform("osgSkinEmission")->get(glow);
     EXPECT_LT((glow - osg::Vec3(1, 0, 0)).length(), 1e-6f);
-    EXPECT_EQ(attributeOf<osg::Material>(mesh, osg::StateAttribute::MATERIAL)
-                  ->getEmission(osg::Material::FRONT),
-              osg::Vec4(0, 0, 0, 1));
+    EXPECT_EQ(emissionOf(mesh), osg::Vec4(0, 0, 0, 1));
     EXPECT_EQ(notices.text(), "");
 }
 
@@ -248,9 +247,7 @@ TEST(Maps, ReportsUnusedTexturesOnce) {
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
     for (unsigned unit = 0; unit < 4; ++unit) EXPECT_EQ(hasTexture(mesh, unit), unit < 2) << unit;
     // Without its texture, the colour would make the whole surface glow.
-    EXPECT_EQ(attributeOf<osg::Material>(mesh, osg::StateAttribute::MATERIAL)
-                  ->getEmission(osg::Material::FRONT),
-              osg::Vec4(0, 0, 0, 1));
+    EXPECT_EQ(emissionOf(mesh), osg::Vec4(0, 0, 0, 1));
 }
 
 TEST(Maps, MissingEmissionTextureDoesNotGlow) {
@@ -261,9 +258,7 @@ TEST(Maps, MissingEmissionTextureDoesNotGlow) {
     const test::Notices notices;
     const ImportedMesh mesh = tube.read();
     EXPECT_TRUE(notices.say("missing.png\" cannot be read; drawn without")) << notices.text();
-    EXPECT_EQ(attributeOf<osg::Material>(mesh, osg::StateAttribute::MATERIAL)
-                  ->getEmission(osg::Material::FRONT),
-              osg::Vec4(0, 0, 0, 1));
+    EXPECT_EQ(emissionOf(mesh), osg::Vec4(0, 0, 0, 1));
     EXPECT_EQ(attributeOf<osg::Program>(mesh, osg::StateAttribute::PROGRAM), nullptr);
 }
 
@@ -289,37 +284,10 @@ TEST(Maps, ReadsObjMaps) {
 TEST(Maps, ReadsColladaMaps) {
     const std::string map = named(".bmp");
     test::writeMap(map, {});
-    const std::string texture = R"(<texture texture="sampler" texcoord="uv"/>)";
-    const std::string path = testing::TempDir() + named(".dae");
-    std::ofstream(path) << R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<library_images><image id="map"><init_from>)"
-                        << map << R"(</init_from></image></library_images>
-<library_effects><effect id="effect"><profile_COMMON>
-<newparam sid="surface"><surface type="2D"><init_from>map</init_from></surface></newparam>
-<newparam sid="sampler"><sampler2D><source>surface</source></sampler2D></newparam>
-<technique sid="common"><phong><diffuse>)"
-                        << texture << "</diffuse><specular>" << texture << R"(</specular></phong>
-<extra><technique profile="FCOLLADA"><bump>)"
-                        << texture << R"(</bump></technique></extra></technique>
-</profile_COMMON></effect></library_effects>
-<library_materials><material id="material"><instance_effect url="#effect"/></material></library_materials>
-<library_geometries><geometry id="triangle"><mesh>
-<source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
-<accessor source="#pa" count="3" stride="3"><param name="X" type="float"/>
-<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
-<source id="t"><float_array id="ta" count="6">0 0 0 1 1 0</float_array><technique_common>
-<accessor source="#ta" count="3" stride="2"><param name="S" type="float"/>
-<param name="T" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/>
-<input semantic="TEXCOORD" source="#t" offset="1" set="0"/><p>0 0 1 1 2 2</p></triangles>
-</mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="scene"><node><instance_geometry url="#triangle">
-<bind_material><technique_common><instance_material symbol="m" target="#material">
-<bind_vertex_input semantic="uv" input_semantic="TEXCOORD" input_set="0"/></instance_material>
-</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#scene"/></scene></COLLADA>)";
+    std::string text = test::fileText(testData("mesh/maps.dae"));
+    const std::string name = "IMAGE_FILE";
+    text.replace(text.find(name), name.size(), map);
+    const std::string path = test::saveText(named(".dae"), text);
     const test::Notices notices;
     const ImportedMesh mesh = osgSkin::importMesh(path);
     for (unsigned unit = 0; unit < 4; ++unit) EXPECT_EQ(hasTexture(mesh, unit), unit < 2) << unit;

@@ -75,10 +75,7 @@ TEST(ImportObj, MakesOnePartForEachMaterial) {
     ASSERT_EQ(imported.parts.size(), 2u);
     EXPECT_EQ(imported.parts[0].sourceFace, (Indices{0, 0, 2}));
     EXPECT_EQ(imported.parts[1].sourceFace, (Indices{1, 1}));
-    const auto* red = dynamic_cast<const osg::Material*>(
-        imported.parts[0].geometry->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
-    ASSERT_NE(red, nullptr);
-    EXPECT_EQ(red->getDiffuse(osg::Material::FRONT), osg::Vec4(0.75f, 0.25f, 0.125f, 1.0f));
+    EXPECT_EQ(diffuseOf(imported), osg::Vec4(0.75f, 0.25f, 0.125f, 1.0f));
 }
 
 TEST(ImportObj, ReadsVertexColours) {
@@ -87,10 +84,7 @@ TEST(ImportObj, ReadsVertexColours) {
     const auto& colours = coloursOf(imported);
     ASSERT_EQ(colours.size(), 3u);
     EXPECT_EQ(colours[1], osg::Vec4(0.0f, 0.5f, 0.25f, 1.0f));
-    const auto* material = dynamic_cast<const osg::Material*>(
-        imported.parts[0].geometry->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
-    ASSERT_NE(material, nullptr);
-    EXPECT_EQ(material->getColorMode(), osg::Material::AMBIENT_AND_DIFFUSE);
+    EXPECT_EQ(materialOf(imported).getColorMode(), osg::Material::AMBIENT_AND_DIFFUSE);
     EXPECT_EQ(osgSkin::importMesh(testData("mesh/quads.obj")).parts[0].geometry->getColorArray(),
               nullptr);
 }
@@ -341,17 +335,6 @@ TEST(MeshWarnings, ReportsMissingMaterialsInOneLine) {
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
 }
 
-/// The colours of an OBJ mesh's parts, in the order of its faces.
-static std::vector<osg::Vec4> coloursOf(const osgSkin::ImportedMesh& mesh) {
-    std::vector<osg::Vec4> result;
-    for (const osgSkin::MeshPart& part : mesh.parts)
-        result.push_back(
-            dynamic_cast<const osg::Material&>(
-                *part.geometry->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL))
-                .getDiffuse(osg::Material::FRONT));
-    return result;
-}
-
 TEST(MeshWarnings, MaterialNamesMayHaveBlanks) {
     const std::string folder = testing::TempDir() + "blanks/";
     std::filesystem::create_directories(folder + "a b");
@@ -365,12 +348,12 @@ TEST(MeshWarnings, MaterialNamesMayHaveBlanks) {
             << "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl skin of the face\nf 1 2 3\n"
                "usemtl skin of the hands\t\nf 1 2 3\nusemtl skin\nf 1 2 3\n";
         const test::Notices notices;
-        const std::vector<osg::Vec4> colours = coloursOf(osgSkin::importMesh(folder + "mesh.obj"));
+        const osgSkin::ImportedMesh mesh = osgSkin::importMesh(folder + "mesh.obj");
         EXPECT_EQ(notices.text(), "");
-        ASSERT_EQ(colours.size(), 3u) << library;
-        EXPECT_EQ(colours[0], osg::Vec4(1, 0, 0, 1));
-        EXPECT_EQ(colours[1], osg::Vec4(0, 1, 0, 1));
-        EXPECT_EQ(colours[2], osg::Vec4(0, 0, 1, 1));
+        ASSERT_EQ(mesh.parts.size(), 3u) << library;
+        EXPECT_EQ(diffuseOf(mesh, 0), osg::Vec4(1, 0, 0, 1));
+        EXPECT_EQ(diffuseOf(mesh, 1), osg::Vec4(0, 1, 0, 1));
+        EXPECT_EQ(diffuseOf(mesh, 2), osg::Vec4(0, 0, 1, 1));
     }
 }
 
@@ -392,17 +375,17 @@ TEST(MeshWarnings, LimitsVerticesByFileSize) {
 }
 
 TEST(MeshWarnings, WarnsAboutFaceColours) {
-    const std::string ply = testing::TempDir() + "faces.ply",
-                      off = testing::TempDir() + "faces.off";
-    std::ofstream(ply) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-                          "property float y\nproperty float z\nelement face 1\n"
-                          "property list uchar int vertex_indices\nproperty uchar red\n"
-                          "property uchar green\nproperty uchar blue\nend_header\n"
-                          "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n";
-    std::ofstream(off) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n";
     const test::Notices notices;
-    EXPECT_EQ(osgSkin::importMesh(ply).mesh.faceSizes.size(), 1u);
+    EXPECT_EQ(readMesh("faces.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                    "property float y\nproperty float z\nelement face 1\n"
+                                    "property list uchar int vertex_indices\nproperty uchar red\n"
+                                    "property uchar green\nproperty uchar blue\nend_header\n"
+                                    "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n")
+                  .mesh.faceSizes.size(),
+              1u);
     EXPECT_TRUE(notices.say("faces.ply: colours of faces are left out")) << notices.text();
-    EXPECT_EQ(osgSkin::importMesh(off).mesh.faceSizes.size(), 1u);
+    EXPECT_EQ(readMesh("faces.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n")
+                  .mesh.faceSizes.size(),
+              1u);
     EXPECT_TRUE(notices.say("1 of 1 faces have colours, which are left out")) << notices.text();
 }

@@ -19,6 +19,8 @@
 #include <map>
 #include <string>
 
+using namespace osgSkin;
+
 namespace {
 
 using Weights = std::map<std::string, std::map<std::uint32_t, double>>;

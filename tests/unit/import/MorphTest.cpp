@@ -4,6 +4,7 @@
 #include "ExpectError.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
+#include "Paths.h"
 
 #include <osgSkin/UpdateMorphs>
 #include <osgSkinImport/ImportMesh>
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -437,107 +437,10 @@ TEST(GltfMorphs, MotionNeedsJoints) {
     expectError([&] { osgSkin::importMotion(path); }, "clip \"talk\" moves no joint");
 }
 
-/// A text file of a square that follows one joint, with two shapes and a clip of one of them.
+/// A square that follows one joint, with two shapes and a clip of one of them.
 TEST(FbxMorphs, ReadsShapes) {
-    const std::string path = testing::TempDir() + "shapes.fbx";
-    std::ofstream(path) << R"(; FBX 7.4.0 project file
-FBXHeaderExtension:  {
-	FBXHeaderVersion: 1003
-	FBXVersion: 7400
-}
-GlobalSettings:  {
-	Version: 1000
-	Properties70:  {
-		P: "UpAxis", "int", "Integer", "",1
-		P: "UnitScaleFactor", "double", "Number", "",100
-	}
-}
-Objects:  {
-	Geometry: 10, "Geometry::square", "Mesh" {
-		Vertices: *12 { a: 0,0,0,1,0,0,1,1,0,0,1,0 }
-		PolygonVertexIndex: *6 { a: 0,1,-3,0,2,-4 }
-		GeometryVersion: 124
-	}
-	Geometry: 11, "Geometry::wide", "Shape" {
-		Indexes: *2 { a: 1,2 }
-		Vertices: *6 { a: 0.5,0,0,0.25,0,0 }
-		Normals: *6 { a: 0,0,0,0,0,0 }
-	}
-	Geometry: 12, "Geometry::tall", "Shape" {
-		Indexes: *1 { a: 3 }
-		Vertices: *3 { a: 0,1,0 }
-		Normals: *3 { a: 0,0,0 }
-	}
-	Model: 20, "Model::square", "Mesh" {
-		Version: 232
-	}
-	Model: 21, "Model::head", "LimbNode" {
-		Version: 232
-	}
-	NodeAttribute: 22, "NodeAttribute::head", "LimbNode" {
-		TypeFlags: "Skeleton"
-	}
-	Deformer: 30, "Deformer::shapes", "BlendShape" {
-		Version: 100
-	}
-	Deformer: 31, "SubDeformer::wide", "BlendShapeChannel" {
-		DeformPercent: 0
-		FullWeights: *1 { a: 100 }
-	}
-	Deformer: 32, "SubDeformer::tall", "BlendShapeChannel" {
-		DeformPercent: 0
-		FullWeights: *1 { a: 100 }
-	}
-	Deformer: 40, "Deformer::", "Skin" {
-		Link_DeformAcuracy: 50
-	}
-	Deformer: 41, "SubDeformer::", "Cluster" {
-		Indexes: *4 { a: 0,1,2,3 }
-		Weights: *4 { a: 1,1,1,1 }
-		Transform: *16 { a: 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1 }
-		TransformLink: *16 { a: 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1 }
-	}
-	AnimationStack: 50, "AnimStack::talk", "" {
-		Properties70:  {
-			P: "LocalStop", "KTime", "Time", "",46186158000
-		}
-	}
-	AnimationLayer: 51, "AnimLayer::base", "" {
-	}
-	AnimationCurveNode: 52, "AnimCurveNode::DeformPercent", "" {
-		Properties70:  {
-			P: "d|DeformPercent", "Number", "", "A",0
-		}
-	}
-	AnimationCurve: 53, "AnimCurve::", "" {
-		KeyTime: *3 { a: 0,23093079000,46186158000 }
-		KeyValueFloat: *3 { a: 0,100,50 }
-		KeyAttrFlags: *1 { a: 24836 }
-		KeyAttrDataFloat: *4 { a: 0,0,255790911,0 }
-		KeyAttrRefCount: *1 { a: 3 }
-	}
-}
-Connections:  {
-	C: "OO",20,0
-	C: "OO",21,0
-	C: "OO",22,21
-	C: "OO",10,20
-	C: "OO",30,10
-	C: "OO",31,30
-	C: "OO",32,30
-	C: "OO",11,31
-	C: "OO",12,32
-	C: "OO",40,10
-	C: "OO",41,40
-	C: "OO",21,41
-	C: "OO",51,50
-	C: "OO",52,51
-	C: "OP",52,32, "DeformPercent"
-	C: "OP",53,52, "d|DeformPercent"
-}
-)";
     const test::Notices notices;
-    const ImportedRig rig = osgSkin::importRig(path);
+    const ImportedRig rig = osgSkin::importRig(testData("rig/shapes.fbx"));
     EXPECT_EQ(notices.lines(), 0u) << notices.text();
     // Assimp 5.4 keeps channels in a set of pointers, in any order.
     std::vector<std::string> names = namesOf(rig.body);

@@ -7,6 +7,9 @@
 #include "UpdateAt.h"
 
 #include <osgSkin/AutoPlayManager>
+#include <osgSkin/BoneReader>
+#include <osgSkin/GlmOsg>
+#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinRig/ApplyFrame>
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/MakeAnimation>
@@ -24,6 +27,8 @@
 
 #include <map>
 #include <string>
+
+using namespace osgSkin;
 
 namespace {
 

@@ -3,8 +3,10 @@
 #include "Figure.h"
 #include "Paths.h"
 
+#include <osgSkin/GlmOsg>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/JointRoles>
 #include <osgSkinRig/Prop>
 #include <osgSkinRig/Retarget>
 
@@ -279,7 +281,5 @@ TEST(UprightStrangers, FollowTheNameMap) {
     EXPECT_NE(report.text().find("rotated by 90 degrees about 0 1 0"), std::string::npos)
         << report.text();
 }
-
-using osgSkin::Clip;
 
 } // namespace
