@@ -263,8 +263,8 @@ TEST(CheckScene, RejectsChannelTypeMismatch) {
         scene->setUpdateCallback(manager);
         scene->addChild(thing);
         expectMoved(*scene, fits ? ""
-                                 : "animation \"clip\": channel \"turn\" of \"thing\" is of "
-                                   "another kind than what it moves");
+                                 : "animation \"clip\": channel \"turn\" of \"thing\" does "
+                                   "not match the type of its target");
     }
 }
 
