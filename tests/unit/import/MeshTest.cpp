@@ -257,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"no_header_end.ply", "the header has no line \"end_header\""},
         BadFile{"truncated.ply", "element \"vertex\" 0: the file ends here"},
         BadFile{"broken.osgt", ""}, BadFile{"unknown.format", ""},
-        BadFile{"../bvh/two_joints.bvh", "no face"}),
+        BadFile{"../bvh/two_joints.bvh", "BVH files have no mesh"}),
     nameOf);
 
 TEST(MeshErrors, MissingFileNamesTheReason) {
