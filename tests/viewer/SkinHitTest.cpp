@@ -4,7 +4,7 @@
 #include "TubeSkin.h"
 #include "UpdateAt.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/RigidPart>
 #include <osgSkin/SkinHit>
@@ -97,14 +97,10 @@ TEST(SkinHit, LeadsToTheRestPositionOfAPosedCharacter) {
             if (hit->skin) {
                 ++skins;
                 const osgSkin::SkinModel& model = *hit->skin->getModel();
-                std::vector<glm::vec3> positions(model.vertexCount());
-                osgSkin::DeformJob job;
-                job.model = &model;
-                job.pose = &hit->skin->getPose();
-                job.positions = positions.data();
-                job.positionCount = positions.size();
-                ASSERT_TRUE(job.runReference());
-                expected = mixed(*hit, positions);
+                osgSkin::DeformOptions scalar;
+                scalar.reference = true;
+                expected =
+                    mixed(*hit, osgSkin::deform(model, hit->skin->getPose(), scalar).positions);
                 EXPECT_LT((mixed(*hit, model.positions()) - hit->rest).length() * unit,
                           1e-9 * size);
             } else {

@@ -162,12 +162,12 @@ enum class Streams { None, Normals, NormalsAndTangents };
 
 class Kernel : public test::EachTarget {
 protected:
-    static void deform(const Skin& skin, const osgSkin::Pose& pose, const Model& model,
-                       Streams streams);
+    void deform(const Skin& skin, const osgSkin::Pose& pose, const Model& model,
+                Streams streams) const;
 };
 
 void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const Model& model,
-                    Streams streams) {
+                    Streams streams) const {
     const bool withNormals = streams != Streams::None;
     const bool withTangents = streams == Streams::NormalsAndTangents;
     const std::size_t count = skin.positions.size();
@@ -185,7 +185,7 @@ void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const Model& mo
     job.restTangents = restTangents.get();
     job.tangents = withTangents ? tangents.data() + 1 : nullptr;
     job.tangentCount = count;
-    ASSERT_TRUE(GetParam().target ? job.run() : job.runReference());
+    ASSERT_TRUE(isReference() ? job.runReference() : job.run());
     for (std::uint32_t v = 0; v < count; ++v) {
         glm::dvec3 x(skin.positions[v]), n(skin.normals[v]), t(skin.tangents[v]);
         reference(skin.binding, pose, skin.source[v], x, n, t);
@@ -312,19 +312,8 @@ TEST_P(Kernel, TakesMoreJointsThanAreKeptAtATime) {
     ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
     deform(skin, pose, model, Streams::NormalsAndTangents);
     deform(skin, randomPose(skin.binding, 0.0, random, 1e-3, 0.003), model, Streams::Normals);
-    if (!GetParam().target) return; // the reference is not divided into parts
-    const std::size_t count = skin.positions.size();
-    std::vector<glm::vec3> whole(count), parts(count);
-    osgSkin::DeformJob job;
-    job.model = model.get();
-    job.pose = &pose;
-    job.positions = whole.data();
-    job.positionCount = count;
-    ASSERT_TRUE(job.run());
-    job.positions = parts.data();
-    ASSERT_GE(job.partCount(), 2u);
-    for (std::size_t part = job.partCount(); part-- > 0;) job.runPart(part);
-    EXPECT_EQ(parts, whole);
+    if (isReference()) return; // it is not divided into parts
+    EXPECT_EQ(test::deformInParts(*model, pose).positions, osgSkin::deform(*model, pose).positions);
 }
 
 TEST_P(Kernel, TurnsByPiAndBack) {
@@ -345,33 +334,22 @@ TEST_P(Kernel, TurnsByPiAndBack) {
 }
 
 TEST_P(Kernel, PartsInAnyOrderMakeTheWhole) {
-    if (!GetParam().target) return; // the reference is not divided into parts
+    if (isReference()) return; // it is not divided into parts
     std::mt19937_64 random(14);
     const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
     for (const Skin& skin : {Skin(5, upToFour, 1201, 9), inBestOrder(Skin(5, upToFour, 1201, 9))}) {
         const Model model = modelOf(skin);
         const osgSkin::Pose pose = randomPose(skin.binding, 0.5, random);
-        const std::size_t count = skin.positions.size();
-        std::vector<glm::vec3> whole(count), parts(count), normals(count), partNormals(count);
-        osgSkin::DeformJob job;
-        job.model = model.get();
-        job.pose = &pose;
-        job.positions = whole.data();
-        job.normals = normals.data();
-        job.positionCount = job.normalCount = count;
-        ASSERT_TRUE(job.run());
-        job.positions = parts.data();
-        job.normals = partNormals.data();
-        ASSERT_GE(job.partCount(), 3u);
-        for (std::size_t part = job.partCount(); part-- > 0;) job.runPart(part);
-        EXPECT_EQ(parts, whole);
-        EXPECT_EQ(partNormals, normals);
-        job.runPart(job.partCount()); // no such part
-        EXPECT_EQ(parts, whole);
+        osgSkin::DeformOptions options;
+        options.normals = true;
+        const auto whole = osgSkin::deform(*model, pose, options);
+        const auto parts = test::deformInParts(*model, pose, options);
+        EXPECT_EQ(parts.positions, whole.positions);
+        EXPECT_EQ(parts.normals, whole.normals);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Kernel, testing::ValuesIn(test::ways()),
+INSTANTIATE_TEST_SUITE_P(Targets, Kernel, testing::ValuesIn(test::allTargets()),
                          [](const auto& tested) { return tested.param.name; });
 
 namespace {

@@ -6,7 +6,7 @@
 #include "SomeMorphs.h"
 #include "TubeSkin.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/Error>
 #include <osgSkin/MorphedRest>
 #include <osgSkin/SetMorph>
@@ -40,27 +40,20 @@ test::Tube moved(test::Tube tube, const std::vector<MorphTarget>& targets,
     return tube;
 }
 
-struct Posed {
-    Posed(const osgSkin::SkinModel& model, const osgSkin::MorphedRest* morphed, bool byReference)
-        : positions(model.vertexCount()), normals(positions.size()) {
-        osgSkin::Pose pose(model.joints(), model.inputs().size());
-        std::mt19937_64 random(5);
-        std::vector<glm::dquat> turns;
-        for (std::size_t j = 0; j < pose.size(); ++j) turns.push_back(test::randomRotation(random));
-        const auto skinning = test::skinningFrom(model.joints(), turns, {0.3, -0.2, 0.5});
-        EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
-        osgSkin::DeformJob job;
-        job.model = &model;
-        job.pose = &pose;
-        job.morphed = morphed;
-        job.positions = positions.data();
-        job.normals = normals.data();
-        job.positionCount = job.normalCount = positions.size();
-        EXPECT_TRUE(byReference ? job.runReference() : job.run());
-    }
-
-    std::vector<glm::vec3> positions, normals;
-};
+/// The model in one pose, of random rotations.
+osgSkin::DeformedVertices posed(const osgSkin::SkinModel& model,
+                                const osgSkin::MorphedRest* morphed, bool byReference) {
+    std::mt19937_64 random(5);
+    std::vector<glm::dquat> turns;
+    for (std::size_t j = 0; j < model.joints().size(); ++j)
+        turns.push_back(test::randomRotation(random));
+    osgSkin::DeformOptions options;
+    options.normals = true;
+    options.morphed = morphed;
+    options.reference = byReference;
+    const auto skinning = test::skinningFrom(model.joints(), turns, {0.3, -0.2, 0.5});
+    return osgSkin::deform(model, skinning, options);
+}
 
 float farthest(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
     float result = 0.0f;
@@ -98,8 +91,8 @@ TEST(Morph, DeformsAsASkinOfMovedRestVertices) {
             osgSkin::MorphedRest rest(model, MorphTargets::create(targets, model->vertexCount()));
             rest.set({0.2f, 0.9f, 0.0f}); // leaves nothing behind
             rest.set(kWeights);
-            const Posed is(*model, &rest, byReference);
-            const Posed expected(*moved(tube, targets, kWeights).model(), nullptr, true);
+            const auto is = posed(*model, &rest, byReference);
+            const auto expected = posed(*moved(tube, targets, kWeights).model(), nullptr, true);
             EXPECT_LT(farthest(is.positions, expected.positions), 6e-6f);
             EXPECT_LT(farthest(is.normals, expected.normals), 1e-5f);
         }
@@ -113,8 +106,8 @@ TEST(Morph, KernelAgreesWithTheReferenceOnShapedSkin) {
     const auto targets = test::someMorphs(model->vertexCount(), 0.1);
     osgSkin::MorphedRest rest(model, MorphTargets::create(targets, model->vertexCount()));
     rest.set(kWeights);
-    const Posed kernel(*model, &rest, false), reference(*model, &rest, true);
-    const Posed without(*model, nullptr, true);
+    const auto kernel = posed(*model, &rest, false), reference = posed(*model, &rest, true);
+    const auto without = posed(*model, nullptr, true);
     EXPECT_LT(farthest(kernel.positions, reference.positions), 6e-6f);
     EXPECT_LT(farthest(kernel.normals, reference.normals), 2e-5f);
     EXPECT_GT(farthest(without.positions, reference.positions), 0.05f);
