@@ -2,7 +2,7 @@
 #include "Subject.h"
 
 #include <osgSkin/BoneReader>
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkinBind/Bind>
 #include <osgSkinCharacter/ReadWeights>
 #include <osgSkinImport/ImportMesh>
