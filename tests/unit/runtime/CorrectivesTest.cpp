@@ -68,7 +68,7 @@ class CorrectedKernel : public test::EachTarget {};
 
 } // namespace
 
-TEST_P(CorrectedKernel, AgreesWithDoublePrecision) {
+TEST_P(CorrectedKernel, MatchesDoublePrecision) {
     std::mt19937_64 random(5);
     for (const bool inBestOrder : {false, true})
         for (int sides = 1; sides <= 40; sides += 3) {
@@ -93,7 +93,7 @@ TEST_P(CorrectedKernel, AgreesWithDoublePrecision) {
         }
 }
 
-TEST_P(CorrectedKernel, PartsInAnyOrderMakeTheWhole) {
+TEST_P(CorrectedKernel, PartsMatchTheWhole) {
     if (isReference()) return; // it is not divided into parts
     std::mt19937_64 random(6);
     for (const bool inBestOrder : {false, true}) {
@@ -104,7 +104,7 @@ TEST_P(CorrectedKernel, PartsInAnyOrderMakeTheWhole) {
     }
 }
 
-TEST_P(CorrectedKernel, RestPoseIsTheRestSkin) {
+TEST_P(CorrectedKernel, ChangesNothingAtRest) {
     const CorrectedTube skin(21, 7, true);
     test::Tube plain = skin;
     plain.binding.correctives = {};
@@ -148,7 +148,7 @@ CorrectiveJoint functionsOf(Basis basis) {
 
 } // namespace
 
-TEST(CorrectiveJoint, CoordinatesAreTheBendQuaternions) {
+TEST(CorrectiveJoint, CoordinatesMatchTheBendQuaternion) {
     const CorrectiveJoint joint = functionsOf(Basis::Ball);
     const glm::dvec3 w(0, 1, 0), e1 = joint.axis, e2 = glm::cross(w, e1);
     for (const double angle : {0.0, 0.4, 2.0, 3.1})
@@ -160,7 +160,7 @@ TEST(CorrectiveJoint, CoordinatesAreTheBendQuaternions) {
         }
 }
 
-TEST(CorrectiveJoint, ClampIsTheIdentityAroundRestAndEndsAtTheRange) {
+TEST(CorrectiveJoint, ClampIsSmoothAndEndsAtTheRange) {
     for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round, Basis::TurnedHinge}) {
         const CorrectiveJoint joint = functionsOf(basis);
         EXPECT_EQ(joint.clamped({0.3, -0.2}), glm::dvec2(0.3, -0.2));
@@ -181,7 +181,7 @@ TEST(CorrectiveJoint, ClampIsTheIdentityAroundRestAndEndsAtTheRange) {
     }
 }
 
-TEST(CorrectiveJoint, EveryFunctionIsNothingAtRestAndSmooth) {
+TEST(CorrectiveJoint, FunctionsAreSmoothAndZeroAtRest) {
     for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round, Basis::TurnedHinge}) {
         const CorrectiveJoint joint = functionsOf(basis);
         CorrectiveJoint::Functions phi{}, before{}, behind{};
@@ -199,7 +199,7 @@ TEST(CorrectiveJoint, EveryFunctionIsNothingAtRestAndSmooth) {
     }
 }
 
-TEST(CorrectiveJoint, HingesSplinesSpanEveryQuadraticFunction) {
+TEST(CorrectiveJoint, HingeSplinesReproduceALinearFunction) {
     // Greville's points reproduce x; without the constant function, too.
     const CorrectiveJoint joint = functionsOf(Basis::Hinge);
     const std::vector<double>& t = joint.knots;
@@ -215,7 +215,7 @@ TEST(CorrectiveJoint, HingesSplinesSpanEveryQuadraticFunction) {
     }
 }
 
-TEST(Correctives, AreRefusedWithAReason) {
+TEST(Correctives, RejectInvalidDataWithAReason) {
     using Spoil = std::function<void(osgSkin::Correctives&)>;
     const test::Tube tube;
     const std::pair<const char*, Spoil> cases[] = {

@@ -5,6 +5,7 @@
 #include "SomeCorrectives.h"
 #include "SomeMorphs.h"
 #include "TubeSkin.h"
+#include "UpdateAt.h"
 
 #include <osgSkin/Deform>
 #include <osgSkin/Error>
@@ -14,7 +15,6 @@
 
 #include <gtest/gtest.h>
 #include <osgAnimation/BasicAnimationManager>
-#include <osgUtil/UpdateVisitor>
 
 #include <cmath>
 #include <limits>
@@ -82,7 +82,7 @@ std::vector<glm::vec3> drawn(const DeformableSkin& skin) {
 } // namespace
 
 /// Vertices out of the deformation's order, and partial last blocks, are covered by 3 sizes.
-TEST(Morph, DeformsAsASkinOfMovedRestVertices) {
+TEST(Morph, MatchesASkinWithMovedRestVertices) {
     for (const int rings : {3, 9, 25})
         for (const bool byReference : {false, true}) {
             const test::Tube tube(rings, 7);
@@ -99,7 +99,7 @@ TEST(Morph, DeformsAsASkinOfMovedRestVertices) {
 }
 
 /// Correctives and the tilt of bent skin are added to a morphed one, by kernel and reference alike.
-TEST(Morph, KernelAgreesWithTheReferenceOnShapedSkin) {
+TEST(Morph, KernelMatchesTheReferenceWithCorrectives) {
     test::SlopedTube tube;
     tube.binding.correctives = test::someCorrectives(tube.binding, 0.05, 7, true);
     const auto model = tube.model();
@@ -114,7 +114,7 @@ TEST(Morph, KernelAgreesWithTheReferenceOnShapedSkin) {
     EXPECT_GT(farthest(without.normals, reference.normals), 0.05f);
 }
 
-TEST(Morph, SkinTakesWeightsAndGivesThemBack) {
+TEST(Morph, SkinSetsAndReturnsWeights) {
     const osg::ref_ptr<DeformableSkin> skin = morphSkin();
     const std::vector<glm::vec3> before = drawn(*skin);
     EXPECT_FALSE(skin->isMorphed());
@@ -138,7 +138,7 @@ TEST(Morph, SkinTakesWeightsAndGivesThemBack) {
     EXPECT_EQ(copy->getMorph("smile"), 0.7f);
 }
 
-TEST(Morph, RestVerticesAreThoseOfTheInitialWeights) {
+TEST(Morph, RestVerticesIncludeInitialWeights) {
     const osg::ref_ptr<DeformableSkin> skin = test::makeSkin();
     const std::vector<glm::vec3> rest = drawn(*skin);
     auto targets = test::someMorphs(rest.size(), 0.1);
@@ -151,7 +151,7 @@ TEST(Morph, RestVerticesAreThoseOfTheInitialWeights) {
     EXPECT_LT(glm::distance(drawn(*skin)[v], rest[v] + 0.75f * targets[1].positions[3]), 2e-6f);
 }
 
-TEST(Morph, AnotherSkinTakesTargetsThatDoNotFitAway) {
+TEST(Morph, SettingAnotherSkinRemovesMismatchedTargets) {
     const osg::ref_ptr<DeformableSkin> skin = morphSkin();
     skin->setMorph("open", 1.0f);
     test::Tube shorter(9);
@@ -161,7 +161,7 @@ TEST(Morph, AnotherSkinTakesTargetsThatDoNotFitAway) {
     EXPECT_EQ(drawn(*skin).size(), shorter.positions.size());
 }
 
-TEST(Morph, TargetsThatDoNotFitAreRefused) {
+TEST(Morph, RejectsInvalidTargets) {
     const auto good = test::someMorphs(30, 0.1);
     const auto refused = [&](const auto& change) {
         auto targets = good;
@@ -181,7 +181,7 @@ TEST(Morph, TargetsThatDoNotFitAreRefused) {
 }
 
 /// A face and its teeth are two skins.
-TEST(Morph, OneCallSetsAllSkinsOfAScene) {
+TEST(Morph, SetsAllSkinsOfAScene) {
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     const osg::ref_ptr<DeformableSkin> face = morphSkin(), teeth = morphSkin("open");
     scene->addChild(face);
@@ -198,7 +198,7 @@ TEST(Morph, OneCallSetsAllSkinsOfAScene) {
     EXPECT_EQ(osgSkin::getMorph(*scene, "wink"), 0.0f);
 }
 
-TEST(Morph, ChannelsDriveTargetsWhileTheyPlay) {
+TEST(Morph, FollowsPlayingChannels) {
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     const osg::ref_ptr<osg::Group> below = new osg::Group;
     const osg::ref_ptr<DeformableSkin> skin = morphSkin();
@@ -219,13 +219,7 @@ TEST(Morph, ChannelsDriveTargetsWhileTheyPlay) {
         new osgAnimation::BasicAnimationManager;
     manager->registerAnimation(clip);
     scene->setUpdateCallback(manager);
-    const auto update = [&](double time) {
-        const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-        stamp->setSimulationTime(time);
-        osgUtil::UpdateVisitor visitor;
-        visitor.setFrameStamp(stamp);
-        scene->accept(visitor);
-    };
+    const auto update = [&](double time) { test::updateAt(*scene, time); };
     skin->setMorph("smile", 0.9f);
     skin->setMorph("frown", 0.8f);
     update(0.0);

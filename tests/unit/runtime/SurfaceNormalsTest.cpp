@@ -89,7 +89,7 @@ osgSkin::DeformedVertices byReference(const osgSkin::SkinModel& model, const osg
 
 } // namespace
 
-TEST_P(SurfaceNormals, AreThoseOfThePosedSurface) {
+TEST_P(SurfaceNormals, MatchThePosedSurface) {
     std::mt19937_64 random(11);
     for (const bool moved : {false, true})
         for (int sides = 1; sides <= 40; sides += 3) {
@@ -124,7 +124,7 @@ TEST_P(SurfaceNormals, AreThoseOfThePosedSurface) {
 }
 
 /// At the limits of bone scale the squared length of a direction is beyond single precision.
-TEST_P(SurfaceNormals, AreUnitWhateverTheScale) {
+TEST_P(SurfaceNormals, HaveUnitLengthAtAnyScale) {
     const test::SlopedTube tube;
     const auto model = tube.model();
     const auto rest = tangentsOf(tube, *model);
@@ -145,7 +145,7 @@ TEST_P(SurfaceNormals, AreUnitWhateverTheScale) {
 }
 
 /// Joints without gradients, before and after one that has some.
-TEST_P(SurfaceNormals, AreTheReferencesWhereSomeJointsRatiosAreEven) {
+TEST_P(SurfaceNormals, MatchTheReferenceIfSomeJointsHaveNoGradients) {
     std::mt19937_64 random(13);
     for (const bool moved : {false, true})
         for (const std::uint32_t even : {1u, 2u}) {
@@ -170,7 +170,7 @@ TEST_P(SurfaceNormals, AreTheReferencesWhereSomeJointsRatiosAreEven) {
         }
 }
 
-TEST_P(SurfaceNormals, DifferFromTurnedOnesWherePositionsDoNot) {
+TEST_P(SurfaceNormals, DifferFromRotatedNormals) {
     std::mt19937_64 random(12);
     const test::SlopedTube tube(25, 18);
     test::SlopedTube plain = tube;
@@ -186,7 +186,7 @@ TEST_P(SurfaceNormals, DifferFromTurnedOnesWherePositionsDoNot) {
     EXPECT_GE(glm::degrees(most), 10.0);
 }
 
-TEST_P(SurfaceNormals, KeepTheirPrecisionBesideASteepGradient) {
+TEST_P(SurfaceNormals, KeepPrecisionBesideASteepGradient) {
     std::mt19937_64 random(14);
     const test::SlopedTube tube(25, 18);
     test::SlopedTube steep = tube;
@@ -203,7 +203,7 @@ TEST_P(SurfaceNormals, KeepTheirPrecisionBesideASteepGradient) {
     }
 }
 
-TEST_P(SurfaceNormals, AreTheRestNormalsInTheRestPose) {
+TEST_P(SurfaceNormals, MatchRestNormalsInTheRestPose) {
     const test::SlopedTube tube(25, 18);
     const auto model = tube.model();
     const auto rest = tangentsOf(tube, *model);
@@ -215,7 +215,7 @@ TEST_P(SurfaceNormals, AreTheRestNormalsInTheRestPose) {
     }
 }
 
-TEST_P(SurfaceNormals, TakeWhatCorrectivesAdd) {
+TEST_P(SurfaceNormals, IncludeCorrectives) {
     std::mt19937_64 random(13);
     for (const bool sloped : {false, true})
         for (const bool withTangents : {false, true}) {
@@ -237,7 +237,7 @@ TEST_P(SurfaceNormals, TakeWhatCorrectivesAdd) {
         }
 }
 
-TEST_P(SurfaceNormals, OfCorrectivesAloneAreTiltedAndTurned) {
+TEST_P(SurfaceNormals, RotateCorrectedNormalsWithoutGradients) {
     std::mt19937_64 random(14);
     test::SlopedTube tube(25, 12);
     tube.binding.gradients.clear();
@@ -261,7 +261,7 @@ TEST_P(SurfaceNormals, OfCorrectivesAloneAreTiltedAndTurned) {
     }
 }
 
-TEST_P(SurfaceNormals, PartsInAnyOrderMakeTheWhole) {
+TEST_P(SurfaceNormals, PartsMatchTheWhole) {
     if (isReference()) return; // it is not divided into parts
     std::mt19937_64 random(15);
     for (const bool inOrder : {false, true}) {
