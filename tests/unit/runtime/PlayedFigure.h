@@ -69,7 +69,9 @@ struct Character {
 
     explicit Character(const osgSkin::Clip& clip) {
         const test::Tube tube(41, 12);
-        skin->setSkin(test::makeGeometry(tube), tube.model());
+        const osg::ref_ptr<osg::Geometry> points = test::makeGeometry(tube);
+        points->removePrimitiveSet(0); // what is drawn is for a test to add
+        skin->setSkin(points, tube.model());
         skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
         osgAnimation::Bone* bone = findBone(*skeleton, "end");
         rigid = new osgSkin::RigidPart(new osg::Geometry, *bone);
