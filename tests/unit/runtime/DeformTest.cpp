@@ -84,7 +84,7 @@ TEST(Deform, GivesNothingForAModelWithoutVertices) {
     EXPECT_TRUE(osgSkin::deform(*model, osgSkin::Pose()).positions.empty());
 }
 
-TEST(Deform, RefusesInvalidArguments) {
+TEST(Deform, RejectsInvalidArguments) {
     const test::Tube tube;
     const auto model = tube.model(), other = tube.model();
     const osgSkin::Pose pose(model->joints());
