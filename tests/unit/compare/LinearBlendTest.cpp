@@ -13,7 +13,7 @@ using test::HalfTurned;
 
 namespace {
 
-constexpr double kTolerance = 1e-14;
+constexpr double kLinearTolerance = 1e-14;
 
 TEST(LinearBlend, AcceptsAnEmptySkin) {
     EXPECT_TRUE(linearBlend({}, {}, {glm::dmat4(1.0)}).empty());
@@ -31,7 +31,7 @@ TEST(LinearBlend, EqualMatricesMoveTheSkinRigidly) {
     const Points posed = linearBlend(skin.rest, skin.weights, {rigid, rigid});
     for (std::size_t v = 0; v < posed.size(); ++v)
         EXPECT_LT(glm::distance(posed[v], glm::dvec3(rigid * glm::dvec4(skin.rest[v], 1.0))),
-                  kTolerance);
+                  kLinearTolerance);
 }
 
 TEST(LinearBlend, VertexOfOneJointFollowsItsMatrix) {
@@ -47,7 +47,7 @@ TEST(LinearBlend, MovesByTheWeightedMean) {
     weights.add({{0, 0.25}, {1, 0.75}});
     const glm::dmat4 shift = glm::translate(glm::dmat4(1.0), glm::dvec3(4, 0, -8));
     const Points posed = linearBlend({{1, 1, 1}}, weights, {glm::dmat4(1.0), shift});
-    EXPECT_LT(glm::distance(posed[0], glm::dvec3(4, 1, -5)), kTolerance);
+    EXPECT_LT(glm::distance(posed[0], glm::dvec3(4, 1, -5)), kLinearTolerance);
 }
 
 TEST(LinearBlend, CrossSectionShrinksByTheCosine) {
@@ -60,8 +60,8 @@ TEST(LinearBlend, CrossSectionShrinksByTheCosine) {
                             skin.loop) /
                    before;
         };
-        EXPECT_NEAR(area({0, 0, 1}), std::cos(half) * std::cos(half), kTolerance) << degrees;
-        EXPECT_NEAR(area({0, 1, 0}), std::abs(std::cos(half)), kTolerance) << degrees;
+        EXPECT_NEAR(area({0, 0, 1}), std::cos(half) * std::cos(half), kLinearTolerance) << degrees;
+        EXPECT_NEAR(area({0, 1, 0}), std::abs(std::cos(half)), kLinearTolerance) << degrees;
     }
 }
 
